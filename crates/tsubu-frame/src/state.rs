@@ -1,0 +1,115 @@
+//! State: what a checkpoint holds, as named sections of plain numbers.
+//!
+//! Engines, hosts and the ledger write themselves into a [`State`] and read themselves back; the hash of a run
+//! (`state_hash`) is taken over the same sections, so a checkpoint that is complete and a hash that means something are
+//! one and the same promise.
+
+use std::collections::BTreeMap;
+
+/// The numbers of one section.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Section {
+    /// 64-bit floats, kept bit by bit.
+    Real(Vec<f64>),
+    /// 64-bit integers.
+    Integer(Vec<i64>),
+    /// Text.
+    Text(String),
+}
+
+/// Named sections, in the order of their names.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct State {
+    sections: BTreeMap<String, Section>,
+}
+
+/// A section that is not there or not of the kind that was asked for.
+#[derive(Debug, thiserror::Error)]
+#[error("the checkpoint has no {kind} section `{name}`: it was written by another version or another scene")]
+pub struct MissingSection {
+    /// Name of the section.
+    pub name: String,
+    /// `real`, `integer` or `text`.
+    pub kind: &'static str,
+}
+
+impl State {
+    /// Stores floats.
+    pub fn put_real(&mut self, name: &str, values: impl Into<Vec<f64>>) {
+        self.sections.insert(name.to_owned(), Section::Real(values.into()));
+    }
+
+    /// Stores integers.
+    pub fn put_integer(&mut self, name: &str, values: impl Into<Vec<i64>>) {
+        self.sections.insert(name.to_owned(), Section::Integer(values.into()));
+    }
+
+    /// Stores text.
+    pub fn put_text(&mut self, name: &str, text: impl Into<String>) {
+        self.sections.insert(name.to_owned(), Section::Text(text.into()));
+    }
+
+    /// Floats of a section.
+    pub fn real(&self, name: &str) -> Result<&[f64], MissingSection> {
+        match self.sections.get(name) {
+            Some(Section::Real(v)) => Ok(v),
+            _ => Err(MissingSection { name: name.to_owned(), kind: "real" }),
+        }
+    }
+
+    /// Integers of a section.
+    pub fn integer(&self, name: &str) -> Result<&[i64], MissingSection> {
+        match self.sections.get(name) {
+            Some(Section::Integer(v)) => Ok(v),
+            _ => Err(MissingSection { name: name.to_owned(), kind: "integer" }),
+        }
+    }
+
+    /// Text of a section.
+    pub fn text(&self, name: &str) -> Result<&str, MissingSection> {
+        match self.sections.get(name) {
+            Some(Section::Text(v)) => Ok(v),
+            _ => Err(MissingSection { name: name.to_owned(), kind: "text" }),
+        }
+    }
+
+    /// The sections in the order of their names.
+    pub fn sections(&self) -> impl Iterator<Item = (&str, &Section)> {
+        self.sections.iter().map(|(n, s)| (n.as_str(), s))
+    }
+
+    /// Adds or replaces a section.
+    pub fn insert(&mut self, name: String, section: Section) {
+        self.sections.insert(name, section);
+    }
+
+    /// Hash of names, kinds and bits of every section, in hex.
+    pub fn hash(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        for (name, section) in self.sections() {
+            hasher.update(name.as_bytes());
+            match section {
+                Section::Real(v) => {
+                    hasher.update(b"\0r");
+                    hasher.update(&(v.len() as u64).to_le_bytes());
+                    for x in v {
+                        hasher.update(&x.to_bits().to_le_bytes());
+                    }
+                }
+                Section::Integer(v) => {
+                    hasher.update(b"\0i");
+                    hasher.update(&(v.len() as u64).to_le_bytes());
+                    for x in v {
+                        hasher.update(&x.to_le_bytes());
+                    }
+                }
+                Section::Text(t) => {
+                    hasher.update(b"\0t");
+                    hasher.update(&(t.len() as u64).to_le_bytes());
+                    hasher.update(t.as_bytes());
+                }
+            }
+        }
+        hasher.finalize().to_hex().as_str()[..32].to_owned()
+    }
+}

@@ -1,0 +1,3 @@
+//! The question: text -> [`plan::Plan`], with all complaints at once.
+
+pub mod plan;

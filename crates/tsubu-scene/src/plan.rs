@@ -1,0 +1,539 @@
+//! The plan: what a scene means, in SI numbers with every default written out.
+//!
+//! A [`Plan`] is what engines are built from. It is read (by serde) from the resolved form of the scene file, and that
+//! form is also what is written as `scene.toml` into the run folder: running it again gives the same plan, number by
+//! number. Names of materials, hosts and groups stay names here, checked to exist; engines turn them into indices.
+//!
+//! Axes: x to the right, z up, y into the picture. In the plane (`dimension = 2`) vectors are typed with two entries
+//! (x, z) and stored here with three; y is locked.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// A 3-vector in SI units.
+pub type Vector = [f64; 3];
+
+/// Everything a run needs to know.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Plan {
+    /// One line for people.
+    pub title: String,
+    /// The method that `tsubu run` uses.
+    pub method: Method,
+    /// 2: the plane (x, z), y locked. 3: space.
+    pub dimension: u8,
+    /// Seed of every random number of the run.
+    pub seed: u64,
+    /// Gravitational acceleration [m/s^2], a vector; (0, 0, -9.8) unless told.
+    pub gravity: Vector,
+    /// Simulated time [s].
+    pub duration: f64,
+    /// Typical fastest relative speed [m/s], used by the verdict and the default time step; `None`: estimated.
+    pub speed_scale: Option<f64>,
+    /// Materials by name.
+    pub materials: BTreeMap<String, Material>,
+    /// Exceptions to the mixing rule, for named pairs of materials.
+    #[serde(default)]
+    pub material_pair: Vec<MaterialPair>,
+    /// Groups of grains by name, placed in the order of their names.
+    #[serde(default)]
+    pub particles: BTreeMap<String, Particles>,
+    /// Walls by name.
+    #[serde(default)]
+    pub walls: BTreeMap<String, Wall>,
+    /// Vibrating structures by name.
+    #[serde(default)]
+    pub hosts: BTreeMap<String, Host>,
+    /// The contact law, used by DEM.
+    pub contact: Contact,
+    /// What only the discrete element method reads.
+    pub dem: Dem,
+    /// What only the lattice automaton reads.
+    pub lattice: Lattice,
+    /// What `tsubu response` reads.
+    pub response: Option<Response>,
+    /// What `tsubu sweep` reads.
+    pub sweep: Option<Sweep>,
+    /// What is written, and how often.
+    pub output: Output,
+    /// Results that must lie in a range.
+    #[serde(default)]
+    pub claim: Vec<Claim>,
+}
+
+/// How the grains are moved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Discrete element method.
+    Dem,
+    /// Cellular automaton on the triangular lattice.
+    Lattice,
+}
+
+/// Bulk properties of a material.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus E [Pa].
+    pub young_modulus: f64,
+    /// Poisson's ratio [-].
+    pub poisson_ratio: f64,
+    /// Coefficient of restitution e against the same material [-], 0 < e <= 1.
+    pub restitution: f64,
+    /// Coulomb friction coefficient against the same material [-].
+    pub friction: f64,
+    /// Rolling friction coefficient against the same material [-].
+    pub rolling_friction: f64,
+    /// Density [kg/m^3]; needed where a grain group gives no mass.
+    pub density: Option<f64>,
+}
+
+/// Values for one pair of materials that replace the mixing rule (geometric mean of restitution and friction).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct MaterialPair {
+    /// The two material names.
+    pub between: [String; 2],
+    /// Coefficient of restitution [-].
+    pub restitution: Option<f64>,
+    /// Friction coefficient [-].
+    pub friction: Option<f64>,
+    /// Rolling friction coefficient [-].
+    pub rolling_friction: Option<f64>,
+}
+
+/// A group of equal spheres.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Particles {
+    /// Name of the material.
+    pub material: String,
+    /// Number of grains; with `start.at` the number of positions.
+    pub count: usize,
+    /// Diameter [m].
+    pub diameter: f64,
+    /// Mass of one grain [kg]: given, or from density and diameter.
+    pub mass: f64,
+    /// Where they begin.
+    pub start: Start,
+}
+
+/// How grains are placed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Start {
+    /// Dropped into the box in random loose rows and settled by DEM (or filled row by row on the lattice) before time 0.
+    Settled {
+        /// Longest settling time [s].
+        time: f64,
+    },
+    /// Rows from the floor up, at rest.
+    Rows {
+        /// Distance of centres over diameter [-], at least 1.
+        spacing: f64,
+        /// Random displacement over the free gap [-], 0 to 1.
+        jitter: f64,
+        /// Speed of each grain in a random direction [m/s].
+        speed: f64,
+    },
+    /// Given places.
+    At {
+        /// Centres [m].
+        position: Vec<Vector>,
+        /// Velocities [m/s]; empty means at rest.
+        velocity: Vec<Vector>,
+        /// Spins [rad/s]; empty means none.
+        spin: Vec<Vector>,
+    },
+}
+
+/// A wall, still, moved, or carried by a host.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Wall {
+    /// Name of the material.
+    pub material: String,
+    /// Its shape.
+    pub shape: Shape,
+    /// The host that carries it.
+    pub host: Option<String>,
+    /// Prescribed motion; not together with `host`.
+    pub motion: Option<Motion>,
+}
+
+/// Geometry of a wall.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Shape {
+    /// A closed box, grains inside. In the plane the front and back panes are frictionless and ignored.
+    Box {
+        /// Inner size along x [m].
+        width: f64,
+        /// Inner size along z [m].
+        height: f64,
+        /// Inner size along y [m].
+        depth: f64,
+        /// Centre of the floor [m].
+        floor_centre: Vector,
+    },
+    /// An infinite plane.
+    Plane {
+        /// A point on it [m].
+        point: Vector,
+        /// Unit normal, towards the grains.
+        normal: Vector,
+    },
+}
+
+/// Motion of a wall along a fixed direction.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Motion {
+    /// Unit direction.
+    pub direction: Vector,
+    /// Displacement [m] against time.
+    pub signal: Signal,
+}
+
+/// A quantity given against time: displacement [m] or force [N], as the place says.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Signal {
+    /// amplitude sin(2 pi frequency t + phase).
+    Sine {
+        /// Amplitude [m] or [N].
+        amplitude: f64,
+        /// Frequency [Hz].
+        frequency: f64,
+        /// Phase [rad].
+        phase: f64,
+    },
+    /// Sine of constant amplitude whose frequency runs linearly in time; silent afterwards.
+    SineSweep {
+        /// Amplitude [m] or [N].
+        amplitude: f64,
+        /// First frequency [Hz].
+        from: f64,
+        /// Last frequency [Hz].
+        to: f64,
+        /// Length [s].
+        duration: f64,
+    },
+    /// Half-sine pulse.
+    Impact {
+        /// Height [m] or [N].
+        peak: f64,
+        /// Length [s].
+        duration: f64,
+        /// Begin [s].
+        at: f64,
+    },
+    /// Straight lines between given points, constant outside. Read from a CSV file (`file`), kept here as numbers.
+    Table {
+        /// Times [s], rising.
+        time: Vec<f64>,
+        /// Values [m] or [N].
+        value: Vec<f64>,
+    },
+}
+
+/// A vibrating structure: M q'' + C (q' - r y') + K (q - r y) = w F(t) + w F_grains. The displacement that walls see is
+/// w . q along `direction`; y is the base motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Host {
+    /// M, C, K.
+    pub structure: Structure,
+    /// Unit direction of its motion.
+    pub direction: Vector,
+    /// Base displacement y(t) [m].
+    pub base: Option<Signal>,
+    /// Applied force F(t) [N].
+    pub force: Option<Signal>,
+    /// Displacement at time 0 of every coordinate [m].
+    pub displacement: f64,
+    /// Velocity at time 0 of every coordinate [m/s].
+    pub velocity: f64,
+}
+
+/// The matrices of a host.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Structure {
+    /// One degree of freedom.
+    Oscillator {
+        /// M [kg], without the grains.
+        mass: f64,
+        /// K [N/m].
+        stiffness: f64,
+        /// C [N.s/m].
+        damping: f64,
+    },
+    /// n degrees of freedom.
+    Matrices {
+        /// M [kg].
+        mass: Vec<Vec<f64>>,
+        /// C [N.s/m].
+        damping: Vec<Vec<f64>>,
+        /// K [N/m].
+        stiffness: Vec<Vec<f64>>,
+        /// Index (from 0) of the coordinate that carries the walls and takes the force.
+        coordinate: usize,
+    },
+    /// A list of modes.
+    Modes {
+        /// The modes.
+        mode: Vec<Mode>,
+    },
+}
+
+/// One vibration mode.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Mode {
+    /// Natural frequency [Hz].
+    pub frequency: f64,
+    /// Damping ratio [-].
+    pub damping_ratio: f64,
+    /// Modal mass [kg].
+    pub mass: f64,
+    /// Mode shape where the walls are [-].
+    pub shape: f64,
+    /// Participation of the base motion [-].
+    pub participation: f64,
+}
+
+/// The contact law as a stack of parts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Contact {
+    /// Elastic normal force.
+    pub normal: Normal,
+    /// Normal damping; its coefficient is found so that the materials' restitution comes back.
+    pub damping: Damping,
+    /// Whether damping may make the normal force attractive (paper A, literally); otherwise the force is cut at zero.
+    pub attraction: bool,
+    /// Tangential force.
+    pub tangential: Tangential,
+    /// Rolling resistance.
+    pub rolling: Rolling,
+    /// Whether grains spin.
+    pub rotation: bool,
+}
+
+/// Elastic normal force for overlap d.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Normal {
+    /// k d^(3/2), k from the materials (Hertz).
+    Hertz {},
+    /// k d, one k for all contacts.
+    Hooke {
+        /// k [N/m].
+        stiffness: f64,
+    },
+}
+
+/// Damping of the normal motion for overlap d and overlap rate d'.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Damping {
+    /// No damping, whatever the restitution.
+    None {},
+    /// c d^(1/2) d' (visco-elastic, Kuwabara-Kono): restitution falls slowly with speed.
+    Sqrt {
+        /// Impact speed at which the restitution is the materials' [m/s].
+        reference_speed: f64,
+    },
+    /// c d^(1/4) d' (Tsuji 1992): constant restitution with Hertz.
+    Quarter {},
+    /// c d': constant restitution with Hooke; with Hertz the restitution is met at the reference speed.
+    Linear {
+        /// Impact speed at which the restitution is the materials' [m/s].
+        reference_speed: f64,
+    },
+}
+
+/// Tangential force.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Tangential {
+    /// None.
+    None {},
+    /// Sliding friction -mu f_n v_t / max(|v_t|, v_eps): paper A, no spring.
+    Coulomb {
+        /// v_eps [m/s].
+        smoothing_speed: f64,
+    },
+    /// Mindlin's spring with history, capped at mu f_n.
+    Mindlin {},
+}
+
+/// Rolling resistance.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Rolling {
+    /// None.
+    None {},
+    /// Torque mu_r R f_n against the relative rolling, smoothed below a small rolling speed.
+    Constant {
+        /// Rolling speed below which the torque fades [m/s].
+        smoothing_speed: f64,
+    },
+}
+
+/// Settings of the discrete element method.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Dem {
+    /// Time step [s]; `None`: the shortest contact time at the speed scale over `steps_per_contact`.
+    pub time_step: Option<f64>,
+    /// Steps per contact for the automatic time step.
+    pub steps_per_contact: f64,
+    /// Time integration.
+    pub integrator: Integrator,
+    /// Extra reach of the candidate search over the smallest diameter [-]; any value gives the same bits.
+    pub skin: f64,
+    /// Overlap over diameter at which the run stops as blown up [-].
+    pub largest_overlap: f64,
+    /// Energy residual over turned-over energy above which the run warns [-].
+    pub energy_tolerance: f64,
+}
+
+/// Time integration of grains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Integrator {
+    /// Velocity Verlet, second order.
+    VelocityVerlet,
+    /// Kick, then drift with the new velocity; first order, stable.
+    SymplecticEuler,
+    /// Drift with the old velocity, then kick; only to reproduce older work.
+    ForwardEuler,
+}
+
+/// Settings of the damper automaton. `mode` sets what the other options default to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Lattice {
+    /// Literal (paper A) or extended rules.
+    pub mode: LatticeMode,
+    /// Time step [s].
+    pub time_step: f64,
+    /// CH-A4a: gravity along the oblique directions: `projected` (half) or `unit` (full).
+    pub oblique_gravity: ObliqueGravity,
+    /// CH-A4d: who changes in a ball-ball collision.
+    pub collision: Collision,
+    /// Scatter of a rebound: straight back with probability 1/2, else the two neighbours; `false`: straight back.
+    pub rebound_scatter: bool,
+    /// CH-A4b: forget the stored distance when a collision happens or a move is blocked.
+    pub reset_when_blocked: bool,
+    /// Keep the remainder of the stored distance after a move (else set to zero).
+    pub keep_remainder: bool,
+    /// resting contacts pass their impulse to the host.
+    pub resting_impulses: bool,
+    /// CH-A4h: collisions at or below this many g dt of relative speed are resting contacts [-].
+    pub resting_threshold: f64,
+    /// Number representation of speeds.
+    pub arithmetic: Arithmetic,
+    /// CH: rows of head-room added above and below the box's travel; `None`: from the motion at run time.
+    pub head_room: usize,
+}
+
+/// Preset of lattice rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LatticeMode {
+    /// The nearest reading of paper A.
+    Literal,
+    /// With resting impulses.
+    Extended,
+}
+
+/// Gravity along oblique lattice directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ObliqueGravity {
+    /// The component along the direction (one half).
+    Projected,
+    /// As if vertical.
+    Unit,
+}
+
+/// Ball-ball collision on the lattice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Collision {
+    /// Both balls change, momentum conserved along the line.
+    Pairwise,
+    /// Each ball updates only itself.
+    Literal,
+}
+
+/// Numbers of the automaton.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Arithmetic {
+    /// Fixed point, 1/1024 of g dt.
+    Fixed,
+    /// Whole multiples of g dt, truncated toward zero.
+    Integer,
+}
+
+/// A frequency-response sweep.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Response {
+    /// The host whose displacement is measured; its base (or force) must be a sine, whose frequency is varied.
+    pub host: String,
+    /// Frequency over the host's first undamped natural frequency [-].
+    pub frequency_ratio: Vec<f64>,
+    /// Periods thrown away before measuring, with grains.
+    pub discard_periods: u32,
+    /// Periods thrown away for the empty host.
+    pub discard_periods_empty: u32,
+    /// Periods measured.
+    pub measure_periods: u32,
+    /// Number of random seeds, from the scene's seed upwards.
+    pub seeds: u32,
+    /// Scene keys and the values they take; every combination is a case.
+    pub vary: BTreeMap<String, Vec<toml::Value>>,
+}
+
+/// A parameter sweep: every combination of the values is a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Sweep {
+    /// Scene keys and the values they take.
+    pub vary: BTreeMap<String, Vec<toml::Value>>,
+}
+
+/// What is written.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Output {
+    /// Simulated time between rows of `history.csv` [s].
+    pub history_interval: f64,
+    /// Simulated time between frames [s]; `None`: no frames.
+    pub frame_interval: Option<f64>,
+    /// Simulated time between checkpoints [s].
+    pub checkpoint_interval: f64,
+    /// Also write extended XYZ.
+    pub xyz: bool,
+}
+
+/// A result that must lie in a range.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Claim {
+    /// Name of the result, as in `results` of `summary.json`.
+    pub result: String,
+    /// Lower end of the accepted range.
+    pub low: Option<f64>,
+    /// Upper end of the accepted range.
+    pub high: Option<f64>,
+    /// Where the number comes from.
+    pub source: String,
+}
