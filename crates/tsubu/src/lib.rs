@@ -1,1 +1,12 @@
-//! placeholder
+//! The work: engines, contact laws, walls, hosts, ledger, checks and studies.
+//!
+//! A [`Plan`](tsubu_scene::plan::Plan) comes in, frames and books go out. [`engine::open`] builds the engine that the
+//! plan's method names; [`engine::Engine::advance`] moves it; [`partner::Hosts`] are the vibrating structures that it meets
+//! once a step; [`ledger::Ledger`] keeps the books.
+
+pub mod engine;
+pub mod ledger;
+pub mod motion;
+pub mod partner;
+pub mod random;
+pub mod wall;

@@ -1,0 +1,131 @@
+//! What every method must do, and the door to all of them.
+
+use crate::ledger::{Ledger, Stocks};
+use crate::partner::Hosts;
+use tsubu_frame::state::MissingSection;
+use tsubu_frame::{Frame, State};
+
+/// What an engine did with one entry of the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Note {
+    /// Scene key, for example `walls.casing.shape.box.width`.
+    pub key: String,
+    /// What was made of it.
+    pub verdict: Verdict,
+    /// One sentence: why, or by how much.
+    pub text: String,
+}
+
+/// How far an engine honours a scene entry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Replaced by something near it; the note says by how much.
+    Approximated,
+    /// Cannot be honoured: the run is refused.
+    Refused,
+}
+
+/// Why a run stopped by itself (exit code 3).
+#[derive(Debug, thiserror::Error)]
+pub enum Fault {
+    /// A number is no longer finite.
+    #[error(
+        "step {step}, t = {time} s: the {what} of grain {grain} is not a number\nhint: the time step is probably too long; `tsubu check` tells the longest safe one"
+    )]
+    NotFinite {
+        /// Step number.
+        step: u64,
+        /// Simulated time [s].
+        time: f64,
+        /// Grain id.
+        grain: usize,
+        /// Name of the column.
+        what: &'static str,
+    },
+    /// Two bodies sit too deep in each other.
+    #[error(
+        "step {step}, t = {time} s: grain {grain} overlaps its neighbour by {ratio:.3} of its diameter, more than `dem.largest-overlap` = {limit}\nhint: shorten `dem.time-step`, or stiffen the material; `tsubu check` tells which"
+    )]
+    Overlap {
+        /// Step number.
+        step: u64,
+        /// Simulated time [s].
+        time: f64,
+        /// Grain id.
+        grain: usize,
+        /// Overlap over diameter.
+        ratio: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// A lattice cluster was squeezed between opposite walls, or the box left its grid.
+    #[error("step {step}, t = {time} s: {text}")]
+    Lattice {
+        /// Step number.
+        step: u64,
+        /// Simulated time [s].
+        time: f64,
+        /// What happened and what to change.
+        text: String,
+    },
+}
+
+/// A scene that this method cannot run (exit code 2).
+#[derive(Debug, thiserror::Error)]
+#[error("method `{method}` cannot run this scene:\n{}", .notes.iter().map(|n| format!("  {}: {}", n.key, n.text)).collect::<Vec<_>>().join("\n"))]
+pub struct Refusal {
+    /// `dem` or `lattice`.
+    pub method: &'static str,
+    /// Every refused entry.
+    pub notes: Vec<Note>,
+}
+
+/// Something that can advance a plan.
+pub trait Engine: Send {
+    /// What was approximated, entry by entry.
+    fn notes(&self) -> &[Note];
+
+    /// Time step [s].
+    fn time_step(&self) -> f64;
+
+    /// Steps done since time 0.
+    fn steps(&self) -> u64;
+
+    /// Simulated time [s]: steps times time step, so that it never drifts.
+    fn time(&self) -> f64 {
+        self.steps() as f64 * self.time_step()
+    }
+
+    /// Number of grains.
+    fn grains(&self) -> usize;
+
+    /// Moves the system by `steps` steps, together with its hosts; posts every flow to the ledger.
+    fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault>;
+
+    /// Energy of the grains now (the hosts' rows are zero here; [`stocks`] adds them).
+    fn grain_stocks(&self) -> Stocks;
+
+    /// Momentum of the grains now [N.s].
+    fn momentum(&self) -> [f64; 3];
+
+    /// Number of touching pairs (grain-grain and grain-wall) in the last step.
+    fn contacts(&self) -> usize;
+
+    /// The answer of this moment.
+    fn frame(&self, hosts: &Hosts) -> Frame;
+
+    /// Writes everything that the next step depends on.
+    fn save(&self, state: &mut State);
+
+    /// Takes the state back; the engine was built from the same plan.
+    fn load(&mut self, state: &State) -> Result<(), MissingSection>;
+}
+
+/// Energy of grains and hosts together.
+pub fn stocks(engine: &dyn Engine, hosts: &Hosts) -> Stocks {
+    let mut stocks = engine.grain_stocks();
+    let (kinetic, spring) = hosts.energy(engine.time());
+    stocks.host_kinetic = kinetic;
+    stocks.host_spring = spring;
+    stocks
+}

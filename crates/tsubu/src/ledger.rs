@@ -1,0 +1,212 @@
+//! The ledger: where energy and momentum went.
+//!
+//! *Stocks* are what the system holds now, measured from its state. *Flows* are what came in or was lost since time 0,
+//! posted step by step by whoever does the work. The books close when
+//!
+//! stocks now - stocks at 0 = work done on the system - losses,
+//!
+//! and what is left over is the residual: an error of the time integration, or of the program.
+
+use tsubu_frame::State;
+use tsubu_frame::state::MissingSection;
+
+/// A named row of flows. Work rows count energy that came in, loss rows energy that left as heat.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Account {
+    /// Work of a host's moving base on the structure [J].
+    BaseWork,
+    /// Work of forces applied to a host [J].
+    ForceWork,
+    /// Work of walls with prescribed motion on the grains [J].
+    WallWork,
+    /// Lost in the normal damping of contacts [J].
+    NormalDamping,
+    /// Lost in sliding friction and tangential damping [J].
+    Sliding,
+    /// Lost in rolling resistance [J].
+    Rolling,
+    /// Lost in the structure's own damper [J].
+    HostDamping,
+    /// Lost in lattice collisions by restitution [J].
+    Collision,
+    /// Lost (or gained: negative) by rules of a lattice model that do not conserve energy: forgotten distance,
+    /// turned directions, one-sided collisions [J].
+    LatticeRules,
+    /// Lost (or gained) because an automaton treats the box as infinitely heavy within a step [J].
+    HeavyBox,
+}
+
+impl Account {
+    /// All accounts, in the order they are reported.
+    pub const ALL: [Self; 10] = [
+        Self::BaseWork,
+        Self::ForceWork,
+        Self::WallWork,
+        Self::NormalDamping,
+        Self::Sliding,
+        Self::Rolling,
+        Self::HostDamping,
+        Self::Collision,
+        Self::LatticeRules,
+        Self::HeavyBox,
+    ];
+
+    /// Name in summaries and figures.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::BaseWork => "base work",
+            Self::ForceWork => "force work",
+            Self::WallWork => "wall work",
+            Self::NormalDamping => "normal damping",
+            Self::Sliding => "sliding",
+            Self::Rolling => "rolling",
+            Self::HostDamping => "host damping",
+            Self::Collision => "collision",
+            Self::LatticeRules => "lattice rules",
+            Self::HeavyBox => "heavy box",
+        }
+    }
+
+    /// Whether the row counts energy coming in (else: lost).
+    pub fn is_work(self) -> bool {
+        matches!(self, Self::BaseWork | Self::ForceWork | Self::WallWork)
+    }
+}
+
+/// What the system holds [J].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stocks {
+    /// Translational kinetic energy of the grains.
+    pub kinetic: f64,
+    /// Rotational kinetic energy of the grains.
+    pub rotational: f64,
+    /// Potential energy of the grains in gravity, from z = 0.
+    pub potential: f64,
+    /// Stored in contacts.
+    pub elastic: f64,
+    /// Kinetic energy of the hosts.
+    pub host_kinetic: f64,
+    /// Stored in the springs of the hosts.
+    pub host_spring: f64,
+}
+
+impl Stocks {
+    /// The terms with their names.
+    pub fn terms(&self) -> [(&'static str, f64); 6] {
+        [
+            ("kinetic", self.kinetic),
+            ("rotational", self.rotational),
+            ("potential", self.potential),
+            ("elastic", self.elastic),
+            ("host kinetic", self.host_kinetic),
+            ("host spring", self.host_spring),
+        ]
+    }
+
+    /// Sum of all terms.
+    pub fn total(&self) -> f64 {
+        self.terms().iter().map(|(_, value)| value).sum()
+    }
+}
+
+/// Energy and momentum accounts of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ledger {
+    flows: [f64; Account::ALL.len()],
+    /// Impulse of gravity on the grains since time 0 [N.s].
+    pub gravity_impulse: [f64; 3],
+    /// Impulse of walls on the grains since time 0 [N.s].
+    pub wall_impulse: [f64; 3],
+    /// Impulse that lattice rules created out of nothing [N.s].
+    pub rule_impulse: [f64; 3],
+    /// Impulse that hosts heard from the grains, along their directions [N.s].
+    pub host_impulse: f64,
+    /// Stocks at time 0; set by [`Ledger::open`].
+    opening: Stocks,
+    opening_momentum: [f64; 3],
+    opened: bool,
+}
+
+impl Ledger {
+    /// Opens the books: what the system holds at time 0.
+    pub fn open(stocks: Stocks, momentum: [f64; 3]) -> Self {
+        Self { opening: stocks, opening_momentum: momentum, opened: true, ..Self::default() }
+    }
+
+    /// Adds energy [J] to an account.
+    #[inline]
+    pub fn post(&mut self, account: Account, energy: f64) {
+        self.flows[account as usize] += energy;
+    }
+
+    /// Energy posted to an account since time 0 [J].
+    pub fn flow(&self, account: Account) -> f64 {
+        self.flows[account as usize]
+    }
+
+    /// Energy that the books cannot explain [J].
+    pub fn residual(&self, now: &Stocks) -> f64 {
+        let change = now.total() - self.opening.total();
+        let explained: f64 = Account::ALL.iter().map(|&a| if a.is_work() { self.flow(a) } else { -self.flow(a) }).sum();
+        change - explained
+    }
+
+    /// Residual over the energy turned over: the sum of all flows (absolute) and of the largest of the stocks' changes.
+    pub fn residual_relative(&self, now: &Stocks) -> f64 {
+        let flows: f64 = self.flows.iter().map(|f| f.abs()).sum();
+        let moving = now.kinetic.max(self.opening.kinetic) + now.host_kinetic.max(self.opening.host_kinetic);
+        let change =
+            (now.potential - self.opening.potential).abs().max((now.host_spring - self.opening.host_spring).abs());
+        let turned_over = flows + moving + change;
+        if turned_over > 0.0 { self.residual(now) / turned_over } else { 0.0 }
+    }
+
+    /// Momentum that the books cannot explain [N.s].
+    pub fn momentum_residual(&self, now: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|i| {
+            now[i] - self.opening_momentum[i] - self.gravity_impulse[i] - self.wall_impulse[i] - self.rule_impulse[i]
+        })
+    }
+
+    /// Writes the books into a checkpoint.
+    pub fn save(&self, state: &mut State) {
+        debug_assert!(self.opened, "save() before open()");
+        state.put_real("ledger.flows", self.flows.to_vec());
+        let mut impulses = Vec::new();
+        impulses.extend(self.gravity_impulse);
+        impulses.extend(self.wall_impulse);
+        impulses.extend(self.rule_impulse);
+        impulses.push(self.host_impulse);
+        impulses.extend(self.opening_momentum);
+        state.put_real("ledger.impulses", impulses);
+        state.put_real("ledger.opening", self.opening.terms().map(|(_, v)| v).to_vec());
+    }
+
+    /// Reads the books from a checkpoint.
+    pub fn load(state: &State) -> Result<Self, MissingSection> {
+        let missing = || MissingSection { name: "ledger".to_owned(), kind: "real" };
+        let flows = state.real("ledger.flows")?.try_into().map_err(|_| missing())?;
+        let p = state.real("ledger.impulses")?;
+        let o = state.real("ledger.opening")?;
+        if p.len() != 13 || o.len() != 6 {
+            return Err(missing());
+        }
+        Ok(Self {
+            flows,
+            gravity_impulse: [p[0], p[1], p[2]],
+            wall_impulse: [p[3], p[4], p[5]],
+            rule_impulse: [p[6], p[7], p[8]],
+            host_impulse: p[9],
+            opening_momentum: [p[10], p[11], p[12]],
+            opening: Stocks {
+                kinetic: o[0],
+                rotational: o[1],
+                potential: o[2],
+                elastic: o[3],
+                host_kinetic: o[4],
+                host_spring: o[5],
+            },
+            opened: true,
+        })
+    }
+}
