@@ -1,7 +1,29 @@
 //! The answer: frames of named columns, the state of a run, and the files they are written to.
+//!
+//! Every file appears under its name whole or not at all, and every error names the file it is about.
 
+pub mod checkpoint;
+pub mod csv;
+mod error;
+pub mod folder;
 pub mod frame;
+pub mod history;
+pub mod named;
+pub mod series;
 pub mod state;
+pub mod summary;
+pub mod vtp;
+pub mod vtp_read;
+pub mod xyz;
 
+pub use checkpoint::{CheckpointError, Header};
+pub use csv::{Cell, Table};
+pub use error::FileError;
+pub use folder::{Existing, RunFolder};
 pub use frame::{Column, Frame, Kind, Values};
+pub use history::History;
+pub use named::Named;
+pub use series::{FrameWriter, Snapshot, snapshots};
 pub use state::State;
+pub use summary::{Claim, Energy, Joule, ResultValue, Status, Summary};
+pub use vtp_read::read_frame;

@@ -1,0 +1,288 @@
+//! The checkpoint: one file of checked sections.
+//!
+//! Layout, all numbers little-endian:
+//!
+//! ```text
+//! "TSUBU\r\n\x1a"                          8 bytes, so that a text transfer shows itself
+//! format version                          u32
+//! header: tsubu version, scene hash       each u32 length + UTF-8
+//!         step, time, number of sections  u64, f64, u32
+//! crc32 of everything so far              u32
+//! per section: name                       u32 length + UTF-8
+//!              kind, count, packed length u8, u64, u64
+//!              payload                    zstd of f64 / i64 / UTF-8
+//!              crc32 of this section      u32
+//! "END." + crc32 of the whole file        4 bytes + u32
+//! ```
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use crate::FileError;
+use crate::folder::write_atomically;
+use crate::state::{Section, State};
+
+const MAGIC: &[u8; 8] = b"TSUBU\r\n\x1a";
+const VERSION: u32 = 1;
+const END: &[u8; 4] = b"END.";
+/// Fast enough not to be felt beside the disk; higher levels gain little on floats.
+const LEVEL: i32 = 1;
+
+/// What a checkpoint says about itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Header {
+    /// Version of the program that wrote it.
+    pub tsubu_version: String,
+    /// Hash of the scene, made by the caller; a resumed run compares it.
+    pub scene_hash: String,
+    /// Step number.
+    pub step: u64,
+    /// Simulated time [s].
+    pub time: f64,
+}
+
+/// A checkpoint that cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckpointError {
+    /// No file, or the system would not read it.
+    #[error("cannot read the checkpoint {}: {source}; start again without --resume", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// Another kind of file.
+    #[error("{} is not a tsubu checkpoint; remove it and start again without --resume", path.display())]
+    NotOurs {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Written by a later format.
+    #[error(
+        "the checkpoint {} has format {found}, this program reads up to {VERSION}: \
+         resume with the tsubu that wrote it, or start again without --resume",
+        path.display()
+    )]
+    Newer {
+        /// The file.
+        path: PathBuf,
+        /// Format version found.
+        found: u32,
+    },
+    /// It stops before its end marker.
+    #[error("the checkpoint {} is cut short at byte {length}; remove it and start again without --resume", path.display())]
+    Truncated {
+        /// The file.
+        path: PathBuf,
+        /// Bytes there are.
+        length: usize,
+    },
+    /// A checksum does not fit.
+    #[error("the checkpoint {} was altered ({part} does not match its checksum); remove it and start again without --resume", path.display())]
+    Altered {
+        /// The file.
+        path: PathBuf,
+        /// Which part.
+        part: String,
+    },
+}
+
+/// Where a run folder keeps its checkpoint.
+pub fn path(run_folder: &Path) -> PathBuf {
+    run_folder.join("checkpoint").join("state.tsubu")
+}
+
+/// Writes the state as the run folder's checkpoint. The one before it stays until this one is whole on the disk.
+pub fn write(run_folder: &Path, state: &State, header: &Header) -> Result<(), FileError> {
+    let target = path(run_folder);
+    let bytes = encode(state, header).map_err(FileError::write(&target))?;
+    write_atomically(&target, |out| out.write_all(&bytes))
+}
+
+/// Reads a checkpoint file.
+pub fn read(path: &Path) -> Result<(Header, State), CheckpointError> {
+    let bytes = std::fs::read(path).map_err(|source| CheckpointError::Unreadable { path: path.to_owned(), source })?;
+    decode(&bytes).map_err(|damage| damage.at(path))
+}
+
+fn encode(state: &State, header: &Header) -> std::io::Result<Vec<u8>> {
+    let mut out = Vec::new();
+    out.extend_from_slice(MAGIC);
+    out.extend_from_slice(&VERSION.to_le_bytes());
+    put_text(&mut out, &header.tsubu_version);
+    put_text(&mut out, &header.scene_hash);
+    out.extend_from_slice(&header.step.to_le_bytes());
+    out.extend_from_slice(&header.time.to_bits().to_le_bytes());
+    out.extend_from_slice(&(state.sections().count() as u32).to_le_bytes());
+    let crc = crc32fast::hash(&out);
+    out.extend_from_slice(&crc.to_le_bytes());
+    for (name, section) in state.sections() {
+        let start = out.len();
+        let (kind, count, plain) = match section {
+            Section::Real(v) => (0u8, v.len(), v.iter().flat_map(|x| x.to_bits().to_le_bytes()).collect()),
+            Section::Integer(v) => (1, v.len(), v.iter().flat_map(|x| x.to_le_bytes()).collect()),
+            Section::Text(t) => (2, t.len(), t.as_bytes().to_vec()),
+        };
+        let packed = zstd::encode_all(plain.as_slice(), LEVEL)?;
+        put_text(&mut out, name);
+        out.push(kind);
+        out.extend_from_slice(&(count as u64).to_le_bytes());
+        out.extend_from_slice(&(packed.len() as u64).to_le_bytes());
+        out.extend_from_slice(&packed);
+        let crc = crc32fast::hash(&out[start..]);
+        out.extend_from_slice(&crc.to_le_bytes());
+    }
+    out.extend_from_slice(END);
+    let crc = crc32fast::hash(&out);
+    out.extend_from_slice(&crc.to_le_bytes());
+    Ok(out)
+}
+
+fn put_text(out: &mut Vec<u8>, text: &str) {
+    out.extend_from_slice(&(text.len() as u32).to_le_bytes());
+    out.extend_from_slice(text.as_bytes());
+}
+
+/// What is wrong with the bytes, before the file's name is known.
+#[derive(Debug)]
+enum Damage {
+    NotOurs,
+    Newer(u32),
+    Truncated(usize),
+    Altered(String),
+}
+
+impl Damage {
+    fn at(self, path: &Path) -> CheckpointError {
+        let path = path.to_owned();
+        match self {
+            Self::NotOurs => CheckpointError::NotOurs { path },
+            Self::Newer(found) => CheckpointError::Newer { path, found },
+            Self::Truncated(length) => CheckpointError::Truncated { path, length },
+            Self::Altered(part) => CheckpointError::Altered { path, part },
+        }
+    }
+}
+
+struct Cursor<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Cursor<'a> {
+    fn take(&mut self, length: u64) -> Result<&'a [u8], Damage> {
+        let left = self.bytes.len() - self.at;
+        if length > left as u64 {
+            return Err(Damage::Truncated(self.bytes.len()));
+        }
+        let taken = &self.bytes[self.at..self.at + length as usize];
+        self.at += length as usize;
+        Ok(taken)
+    }
+
+    fn array<const N: usize>(&mut self) -> Result<[u8; N], Damage> {
+        let mut array = [0; N];
+        array.copy_from_slice(self.take(N as u64)?);
+        Ok(array)
+    }
+
+    fn u32(&mut self) -> Result<u32, Damage> {
+        Ok(u32::from_le_bytes(self.array()?))
+    }
+
+    fn u64(&mut self) -> Result<u64, Damage> {
+        Ok(u64::from_le_bytes(self.array()?))
+    }
+
+    fn text(&mut self) -> Result<String, Damage> {
+        let length = self.u32()?;
+        let bytes = self.take(u64::from(length))?;
+        String::from_utf8(bytes.to_vec()).map_err(|_| Damage::Altered("a name".into()))
+    }
+
+    fn check(&mut self, from: usize, part: impl FnOnce() -> String) -> Result<(), Damage> {
+        let seen = crc32fast::hash(&self.bytes[from..self.at]);
+        if seen == self.u32()? { Ok(()) } else { Err(Damage::Altered(part())) }
+    }
+}
+
+fn decode(bytes: &[u8]) -> Result<(Header, State), Damage> {
+    let mut cursor = Cursor { bytes, at: 0 };
+    let magic = &bytes[..bytes.len().min(MAGIC.len())];
+    if magic != &MAGIC[..magic.len()] || bytes.is_empty() {
+        return Err(Damage::NotOurs);
+    }
+    cursor.take(MAGIC.len() as u64)?;
+    let version = cursor.u32()?;
+    if version > VERSION {
+        return Err(Damage::Newer(version));
+    }
+    // A length that was altered mostly points past the end. The checksum of the whole file tells that from a file
+    // that is really cut short, so the message names the right cause.
+    let whole = is_whole(bytes);
+    let read = decode_rest(&mut cursor);
+    match read {
+        Ok(_) if !whole => Err(Damage::Altered("the file".into())),
+        Err(Damage::Truncated(_)) if ends_with_marker(bytes) => Err(Damage::Altered("the file".into())),
+        other => other,
+    }
+}
+
+fn ends_with_marker(bytes: &[u8]) -> bool {
+    bytes.len() >= 8 && &bytes[bytes.len() - 8..bytes.len() - 4] == END
+}
+
+fn is_whole(bytes: &[u8]) -> bool {
+    ends_with_marker(bytes) && crc32fast::hash(&bytes[..bytes.len() - 4]).to_le_bytes() == bytes[bytes.len() - 4..]
+}
+
+fn decode_rest(cursor: &mut Cursor<'_>) -> Result<(Header, State), Damage> {
+    let header = Header {
+        tsubu_version: cursor.text()?,
+        scene_hash: cursor.text()?,
+        step: cursor.u64()?,
+        time: f64::from_bits(cursor.u64()?),
+    };
+    let sections = cursor.u32()?;
+    cursor.check(0, || "the header".into())?;
+    let mut state = State::default();
+    for _ in 0..sections {
+        let start = cursor.at;
+        let name = cursor.text()?;
+        let [kind] = cursor.array()?;
+        let count = cursor.u64()?;
+        let length = cursor.u64()?;
+        let packed = cursor.take(length)?;
+        cursor.check(start, || format!("section `{name}`"))?;
+        let section = unpack(kind, count, packed).ok_or_else(|| Damage::Altered(format!("section `{name}`")))?;
+        state.insert(name, section);
+    }
+    if &cursor.array::<4>()? != END {
+        return Err(Damage::Altered("the end marker".into()));
+    }
+    cursor.take(4)?;
+    if cursor.at != cursor.bytes.len() {
+        return Err(Damage::Altered("the end of the file".into()));
+    }
+    Ok((header, state))
+}
+
+/// Memory grows with what really comes out of the packed bytes, never with what `count` claims.
+fn unpack(kind: u8, count: u64, packed: &[u8]) -> Option<Section> {
+    let width = if kind == 2 { 1 } else { 8 };
+    let expected = count.checked_mul(width)?;
+    let mut plain = Vec::new();
+    let unpacked = zstd::stream::read::Decoder::new(packed).ok()?;
+    unpacked.take(expected.saturating_add(1)).read_to_end(&mut plain).ok()?;
+    if plain.len() as u64 != expected {
+        return None;
+    }
+    let words = || plain.as_chunks::<8>().0.iter();
+    match kind {
+        0 => Some(Section::Real(words().map(|b| f64::from_bits(u64::from_le_bytes(*b))).collect())),
+        1 => Some(Section::Integer(words().map(|b| i64::from_le_bytes(*b)).collect())),
+        2 => String::from_utf8(plain).ok().map(Section::Text),
+        _ => None,
+    }
+}

@@ -1,0 +1,202 @@
+//! The summary of a run, `summary.json`: the keys that users and notebooks build on.
+//!
+//! JSON knows no not-a-number; such a value is written as `null` and read back as not-a-number.
+
+use std::path::Path;
+
+use serde::{Deserialize, Deserializer, Serialize};
+
+use crate::FileError;
+use crate::folder::write_atomically;
+use crate::named::Named;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// It came to its end.
+    #[default]
+    Finished,
+    /// It was stopped and can be resumed.
+    Interrupted,
+    /// It went wrong; what was computed so far is kept.
+    Failed,
+}
+
+impl Status {
+    /// The word in the file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Finished => "finished",
+            Self::Interrupted => "interrupted",
+            Self::Failed => "failed",
+        }
+    }
+}
+
+/// One result: a number or a list of numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum ResultValue {
+    /// A number.
+    Number(#[serde(deserialize_with = "real")] f64),
+    /// A list.
+    List(#[serde(deserialize_with = "reals")] Vec<f64>),
+}
+
+impl From<f64> for ResultValue {
+    fn from(x: f64) -> Self {
+        Self::Number(x)
+    }
+}
+
+impl From<Vec<f64>> for ResultValue {
+    fn from(list: Vec<f64>) -> Self {
+        Self::List(list)
+    }
+}
+
+/// The books at the end of a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Energy {
+    /// Each term [J].
+    #[serde(flatten)]
+    pub terms: Named<Joule>,
+    /// What the books miss, relative to the energy turned over.
+    #[serde(deserialize_with = "real")]
+    pub residual_relative: f64,
+}
+
+/// An energy [J].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Joule(#[serde(deserialize_with = "real")] pub f64);
+
+impl From<f64> for Joule {
+    fn from(x: f64) -> Self {
+        Self(x)
+    }
+}
+
+/// A value held against its accepted range.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Claim {
+    /// Study it belongs to; empty for a scene's own claims, and then left out of the file.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub study: String,
+    /// What is claimed.
+    pub name: String,
+    /// What came out.
+    #[serde(deserialize_with = "real")]
+    pub value: f64,
+    /// Lower end of the accepted range; none if open.
+    #[serde(default)]
+    pub low: Option<f64>,
+    /// Upper end of the accepted range; none if open.
+    #[serde(default)]
+    pub high: Option<f64>,
+    /// Whether the value is in the range.
+    pub pass: bool,
+    /// Where the range comes from.
+    #[serde(default)]
+    pub source: String,
+}
+
+impl Claim {
+    /// Holds a value against its range. Not-a-number never passes.
+    pub fn judge(
+        name: impl Into<String>,
+        value: f64,
+        low: Option<f64>,
+        high: Option<f64>,
+        source: impl Into<String>,
+    ) -> Self {
+        let pass = !value.is_nan() && low.is_none_or(|l| value >= l) && high.is_none_or(|h| value <= h);
+        Self { study: String::new(), name: name.into(), value, low, high, pass, source: source.into() }
+    }
+
+    /// The same claim under a study's name.
+    #[must_use]
+    pub fn of(mut self, study: impl Into<String>) -> Self {
+        self.study = study.into();
+        self
+    }
+}
+
+/// Everything a run says about itself in numbers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Version of the program.
+    pub tsubu_version: String,
+    /// How the run ended.
+    pub status: Status,
+    /// `dem`, `lattice`, ...
+    pub method: String,
+    /// 2 or 3.
+    pub dimension: u32,
+    /// Number of grains.
+    pub particles: u64,
+    /// Steps made.
+    pub steps: u64,
+    /// Time step [s].
+    #[serde(deserialize_with = "real")]
+    pub time_step: f64,
+    /// Simulated time [s].
+    #[serde(deserialize_with = "real")]
+    pub simulated_seconds: f64,
+    /// Computing time [s].
+    #[serde(deserialize_with = "real")]
+    pub wall_seconds: f64,
+    /// Threads used.
+    pub threads: u32,
+    /// Grains times steps per second of computing time.
+    #[serde(deserialize_with = "real")]
+    pub particle_steps_per_second: f64,
+    /// Mean number of touching pairs.
+    #[serde(deserialize_with = "real")]
+    pub contacts_mean: f64,
+    /// The books.
+    pub energy: Energy,
+    /// Hash of the final state, in hex.
+    pub state_hash: String,
+    /// What was asked for.
+    pub results: Named<ResultValue>,
+    /// Values held against their ranges.
+    pub claims: Vec<Claim>,
+    /// What the reader should know.
+    pub warnings: Vec<String>,
+}
+
+impl Summary {
+    /// Writes the file, whole or not at all.
+    pub fn write(&self, path: &Path) -> Result<(), FileError> {
+        write_json(path, self)
+    }
+
+    /// Reads the file.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        read_json(path)
+    }
+}
+
+/// Writes any value as indented JSON, whole or not at all.
+pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), FileError> {
+    let mut text = serde_json::to_string_pretty(value).map_err(|e| FileError::content(path, e.to_string()))?;
+    text.push('\n');
+    write_atomically(path, |out| out.write_all(text.as_bytes()))
+}
+
+/// Reads a value from JSON.
+pub fn read_json<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<T, FileError> {
+    let text = std::fs::read_to_string(path).map_err(FileError::read(path))?;
+    serde_json::from_str(&text).map_err(|e| FileError::content(path, e.to_string()))
+}
+
+fn real<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Option::<f64>::deserialize(deserializer).map(|x| x.unwrap_or(f64::NAN))
+}
+
+fn reals<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
+    let list = Vec::<Option<f64>>::deserialize(deserializer)?;
+    Ok(list.into_iter().map(|x| x.unwrap_or(f64::NAN)).collect())
+}

@@ -1,0 +1,183 @@
+//! VTK `PolyData` (`.vtp`): XML with raw appended binary data, for `ParaView` and anything built on VTK.
+//!
+//! One file per moment and kind: grains, contacts and cells are points with their columns as point data, walls are
+//! closed lines. Units travel as VTK's own `UNITS_LABEL`, time and step as field data, so that a single file says
+//! everything about itself.
+
+use std::fmt::Write as _;
+use std::io::{self, Write};
+use std::path::Path;
+
+use crate::FileError;
+use crate::folder::write_atomically;
+use crate::frame::{Column, Frame, Kind, Values};
+
+/// Stem of the file of a kind, for the kinds that have points.
+pub fn stem(kind: Kind) -> Option<&'static str> {
+    match kind {
+        Kind::Grain => Some("grains"),
+        Kind::Contact => Some("contacts"),
+        Kind::Cell => Some("cells"),
+        Kind::Surface => Some("walls"),
+        Kind::Global => None,
+    }
+}
+
+/// Writes the columns of one kind; `false` if the frame has no `position` of that kind and so nothing was written.
+pub fn write(path: &Path, frame: &Frame, kind: Kind) -> Result<bool, FileError> {
+    let Some(Values::Vector(points)) = frame.column(kind, "position").map(|c| &c.values) else {
+        return Ok(false);
+    };
+    let time = [frame.time];
+    let step = [frame.step as i64];
+    let (cells, (connectivity, offsets)) = if kind == Kind::Surface {
+        ("Lines", outlines(frame, points.len()))
+    } else {
+        let rows = points.len() as i64;
+        ("Verts", ((0..rows).collect(), (1..=rows).collect()))
+    };
+    let mut blocks = Blocks::default();
+    let mut head = String::from(
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
+         <PolyData>\n<FieldData>\n",
+    );
+    blocks.reals(&mut head, "TimeValue", "s", &time, "NumberOfTuples=\"1\"");
+    blocks.integers(&mut head, "step", "-", &step, "NumberOfTuples=\"1\"");
+    for column in frame.of(Kind::Global) {
+        let tuples = format!("NumberOfTuples=\"{}\"", column.values.len());
+        blocks.column(&mut head, column, &tuples);
+    }
+    head.push_str("</FieldData>\n");
+    let _ = writeln!(
+        head,
+        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">",
+        points.len(),
+        if cells == "Verts" { offsets.len() } else { 0 },
+        if cells == "Lines" { offsets.len() } else { 0 },
+    );
+    head.push_str("<PointData>\n");
+    for column in frame.of(kind) {
+        if column.name != "position" && column.values.len() == points.len() {
+            blocks.column(&mut head, column, "");
+        }
+    }
+    head.push_str("</PointData>\n<Points>\n");
+    blocks.vectors(&mut head, "position", "m", points, "");
+    let _ = writeln!(head, "</Points>\n<{cells}>");
+    blocks.integers(&mut head, "connectivity", "-", &connectivity, "");
+    blocks.integers(&mut head, "offsets", "-", &offsets, "");
+    let _ = write!(head, "</{cells}>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
+    write_atomically(path, |out| {
+        out.write_all(head.as_bytes())?;
+        blocks.write(out)?;
+        out.write_all(b"\n</AppendedData>\n</VTKFile>\n")
+    })?;
+    Ok(true)
+}
+
+/// Closed lines: consecutive rows of equal `outline`, back to their first row.
+fn outlines(frame: &Frame, rows: usize) -> (Vec<i64>, Vec<i64>) {
+    let zeros = vec![0; rows];
+    let outline = match frame.column(Kind::Surface, "outline").map(|c| &c.values) {
+        Some(Values::Integer(v)) if v.len() == rows => v,
+        _ => &zeros,
+    };
+    let mut connectivity = Vec::with_capacity(rows + 1);
+    let mut offsets = Vec::new();
+    let mut start = 0;
+    for group in outline.chunk_by(|a, b| a == b) {
+        connectivity.extend((start..start + group.len()).map(|i| i as i64));
+        if group.len() > 2 {
+            connectivity.push(start as i64);
+        }
+        offsets.push(connectivity.len() as i64);
+        start += group.len();
+    }
+    (connectivity, offsets)
+}
+
+/// The data arrays, in the order of their XML elements.
+#[derive(Default)]
+struct Blocks<'a> {
+    data: Vec<Data<'a>>,
+    offset: u64,
+}
+
+enum Data<'a> {
+    Reals(&'a [f64]),
+    Vectors(&'a [[f64; 3]]),
+    Integers(&'a [i64]),
+}
+
+impl Data<'_> {
+    fn bytes(&self) -> u64 {
+        8 * match self {
+            Self::Reals(v) => v.len() as u64,
+            Self::Vectors(v) => 3 * v.len() as u64,
+            Self::Integers(v) => v.len() as u64,
+        }
+    }
+}
+
+impl<'a> Blocks<'a> {
+    fn column(&mut self, head: &mut String, column: &'a Column, more: &str) {
+        match &column.values {
+            Values::Scalar(v) => self.reals(head, column.name, column.unit, v, more),
+            Values::Vector(v) => self.vectors(head, column.name, column.unit, v, more),
+            Values::Integer(v) => self.integers(head, column.name, column.unit, v, more),
+        }
+    }
+
+    fn reals(&mut self, head: &mut String, name: &str, unit: &str, v: &'a [f64], more: &str) {
+        self.declare(head, name, unit, &format!("type=\"Float64\" {more}"), Data::Reals(v));
+    }
+
+    fn vectors(&mut self, head: &mut String, name: &str, unit: &str, v: &'a [[f64; 3]], more: &str) {
+        let about = format!("type=\"Float64\" NumberOfComponents=\"3\" {more}");
+        self.declare(head, name, unit, &about, Data::Vectors(v));
+    }
+
+    fn integers(&mut self, head: &mut String, name: &str, unit: &str, v: &'a [i64], more: &str) {
+        self.declare(head, name, unit, &format!("type=\"Int64\" {more}"), Data::Integers(v));
+    }
+
+    fn declare(&mut self, head: &mut String, name: &str, unit: &str, about: &str, data: Data<'a>) {
+        let _ = write!(
+            head,
+            "<DataArray Name=\"{}\" {} format=\"appended\" offset=\"{}\"",
+            escape(name),
+            about.trim_end(),
+            self.offset
+        );
+        if unit == "-" {
+            head.push_str("/>\n");
+        } else {
+            let _ = writeln!(
+                head,
+                "><InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey></DataArray>",
+                escape(unit)
+            );
+        }
+        self.offset += 8 + data.bytes();
+        self.data.push(data);
+    }
+
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        for data in &self.data {
+            out.write_all(&data.bytes().to_le_bytes())?;
+            match data {
+                Data::Reals(v) => v.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))?,
+                Data::Vectors(v) => {
+                    v.iter().flatten().try_for_each(|x| out.write_all(&x.to_le_bytes()))?;
+                }
+                Data::Integers(v) => v.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))?,
+            }
+        }
+        Ok(())
+    }
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

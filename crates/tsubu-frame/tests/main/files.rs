@@ -1,0 +1,127 @@
+//! Folders, whole files, the summary.
+
+use std::fs;
+
+use tsubu_frame::folder::write_atomically;
+use tsubu_frame::{Claim, Existing, FileError, Named, ResultValue, RunFolder, Status, Summary};
+
+#[test]
+fn a_used_folder_is_refused_with_both_ways_out() {
+    let parent = tempfile::tempdir().unwrap();
+    let path = parent.path().join("out");
+    let folder = RunFolder::create(&path, Existing::Refuse).unwrap();
+    folder.write("summary.json", b"{}").unwrap();
+    let error = RunFolder::create(&path, Existing::Refuse).unwrap_err().to_string();
+    for word in ["out", "--resume", "--overwrite", "-o"] {
+        assert!(error.contains(word), "{error}");
+    }
+}
+
+#[test]
+fn overwrite_removes_results_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("notes.txt"), "mine").unwrap();
+    fs::write(folder.path().join("summary.json"), "{}").unwrap();
+    fs::create_dir(folder.path().join("frames")).unwrap();
+    fs::write(folder.path().join("frames/grains_000000.vtp"), "").unwrap();
+    RunFolder::create(folder.path(), Existing::Overwrite).unwrap();
+    assert!(folder.path().join("notes.txt").exists());
+    assert!(!folder.path().join("summary.json").exists());
+    assert!(!folder.path().join("frames").exists());
+}
+
+#[test]
+fn resume_needs_a_folder() {
+    let parent = tempfile::tempdir().unwrap();
+    let error = RunFolder::create(parent.path().join("none"), Existing::Resume).unwrap_err();
+    assert!(error.to_string().contains("leave out --resume"), "{error}");
+}
+
+#[test]
+fn a_failed_write_leaves_the_old_file_and_no_litter() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    fs::write(&path, "old").unwrap();
+    let error = write_atomically(&path, |out| {
+        out.write_all(b"half of the new")?;
+        Err(std::io::ErrorKind::StorageFull.into())
+    })
+    .unwrap_err();
+    assert!(error.is_disk_full() && error.to_string().contains("scene.toml"), "{error}");
+    assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+/// `/dev/full` takes every open and refuses every write, as a full disk does.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_an_error_with_the_name() {
+    let error = fs::File::options()
+        .write(true)
+        .open("/dev/full")
+        .and_then(|mut f| std::io::Write::write_all(&mut f, b"x"))
+        .map_err(FileError::write(std::path::Path::new("out/history.csv")))
+        .unwrap_err();
+    assert!(error.is_disk_full() && error.to_string().contains("history.csv"), "{error}");
+}
+
+#[test]
+fn the_summary_comes_back_in_order_and_survives_not_a_number() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("summary.json");
+    let mut summary = Summary { status: Status::Interrupted, contacts_mean: f64::NAN, ..Summary::default() };
+    summary.energy.terms.insert("kinetic", 1.5);
+    summary.energy.terms.insert("dissipated by friction", 0.1 + 0.2);
+    summary.energy.terms.insert("a", f64::NAN);
+    summary.energy.residual_relative = f64::INFINITY;
+    summary.results.insert("peak", 4.083_61);
+    summary.results.insert("phases", vec![0.1, f64::NAN]);
+    summary.claims.push(Claim::judge("peak", f64::NAN, Some(4.0), None, "closed form"));
+    summary.write(&path).unwrap();
+    let back = Summary::read(&path).unwrap();
+    let names: Vec<_> = back.energy.terms.iter().map(|(n, _)| n.to_owned()).collect();
+    assert_eq!(names, ["kinetic", "dissipated by friction", "a"]);
+    assert_eq!(back.energy.terms.get("dissipated by friction").unwrap().0, 0.1 + 0.2);
+    assert!(back.contacts_mean.is_nan() && back.energy.residual_relative.is_nan());
+    assert_eq!(back.results.get("peak"), Some(&ResultValue::Number(4.083_61)));
+    assert!(matches!(back.results.get("phases"), Some(ResultValue::List(v)) if v[0] == 0.1 && v[1].is_nan()));
+    assert!(!back.claims[0].pass);
+}
+
+#[test]
+fn the_summary_has_the_keys_users_build_on() {
+    let text = serde_json::to_value(Summary::default()).unwrap();
+    let keys: Vec<_> = text.as_object().unwrap().keys().map(String::as_str).collect();
+    assert_eq!(
+        keys,
+        [
+            "tsubu_version",
+            "status",
+            "method",
+            "dimension",
+            "particles",
+            "steps",
+            "time_step",
+            "simulated_seconds",
+            "wall_seconds",
+            "threads",
+            "particle_steps_per_second",
+            "contacts_mean",
+            "energy",
+            "state_hash",
+            "results",
+            "claims",
+            "warnings"
+        ]
+    );
+    assert_eq!(text["status"], "finished");
+    assert_eq!(text["energy"]["residual_relative"], 0.0);
+}
+
+#[test]
+fn claims_include_the_ends_of_their_range() {
+    let pass = |x| Claim::judge("n", x, Some(1.0), Some(2.0), "s").pass;
+    assert!(pass(1.0) && pass(2.0) && !pass(2.000_000_1) && !pass(f64::NAN));
+    let named: Named<f64> = [("a", 1.0), ("b", 2.0), ("a", 3.0)].into_iter().collect();
+    assert_eq!((named.len(), named.get("a")), (2, Some(&3.0)));
+}

@@ -1,0 +1,137 @@
+//! Snapshots: written, read back, indexed, resumed.
+
+use std::path::Path;
+use std::process::Command;
+
+use proptest::prelude::*;
+use tsubu_frame::{Frame, FrameWriter, Kind, read_frame, snapshots, vtp_read};
+
+fn sample(time: f64) -> Frame {
+    let mut frame = Frame { time, step: (time * 1e4) as u64, ..Frame::default() };
+    frame.vector(Kind::Grain, "position", "m", vec![[0.1, 0.2, 0.0], [0.3, 0.1 + 0.2, -0.0]]);
+    frame.vector(Kind::Grain, "velocity", "m/s", vec![[1.0, 0.0, 0.0], [0.0, -1e-12, 0.0]]);
+    frame.scalar(Kind::Grain, "radius", "m", vec![0.003, 0.003]);
+    frame.integer(Kind::Grain, "id", "-", vec![0, 1]);
+    frame.vector(Kind::Contact, "position", "m", vec![[0.2, 0.2, 0.0]]);
+    frame.vector(Kind::Contact, "force", "N", vec![[0.0, 5.0, 0.0]]);
+    frame.scalar(Kind::Contact, "overlap", "m", vec![1e-6]);
+    frame.integer(Kind::Contact, "first", "-", vec![1]);
+    frame.integer(Kind::Contact, "second", "-", vec![-1]);
+    let corners = [[0.0, 0.0, 0.0], [0.5, 0.0, 0.0], [0.5, 0.4, 0.0], [0.0, 0.4, 0.0]];
+    let walls = [corners.to_vec(), vec![[0.1, 0.0, 0.0], [0.1, 0.1, 0.0]]].concat();
+    frame.vector(Kind::Surface, "position", "m", walls);
+    frame.integer(Kind::Surface, "outline", "-", vec![0, 0, 0, 0, 1, 1]);
+    frame.scalar(Kind::Global, "host displacement", "m", vec![0.004]);
+    frame
+}
+
+fn same(a: &Frame, b: &Frame) {
+    assert_eq!((a.time, a.step), (b.time, b.step));
+    for column in &a.columns {
+        let back = b.column(column.kind, column.name).unwrap_or_else(|| panic!("no {}", column.name));
+        assert_eq!(back, column);
+    }
+    assert_eq!(a.columns.len(), b.columns.len());
+}
+
+#[test]
+fn a_snapshot_comes_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = FrameWriter::create(folder.path(), true).unwrap();
+    writer.write(&sample(0.0)).unwrap();
+    writer.write(&sample(0.25)).unwrap();
+    let found = snapshots(folder.path()).unwrap();
+    assert_eq!(found.iter().map(|s| s.time).collect::<Vec<_>>(), [0.0, 0.25]);
+    same(&sample(0.25), &read_frame(&found[1].path).unwrap());
+}
+
+#[test]
+fn resumed_snapshots_go_on_with_the_number_after_the_checkpoint() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = FrameWriter::create(folder.path(), false).unwrap();
+    for time in [0.0, 0.1, 0.2, 0.3] {
+        writer.write(&sample(time)).unwrap();
+    }
+    let mut writer = FrameWriter::resume(folder.path(), false, 0.1).unwrap();
+    assert_eq!(writer.count(), 2);
+    assert!(!folder.path().join("frames/grains_000003.vtp").exists());
+    writer.write(&sample(0.2)).unwrap();
+    let times: Vec<_> = snapshots(folder.path()).unwrap().iter().map(|s| s.time).collect();
+    assert_eq!(times, [0.0, 0.1, 0.2]);
+}
+
+#[test]
+fn an_empty_moment_and_no_folder_are_no_errors() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(snapshots(folder.path()).unwrap().is_empty());
+    let mut empty = Frame::default();
+    empty.vector(Kind::Grain, "position", "m", vec![]);
+    let mut writer = FrameWriter::create(folder.path(), true).unwrap();
+    writer.write(&empty).unwrap();
+    assert_eq!(read_frame(&snapshots(folder.path()).unwrap()[0].path).unwrap().rows(Kind::Grain), 0);
+}
+
+#[test]
+fn extended_xyz_reads_as_its_comment_line_says() {
+    let folder = tempfile::tempdir().unwrap();
+    FrameWriter::create(folder.path(), true).unwrap().write(&sample(0.5)).unwrap();
+    let text = std::fs::read_to_string(folder.path().join("frames/grains_000000.xyz")).unwrap();
+    let lines: Vec<_> = text.lines().collect();
+    assert_eq!(lines[0], "2");
+    assert!(lines[1].contains("Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:id:I:1 Time=0.5"));
+    assert!(lines[1].starts_with("Lattice=\"0.5 0 0 0 0.4 0 0 0 0.006\" Origin=\"0.0 0.0 -0.003\""));
+    assert_eq!(lines[2], "grain 0.1 0.2 0.0 1.0 0.0 0.0 0.003 0");
+    assert_eq!(lines.len(), 4);
+}
+
+#[test]
+fn a_cut_snapshot_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    FrameWriter::create(folder.path(), false).unwrap().write(&sample(0.5)).unwrap();
+    let path = folder.path().join("frames/grains_000000.vtp");
+    let bytes = std::fs::read(&path).unwrap();
+    std::fs::write(&path, &bytes[..bytes.len() / 3]).unwrap();
+    let error = read_frame(&path).unwrap_err().to_string();
+    assert!(error.contains("grains_000000.vtp"), "{error}");
+    assert!(read_frame(Path::new("nowhere/grains_000000.vtp")).is_err());
+}
+
+fn bytes_of_sample() -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    FrameWriter::create(folder.path(), false).unwrap().write(&sample(0.5)).unwrap();
+    std::fs::read(folder.path().join("frames/grains_000000.vtp")).unwrap()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn damaged_snapshots_never_panic(flips in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8), cut in any::<prop::sample::Index>()) {
+        let mut bytes = bytes_of_sample();
+        for (at, value) in flips {
+            let at = at.index(bytes.len());
+            bytes[at] = value;
+        }
+        let _ = vtp_read::parse(&bytes, Kind::Grain, &mut Frame::default());
+        bytes.truncate(cut.index(bytes.len()));
+        let _ = vtp_read::parse(&bytes, Kind::Grain, &mut Frame::default());
+    }
+}
+
+#[test]
+#[ignore = "needs Python's vtk: cargo xtask check installs it"]
+fn vtk_reads_every_snapshot() {
+    let python = std::env::var_os("TSUBU_VTK_PYTHON").unwrap_or_else(|| "python3".into());
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = FrameWriter::create(folder.path(), false).unwrap();
+    for time in [0.0, 0.1, 0.2] {
+        writer.write(&sample(time)).unwrap();
+    }
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/read_with_vtk.py");
+    let out = Command::new(python).arg(script).arg(folder.path().join("frames")).output().unwrap();
+    let said = String::from_utf8_lossy(&out.stdout);
+    assert!(out.status.success(), "{said}{}", String::from_utf8_lossy(&out.stderr));
+    assert!(said.contains("grains: 3 files, 6 points"), "{said}");
+    assert!(said.contains("walls: 3 files, 18 points, 6 cells"), "{said}");
+    assert!(said.contains("velocity [m/s]"), "{said}");
+}

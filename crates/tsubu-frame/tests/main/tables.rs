@@ -1,0 +1,84 @@
+//! CSV tables and the history of a run.
+
+use std::fs;
+
+use proptest::prelude::*;
+use tsubu_frame::{Cell, History, Table};
+
+#[test]
+fn columns_are_found_with_or_without_their_unit() {
+    let table = Table::parse("time [s],case [text],n [-]\n0,20,1\n1.5,\"a, \"\"b\"\"\",\n").unwrap();
+    assert_eq!(table.numbers("time [s]").unwrap(), [0.0, 1.5]);
+    assert_eq!(table.texts("case").unwrap(), ["20", "a, \"b\""]);
+    assert!(table.numbers("n").unwrap()[1].is_nan());
+    assert!(table.numbers("mass").is_none());
+    assert_eq!(Table::parse(&table.to_csv()).unwrap(), table);
+}
+
+#[test]
+fn a_line_being_written_is_left_out() {
+    let table = Table::parse("time [s],x [m]\n0,1\n1,2\n2,").unwrap();
+    assert_eq!(table.rows.len(), 2);
+    assert!(Table::parse("").is_err());
+    assert!(Table::parse("a,b\n1\n").unwrap_err().contains("row 1 has 1 cells"));
+}
+
+#[test]
+fn a_resumed_history_is_cut_at_the_checkpoint() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("history.csv");
+    let header = ["time [s]", "displacement [m]"];
+    let mut history = History::create(&path, &header).unwrap();
+    for i in 0..10 {
+        history.append(&[f64::from(i) * 0.1, f64::from(i)]).unwrap();
+    }
+    drop(history);
+    let uninterrupted = fs::read(&path).unwrap();
+    fs::write(&path, [&uninterrupted[..], b"1.0,9"].concat()).unwrap();
+    // 3 * 0.1 is 0.30000000000000004: the cut compares the very numbers that were written.
+    let mut history = History::resume(&path, &header, 3.0 * 0.1).unwrap();
+    for i in 4..10 {
+        history.append(&[f64::from(i) * 0.1, f64::from(i)]).unwrap();
+    }
+    history.sync().unwrap();
+    assert_eq!(fs::read(&path).unwrap(), uninterrupted);
+    let error = History::resume(&path, &["time [s]", "other [m]"], 0.0).unwrap_err().to_string();
+    assert!(error.contains("history.csv") && error.contains("columns"), "{error}");
+}
+
+#[test]
+fn rows_reach_the_file_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("history.csv");
+    let mut history = History::create(&path, &["time [s]", "x [m]", "y [m]"]).unwrap();
+    for i in 0..20_000 {
+        history.append(&[f64::from(i), 1.0 / f64::from(i), 1e-300]).unwrap();
+        if i % 997 == 0 {
+            assert!(fs::read(&path).unwrap().ends_with(b"\n"));
+        }
+    }
+    drop(history);
+    assert_eq!(Table::read(&path).unwrap().rows.len(), 20_000);
+}
+
+proptest! {
+    #[test]
+    fn numbers_come_back_bit_by_bit(x in any::<f64>().prop_filter("one NaN is as good as another", |x| !x.is_nan())) {
+        let mut table = Table::new(["x [-]"]);
+        table.push([Cell::Number(x)]);
+        let back = Table::parse(&table.to_csv()).unwrap().numbers("x").unwrap()[0];
+        prop_assert_eq!(back.to_bits(), x.to_bits());
+    }
+
+    #[test]
+    fn text_comes_back(text in "[ -~\n\u{e9}]{0,20}") {
+        let mut table = Table::new(["t [text]", "n [-]"]);
+        table.push([Cell::Text(text), Cell::Number(1.0)]);
+        prop_assert_eq!(Table::parse(&table.to_csv()).unwrap(), table);
+    }
+
+    #[test]
+    fn garbage_never_panics(text in "\\PC{0,200}|[a,\"\r\n 1]{0,60}") {
+        let _ = Table::parse(&text);
+    }
+}
