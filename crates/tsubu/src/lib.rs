@@ -4,9 +4,14 @@
 //! plan's method names; [`engine::Engine::advance`] moves it; [`partner::Hosts`] are the vibrating structures that it meets
 //! once a step; [`ledger::Ledger`] keeps the books.
 
+pub mod check;
+pub mod contact;
+pub mod dem;
 pub mod engine;
+pub mod find;
 pub mod ledger;
 pub mod motion;
 pub mod partner;
 pub mod random;
+pub mod state;
 pub mod wall;

@@ -106,6 +106,17 @@ impl Host {
         w2.iter().map(|w2| w2.max(0.0).sqrt() / std::f64::consts::TAU).collect()
     }
 
+    /// Damping ratio of the lowest mode, from the damping seen along it [-].
+    pub fn damping_ratio(&self) -> f64 {
+        // Exact for one coordinate and for modal lists; for coupled matrices an estimate from the diagonal.
+        let n = self.n;
+        let ratio = |i: usize| {
+            let (m, c, k) = (self.mass[i * n + i], self.damping[i * n + i], self.stiffness[i * n + i]);
+            (k / m, c / (2.0 * (k * m).sqrt()))
+        };
+        (0..n).map(ratio).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |r| r.1)
+    }
+
     /// Mass that walls feel when they are pushed: 1 / (w . M^-1 w) [kg].
     pub fn effective_mass(&self) -> f64 {
         let mut x = vec![0.0; self.n];

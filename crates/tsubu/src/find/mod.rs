@@ -1,0 +1,6 @@
+//! Who may touch whom.
+
+pub mod candidates;
+pub mod grid;
+
+pub use candidates::Candidates;

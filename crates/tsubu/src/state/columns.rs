@@ -1,0 +1,82 @@
+//! Columns that belong together, listed once: sorting, saving and loading cannot forget one.
+
+use glam::DVec3;
+use tsubu_frame::State;
+use tsubu_frame::state::MissingSection;
+
+/// A number type that can be a column.
+pub trait Value: Copy {
+    /// Stores a column.
+    fn put(state: &mut State, name: &str, values: &[Self]);
+    /// Takes a column back.
+    fn take(state: &State, name: &str) -> Result<Vec<Self>, MissingSection>;
+}
+
+impl Value for f64 {
+    fn put(state: &mut State, name: &str, values: &[Self]) {
+        state.put_real(name, values);
+    }
+    fn take(state: &State, name: &str) -> Result<Vec<Self>, MissingSection> {
+        Ok(state.real(name)?.to_vec())
+    }
+}
+
+impl Value for u32 {
+    fn put(state: &mut State, name: &str, values: &[Self]) {
+        state.put_integer(name, values.iter().map(|&v| i64::from(v)).collect::<Vec<_>>());
+    }
+    fn take(state: &State, name: &str) -> Result<Vec<Self>, MissingSection> {
+        Ok(state.integer(name)?.iter().map(|&v| v as Self).collect())
+    }
+}
+
+impl Value for DVec3 {
+    fn put(state: &mut State, name: &str, values: &[Self]) {
+        state.put_real(name, values.iter().flat_map(|v| v.to_array()).collect::<Vec<_>>());
+    }
+    fn take(state: &State, name: &str) -> Result<Vec<Self>, MissingSection> {
+        Ok(state.real(name)?.chunks_exact(3).map(Self::from_slice).collect())
+    }
+}
+
+/// Declares a struct of equally long columns and what must be done to all of them.
+macro_rules! columns {
+    ($(#[$about:meta])* $name:ident of $row:ident { $($(#[$doc:meta])* $column:ident: $type:ty,)+ }) => {
+        $(#[$about])*
+        #[derive(Clone, Debug, Default, PartialEq)]
+        pub struct $name { $($(#[$doc])* pub $column: Vec<$type>,)+ }
+
+        /// One row of the columns.
+        #[derive(Clone, Copy, Debug)]
+        pub struct $row { $($(#[$doc])* pub $column: $type,)+ }
+
+        impl $name {
+            /// Adds a row.
+            pub fn push(&mut self, row: $row) { $(self.$column.push(row.$column);)+ }
+
+            /// Puts row `order[i]` at place i.
+            pub fn permute(&mut self, order: &[u32]) {
+                $(self.$column = order.iter().map(|&i| self.$column[i as usize]).collect();)+
+            }
+
+            /// Writes every column under `prefix`.
+            pub fn save(&self, prefix: &str, state: &mut tsubu_frame::State) {
+                $($crate::state::columns::Value::put(
+                    state, &format!("{prefix}.{}", stringify!($column)), &self.$column);)+
+            }
+
+            /// Takes every column back; all must have `rows` rows.
+            pub fn load(prefix: &str, rows: usize, state: &tsubu_frame::State)
+                -> Result<Self, tsubu_frame::state::MissingSection> {
+                let loaded = Self { $($column: $crate::state::columns::Value::take(
+                    state, &format!("{prefix}.{}", stringify!($column)))?,)+ };
+                $(if loaded.$column.len() != rows {
+                    return Err(tsubu_frame::state::MissingSection {
+                        name: format!("{prefix}.{}", stringify!($column)), kind: "real" });
+                })+
+                Ok(loaded)
+            }
+        }
+    };
+}
+pub(crate) use columns;

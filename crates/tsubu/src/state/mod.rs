@@ -1,0 +1,6 @@
+//! The state of grains: what a checkpoint holds. Everything else in an engine is scratch.
+
+pub mod columns;
+pub mod grains;
+
+pub use grains::{Grain, Grains};
