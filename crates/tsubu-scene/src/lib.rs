@@ -1,3 +1,54 @@
-//! The question: text -> [`plan::Plan`], with all complaints at once.
+//! The question: a scene file becomes a [`plan::Plan`], or all complaints about it at once.
+//!
+//! ```text
+//! text + --set  ->  node (typed, with places)  ->  resolve (along keys)  ->  derive  ->  check  ->  Plan
+//! ```
+//!
+//! [`keys`] is the table of everything a scene may say. Validation, unit conversion, defaults, the JSON Schema
+//! ([`schema`]) and the reference page ([`reference`]) all read it; nothing about a key is said anywhere else.
+//!
+//! ```
+//! use tsubu_scene::Scene;
+//! # use std::path::Path;
+//! let text = r#"
+//!     duration = "1 s"
+//!     [materials.acrylic]
+//!     young-modulus = "0.5 GPa"
+//!     [particles.ball]
+//!     material = "acrylic"
+//!     diameter = "6 mm"
+//!     mass = "0.2 g"
+//!     start.at = { position = [[0, "90 mm"]] }
+//! "#;
+//! let scene = Scene::parse("drop.toml", text, Path::new("."), &["duration=2 s".to_string()]).unwrap();
+//! assert_eq!(scene.plan().duration, 2.0);
+//! assert_eq!(scene.plan().particles["ball"].diameter, 0.006);
+//!
+//! let wrong = Scene::parse("drop.toml", &text.replace("mass", "mas"), Path::new("."), &[]).unwrap_err();
+//! assert!(wrong.to_string().contains("did you mean `mass`?"));
+//! ```
 
+pub mod keys;
 pub mod plan;
+pub mod units;
+
+mod change;
+mod check;
+mod complaint;
+mod files;
+mod node;
+mod reference;
+mod resolve;
+mod scene;
+mod schema;
+mod suggest;
+mod templates;
+mod write;
+
+pub use complaint::Complaints;
+pub use plan::Plan;
+pub use reference::reference;
+pub use scene::Scene;
+pub use schema::schema;
+pub use templates::{TEMPLATES, Template};
+pub use write::to_toml;

@@ -1,0 +1,132 @@
+//! Checks across tables: what each value alone cannot tell.
+//!
+//! They work on the parts that could be read, one by one, so that a wrong wall does not hide an overlap of grains.
+
+mod host;
+mod place;
+
+use crate::complaint::Complaint;
+use crate::node::Node;
+use crate::plan::{Claim, Host, MaterialPair, Particles, Signal, Wall};
+use serde::de::DeserializeOwned;
+use std::collections::BTreeMap;
+
+/// The parts of a scene that are right in themselves.
+pub(crate) struct Parts<'a> {
+    root: &'a Node,
+    resolved: &'a toml::Table,
+    particles: BTreeMap<String, Particles>,
+    walls: BTreeMap<String, Wall>,
+    hosts: BTreeMap<String, Host>,
+    /// Whether a part is missing because it is wrong; then counting what is there would mislead.
+    incomplete: bool,
+}
+
+/// All complaints that need more than one value.
+pub(crate) fn check(resolved: &toml::Table, root: &Node) -> Vec<Complaint> {
+    let particles = named(resolved, "particles");
+    let walls = named(resolved, "walls");
+    let hosts = named(resolved, "hosts");
+    let typed = |key: &str| resolved.get(key).and_then(toml::Value::as_table).map_or(0, toml::Table::len);
+    let incomplete = particles.len() != typed("particles") || walls.len() != typed("walls") || hosts.len() != typed("hosts");
+    let parts = Parts { root, resolved, particles, walls, hosts, incomplete };
+    let mut complaints = Vec::new();
+    place::check(&parts, &mut complaints);
+    host::check(&parts, &mut complaints);
+    pairs(&parts, &mut complaints);
+    claims(&parts, &mut complaints);
+    response(&parts, &mut complaints);
+    complaints
+}
+
+impl Parts<'_> {
+    fn space(&self) -> bool {
+        self.resolved.get("dimension").and_then(toml::Value::as_integer) == Some(3)
+    }
+}
+
+fn named<T: DeserializeOwned>(resolved: &toml::Table, key: &str) -> BTreeMap<String, T> {
+    let tables = resolved.get(key).and_then(toml::Value::as_table).into_iter().flatten();
+    tables.filter_map(|(name, value)| Some((name.clone(), value.clone().try_into().ok()?))).collect()
+}
+
+fn list<T: DeserializeOwned>(resolved: &toml::Table, key: &str) -> Vec<(String, T)> {
+    let items = resolved.get(key).and_then(toml::Value::as_array).into_iter().flatten().enumerate();
+    items.filter_map(|(index, value)| Some((index.to_string(), value.clone().try_into().ok()?))).collect()
+}
+
+fn pairs(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
+    let mut seen: BTreeMap<[String; 2], String> = BTreeMap::new();
+    for (index, pair) in list::<MaterialPair>(parts.resolved, "material-pair") {
+        let place = parts.root.locate(&["material-pair", &index, "between"]);
+        let mut names = pair.between.clone();
+        names.sort();
+        let title = format!("the pair `{}` and `{}`", names[0], names[1]);
+        if let Some(first) = seen.insert(names, index) {
+            complaints.push(
+                Complaint::new(format!("{title} is given twice"))
+                    .at(&place, "given again")
+                    .also(&parts.root.locate(&["material-pair", &first, "between"]), "given here"),
+            );
+        }
+        if pair.restitution.is_none() && pair.friction.is_none() && pair.rolling_friction.is_none() {
+            complaints.push(
+                Complaint::new(format!("{title} changes nothing"))
+                    .at(&place, "no value for this pair")
+                    .hint("give `restitution`, `friction` or `rolling-friction`"),
+            );
+        }
+    }
+}
+
+fn claims(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
+    for (index, claim) in list::<Claim>(parts.resolved, "claim") {
+        let at = |key: &str| parts.root.locate(&["claim", &index, key]);
+        // A bound that was typed but wrong has its own complaint.
+        let typed = ["low", "high"].iter().any(|key| at(key) != at("result") && is_typed(parts, &index, key));
+        match (claim.low, claim.high) {
+            (None, None) if !typed => complaints.push(
+                Complaint::new(format!("the claim on `{}` accepts any number", claim.result))
+                    .at(&at("result"), "neither `low` nor `high`")
+                    .hint("give at least one of the two"),
+            ),
+            (Some(low), Some(high)) if low > high => complaints.push(
+                Complaint::new(format!("the claim on `{}` accepts no number", claim.result))
+                    .at(&at("high"), format!("{high} is below `low` = {low}")),
+            ),
+            _ => {}
+        }
+    }
+}
+
+fn is_typed(parts: &Parts<'_>, index: &str, key: &str) -> bool {
+    let Some(crate::node::Value::List(items)) = parts.root.find(&["claim"]).map(|node| &node.value) else { return false };
+    index.parse::<usize>().ok().and_then(|index| items.get(index)).is_some_and(|item| item.find(&[key]).is_some())
+}
+
+/// The response varies the frequency of the host's sine; without one it would have nothing to turn.
+fn response(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
+    let Some(name) = parts.resolved.get("response").and_then(|response| response.get("host")).and_then(toml::Value::as_str)
+    else {
+        return;
+    };
+    let Some(host) = parts.hosts.get(name) else { return };
+    let sines = [&host.base, &host.force].into_iter().filter(|signal| matches!(signal, Some(Signal::Sine { .. }))).count();
+    let place = parts.root.locate(&["hosts", name]);
+    let asked = parts.root.locate(&["response"]);
+    match sines {
+        1 => {}
+        0 => complaints.push(
+            Complaint::new(format!("nothing shakes the host `{name}` with a sine, so it has no frequency response"))
+                .at(&place, "needs `base.sine` or `force.sine`")
+                .also(&asked, "asked for here")
+                .hint("base.sine = { amplitude = \"0.5 mm\", frequency = \"6 Hz\" }"),
+        ),
+        _ => complaints.push(
+            Complaint::new(format!("both the base and the force of the host `{name}` are sines"))
+                .at(&place, "which of the two has its frequency varied?")
+                .also(&asked, "asked for here")
+                .hint("leave one of them out"),
+        ),
+    }
+}

@@ -1,0 +1,322 @@
+//! The table of keys: everything a scene may say, with kind, default, range and one sentence.
+//!
+//! This registry is the only source for validation, unit conversion, defaults, the JSON Schema and the reference
+//! page. A key that is not here does not exist; a key that is here is checked, converted, documented and offered in
+//! an editor without another line of code.
+
+mod contact;
+mod hosts;
+mod methods;
+mod study;
+mod world;
+
+pub use world::SCENE;
+
+use crate::units::Dimension;
+
+/// One key of a table.
+#[derive(Clone, Copy, Debug)]
+pub struct Key {
+    /// The key as typed.
+    pub name: &'static str,
+    /// What its value is.
+    pub kind: Kind,
+    /// What happens when it is absent.
+    pub need: Need,
+    /// Which numbers are allowed.
+    pub range: Range,
+    /// Keys that say the same thing another way: only one of them may be given.
+    pub rivals: &'static [&'static str],
+    /// One sentence for people.
+    pub about: &'static str,
+}
+
+/// What a value is.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// A number in SI units, or text with a unit.
+    Quantity(&'static Dimension),
+    /// A whole number.
+    Whole,
+    /// Free text.
+    Text,
+    /// `true` or `false`.
+    Flag,
+    /// One of a few words.
+    OneOf(&'static [Word]),
+    /// A position or velocity: [x, z] in the plane, [x, y, z] in space.
+    Vector(&'static Dimension),
+    /// A list of vectors.
+    Vectors(&'static Dimension),
+    /// A list of spins: in the plane numbers (about y), in space vectors.
+    Spins,
+    /// A unit vector: "x", "-z", or a vector of any length but zero.
+    Direction,
+    /// Gravity: a number (downward) or a vector.
+    Gravity,
+    /// A list of quantities.
+    Quantities(&'static Dimension),
+    /// A square matrix of quantities, row by row.
+    Matrix(&'static Dimension),
+    /// A rising list of positive numbers, or `{ from, to, step }`.
+    Ratios,
+    /// The name of something defined elsewhere in the scene.
+    Name(Family),
+    /// Two material names.
+    NamePair,
+    /// A table of keys.
+    Table(&'static [Key]),
+    /// Tables under names the user chooses; the text says what one of them is.
+    Named(&'static [Key], &'static str),
+    /// An array of tables.
+    Many(&'static [Key]),
+    /// Exactly one of several named tables.
+    Choice(&'static [Variant]),
+    /// Scene keys (quoted) with the lists of values they take.
+    Vary,
+}
+
+/// A word that a key can take.
+#[derive(Clone, Copy, Debug)]
+pub struct Word {
+    /// The word as typed.
+    pub name: &'static str,
+    /// One sentence for people.
+    pub about: &'static str,
+}
+
+/// One of the tables of a choice.
+#[derive(Clone, Copy, Debug)]
+pub struct Variant {
+    /// The name as typed.
+    pub name: &'static str,
+    /// One sentence for people.
+    pub about: &'static str,
+    /// Its own keys.
+    pub keys: &'static [Key],
+}
+
+/// Things that are defined under a name and referred to by it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// `[materials.NAME]`.
+    Material,
+    /// `[hosts.NAME]`.
+    Host,
+}
+
+impl Family {
+    /// The table in which they are defined.
+    pub const fn table(self) -> &'static str {
+        match self {
+            Self::Material => "materials",
+            Self::Host => "hosts",
+        }
+    }
+
+    /// What one is called.
+    pub const fn noun(self) -> &'static str {
+        match self {
+            Self::Material => "material",
+            Self::Host => "host",
+        }
+    }
+}
+
+/// What happens when a key is absent.
+#[derive(Clone, Copy, Debug)]
+pub enum Need {
+    /// It is an error.
+    Required,
+    /// Nothing: the scene does not have it.
+    Optional,
+    /// This is read instead, as if it had been typed.
+    Default(&'static str),
+    /// The same as typing this word: the value is found later, or there is none.
+    Word(&'static str),
+    /// The value follows from others, as the text says.
+    Derived(&'static str),
+}
+
+/// Which numbers are allowed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// Lower end.
+    pub low: Bound,
+    /// Upper end.
+    pub high: Bound,
+}
+
+/// One end of a range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bound {
+    /// No end.
+    Open,
+    /// The number itself is allowed.
+    Including(f64),
+    /// The number itself is not allowed.
+    Excluding(f64),
+}
+
+impl Range {
+    /// Any finite number.
+    pub const ANY: Self = Self { low: Bound::Open, high: Bound::Open };
+
+    /// Whether the number is inside.
+    pub fn holds(&self, x: f64) -> bool {
+        let low = match self.low {
+            Bound::Open => true,
+            Bound::Including(low) => x >= low,
+            Bound::Excluding(low) => x > low,
+        };
+        let high = match self.high {
+            Bound::Open => true,
+            Bound::Including(high) => x <= high,
+            Bound::Excluding(high) => x < high,
+        };
+        low && high
+    }
+
+    /// The range in words, `None` when anything goes: "above 0 and at most 1".
+    pub fn words(&self) -> Option<String> {
+        let low = match self.low {
+            Bound::Open => None,
+            Bound::Including(low) => Some(format!("at least {low}")),
+            Bound::Excluding(low) => Some(format!("above {low}")),
+        };
+        let high = match self.high {
+            Bound::Open => None,
+            Bound::Including(high) => Some(format!("at most {high}")),
+            Bound::Excluding(high) => Some(format!("below {high}")),
+        };
+        match (low, high) {
+            (Some(low), Some(high)) => Some(format!("{low} and {high}")),
+            (one, None) | (None, one) => one,
+        }
+    }
+}
+
+impl Key {
+    /// A required key without limits.
+    pub const fn new(name: &'static str, kind: Kind, about: &'static str) -> Self {
+        Self { name, kind, need: Need::Required, range: Range::ANY, rivals: &[], about }
+    }
+
+    const fn default(self, toml: &'static str) -> Self {
+        Self { need: Need::Default(toml), ..self }
+    }
+
+    const fn optional(self) -> Self {
+        Self { need: Need::Optional, ..self }
+    }
+
+    const fn word(self, word: &'static str) -> Self {
+        Self { need: Need::Word(word), ..self }
+    }
+
+    const fn derived(self, text: &'static str) -> Self {
+        Self { need: Need::Derived(text), ..self }
+    }
+
+    const fn rivals(self, rivals: &'static [&'static str]) -> Self {
+        Self { rivals, ..self }
+    }
+
+    const fn above(self, low: f64) -> Self {
+        Self { range: Range { low: Bound::Excluding(low), ..self.range }, ..self }
+    }
+
+    const fn at_least(self, low: f64) -> Self {
+        Self { range: Range { low: Bound::Including(low), ..self.range }, ..self }
+    }
+
+    const fn below(self, high: f64) -> Self {
+        Self { range: Range { high: Bound::Excluding(high), ..self.range }, ..self }
+    }
+
+    const fn at_most(self, high: f64) -> Self {
+        Self { range: Range { high: Bound::Including(high), ..self.range }, ..self }
+    }
+}
+
+/// The key of that name in a table.
+pub(crate) fn find(keys: &'static [Key], name: &str) -> Option<&'static Key> {
+    keys.iter().find(|key| key.name == name)
+}
+
+/// Calls `visit` with the path and the keys of every table of the scene; user-chosen names appear as `NAME`.
+pub(crate) fn walk(visit: &mut dyn FnMut(&str, &'static [Key])) {
+    fn inner(path: &str, keys: &'static [Key], visit: &mut dyn FnMut(&str, &'static [Key])) {
+        visit(path, keys);
+        for key in keys {
+            let here = if path.is_empty() { key.name.to_string() } else { format!("{path}.{}", key.name) };
+            match key.kind {
+                Kind::Table(keys) | Kind::Many(keys) => inner(&here, keys, visit),
+                Kind::Named(keys, _) => inner(&format!("{here}.NAME"), keys, visit),
+                Kind::Choice(variants) => {
+                    for variant in variants {
+                        inner(&format!("{here}.{}", variant.name), variant.keys, visit);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+    inner("", SCENE, visit);
+}
+
+/// The tables in which a key of this name is at home, to help a user who typed it elsewhere.
+pub(crate) fn homes(name: &str) -> Vec<String> {
+    let mut homes = Vec::new();
+    walk(&mut |path, keys| {
+        if find(keys, name).is_some() {
+            homes.push(if path.is_empty() { "the top of the file".to_string() } else { format!("[{path}]") });
+        }
+    });
+    homes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    fn every(check: &mut dyn FnMut(&str, &Key)) {
+        walk(&mut |path, keys| {
+            for key in keys {
+                check(&format!("{path}.{}", key.name), key);
+            }
+        });
+    }
+
+    #[test]
+    fn names_are_kebab_case_and_told_once() {
+        walk(&mut |path, keys| {
+            let mut seen = BTreeSet::new();
+            for key in keys {
+                assert!(key.name.chars().all(|c| c.is_ascii_lowercase() || c == '-'), "{path}.{}", key.name);
+                assert!(seen.insert(key.name), "{path}.{} twice", key.name);
+            }
+        });
+    }
+
+    #[test]
+    fn every_key_is_explained_in_one_sentence() {
+        every(&mut |path, key| {
+            assert!(!key.about.is_empty() && !key.about.ends_with('.'), "{path}: {}", key.about);
+            assert!(!key.about.contains('\n') && !key.about.contains('|'), "{path}: {}", key.about);
+        });
+    }
+
+    #[test]
+    fn rivals_exist_and_name_each_other() {
+        walk(&mut |path, keys| {
+            for key in keys {
+                for rival in key.rivals {
+                    let other = find(keys, rival).unwrap_or_else(|| panic!("{path}.{}: no {rival}", key.name));
+                    assert!(other.rivals.contains(&key.name), "{path}.{rival} does not name {}", key.name);
+                }
+            }
+        });
+    }
+}

@@ -1,0 +1,156 @@
+//! The scene reference page, made from the table of keys.
+
+use crate::keys::{self, Key, Kind, Need, Variant};
+use crate::suggest;
+use crate::units::DIMENSIONS;
+use std::fmt::Write as _;
+
+const HEAD: &str = "\
+# Scene reference
+
+<!-- Generated from the table of keys in crates/tsubu-scene/src/keys; do not edit. -->
+
+A scene is one TOML file. Every key it can hold is on this page.
+
+**Quantities** are numbers in SI units, or text with a unit: `0.006` or `\"6 mm\"`, `\"123.4 N/m\"`, `\"2650 kg/m^3\"`. Units
+are built with products (`N s/m` or `N.s/m`), quotients and powers (`m/s^2`). Text without a unit is an error.
+
+**Vectors** have two entries [x, z] in the plane (`dimension = 2`) and three [x, y, z] in space; x runs to the right, z up.
+**Directions** are `\"x\"`, `\"-z\"` and so on, or a vector of any length.
+
+**Choices** are made by the name of a table: `[contact.normal.hertz]`, or `normal.hertz = {}` inside `[contact]`. Only one of
+the tables of a choice can be given.
+
+NAME stands for a name of your own. A value can be changed from the command line without touching the file:
+`--set particles.balls.count=30`, `--set contact.damping.quarter={}`.
+
+A key without a default is required, unless its default is \"none\".
+
+";
+
+/// The page in Markdown.
+pub fn reference() -> String {
+    let mut page = String::from(HEAD);
+    let _ = writeln!(page, "## Top of the file\n");
+    rows(&mut page, keys::SCENE);
+    for key in keys::SCENE {
+        section(&mut page, key, "", 2);
+    }
+    page.push_str("## Units\n\n| quantity | units |\n|---|---|\n");
+    for dimension in DIMENSIONS.iter().filter(|dimension| !dimension.si.is_empty()) {
+        let units: Vec<String> = dimension.units.iter().map(|unit| format!("`{unit}`")).collect();
+        let _ = writeln!(page, "| {} | {} |", dimension.name, units.join(", "));
+    }
+    page
+}
+
+/// The tables below a key, each with a heading of its own.
+fn section(page: &mut String, key: &'static Key, path: &str, level: usize) {
+    let here = if path.is_empty() { key.name.to_string() } else { format!("{path}.{}", key.name) };
+    let hashes = "#".repeat(level.min(4));
+    let (heading, about, keys) = match key.kind {
+        Kind::Table(keys) => (format!("[{here}]"), key.about, keys),
+        Kind::Named(keys, about) => (format!("[{here}.NAME]"), about, keys),
+        Kind::Many(keys) => (format!("[[{here}]]"), key.about, keys),
+        Kind::Choice(variants) => {
+            choices(page, key, variants, &here, &hashes);
+            return;
+        }
+        _ => return,
+    };
+    let _ = writeln!(page, "{hashes} `{heading}`\n\n{about}.\n");
+    rows(page, keys);
+    let inner = heading.trim_matches(['[', ']']);
+    for key in keys {
+        section(page, key, inner, level + 1);
+    }
+}
+
+fn choices(page: &mut String, key: &Key, variants: &'static [Variant], here: &str, hashes: &str) {
+    let _ = writeln!(page, "{hashes} Choice `{here}`\n\n{}.\n", key.about);
+    for variant in variants {
+        let _ = writeln!(page, "- `{}`: {}", variant.name, variant.about);
+    }
+    page.push('\n');
+    for variant in variants.iter().filter(|variant| !variant.keys.is_empty()) {
+        let _ = writeln!(page, "Keys of `[{here}.{}]`:\n", variant.name);
+        rows(page, variant.keys);
+        for key in variant.keys {
+            if matches!(key.kind, Kind::Many(_)) {
+                section(page, key, &format!("{here}.{}", variant.name), 4);
+            }
+        }
+    }
+}
+
+fn rows(page: &mut String, keys: &[Key]) {
+    page.push_str("| key | value | default | meaning |\n|---|---|---|---|\n");
+    for key in keys {
+        let range = key.range.words().map(|words| format!(", {words}")).unwrap_or_default();
+        let _ =
+            writeln!(page, "| `{}` | {}{range} | {} | {} |", key.name, value(key), default(key), key.about);
+    }
+    page.push('\n');
+}
+
+/// What the value is, in a few words.
+fn value(key: &Key) -> String {
+    match key.kind {
+        Kind::Quantity(dimension) if dimension.si.is_empty() => "number".to_string(),
+        Kind::Quantity(dimension) => format!("{} [{}]", bare_name(dimension.name), dimension.si),
+        Kind::Whole => "whole number".to_string(),
+        Kind::Text => "text".to_string(),
+        Kind::Flag => "`true` or `false`".to_string(),
+        Kind::OneOf(words) => {
+            words.iter().map(|word| format!("`\"{}\"` ({})", word.name, word.about)).collect::<Vec<_>>().join(", ")
+        }
+        Kind::Vector(dimension) => format!("vector [{}], or `\"origin\"`", dimension.si),
+        Kind::Vectors(dimension) => format!("list of vectors [{}]", dimension.si),
+        Kind::Spins => "list of spins [rad/s]".to_string(),
+        Kind::Direction => "direction".to_string(),
+        Kind::Gravity => "acceleration or vector [m/s^2]".to_string(),
+        Kind::Quantities(dimension) => format!("list [{}]", dimension.si),
+        Kind::Matrix(dimension) => format!("square matrix [{}]", dimension.si),
+        Kind::Ratios => "list, or `{ from, to, step }`".to_string(),
+        Kind::Name(family) => format!("name of a {}", family.noun()),
+        Kind::NamePair => "two material names".to_string(),
+        Kind::Table(_) => "table".to_string(),
+        Kind::Named(..) => "named tables".to_string(),
+        Kind::Many(_) => "list of tables".to_string(),
+        Kind::Choice(variants) => format!("choice of {}", suggest::list(variants.iter().map(|variant| variant.name))),
+        Kind::Vary => "quoted keys with lists".to_string(),
+    }
+}
+
+fn default(key: &Key) -> String {
+    match key.need {
+        Need::Required => "required".to_string(),
+        Need::Optional => "none".to_string(),
+        Need::Default("{}" | "[]" | "''") => "empty".to_string(),
+        Need::Default(text) => format!("`{}`", text.replace('\'', "\"")),
+        Need::Word(word) => format!("`\"{word}\"`"),
+        Need::Derived(text) => text.to_string(),
+    }
+}
+
+/// The length, not a length.
+fn bare_name(name: &str) -> &str {
+    name.trim_start_matches("an ").trim_start_matches("a ")
+}
+
+/// A key in one line of plain text, as an editor shows it when the pointer rests on the key.
+pub(crate) fn describe(key: &Key) -> String {
+    let range = key.range.words().map(|words| format!("; {words}")).unwrap_or_default();
+    let value = match key.kind {
+        Kind::Quantity(dimension) if !dimension.si.is_empty() => {
+            format!(" ({} in {}, or text such as {})", bare_name(dimension.name), dimension.si, dimension.examples_text())
+        }
+        _ => String::new(),
+    };
+    let default = match key.need {
+        Need::Derived(text) => format!("; default: {text}"),
+        Need::Word(word) => format!("; default: \"{word}\""),
+        _ => String::new(),
+    };
+    format!("{}{value}{range}{default}", key.about)
+}

@@ -1,0 +1,366 @@
+//! Single values: quantities, words, vectors, lists, names.
+
+use super::Resolver;
+use crate::complaint::Complaint;
+use crate::keys::{Family, Key, Kind, Need, Word};
+use crate::node::{Node, Value};
+use crate::suggest;
+use crate::units::{self, ACCELERATION, Dimension, NUMBER, SPIN};
+
+/// Enough for any curve; guards against `step = 1e-12`.
+const MOST_RATIOS: f64 = 10_000.0;
+
+impl Resolver<'_> {
+    pub(super) fn leaf(&mut self, key: &'static Key, node: &Node) -> Option<toml::Value> {
+        if let (Need::Word(word), Value::Text(text)) = (key.need, &node.value)
+            && text == word
+        {
+            return None;
+        }
+        match key.kind {
+            Kind::Quantity(dimension) => self.ranged(key, node, dimension).map(toml::Value::Float),
+            Kind::Whole => self.whole(key, node),
+            Kind::Text => match &node.value {
+                Value::Text(text) => Some(toml::Value::String(text.clone())),
+                _ => self.wrong_kind(key, node, "text in quotes", None),
+            },
+            Kind::Flag => match node.value {
+                Value::Flag(flag) => Some(toml::Value::Boolean(flag)),
+                _ => self.wrong_kind(key, node, "true or false", None),
+            },
+            Kind::OneOf(words) => self.one_of(key, words, node),
+            Kind::Vector(dimension) => self.vector(key, node, dimension).map(vector_value),
+            Kind::Vectors(dimension) => {
+                self.list(key, node, "a list of vectors", |me, item| me.vector(key, item, dimension).map(vector_value))
+            }
+            Kind::Spins => self.list(key, node, "a list of spins", |me, item| me.spin(key, item).map(vector_value)),
+            Kind::Direction => self.direction(key, node).map(vector_value),
+            Kind::Gravity => match node.value {
+                Value::List(_) => self.vector(key, node, &ACCELERATION).map(vector_value),
+                // Not -g: that would turn no gravity into a negative zero.
+                _ => self.ranged(key, node, &ACCELERATION).map(|g| vector_value([0.0, 0.0, 0.0 - g])),
+            },
+            Kind::Quantities(dimension) => self.quantities(key, node, dimension),
+            Kind::Matrix(dimension) => self.matrix(key, node, dimension),
+            Kind::Ratios => self.ratios(key, node),
+            Kind::Name(family) => self.name(key, family, node),
+            Kind::NamePair => self.name_pair(key, node),
+            Kind::Vary => self.vary(key, node),
+            Kind::Table(_) | Kind::Named(..) | Kind::Many(_) | Kind::Choice(_) => None,
+        }
+    }
+
+    fn wrong_kind(&mut self, key: &Key, node: &Node, needs: &str, example: Option<String>) -> Option<toml::Value> {
+        let mut complaint = Complaint::new(format!("`{}` needs {needs}, not {}", key.name, node.kind()))
+            .at(&node.place, format!("this is {}", node.kind()));
+        if let Some(example) = example {
+            complaint = complaint.hint(format!("for example {example}"));
+        }
+        self.complain(complaint);
+        None
+    }
+
+    fn quantity(&mut self, key: &Key, node: &Node, dimension: &Dimension) -> Option<f64> {
+        match &node.value {
+            Value::Number(number) if number.is_finite() => Some(*number),
+            Value::Whole(whole) => Some(*whole as f64),
+            Value::Number(_) => {
+                self.complain(
+                    Complaint::new(format!("`{}` is not a finite number", key.name))
+                        .at(&node.place, format!("needs {}", dimension.name)),
+                );
+                None
+            }
+            Value::Text(text) => match units::read(text, dimension) {
+                Ok(value) => Some(value),
+                Err(error) => {
+                    let title = format!("`{}`: {}", key.name, error.title);
+                    let word = match key.need {
+                        Need::Word(word) => vec![format!("or the word \"{word}\"")],
+                        _ => Vec::new(),
+                    };
+                    self.complain(Complaint::new(title).at(&node.place, error.label).hints(error.hints).hints(word));
+                    None
+                }
+            },
+            _ => {
+                self.wrong_kind(key, node, dimension.name, Some(dimension.examples_text()));
+                None
+            }
+        }
+    }
+
+    fn ranged(&mut self, key: &Key, node: &Node, dimension: &Dimension) -> Option<f64> {
+        let value = self.quantity(key, node, dimension)?;
+        self.in_range(key, node, value, dimension.name).then_some(value)
+    }
+
+    fn in_range(&mut self, key: &Key, node: &Node, value: f64, what: &str) -> bool {
+        let inside = key.range.holds(value);
+        if let (false, Some(words)) = (inside, key.range.words()) {
+            self.complain(
+                Complaint::new(format!("`{}` must be {words}", key.name)).at(&node.place, format!("needs {what} {words}")),
+            );
+        }
+        inside
+    }
+
+    fn whole(&mut self, key: &Key, node: &Node) -> Option<toml::Value> {
+        let Value::Whole(whole) = node.value else {
+            return match node.value {
+                Value::Number(_) => self.wrong_kind(key, node, "a whole number", None),
+                _ => self.wrong_kind(key, node, "a whole number", Some("10, without quotes".to_string())),
+            };
+        };
+        self.in_range(key, node, whole as f64, "a whole number").then_some(toml::Value::Integer(whole))
+    }
+
+    fn one_of(&mut self, key: &Key, words: &'static [Word], node: &Node) -> Option<toml::Value> {
+        let names = || words.iter().map(|word| word.name);
+        let Value::Text(text) = &node.value else {
+            return self.wrong_kind(key, node, &format!("one of {}", suggest::list(names())), None);
+        };
+        if names().any(|name| name == text) {
+            return Some(toml::Value::String(text.clone()));
+        }
+        let mut complaint =
+            Complaint::new(format!("unknown `{}`: `{text}`", key.name)).at(&node.place, "not one of the words known here");
+        if let Some(near) = suggest::nearest(text, names()) {
+            complaint = complaint.hint(format!("did you mean \"{near}\"?"));
+        }
+        let lines = words.iter().map(|word| format!("\"{}\": {}", word.name, word.about));
+        self.complain(complaint.hints(lines));
+        None
+    }
+
+    fn list(
+        &mut self,
+        key: &Key,
+        node: &Node,
+        needs: &str,
+        mut item: impl FnMut(&mut Self, &Node) -> Option<toml::Value>,
+    ) -> Option<toml::Value> {
+        let Value::List(nodes) = &node.value else {
+            return self.wrong_kind(key, node, needs, None);
+        };
+        // Look at every item before giving up: all complaints at once.
+        let values: Vec<Option<toml::Value>> = nodes.iter().map(|node| item(self, node)).collect();
+        values.into_iter().collect::<Option<Vec<_>>>().map(toml::Value::Array)
+    }
+
+    fn quantities(&mut self, key: &Key, node: &Node, dimension: &Dimension) -> Option<toml::Value> {
+        let needs = format!("a list; each entry is {}", dimension.name);
+        self.list(key, node, &needs, |me, item| me.ranged(key, item, dimension).map(toml::Value::Float))
+    }
+
+    fn matrix(&mut self, key: &Key, node: &Node, dimension: &Dimension) -> Option<toml::Value> {
+        let rows = self.list(key, node, "a matrix, a list of rows", |me, row| me.quantities(key, row, dimension))?;
+        let sizes: Vec<usize> = rows.as_array()?.iter().filter_map(toml::Value::as_array).map(Vec::len).collect();
+        if sizes.is_empty() || sizes.iter().any(|size| *size != sizes.len()) {
+            self.complain(
+                Complaint::new(format!("`{}` is not a square matrix", key.name))
+                    .at(&node.place, format!("rows: {}, their lengths: {sizes:?}", sizes.len())),
+            );
+            return None;
+        }
+        Some(rows)
+    }
+
+    /// Two entries [x, z] in the plane, three in space; y is there but zero in the plane.
+    fn vector(&mut self, key: &Key, node: &Node, dimension: &Dimension) -> Option<[f64; 3]> {
+        let form = if self.dimension == Some(3) { "[x, y, z]" } else { "[x, z]" };
+        if matches!(&node.value, Value::Text(text) if text == "origin") {
+            return Some([0.0; 3]);
+        }
+        let Value::List(items) = &node.value else {
+            self.wrong_kind(key, node, &format!("a vector {form}"), None);
+            return None;
+        };
+        let entries: Vec<Option<f64>> = items.iter().map(|item| self.quantity(key, item, dimension)).collect();
+        let entries: Vec<f64> = entries.into_iter().collect::<Option<_>>()?;
+        let complaint = match (entries.as_slice(), self.dimension) {
+            (&[x, z], Some(2) | None) => return Some([x, 0.0, z]),
+            (&[x, y, z], Some(3) | None) => return Some([x, y, z]),
+            (&[x, y, z], _) if y == 0.0 => return Some([x, y, z]),
+            ([_, y, _], _) => Complaint::new(format!("`{}` leaves the plane", key.name))
+                .at(&node.place, format!("y is {y}, but the scene has dimension 2"))
+                .hint("write [x, z], or set dimension = 3"),
+            ([_, _], _) => Complaint::new(format!("`{}` needs three entries in space", key.name))
+                .at(&node.place, "two entries, but the scene has dimension 3")
+                .hint("write [x, y, z], or set dimension = 2"),
+            (other, _) => Complaint::new(format!("`{}` needs a vector {form}", key.name))
+                .at(&node.place, format!("this list has {} entries", other.len())),
+        };
+        self.complain(complaint);
+        None
+    }
+
+    fn spin(&mut self, key: &Key, node: &Node) -> Option<[f64; 3]> {
+        let Value::List(items) = &node.value else {
+            if self.dimension == Some(3) {
+                self.wrong_kind(key, node, "a vector [x, y, z] in space", Some("[0, 10, 0]".to_string()));
+                return None;
+            }
+            return self.quantity(key, node, &SPIN).map(|about_y| [0.0, about_y, 0.0]);
+        };
+        let entries: Vec<Option<f64>> = items.iter().map(|item| self.quantity(key, item, &SPIN)).collect();
+        let entries: Vec<f64> = entries.into_iter().collect::<Option<_>>()?;
+        match (entries.as_slice(), self.dimension) {
+            (&[x, y, z], Some(3) | None) => Some([x, y, z]),
+            (&[x, y, z], _) if x == 0.0 && z == 0.0 => Some([x, y, z]),
+            _ => {
+                self.complain(
+                    Complaint::new(format!("`{}` does not fit the dimension of the scene", key.name))
+                        .at(&node.place, "not a spin")
+                        .hint("in the plane a spin is a number (about y), in space a vector [x, y, z]"),
+                );
+                None
+            }
+        }
+    }
+
+    fn direction(&mut self, key: &Key, node: &Node) -> Option<[f64; 3]> {
+        if let Value::Text(text) = &node.value {
+            let (sign, axis) = match text.strip_prefix(['-', '+']) {
+                Some(axis) => (if text.starts_with('-') { -1.0 } else { 1.0 }, axis),
+                None => (1.0, text.as_str()),
+            };
+            match axis {
+                "x" => return Some([sign, 0.0, 0.0]),
+                "y" if self.dimension != Some(2) => return Some([0.0, sign, 0.0]),
+                "z" => return Some([0.0, 0.0, sign]),
+                _ => {}
+            }
+            let axes = if self.dimension == Some(2) { "\"x\", \"-x\", \"z\", \"-z\"" } else { "\"x\", \"y\", \"z\" with or without -" };
+            self.complain(
+                Complaint::new(format!("`{}`: `{text}` is not a direction", key.name))
+                    .at(&node.place, "not an axis here")
+                    .hint(format!("write {axes} or a vector")),
+            );
+            return None;
+        }
+        let vector = self.vector(key, node, &NUMBER)?;
+        let largest = vector.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        if largest == 0.0 {
+            self.complain(Complaint::new(format!("`{}` has no direction", key.name)).at(&node.place, "all entries are 0"));
+            return None;
+        }
+        // Scaled first, so that squares of tiny and huge entries neither vanish nor overflow.
+        let scaled = vector.map(|x| x / largest);
+        let length = scaled.iter().map(|x| x * x).sum::<f64>().sqrt();
+        // A unit vector is kept as it is: dividing once more would move its last bit on every round trip.
+        if (length * largest - 1.0).abs() < 1e-12 { Some(vector) } else { Some(scaled.map(|x| x / length)) }
+    }
+
+    fn ratios(&mut self, key: &Key, node: &Node) -> Option<toml::Value> {
+        const FORM: &str = "a list of numbers, or { from = 0.85, to = 1.15, step = 0.01 }";
+        let (values, place) = match &node.value {
+            Value::List(_) => {
+                let list = self.quantities(key, node, &NUMBER)?;
+                (list.as_array()?.iter().filter_map(toml::Value::as_float).collect::<Vec<f64>>(), &node.place)
+            }
+            Value::Table(table) => {
+                let mut ends = [0.0; 3];
+                for (end, name) in ends.iter_mut().zip(["from", "to", "step"]) {
+                    let Some(entry) = table.get(name) else {
+                        self.complain(
+                            Complaint::new(format!("`{}` has no `{name}`", key.name)).at(&node.place, format!("needs `{name}`")).hint(FORM),
+                        );
+                        return None;
+                    };
+                    *end = self.quantity(key, entry, &NUMBER)?;
+                }
+                if let Some(extra) = table.entries.iter().find(|entry| !["from", "to", "step"].contains(&entry.key.as_str())) {
+                    self.complain(
+                        Complaint::new(format!("unknown key `{}` in `{}`", extra.key, key.name))
+                            .at(&extra.place, "not a key here")
+                            .hint("keys here: `from`, `to`, `step`"),
+                    );
+                    return None;
+                }
+                let [from, to, step] = ends;
+                let steps = ((to - from) / step).round();
+                if !(step > 0.0 && to >= from && steps < MOST_RATIOS) {
+                    self.complain(
+                        Complaint::new(format!("`{}` does not lead from {from} to {to}", key.name))
+                            .at(&node.place, format!("with steps of {step}"))
+                            .hint(format!("`step` must be above 0, `to` at least `from`, and there can be {MOST_RATIOS} values at most")),
+                    );
+                    return None;
+                }
+                // 0.85 + 7 * 0.01 is 0.9199999999999999; nobody means that.
+                let tidy = |x: f64| format!("{x:.12e}").parse().unwrap_or(x);
+                ((0..=steps as usize).map(|i| tidy(from + i as f64 * step)).filter(|x| *x <= to + 1e-9 * step).collect(), &node.place)
+            }
+            _ => return self.wrong_kind(key, node, FORM, None),
+        };
+        let rising = values.windows(2).all(|pair| pair[0] < pair[1]);
+        if values.is_empty() || values[0] <= 0.0 || !rising {
+            let label = if values.is_empty() { "the list is empty" } else { "numbers above 0, each larger than the one before" };
+            self.complain(Complaint::new(format!("`{}` needs rising numbers above 0", key.name)).at(place, label));
+            return None;
+        }
+        Some(toml::Value::Array(values.into_iter().map(toml::Value::Float).collect()))
+    }
+
+    fn name(&mut self, key: &Key, family: Family, node: &Node) -> Option<toml::Value> {
+        let Value::Text(text) = &node.value else {
+            return self.wrong_kind(key, node, &format!("the name of a {} in quotes", family.noun()), None);
+        };
+        let known = self.names(family);
+        if known.contains(&text.as_str()) {
+            return Some(toml::Value::String(text.clone()));
+        }
+        let (noun, table) = (family.noun(), family.table());
+        let mut complaint =
+            Complaint::new(format!("unknown {noun} `{text}`")).at(&node.place, format!("not in [{table}]"));
+        if let Some(near) = suggest::nearest(text, known.iter().copied()) {
+            complaint = complaint.hint(format!("did you mean `{near}`?"));
+        }
+        let complaint = if known.is_empty() {
+            complaint.hint(format!("this scene has no {table}: add [{table}.NAME]"))
+        } else {
+            complaint.hint(format!("{table} here: {}", suggest::list(known)))
+        };
+        self.complain(complaint);
+        None
+    }
+
+    fn name_pair(&mut self, key: &Key, node: &Node) -> Option<toml::Value> {
+        let names = self.list(key, node, "two material names in a list", |me, item| me.name(key, Family::Material, item))?;
+        if names.as_array().is_some_and(|names| names.len() == 2) {
+            return Some(names);
+        }
+        self.complain(Complaint::new(format!("`{}` needs two names", key.name)).at(&node.place, "[\"one\", \"other\"]"));
+        None
+    }
+
+    /// Only the form is checked here; whether the scene takes the values is tried once the scene itself is right.
+    fn vary(&mut self, key: &'static Key, node: &Node) -> Option<toml::Value> {
+        let mut varied = toml::Table::new();
+        for entry in &self.expect_table(key, node)?.entries {
+            let complaint = match &entry.node.value {
+                Value::List(items) if !items.is_empty() => {
+                    if let Some(list) = entry.node.plain() {
+                        varied.insert(entry.key.clone(), list);
+                        continue;
+                    }
+                    Complaint::new("a date is no value of any key").at(&entry.node.place, "there is a date in this list")
+                }
+                Value::List(_) => Complaint::new(format!("no values for `{}`", entry.key)).at(&entry.node.place, "the list is empty"),
+                Value::Table(_) => Complaint::new("a varied key must be in quotes")
+                    .at(&entry.place, "without quotes the points make tables")
+                    .hint("for example \"particles.balls.count\" = [10, 30, 50]"),
+                _ => Complaint::new(format!("`{}` needs a list of values", entry.key))
+                    .at(&entry.node.place, format!("this is {}", entry.node.kind()))
+                    .hint("for example \"particles.balls.count\" = [10, 30, 50]"),
+            };
+            self.complain(complaint);
+        }
+        Some(varied.into())
+    }
+}
+
+fn vector_value(vector: [f64; 3]) -> toml::Value {
+    toml::Value::Array(vector.into_iter().map(toml::Value::Float).collect())
+}

@@ -1,0 +1,182 @@
+//! The scene: what was typed, and the plan it means.
+
+use crate::change;
+use crate::check::check;
+use crate::complaint::{Complaint, Complaints, Source};
+use crate::files::{self, Files};
+use crate::node::{self, Node};
+use crate::plan::Plan;
+use crate::resolve;
+use crate::write;
+use std::path::Path;
+
+/// A scene that is right: its text and its plan.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    typed: Typed,
+    plan: Plan,
+}
+
+/// Everything the plan is made from.
+#[derive(Clone, Debug)]
+struct Typed {
+    name: String,
+    text: String,
+    /// `key.path=value`, in the order given; a later one wins.
+    changes: Vec<String>,
+    files: Files,
+}
+
+impl Scene {
+    /// Reads a scene file and applies changes of the form `key.path=value`.
+    pub fn read(path: &Path, changes: &[String]) -> Result<Self, Complaints> {
+        let name = path.display().to_string();
+        let text = files::read_text(path).map_err(|reason| {
+            let complaint = Complaint::new(format!("cannot read the scene `{name}`: {reason}"))
+                .hint("`tsubu new --list` shows scenes to begin with");
+            Complaints::new(Vec::new(), vec![complaint])
+        })?;
+        Self::parse(&name, &text, path.parent().unwrap_or(Path::new("")), changes)
+    }
+
+    /// The same for a text; `folder` is where files named in it are looked for.
+    pub fn parse(name: &str, text: &str, folder: &Path, changes: &[String]) -> Result<Self, Complaints> {
+        let typed = Typed {
+            name: name.to_string(),
+            text: text.to_string(),
+            changes: changes.to_vec(),
+            files: Files::new(folder),
+        };
+        Self::new(typed, true)
+    }
+
+    /// This scene with some keys changed, as sweeps and responses do for each of their cases.
+    pub fn with(&self, changes: &[(&str, &toml::Value)]) -> Result<Self, Complaints> {
+        let mut typed = self.typed.clone();
+        typed.changes.extend(changes.iter().map(|(path, value)| change_text(path, value)));
+        // What is varied was tried when this scene was read.
+        Self::new(typed, false)
+    }
+
+    fn new(mut typed: Typed, try_varied: bool) -> Result<Self, Complaints> {
+        let mut work = Work::begin(&typed);
+        let mut files = typed.files.clone();
+        let plan = work.plan(&mut files, try_varied, &typed);
+        typed.files = files;
+        match plan {
+            Some(plan) if work.complaints.is_empty() => Ok(Self { typed, plan }),
+            _ => Err(Complaints::new(work.sources, work.complaints)),
+        }
+    }
+
+    /// What the scene means.
+    pub const fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// What was typed, without the changes.
+    pub fn text(&self) -> &str {
+        &self.typed.text
+    }
+
+    /// The name the scene was read under.
+    pub fn name(&self) -> &str {
+        &self.typed.name
+    }
+
+    /// The scene in SI numbers with every default written out; read again it gives the same plan, bit by bit.
+    pub fn resolved_toml(&self) -> String {
+        write::to_toml(&self.plan)
+    }
+}
+
+/// One reading of a scene.
+struct Work {
+    sources: Vec<Source>,
+    root: Node,
+    complaints: Vec<Complaint>,
+}
+
+impl Work {
+    /// Parses the text and applies the changes.
+    fn begin(typed: &Typed) -> Self {
+        let (mut root, mut complaints) = node::parse(&typed.text, 0);
+        let mut sources = vec![Source { name: typed.name.clone(), text: typed.text.clone(), numbered: true }];
+        for text in &typed.changes {
+            let source = sources.len();
+            sources.push(Source { name: "--set".to_string(), text: text.clone(), numbered: false });
+            complaints.extend(change::apply(&mut root, text, source).err());
+        }
+        Self { sources, root, complaints }
+    }
+
+    fn plan(&mut self, files: &mut Files, try_varied: bool, typed: &Typed) -> Option<Plan> {
+        let broken = !self.complaints.is_empty();
+        let (mut resolved, complaints) = resolve::resolve(&self.root, broken);
+        self.complaints.extend(complaints);
+        // What follows looks for what is missing, and would complain about the consequences of broken syntax.
+        if broken {
+            return None;
+        }
+        self.complaints.extend(resolve::derive(&mut resolved, &self.root, files, &mut self.sources));
+        self.complaints.extend(check(&resolved, &self.root));
+        if !self.complaints.is_empty() {
+            self.check_varied_paths();
+            return None;
+        }
+        let plan = match toml::Value::Table(resolved).try_into::<Plan>() {
+            Ok(plan) => plan,
+            Err(error) => {
+                self.complaints.push(
+                    Complaint::new(format!("the scene passed every check but makes no plan: {}", error.message()))
+                        .hint("this is a mistake in tsubu: please report it with the scene"),
+                );
+                return None;
+            }
+        };
+        if try_varied {
+            self.try_varied(&plan, typed, files);
+        }
+        Some(plan)
+    }
+
+    /// While the scene itself is wrong, only the paths of what is varied can be judged.
+    fn check_varied_paths(&mut self) {
+        for family in ["response", "sweep"] {
+            let Some(varied) = self.root.find(&[family, "vary"]).and_then(Node::table) else { continue };
+            for entry in &varied.entries {
+                let change = format!("{}=0", entry.key);
+                if let Err(complaint) = change::apply(&mut self.root.clone(), &change, 0) {
+                    self.complaints.push(cannot_vary(&entry.key, complaint.title()).at(&entry.place, "varied here"));
+                }
+            }
+        }
+    }
+
+    /// Resolves the scene once with every value that a study will give it, so that no case fails an hour later.
+    fn try_varied(&mut self, plan: &Plan, typed: &Typed, files: &Files) {
+        let response = plan.response.iter().map(|response| ("response", &response.vary));
+        let sweep = plan.sweep.iter().map(|sweep| ("sweep", &sweep.vary));
+        for (family, vary) in response.chain(sweep) {
+            for (path, values) in vary {
+                for (index, value) in values.iter().enumerate() {
+                    let mut case = typed.clone();
+                    case.files = files.clone();
+                    case.changes.push(change_text(path, value));
+                    let Err(complaints) = Scene::new(case, false) else { continue };
+                    let place = self.root.locate(&[family, "vary", path, &index.to_string()]);
+                    let title = complaints.titles().next().unwrap_or_default();
+                    self.complaints.push(cannot_vary(&format!("{path} = {value}"), title).at(&place, "varied here"));
+                }
+            }
+        }
+    }
+}
+
+fn cannot_vary(what: &str, why: &str) -> Complaint {
+    Complaint::new(format!("cannot vary `{what}`: {why}"))
+}
+
+fn change_text(path: &str, value: &toml::Value) -> String {
+    format!("{path}={value}")
+}

@@ -1,0 +1,162 @@
+//! The plan as a scene file: what goes into the run folder.
+//!
+//! Written along the registry, so that it reads like a scene typed by a careful person: tables in the usual order,
+//! units in comments, choices without parameters on one line. Numbers are written with the fewest digits that read
+//! back to the same double.
+
+use crate::keys::{self, Key, Kind, Need};
+use crate::plan::Plan;
+use crate::units::Dimension;
+use std::fmt::Write as _;
+use toml::Value;
+
+/// Longer lists are broken into one line for each entry.
+const LINE: usize = 100;
+
+/// The plan as a scene: SI numbers and every default. Reading it gives the same plan, bit by bit.
+pub fn to_toml(plan: &Plan) -> String {
+    let mut out = String::from("# Every value of the run, defaults included; numbers are in SI units.\n");
+    // A plan is plain data with string keys; there is nothing in it that TOML cannot hold.
+    let Ok(Value::Table(table)) = Value::try_from(plan) else { return out };
+    keys_of(&mut out, keys::SCENE, &table, "");
+    out
+}
+
+/// First what stands on lines of this table, then the tables below it: TOML knows no way back up.
+fn keys_of(out: &mut String, keys: &'static [Key], table: &toml::Table, path: &str) {
+    for key in keys {
+        match (table.get(key.name), key.kind) {
+            (None, _) => {
+                if let Need::Word(word) = key.need {
+                    let _ = writeln!(out, "{} = {}", key.name, quote(word));
+                }
+            }
+            (Some(value), Kind::Choice(_)) => {
+                if let Some(variant) = empty_choice(value) {
+                    let _ = writeln!(out, "{}.{variant} = {{}}", key.name);
+                }
+            }
+            (Some(_), Kind::Table(_) | Kind::Named(..) | Kind::Many(_) | Kind::Vary) => {}
+            (Some(value), kind) => {
+                let _ = write!(out, "{} = {}", key.name, text(value, true));
+                match unit(kind) {
+                    Some(unit) if !unit.is_empty() => {
+                        let _ = writeln!(out, " # {unit}");
+                    }
+                    _ => out.push('\n'),
+                }
+            }
+        }
+    }
+    for key in keys {
+        let Some(value) = table.get(key.name) else { continue };
+        let here = join(path, key.name);
+        match (key.kind, value) {
+            (Kind::Table(inner), Value::Table(table)) => section(out, inner, table, &here),
+            (Kind::Named(inner, _), Value::Table(named)) => {
+                for (name, value) in named {
+                    if let Value::Table(table) = value {
+                        section(out, inner, table, &join(&here, name));
+                    }
+                }
+            }
+            (Kind::Many(inner), Value::Array(list)) => {
+                for table in list.iter().filter_map(Value::as_table) {
+                    let _ = writeln!(out, "\n[[{here}]]");
+                    keys_of(out, inner, table, &here);
+                }
+            }
+            (Kind::Choice(variants), Value::Table(choice)) if empty_choice(value).is_none() => {
+                for variant in variants {
+                    if let Some(Value::Table(table)) = choice.get(variant.name) {
+                        section(out, variant.keys, table, &join(&here, variant.name));
+                    }
+                }
+            }
+            (Kind::Vary, Value::Table(varied)) => {
+                let _ = writeln!(out, "\n[{here}]");
+                for (path, values) in varied {
+                    let _ = writeln!(out, "{} = {}", quote(path), text(values, true));
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+fn section(out: &mut String, keys: &'static [Key], table: &toml::Table, path: &str) {
+    let _ = writeln!(out, "\n[{path}]");
+    keys_of(out, keys, table, path);
+}
+
+/// The variant of a choice that has no parameters to write.
+fn empty_choice(value: &Value) -> Option<&str> {
+    let (name, inner) = value.as_table()?.iter().next()?;
+    inner.as_table()?.is_empty().then_some(name)
+}
+
+const fn unit(kind: Kind) -> Option<&'static str> {
+    let dimension: &Dimension = match kind {
+        Kind::Quantity(dimension)
+        | Kind::Vector(dimension)
+        | Kind::Vectors(dimension)
+        | Kind::Quantities(dimension)
+        | Kind::Matrix(dimension) => dimension,
+        Kind::Gravity => &crate::units::ACCELERATION,
+        Kind::Spins => &crate::units::SPIN,
+        _ => return None,
+    };
+    Some(dimension.si)
+}
+
+fn text(value: &Value, may_break: bool) -> String {
+    match value {
+        Value::String(text) => quote(text),
+        Value::Integer(whole) => whole.to_string(),
+        // The shortest digits that read back to the same double; an exponent for the very small and large.
+        Value::Float(number) => format!("{number:?}"),
+        Value::Boolean(flag) => flag.to_string(),
+        Value::Datetime(date) => date.to_string(),
+        Value::Array(items) => {
+            let items: Vec<String> = items.iter().map(|item| text(item, false)).collect();
+            let line = format!("[{}]", items.join(", "));
+            if !may_break || line.len() <= LINE {
+                return line;
+            }
+            let lines: Vec<String> = items.iter().map(|item| format!("    {item},\n")).collect();
+            format!("[\n{}]", lines.concat())
+        }
+        Value::Table(table) => {
+            let entries: Vec<String> =
+                table.iter().map(|(key, value)| format!("{} = {}", bare(key), text(value, false))).collect();
+            format!("{{ {} }}", entries.join(", "))
+        }
+    }
+}
+
+fn join(path: &str, name: &str) -> String {
+    if path.is_empty() { bare(name) } else { format!("{path}.{}", bare(name)) }
+}
+
+/// A key, quoted only if it must be.
+fn bare(name: &str) -> String {
+    let plain = !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'-' || b == b'_');
+    if plain { name.to_string() } else { quote(name) }
+}
+
+fn quote(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            '\n' => out.push_str("\\n"),
+            c if c.is_control() => {
+                let _ = write!(out, "\\u{:04X}", u32::from(c));
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}

@@ -1,0 +1,62 @@
+//! One binary for all integration tests of the crate: it links once.
+
+/// What a user reads when a scene is wrong; snapshots of whole messages.
+mod messages;
+/// What scenes mean: values, defaults, choices.
+mod meaning;
+/// `--set` and programmatic changes.
+mod changes;
+/// No text makes the reader panic.
+mod robust;
+/// The resolved scene, the schema, the reference page, the templates.
+mod products;
+
+use std::path::Path;
+use tsubu_scene::{Complaints, Scene};
+
+/// A small scene that is right; tests change a piece of it.
+const GOOD: &str = r#"title = "Two groups"
+duration = "1 s"
+gravity = "10 m/s^2"
+
+[materials.acrylic]
+young-modulus = "0.5 GPa"
+restitution = 0.75
+
+[materials.glass]
+young-modulus = "60 GPa"
+density = "2500 kg/m^3"
+
+[particles.balls]
+material = "acrylic"
+count = 20
+diameter = "6 mm"
+mass = "0.2 g"
+
+[walls.box]
+material = "glass"
+host = "spring"
+shape.box = { width = "60 mm", height = "96 mm" }
+
+[hosts.spring]
+structure.oscillator = { mass = "86 g", stiffness = "123.4 N/m", damping = "0.08 N s/m" }
+base.sine = { amplitude = "0.5 mm", frequency = "6 Hz" }
+"#;
+
+fn read(text: &str, changes: &[&str]) -> Result<Scene, Complaints> {
+    let changes: Vec<String> = changes.iter().map(ToString::to_string).collect();
+    Scene::parse("scene.toml", text, Path::new("/nowhere"), &changes)
+}
+
+/// The good scene with one piece replaced.
+fn edited(from: &str, to: &str) -> String {
+    assert!(GOOD.contains(from), "the good scene has no `{from}`");
+    GOOD.replacen(from, to, 1)
+}
+
+fn complaint(text: &str, changes: &[&str]) -> String {
+    match read(text, changes) {
+        Ok(_) => panic!("expected complaints about:\n{text}"),
+        Err(complaints) => complaints.to_string(),
+    }
+}

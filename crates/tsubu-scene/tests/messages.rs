@@ -1,0 +1,231 @@
+use crate::{GOOD, complaint, edited, read};
+use std::fs;
+use std::path::Path;
+use tsubu_scene::Scene;
+
+/// The message about the good scene with one piece replaced.
+fn about(from: &str, to: &str) -> String {
+    complaint(&edited(from, to), &[])
+}
+
+/// The message about a scene whose base follows `motion.csv` with the given content.
+fn about_table(csv: Option<&str>) -> String {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    if let Some(csv) = csv {
+        fs::write(folder.path().join("motion.csv"), csv).expect("written");
+    }
+    let text = edited("base.sine = { amplitude = \"0.5 mm\", frequency = \"6 Hz\" }", "base.table = { file = \"motion.csv\" }");
+    Scene::parse("scene.toml", &text, folder.path(), &[]).expect_err("the table is wrong").to_string()
+}
+
+const AT: &str = "mass = \"0.2 g\"\nstart.at = { position = [[0, \"10 mm\"], [0, \"14 mm\"], [0, \"30 mm\"]] }";
+
+#[test]
+fn misspelt_key() {
+    insta::assert_snapshot!(about("restitution", "restituion"));
+}
+
+#[test]
+fn key_in_the_wrong_table() {
+    insta::assert_snapshot!(about("count = 20", "count = 20\nfriction = 0.5"));
+}
+
+#[test]
+fn wrong_unit() {
+    insta::assert_snapshot!(about("\"6 mm\"", "\"6 kg\""));
+}
+
+#[test]
+fn unknown_unit() {
+    insta::assert_snapshot!(about("\"6 mm\"", "\"6 mn\""));
+}
+
+#[test]
+fn missing_unit() {
+    insta::assert_snapshot!(about("\"6 mm\"", "\"6\""));
+}
+
+#[test]
+fn ambiguous_unit() {
+    insta::assert_snapshot!(about("0.08 N s/m", "0.08 kg m/s m"));
+}
+
+#[test]
+fn negative_mass() {
+    insta::assert_snapshot!(about("\"0.2 g\"", "\"-0.2 g\""));
+}
+
+#[test]
+fn restitution_above_one() {
+    insta::assert_snapshot!(about("0.75", "1.2"));
+}
+
+#[test]
+fn missing_keys() {
+    insta::assert_snapshot!(about("diameter = \"6 mm\"\nmass = \"0.2 g\"", ""));
+}
+
+#[test]
+fn mass_not_known() {
+    insta::assert_snapshot!(about("mass = \"0.2 g\"", ""));
+}
+
+#[test]
+fn overlapping_balls() {
+    insta::assert_snapshot!(complaint(&edited("mass = \"0.2 g\"", AT).replace("count = 20\n", ""), &[]));
+}
+
+#[test]
+fn ball_outside_the_box() {
+    let text = edited("mass = \"0.2 g\"", AT).replace("count = 20\n", "").replace("\"30 mm\"", "\"300 mm\"");
+    insta::assert_snapshot!(complaint(&text.replace("\"14 mm\"", "\"20 mm\""), &[]));
+}
+
+#[test]
+fn count_is_not_the_number_of_positions() {
+    insta::assert_snapshot!(complaint(&edited("mass = \"0.2 g\"", AT).replace("\"14 mm\"", "\"20 mm\""), &[]));
+}
+
+#[test]
+fn more_balls_than_fit() {
+    insta::assert_snapshot!(about("count = 20", "count = 161"));
+}
+
+#[test]
+fn no_box_to_start_in() {
+    insta::assert_snapshot!(about("shape.box = { width = \"60 mm\", height = \"96 mm\" }", "shape.plane = {}"));
+}
+
+#[test]
+fn unknown_material() {
+    insta::assert_snapshot!(about("\"acrylic\"\ncount", "\"acryllic\"\ncount"));
+}
+
+#[test]
+fn host_and_motion() {
+    let motion = "host = \"spring\"\nmotion.signal.sine = { amplitude = 0.01, frequency = 6 }";
+    insta::assert_snapshot!(about("host = \"spring\"", motion));
+}
+
+#[test]
+fn choice_with_two_variants() {
+    insta::assert_snapshot!(complaint(&format!("{GOOD}\n[contact]\ndamping.quarter = {{}}\ndamping.linear = {{}}\n"), &[]));
+}
+
+#[test]
+fn choice_with_unknown_variant() {
+    insta::assert_snapshot!(complaint(&format!("{GOOD}\n[contact]\nnormal.herz = {{}}\n"), &[]));
+}
+
+#[test]
+fn choice_as_text() {
+    insta::assert_snapshot!(complaint(&format!("{GOOD}\n[contact]\nnormal = \"hertz\"\n"), &[]));
+}
+
+#[test]
+fn unknown_word() {
+    insta::assert_snapshot!(complaint(&format!("method = \"lattic\"\n{GOOD}"), &[]));
+}
+
+#[test]
+fn plane_vector_in_space() {
+    let text = edited("height = \"96 mm\"", "height = \"96 mm\", depth = \"6 mm\", floor-centre = [0, 0]");
+    insta::assert_snapshot!(complaint(&format!("dimension = 3\n{text}"), &[]));
+}
+
+#[test]
+fn matrix_without_energy() {
+    let structure = "structure.matrices = { mass = [[1, 0], [0, 1]], damping = [[0, 0], [1, 0]], stiffness = [[1, -1], [-1, 1]] }";
+    let typed = "structure.oscillator = { mass = \"86 g\", stiffness = \"123.4 N/m\", damping = \"0.08 N s/m\" }";
+    insta::assert_snapshot!(about(typed, structure));
+}
+
+#[test]
+fn response_without_a_sine() {
+    let text = edited("base.sine = { amplitude = \"0.5 mm\", frequency = \"6 Hz\" }", "displacement = \"1 mm\"");
+    insta::assert_snapshot!(complaint(&format!("{text}\n[response]\nfrequency-ratio = [1]\n"), &[]));
+}
+
+#[test]
+fn varied_values_that_the_scene_does_not_take() {
+    let sweep = r#"
+[sweep.vary]
+"particles.balls.count" = [10, 1000]
+"particles.balls.diametre" = ["5 mm"]
+"materials.acrylic.friction" = ["0.5 mm"]
+"#;
+    insta::assert_snapshot!(complaint(&format!("{GOOD}{sweep}"), &[]));
+}
+
+#[test]
+fn varied_key_without_quotes() {
+    insta::assert_snapshot!(complaint(&format!("{GOOD}\n[sweep.vary]\nparticles.balls.count = [10]\n"), &[]));
+}
+
+#[test]
+fn claim_without_bounds() {
+    insta::assert_snapshot!(complaint(&format!("{GOOD}\n[[claim]]\nresult = \"peak\"\nsource = \"theory\"\n"), &[]));
+}
+
+#[test]
+fn unreadable_table() {
+    insta::assert_snapshot!(about_table(None));
+}
+
+#[test]
+fn not_a_number_in_a_table() {
+    insta::assert_snapshot!(about_table(Some("time [s],displacement [mm]\n0.0,0.0\n0.1,NaN\n0.2,0.5\n")));
+}
+
+#[test]
+fn words_and_falling_time_in_a_table() {
+    insta::assert_snapshot!(about_table(Some("time,value\n0.0,0.0\n0.2,lots\n0.3,1\n0.1,1\n0.4,1,2\n")));
+}
+
+#[test]
+fn wrong_unit_in_the_header_of_a_table() {
+    insta::assert_snapshot!(about_table(Some("time [s],force [N]\n0.0,0.0\n0.2,1\n")));
+}
+
+#[test]
+fn several_errors_at_once() {
+    let text = GOOD
+        .replace("duration", "durration")
+        .replace("\"0.2 g\"", "\"-0.2 g\"")
+        .replace("material = \"glass\"", "material = \"glas\"")
+        .replace("\"123.4 N/m\"", "\"123.4 N\"");
+    insta::assert_snapshot!(complaint(&text, &["particles.balls.diameter=6 g"]));
+}
+
+#[test]
+fn broken_syntax_and_a_wrong_value() {
+    insta::assert_snapshot!(about("count = 20\ndiameter = \"6 mm\"", "count = \ndiameter = \"6 kg\"\nmass = = 3"));
+}
+
+#[test]
+fn bad_changes() {
+    let changes = ["particles.balls.count", "particles.bals.count=3", "contact.damping.quart={}", "=3", "dem.skin=", "seed={"];
+    insta::assert_snapshot!(complaint(GOOD, &changes));
+}
+
+#[test]
+fn a_change_out_of_range() {
+    insta::assert_snapshot!(complaint(GOOD, &["particles.balls.mass = -1 g"]));
+}
+
+#[test]
+fn missing_scene_file() {
+    insta::assert_snapshot!(Scene::read(Path::new("no-such-scene.toml"), &[]).expect_err("there is none"));
+}
+
+#[test]
+fn an_empty_scene_says_what_it_needs() {
+    insta::assert_snapshot!(complaint("", &[]));
+}
+
+#[test]
+fn colours_only_when_asked_for() {
+    let complaints = read("", &[]).expect_err("empty");
+    assert!(!complaints.render(false).contains('\u{1b}'));
+    assert!(complaints.render(true).contains('\u{1b}'));
+}

@@ -1,0 +1,157 @@
+use crate::{GOOD, read};
+use std::path::Path;
+use tsubu_scene::{Plan, Scene, TEMPLATES, keys, reference, schema};
+
+fn again(plan: &Plan, text: &str) -> Plan {
+    let scene = Scene::parse("run/scene.toml", text, Path::new("/nowhere"), &[]);
+    let scene = scene.unwrap_or_else(|complaints| panic!("{complaints}\n{text}"));
+    assert_eq!(scene.resolved_toml(), text, "writing it again changes nothing");
+    assert_eq!(scene.plan(), plan);
+    scene.plan().clone()
+}
+
+/// A scene that says something about nearly every key.
+const EVERYTHING: &str = r#"
+title = "quotes \" and \\ and \u0007"
+method = "lattice"
+seed = 9223372036854775807
+duration = 0.1
+gravity = ["1 mm/s^2", -9.81]
+speed-scale = "1 m/s"
+material-pair = [{ between = ["a", "b c"], friction = 0.6 }]
+
+[materials.a]
+young-modulus = 1e300
+poisson-ratio = -0.3333333333333333
+density = 1e-300
+[materials."b c"]
+young-modulus = "3 GPa"
+
+[particles.first]
+material = "a"
+diameter = "0.1 mm"
+start.at = { position = [[0.1, 0.3], [0.2, "1/3 m"]], spin = ["95 rpm", 0.1] }
+[particles.second]
+material = "a"
+count = 7
+diameter = 3.3e-3
+mass = "0.7 mg"
+start.rows = { spacing = 1.1 }
+
+[walls.box]
+material = "b c"
+shape.box = { width = 1, height = 0.7, floor-centre = [0.05, 0] }
+motion = { direction = [1, 2], signal.sine-sweep = { amplitude = 0.01, from = 1, to = 10, duration = 3 } }
+[walls.below]
+material = "a"
+shape.plane = { point = [0, -1], normal = [0.1, 1] }
+
+[hosts.one]
+structure.oscillator = { mass = 0.1, stiffness = 3, damping-ratio = 0.1 }
+base.sine = { amplitude = 0.001, frequency = 3, phase = "40 deg" }
+[hosts.two]
+structure.matrices = { mass = [[2, 0], [0, 1]], damping = [[0.1, 0], [0, 0.1]], stiffness = [[3, -1], [-1, 2]], coordinate = 1 }
+force.impact = { peak = "3 N", duration = "2 ms" }
+[hosts.three]
+structure.modes.mode = [{ frequency = 3, damping-ratio = 0.01, mass = 0.2 }, { frequency = 7, damping-ratio = 0.02, mass = 0.1, shape = -0.3 }]
+base.table = { time = [0, "10 ms", 0.3], value = [0, "1 mm", 0] }
+
+[contact]
+normal.hooke.stiffness = "1 kN/m"
+damping.sqrt = {}
+tangential.coulomb = {}
+rolling.constant = {}
+attraction = true
+
+[dem]
+time-step = "20 us"
+integrator = "forward-euler"
+
+[response]
+host = "one"
+frequency-ratio = { from = 0.7, to = 1.3, step = 0.05 }
+vary = { "particles.second.diameter" = ["3 mm", 0.0031], "contact.attraction" = [true, false] }
+
+[sweep.vary]
+"contact.damping" = [{ quarter = {} }, { linear = { reference-speed = "2 m/s" } }]
+
+[output]
+frame-interval = 0.01
+xyz = true
+
+[[claim]]
+result = "peak"
+low = 0.1
+source = "theory"
+[[claim]]
+result = "impacts"
+high = 2
+source = "theory"
+"#;
+
+#[test]
+fn resolved_scenes_mean_the_same_bit_by_bit() {
+    let everything = EVERYTHING.replace("\"1/3 m\"", "0.3333333333333333");
+    for text in [GOOD, &everything].into_iter().chain(TEMPLATES.iter().map(|template| template.text)) {
+        let scene = read(text, &[]).unwrap_or_else(|complaints| panic!("{complaints}"));
+        let plan = again(scene.plan(), &scene.resolved_toml());
+        assert_eq!(format!("{plan:?}"), format!("{:?}", scene.plan()), "signs of zero too");
+    }
+}
+
+#[test]
+fn the_resolved_form_reads_well() {
+    insta::assert_snapshot!(read(GOOD, &[]).expect("good").resolved_toml());
+}
+
+#[test]
+fn every_field_of_the_plan_is_a_key_and_is_written() {
+    // What is not in the registry would be lost in the run folder; comparing the trees finds it.
+    let everything = EVERYTHING.replace("\"1/3 m\"", "0.3333333333333333");
+    let scene = read(&everything, &[]).unwrap_or_else(|complaints| panic!("{complaints}"));
+    let of_plan = toml::Value::try_from(scene.plan()).expect("plain data");
+    let mut written: toml::Table = scene.resolved_toml().parse().expect("valid");
+    written.retain(|_, value| value.as_table().is_none_or(|table| !table.is_empty()));
+    assert_eq!(toml::Value::Table(written), of_plan);
+}
+
+#[test]
+fn templates_are_right_and_named_once() {
+    let mut names: Vec<&str> = TEMPLATES.iter().map(|template| template.name).collect();
+    for template in TEMPLATES {
+        let scene = read(template.text, &[]).unwrap_or_else(|complaints| panic!("{}: {complaints}", template.name));
+        assert!(!scene.plan().title.is_empty());
+        assert!(template.text.lines().all(|line| line.len() <= 120), "{} has long lines", template.name);
+    }
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), TEMPLATES.len());
+}
+
+#[test]
+fn the_damper_runs_by_both_methods() {
+    for method in ["dem", "lattice"] {
+        let scene = read(TEMPLATES[0].text, &[&format!("method={method}")]).unwrap_or_else(|complaints| panic!("{complaints}"));
+        let response = scene.plan().response.as_ref().expect("a response");
+        assert_eq!(response.frequency_ratio.len(), 31);
+        assert_eq!(response.vary["particles.balls.count"].len(), 4);
+    }
+}
+
+#[test]
+fn the_schema_names_every_key() {
+    let text = schema().to_string();
+    for key in keys::SCENE {
+        assert!(text.contains(&format!("\"{}\"", key.name)), "{}", key.name);
+    }
+    assert_eq!(schema()["$schema"], "https://json-schema.org/draft/2020-12/schema");
+    insta::assert_snapshot!(serde_json::to_string_pretty(&schema()["properties"]["walls"]).expect("json"));
+}
+
+#[test]
+fn the_reference_page_has_a_section_for_every_table() {
+    let page = reference();
+    for heading in ["## `[materials.NAME]`", "## `[[claim]]`", "### Choice `contact.damping`", "`[hosts.NAME.structure.oscillator]`"] {
+        assert!(page.contains(heading), "{heading}");
+    }
+}
