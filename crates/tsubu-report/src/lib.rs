@@ -1,1 +1,88 @@
-//! placeholder
+//! The picture: figures, particle images, animations and the self-contained report page.
+//!
+//! It reads what a run left in its folder and nothing else: [`build`] makes a [`page::Report`] of it, [`report`]
+//! writes that as `report.html`, with the figures beside it.
+
+use std::path::{Path, PathBuf};
+
+use tsubu_frame::FileError;
+use tsubu_frame::folder::write_atomically;
+
+pub mod animation;
+pub mod balls;
+pub mod colour;
+mod compare;
+pub mod figure;
+mod moments;
+pub mod page;
+mod plot;
+pub mod raster;
+mod response;
+mod run;
+mod source;
+pub mod strip;
+pub mod text;
+mod verify;
+
+use page::Report;
+use source::Source;
+
+/// A folder of which no report can be made.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// There is no such folder.
+    #[error("{} is not a folder", path.display())]
+    NoFolder {
+        /// What was asked for.
+        path: PathBuf,
+    },
+    /// It holds nothing that tsubu writes.
+    #[error(
+        "{} holds no results: none of summary.json, history.csv, response.csv, compare.json, verify.json or frames/ is in it",
+        path.display()
+    )]
+    NoResults {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The report could not be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+/// Writes `report.html` and `figures/` into a folder of results, whatever kind it is, and gives the page's path.
+pub fn report(dir: &Path) -> Result<PathBuf, ReportError> {
+    let (report, files) = gather(dir)?;
+    for (name, bytes) in files {
+        write_atomically(&dir.join(name), |out| out.write_all(&bytes))?;
+    }
+    let path = dir.join("report.html");
+    write_atomically(&path, |out| out.write_all(report.to_html().as_bytes()))?;
+    Ok(path)
+}
+
+/// What the report of a folder says, without writing anything.
+pub fn build(dir: &Path) -> Result<Report, ReportError> {
+    gather(dir).map(|(report, _)| report)
+}
+
+type Files = Vec<(String, Vec<u8>)>;
+
+fn gather(dir: &Path) -> Result<(Report, Files), ReportError> {
+    if !dir.is_dir() {
+        return Err(ReportError::NoFolder { path: dir.to_owned() });
+    }
+    let mut source = Source::new(dir);
+    let report = if source.has("verify.json") {
+        verify::build(&mut source)
+    } else if source.has("compare.json") || source.has("compare.csv") {
+        compare::build(&mut source)
+    } else if source.has("response.csv") {
+        response::build(&mut source)
+    } else if ["summary.json", "history.csv", "frames"].iter().any(|name| source.has(name)) {
+        run::build(&mut source)
+    } else {
+        return Err(ReportError::NoResults { path: dir.to_owned() });
+    };
+    Ok((report, source.files))
+}

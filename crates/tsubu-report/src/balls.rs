@@ -1,0 +1,197 @@
+//! Particle pictures: what is to be drawn of a frame, and how large.
+
+use tsubu_frame::{Frame, Kind, Values};
+
+/// What the colour of a grain tells.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum ColourBy {
+    /// Its speed.
+    #[default]
+    Speed,
+    /// Any column of real numbers.
+    Column(String),
+    /// A value a grain given from outside, such as its height at the start, with its name and unit.
+    Given(String, String, Vec<f64>),
+}
+
+/// From where one looks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum View {
+    /// Onto the plane if all grains lie in one, slantwise from above (z up) otherwise.
+    #[default]
+    Auto,
+    /// Against z: x to the right, y up.
+    Front,
+    /// Along y: x to the right, z up.
+    Side,
+    /// Slantwise from above, z up.
+    Slant,
+}
+
+/// How pictures of a run look; one `Look` for all pictures that are to be compared.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Look {
+    /// Colour.
+    pub colour: ColourBy,
+    /// Ends of the colour scale; from the values if none.
+    pub range: Option<(f64, f64)>,
+    /// Part of the picture plane to be seen [m]: left, bottom, right, top; everything if none.
+    pub window: Option<[f64; 4]>,
+    /// Velocity arrows (in SVG pictures).
+    pub arrows: bool,
+    /// Viewpoint.
+    pub view: View,
+}
+
+/// The grains and walls of one moment, turned to the viewer.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Balls {
+    /// Simulated time [s].
+    pub time: f64,
+    /// Centres: to the right, up, towards the viewer [m].
+    pub centres: Vec<[f64; 3]>,
+    /// Radii [m].
+    pub radii: Vec<f64>,
+    /// Velocities, turned like the centres [m/s].
+    pub velocities: Vec<[f64; 3]>,
+    /// Values behind the colours.
+    pub values: Vec<f64>,
+    /// Name and unit of the values.
+    pub quantity: (String, String),
+    /// Closed outlines of the walls.
+    pub outlines: Vec<Vec<[f64; 3]>>,
+}
+
+impl Balls {
+    /// Takes what a picture needs from a frame.
+    pub fn of(frame: &Frame, look: &Look) -> Self {
+        let position = vectors(frame, Kind::Grain, "position");
+        let turn = turned(look.view, position);
+        let count = position.len();
+        let radii = match scalars(frame, "radius") {
+            Some(r) if r.len() == count => r.to_vec(),
+            _ => vec![fallback_radius(position); count],
+        };
+        let velocity = vectors(frame, Kind::Grain, "velocity");
+        let (quantity, values) = match &look.colour {
+            ColourBy::Speed => (
+                ("speed".to_owned(), "m/s".to_owned()),
+                velocity.iter().map(|v| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()).collect(),
+            ),
+            ColourBy::Column(name) => {
+                let unit = frame.column(Kind::Grain, name).map_or("-", |c| c.unit);
+                ((name.clone(), unit.to_owned()), scalars(frame, name).unwrap_or_default().to_vec())
+            }
+            ColourBy::Given(name, unit, values) => ((name.clone(), unit.clone()), values.clone()),
+        };
+        Self {
+            time: frame.time,
+            centres: position.iter().map(|p| turn(*p)).collect(),
+            radii,
+            velocities: velocity.iter().map(|v| turn(*v)).collect(),
+            values,
+            quantity,
+            outlines: outlines(frame).into_iter().map(|o| o.into_iter().map(&turn).collect()).collect(),
+        }
+    }
+
+    /// The rectangle that holds all grains and walls: left, bottom, right, top.
+    pub fn extent(&self) -> [f64; 4] {
+        let mut e = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+        let spheres = self.centres.iter().zip(&self.radii).map(|(c, r)| (c, *r));
+        for (c, r) in spheres.chain(self.outlines.iter().flatten().map(|c| (c, 0.0))) {
+            if c.iter().all(|x| x.is_finite()) {
+                e = [e[0].min(c[0] - r), e[1].min(c[1] - r), e[2].max(c[0] + r), e[3].max(c[1] + r)];
+            }
+        }
+        if e[0] < e[2] && e[1] < e[3] { e } else { [0.0, 0.0, 1.0, 1.0] }
+    }
+
+    /// Lowest and highest value behind the colours.
+    pub fn range(&self) -> (f64, f64) {
+        let finite = || self.values.iter().copied().filter(|v| v.is_finite());
+        let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
+        if low <= high { (low, high) } else { (0.0, 1.0) }
+    }
+
+    /// Place of a grain's value on the colour scale.
+    pub fn shade(&self, grain: usize, (low, high): (f64, f64)) -> f64 {
+        let value = self.values.get(grain).copied().unwrap_or(f64::NAN);
+        if high > low { (value - low) / (high - low) } else { value * 0.0 + 0.35 }
+    }
+}
+
+/// Settles what all the pictures of a series have in common: one window, one colour scale from zero or the lowest
+/// value to the highest.
+pub fn common(series: &[Balls], look: &Look) -> Look {
+    let mut look = look.clone();
+    if look.window.is_none() {
+        look.window = series
+            .iter()
+            .map(Balls::extent)
+            .reduce(|a, b| [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]);
+    }
+    if look.range.is_none() {
+        let joined = series.iter().map(Balls::range).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        look.range = joined.map(|(low, high)| if look.colour == ColourBy::Speed { (0.0, high) } else { (low, high) });
+    }
+    look
+}
+
+fn vectors<'a>(frame: &'a Frame, kind: Kind, name: &str) -> &'a [[f64; 3]] {
+    match frame.column(kind, name).map(|c| &c.values) {
+        Some(Values::Vector(v)) => v,
+        _ => &[],
+    }
+}
+
+fn scalars<'a>(frame: &'a Frame, name: &str) -> Option<&'a [f64]> {
+    match frame.column(Kind::Grain, name).map(|c| &c.values) {
+        Some(Values::Scalar(v)) => Some(v),
+        _ => None,
+    }
+}
+
+/// Points without a radius are drawn small against the picture.
+fn fallback_radius(position: &[[f64; 3]]) -> f64 {
+    let reach = position.iter().flatten().filter(|x| x.is_finite()).fold(0.0_f64, |a, x| a.max(x.abs()));
+    if reach > 0.0 { reach * 0.01 } else { 1e-3 }
+}
+
+fn outlines(frame: &Frame) -> Vec<Vec<[f64; 3]>> {
+    let points = vectors(frame, Kind::Surface, "position");
+    let zeros = vec![0; points.len()];
+    let index = match frame.column(Kind::Surface, "outline").map(|c| &c.values) {
+        Some(Values::Integer(v)) if v.len() == points.len() => v,
+        _ => &zeros,
+    };
+    let mut rest = points;
+    index
+        .chunk_by(|a, b| a == b)
+        .map(|group| {
+            let (outline, after) = rest.split_at(group.len());
+            rest = after;
+            outline.to_vec()
+        })
+        .collect()
+}
+
+fn turned(view: View, position: &[[f64; 3]]) -> impl Fn([f64; 3]) -> [f64; 3] + use<> {
+    let flat = position.windows(2).all(|p| p[0][2] == p[1][2]);
+    let view = match view {
+        View::Auto if flat => View::Front,
+        View::Auto => View::Slant,
+        chosen => chosen,
+    };
+    let (sin_a, cos_a) = 30.0_f64.to_radians().sin_cos();
+    let (sin_e, cos_e) = 18.0_f64.to_radians().sin_cos();
+    move |[x, y, z]| match view {
+        View::Side => [x, z, -y],
+        View::Slant => {
+            let right = x * cos_a + y * sin_a;
+            let away = -x * sin_a + y * cos_a;
+            [right, z * cos_e + away * sin_e, z * sin_e - away * cos_e]
+        }
+        View::Auto | View::Front => [x, y, z],
+    }
+}

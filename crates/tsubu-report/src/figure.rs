@@ -1,0 +1,205 @@
+//! A figure: what is to be seen, without how it is drawn.
+//!
+//! The drawing itself is one module behind this type, so that another plotting library costs one file.
+
+use crate::plot;
+
+/// An axis: what it shows and in which unit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Axis {
+    /// What is shown.
+    pub label: String,
+    /// SI unit of the numbers, `-` for none. The drawing picks a prefix (`mm`, `mJ`) that makes short numbers.
+    pub unit: String,
+    /// Logarithmic; values that are not positive are left out.
+    pub log: bool,
+}
+
+impl Axis {
+    /// A linear axis.
+    pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
+        Self { label: label.into(), unit: unit.into(), log: false }
+    }
+
+    /// The same axis, logarithmic.
+    #[must_use]
+    pub fn log(mut self) -> Self {
+        self.log = true;
+        self
+    }
+
+    /// An axis from a header cell, `name [unit]`.
+    pub fn from_header(header: &str) -> Self {
+        let (name, unit) = tsubu_frame::csv::split_unit(header);
+        Self::new(name, unit.unwrap_or("-"))
+    }
+}
+
+/// How a series is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Style {
+    /// A line.
+    #[default]
+    Line,
+    /// A dashed line.
+    Dashed,
+    /// Points alone.
+    Points,
+    /// A line through points.
+    LineAndPoints,
+}
+
+/// A named curve.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    /// Name in the legend; empty keeps it out.
+    pub name: String,
+    /// Points; those that are not finite are left out.
+    pub points: Vec<(f64, f64)>,
+    /// How it is drawn.
+    pub style: Style,
+    /// Lower and upper end of the spread at each point.
+    pub band: Option<Vec<(f64, f64)>>,
+    /// Index in the palette, if it is to share a colour with another series.
+    pub colour: Option<usize>,
+}
+
+impl Series {
+    /// A line.
+    pub fn line(name: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self { name: name.into(), points, ..Self::default() }
+    }
+
+    /// The same series in another style.
+    #[must_use]
+    pub fn styled(mut self, style: Style) -> Self {
+        self.style = style;
+        self
+    }
+
+    /// The same series with its spread.
+    #[must_use]
+    pub fn with_band(mut self, band: Vec<(f64, f64)>) -> Self {
+        self.band = Some(band);
+        self
+    }
+}
+
+/// A reference line across the figure.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Mark {
+    /// At this x, from bottom to top.
+    Vertical(f64, String),
+    /// At this y, from left to right.
+    Horizontal(f64, String),
+}
+
+/// Bars by category, one colour a part.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bars {
+    /// Names of the categories.
+    pub categories: Vec<String>,
+    /// Each part: name and one value a category.
+    pub parts: Vec<(String, Vec<f64>)>,
+    /// Parts on top of one another rather than side by side.
+    pub stacked: bool,
+    /// Categories from top to bottom, for long names.
+    pub horizontal: bool,
+}
+
+/// A figure with axes, curves or bars.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Figure {
+    /// Title; empty for none.
+    pub title: String,
+    /// Horizontal axis.
+    pub x: Axis,
+    /// Vertical axis.
+    pub y: Axis,
+    /// Curves.
+    pub series: Vec<Series>,
+    /// Reference lines.
+    pub marks: Vec<Mark>,
+    /// Bars, instead of curves.
+    pub bars: Option<Bars>,
+    /// Height of the drawing area in pixels, at a width of 760; 0 for the default.
+    pub height: u32,
+}
+
+impl Figure {
+    /// A figure with its axes.
+    pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
+        Self { title: title.into(), x, y, ..Self::default() }
+    }
+
+    /// A bar chart; `value` says what the bars measure.
+    pub fn of_bars(title: impl Into<String>, value: Axis, bars: Bars) -> Self {
+        Self { title: title.into(), y: value, bars: Some(bars), ..Self::default() }
+    }
+
+    /// Adds a curve.
+    #[must_use]
+    pub fn with(mut self, series: Series) -> Self {
+        self.series.push(series);
+        self
+    }
+
+    /// Adds a reference line.
+    #[must_use]
+    pub fn marked(mut self, mark: Mark) -> Self {
+        self.marks.push(mark);
+        self
+    }
+
+    /// Whether there is anything to see.
+    pub fn is_empty(&self) -> bool {
+        let drawn = |s: &Series| s.points.iter().any(|(x, y)| x.is_finite() && y.is_finite());
+        let bars = self.bars.as_ref().is_some_and(|b| !b.categories.is_empty() && !b.parts.is_empty());
+        !bars && !self.series.iter().any(drawn)
+    }
+
+    /// The figure as an SVG document without a background, to stand in a page of any colour.
+    pub fn to_inline_svg(&self) -> String {
+        plot::svg(self)
+    }
+
+    /// The figure as an SVG file of its own, on white.
+    pub fn to_svg(&self) -> String {
+        on_white(&self.to_inline_svg())
+    }
+}
+
+/// An SVG drawing with a white ground, for readers whose own ground is dark.
+pub(crate) fn on_white(svg: &str) -> String {
+    match svg.split_once('>') {
+        Some((head, body)) => {
+            format!("{head}><rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>{body}")
+        }
+        None => svg.to_owned(),
+    }
+}
+
+/// The factor and prefix with which values up to `largest` read as short numbers. Only units that take prefixes in
+/// practice get one.
+pub fn prefix(unit: &str, largest: f64) -> (f64, String) {
+    let takes = matches!(unit, "m" | "s" | "J" | "N" | "W" | "m/s" | "Pa" | "J/s" | "Hz");
+    if !takes || !largest.is_finite() || largest <= 0.0 {
+        return (1.0, unit.to_owned());
+    }
+    // Long times are told in seconds, great lengths in metres.
+    let steps: &[(f64, f64, &str)] = match unit {
+        "m" | "s" | "m/s" => &[(0.1, 1.0, ""), (0.5e-4, 1e3, "m"), (0.5e-7, 1e6, "µ")],
+        _ => &[
+            (1e9, 1e-9, "G"),
+            (1e6, 1e-6, "M"),
+            (1e3, 1e-3, "k"),
+            (0.5, 1.0, ""),
+            (0.5e-3, 1e3, "m"),
+            (0.5e-6, 1e6, "µ"),
+        ],
+    };
+    steps
+        .iter()
+        .find(|(from, _, _)| largest >= *from)
+        .map_or((1e9, format!("n{unit}")), |(_, factor, sign)| (*factor, format!("{sign}{unit}")))
+}

@@ -1,0 +1,201 @@
+//! Which moments of a run to show: eight of a period where one can be told, evenly spread ones otherwise.
+
+use tsubu_frame::{FileError, Kind, Snapshot, Table, Values, read_frame, snapshots};
+
+use crate::animation;
+use crate::balls::{Balls, ColourBy, Look, common};
+use crate::page::Block;
+use crate::raster;
+use crate::source::{Source, spoken};
+use crate::strip::{Panel, strip, time_label};
+use crate::text::short;
+
+const PICTURES: usize = 8;
+/// An animation of more pictures is heavier than a mail takes.
+const MOST_FRAMES: usize = 60;
+const ANIMATION_WIDTH: u32 = 420;
+/// Time a page may take for its animation sets the number of grains in it.
+const MOST_ANIMATED: usize = 200_000;
+
+/// Strip and animation of a folder's snapshots.
+pub(crate) fn blocks(source: &mut Source, history: Option<&Table>, stem: &str) -> Vec<Block> {
+    let found = match snapshots(&source.dir) {
+        Ok(found) => found,
+        Err(error) => {
+            source.notes.push(error.to_string());
+            return Vec::new();
+        }
+    };
+    if found.is_empty() {
+        return Vec::new();
+    }
+    match draw(source, history, &found, stem) {
+        Ok(blocks) => blocks,
+        Err(error) => {
+            source.notes.push(format!("The pictures are left out: {error}"));
+            Vec::new()
+        }
+    }
+}
+
+fn draw(source: &mut Source, history: Option<&Table>, found: &[Snapshot], stem: &str) -> Result<Vec<Block>, FileError> {
+    let period = history.and_then(last_period);
+    let spacing = typical_spacing(found);
+    let resolved = period.filter(|p| spacing <= p.length / 6.0);
+    let chosen = match resolved {
+        Some(p) => eighths(found, p),
+        None => evenly(found, PICTURES).into_iter().map(|i| (i, None)).collect(),
+    };
+    let look = Look::default();
+    let mut panels = Vec::new();
+    for (i, phase) in &chosen {
+        let balls = Balls::of(&read_frame(&found[*i].path)?, &look);
+        let time = time_label(found[*i].time);
+        let label = phase.map_or(time, |p: f64| format!("{p:.0}°"));
+        panels.push(Panel { arrow: motion(found, *i, &balls)?, balls, label });
+    }
+    if panels.iter().all(|p| p.arrow.is_none_or(|a| a[0].hypot(a[1]) == 0.0)) {
+        panels.iter_mut().for_each(|p| p.arrow = None);
+    }
+    let arrows = if panels.iter().any(|p| p.arrow.is_some()) { " Arrows show how the box moves." } else { "" };
+    let caption = match resolved {
+        Some(p) => format!(
+            "One period of {} from t = {} s on, in eighths; 0° is where the host passes its middle going up.{arrows}",
+            spoken(p.length, "s"),
+            short(p.start)
+        ),
+        None => format!("The run at {} moments.{arrows}", panels.len()),
+    };
+    let columns = if wide(&panels) { 4 } else { PICTURES };
+    let mut blocks = vec![source.drawing(&format!("{stem}strip"), strip(&panels, &look, columns), &caption)];
+    if found.len() > 2 && panels.iter().all(|p| p.balls.centres.len() <= MOST_ANIMATED) {
+        blocks.extend(animated(source, found, resolved.is_some(), stem)?);
+    }
+    Ok(blocks)
+}
+
+/// Eight in a row only if each is taller than wide.
+fn wide(panels: &[Panel]) -> bool {
+    let look = common(&panels.iter().map(|p| p.balls.clone()).collect::<Vec<_>>(), &Look::default());
+    look.window.is_none_or(|w| (w[2] - w[0]) > 0.6 * (w[3] - w[1]))
+}
+
+fn animated(source: &mut Source, found: &[Snapshot], periodic: bool, stem: &str) -> Result<Option<Block>, FileError> {
+    let chosen: Vec<usize> = if periodic {
+        (found.len().saturating_sub(MOST_FRAMES)..found.len()).collect()
+    } else {
+        evenly(found, MOST_FRAMES)
+    };
+    let first = read_frame(&found[0].path)?;
+    let heights = match first.column(Kind::Grain, "position").map(|c| &c.values) {
+        Some(Values::Vector(p)) => {
+            let up = if p.windows(2).all(|w| w[0][2] == w[1][2]) { 1 } else { 2 };
+            p.iter().map(|x| x[up]).collect()
+        }
+        _ => Vec::new(),
+    };
+    let mut look =
+        Look { colour: ColourBy::Given("height at the start".into(), "m".into(), heights.clone()), ..Look::default() };
+    let mut series = Vec::new();
+    for i in &chosen {
+        series.push(Balls::of(&read_frame(&found[*i].path)?, &look));
+    }
+    if series.iter().any(|b| b.centres.len() != heights.len()) {
+        // Grains came or went: the height at the start means nothing for them.
+        look.colour = ColourBy::Speed;
+        series.clear();
+        for i in &chosen {
+            series.push(Balls::of(&read_frame(&found[*i].path)?, &look));
+        }
+    }
+    let look = common(&series, &look);
+    let pictures: Vec<_> = series.iter().map(|b| raster::picture(b, &look, ANIMATION_WIDTH)).collect();
+    let Ok(bytes) = animation::gif(&pictures, 15.0) else { return Ok(None) };
+    source.files.push((format!("figures/{stem}animation.gif"), bytes.clone()));
+    if let Some(last) = series.last() {
+        let png = raster::picture(last, &look, 2 * ANIMATION_WIDTH).to_png();
+        source.files.push((format!("figures/{stem}last.png"), png));
+    }
+    let span = found[chosen[chosen.len() - 1]].time - found[chosen[0]].time;
+    let caption = format!("The last {} in {} pictures.", spoken(span, "s"), chosen.len());
+    let caption = if periodic { caption } else { caption.replace("The last", "The whole run of") };
+    Ok(Some(Block::Picture { media: "image/gif", bytes, caption }))
+}
+
+/// How far the walls move from this snapshot to the next, in the picture plane.
+fn motion(found: &[Snapshot], i: usize, balls: &Balls) -> Result<Option<[f64; 2]>, FileError> {
+    let (other, sign) = if i + 1 < found.len() { (i + 1, 1.0) } else { (i.saturating_sub(1), -1.0) };
+    if other == i || balls.outlines.is_empty() {
+        return Ok(None);
+    }
+    let next = Balls::of(&read_frame(&found[other].path)?, &Look::default());
+    let middle = |b: &Balls| {
+        let points: Vec<_> = b.outlines.iter().flatten().collect();
+        let n = points.len().max(1) as f64;
+        [points.iter().map(|p| p[0]).sum::<f64>() / n, points.iter().map(|p| p[1]).sum::<f64>() / n]
+    };
+    let (a, b) = (middle(balls), middle(&next));
+    let dt = (next.time - balls.time).abs();
+    Ok((dt > 0.0).then(|| [sign * (b[0] - a[0]) / dt, sign * (b[1] - a[1]) / dt]))
+}
+
+/// A period of the host's motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Period {
+    pub start: f64,
+    pub length: f64,
+}
+
+/// The column of a host's displacement.
+pub(crate) fn host_columns(history: &Table) -> Vec<usize> {
+    let is_host = |h: &String| h.starts_with("host") && h.contains("displacement");
+    history.header.iter().enumerate().filter(|(_, h)| is_host(h)).map(|(i, _)| i).collect()
+}
+
+/// The last whole period of the first host's displacement, from one upward passage of its middle to the next.
+pub(crate) fn last_period(history: &Table) -> Option<Period> {
+    let column = *host_columns(history).first()?;
+    let points: Vec<(f64, f64)> = history
+        .rows
+        .iter()
+        .filter_map(|r| Some((r[0].number()?, r[column].number()?)))
+        .filter(|p| p.0.is_finite() && p.1.is_finite())
+        .collect();
+    let late = &points[points.len() / 2..];
+    let (low, high) = late.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.1), h.max(p.1)));
+    let middle = f64::midpoint(low, high);
+    let passages: Vec<f64> = late
+        .windows(2)
+        .filter(|w| w[0].1 < middle && w[1].1 >= middle)
+        .map(|w| w[0].0 + (w[1].0 - w[0].0) * (middle - w[0].1) / (w[1].1 - w[0].1))
+        .collect();
+    let [.., start, end] = passages.as_slice() else { return None };
+    (high - low > 0.0 && end > start).then_some(Period { start: *start, length: end - start })
+}
+
+fn typical_spacing(found: &[Snapshot]) -> f64 {
+    match found {
+        [.., a, b] => b.time - a.time,
+        _ => f64::INFINITY,
+    }
+}
+
+/// The snapshots nearest to the eighths of a period.
+fn eighths(found: &[Snapshot], period: Period) -> Vec<(usize, Option<f64>)> {
+    (0..PICTURES)
+        .filter_map(|k| {
+            let part = k as f64 / PICTURES as f64;
+            let wanted = period.start + part * period.length;
+            let near = |i: &usize| (found[*i].time - wanted).abs();
+            let i = (0..found.len()).min_by(|a, b| near(a).total_cmp(&near(b)))?;
+            Some((i, Some(360.0 * part)))
+        })
+        .collect()
+}
+
+fn evenly(found: &[Snapshot], count: usize) -> Vec<usize> {
+    if found.len() <= count {
+        return (0..found.len()).collect();
+    }
+    (0..count).map(|k| k * (found.len() - 1) / (count - 1)).collect()
+}

@@ -1,0 +1,216 @@
+//! Particle pictures in pixels: shaded spheres, any number, no display needed.
+
+use std::sync::{Arc, OnceLock};
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree, fontdb};
+
+use crate::balls::{Balls, Look, common};
+use crate::colour;
+use crate::plot::{AXIS, INK};
+use crate::strip::{colour_bar, time_label};
+use crate::text::escape;
+
+/// Each pixel is the mean of this many squared.
+const FINE: usize = 3;
+
+/// A picture in pixels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Image {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// Red, green, blue, alpha of each pixel, row by row from the top; alpha not multiplied in.
+    pub rgba: Vec<u8>,
+}
+
+impl Image {
+    /// An image of one colour.
+    pub fn filled(width: u32, height: u32, colour: [u8; 4]) -> Self {
+        let pixels = width as usize * height as usize;
+        Self { width, height, rgba: colour.repeat(pixels) }
+    }
+
+    /// The image as a PNG file.
+    pub fn to_png(&self) -> Vec<u8> {
+        let mut out = Vec::new();
+        let mut encoder = png::Encoder::new(&mut out, self.width, self.height);
+        encoder.set_color(png::ColorType::Rgba);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::Balanced);
+        // Writing to memory fails only on sizes that do not fit; an empty file then says so to its reader.
+        let written = encoder.write_header().and_then(|mut w| w.write_image_data(&self.rgba));
+        if written.is_err() {
+            out.clear();
+        }
+        out
+    }
+
+    /// Lays a picture over this one.
+    pub fn put(&mut self, over: &Self, left: u32, top: u32) {
+        for y in 0..over.height.min(self.height.saturating_sub(top)) {
+            for x in 0..over.width.min(self.width.saturating_sub(left)) {
+                let from = 4 * (y as usize * over.width as usize + x as usize);
+                let to = 4 * ((y + top) as usize * self.width as usize + (x + left) as usize);
+                let alpha = f32::from(over.rgba[from + 3]) / 255.0;
+                for k in 0..3 {
+                    let (a, b) = (f32::from(self.rgba[to + k]), f32::from(over.rgba[from + k]));
+                    self.rgba[to + k] = (a + (b - a) * alpha).round() as u8;
+                }
+                self.rgba[to + 3] = self.rgba[to + 3].max(over.rgba[from + 3]);
+            }
+        }
+    }
+}
+
+/// The whole picture on white: spheres, walls, time and colour scale. The height follows from the window.
+pub fn picture(balls: &Balls, look: &Look, width: u32) -> Image {
+    let look = common(std::slice::from_ref(balls), look);
+    let w = look.window.unwrap_or([0.0, 0.0, 1.0, 1.0]);
+    let margin = 0.03 * (w[2] - w[0]).max(w[3] - w[1]);
+    let (across, up) = (w[2] - w[0] + 2.0 * margin, w[3] - w[1] + 2.0 * margin);
+    let width = width.max(16);
+    let inner = ((f64::from(width) * up / across).round() as u32).clamp(16, 8 * width);
+    let footer = 52;
+    let mut image = Image::filled(width, inner + footer, [255; 4]);
+    image.put(&spheres(balls, &look, width, inner), 0, 0);
+    let scale = f64::from(width) / across;
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{}\" font-family=\"Ubuntu\" fill=\"{INK}\">",
+        inner + footer
+    );
+    for outline in &balls.outlines {
+        let points: Vec<String> = outline
+            .iter()
+            .map(|p| {
+                let x = (p[0] - w[0] + margin) * scale;
+                let y = f64::from(inner) - (p[1] - w[1] + margin) * scale;
+                format!("{x:.2},{y:.2}")
+            })
+            .collect();
+        svg.push_str(&format!(
+            "<polygon points=\"{}\" fill=\"none\" stroke=\"{AXIS}\" stroke-width=\"1.6\"/>",
+            points.join(" ")
+        ));
+    }
+    svg.push_str(&format!(
+        "<text x=\"10\" y=\"{}\" font-size=\"13\">{}</text>",
+        inner + 24,
+        escape(&time_label(balls.time))
+    ));
+    let range = look.range.unwrap_or((0.0, 1.0));
+    let middle = (f64::from(width) - 145.0).max(f64::from(width) / 2.0);
+    colour_bar(&mut svg, &balls.quantity, range, [middle, f64::from(inner) + 14.0], "scale");
+    svg.push_str("</svg>");
+    if let Some(over) = from_svg(&svg, 1.0) {
+        image.put(&over, 0, 0);
+    }
+    image
+}
+
+/// The spheres alone, on nothing, filling `width` by `height` pixels with the window of the look and its margin.
+pub fn spheres(balls: &Balls, look: &Look, width: u32, height: u32) -> Image {
+    let w = look.window.unwrap_or_else(|| balls.extent());
+    let range = look.range.unwrap_or_else(|| balls.range());
+    let (width, height) = (width.clamp(1, 8192) as usize, height.clamp(1, 8192) as usize);
+    let margin = 0.03 * (w[2] - w[0]).max(w[3] - w[1]);
+    let fine = if width * height > 4_000_000 { 1 } else { FINE };
+    let (fw, fh) = (width * fine, height * fine);
+    let scale = fw as f64 / (w[2] - w[0] + 2.0 * margin);
+    let mut depth = vec![f32::NEG_INFINITY; fw * fh];
+    let mut colours = vec![[0_u8; 3]; fw * fh];
+    for (i, (c, r)) in balls.centres.iter().zip(&balls.radii).enumerate() {
+        if !c.iter().all(|x| x.is_finite()) || !r.is_finite() {
+            continue;
+        }
+        let base = colour::at(balls.shade(i, range));
+        let x = (c[0] - w[0] + margin) * scale;
+        let y = fh as f64 - (c[1] - w[1] + margin) * scale;
+        // A grain smaller than a pixel still shows.
+        let r = (r * scale).max(0.5);
+        let rows = span(y, r, fh);
+        for row in rows {
+            let dy = (row as f64 + 0.5 - y) / r;
+            let half = (1.0 - dy * dy).max(0.0).sqrt() * r;
+            for column in span(x, half, fw) {
+                let dx = (column as f64 + 0.5 - x) / r;
+                let dz = (1.0 - dx * dx - dy * dy).max(0.0).sqrt();
+                let z = (c[2] * scale + dz * r) as f32;
+                let at = row * fw + column;
+                if z > depth[at] {
+                    depth[at] = z;
+                    colours[at] = lit(base, dx, -dy, dz);
+                }
+            }
+        }
+    }
+    averaged(&depth, &colours, width, height, fine)
+}
+
+fn span(middle: f64, half: f64, end: usize) -> std::ops::Range<usize> {
+    let from = (middle - half).floor().clamp(0.0, end as f64) as usize;
+    let to = (middle + half).ceil().clamp(0.0, end as f64) as usize;
+    from..to
+}
+
+/// Light from the upper left, a soft edge, a small highlight.
+fn lit(base: [u8; 3], x: f64, y: f64, z: f64) -> [u8; 3] {
+    const LIGHT: [f64; 3] = [-0.43, 0.56, 0.708];
+    let facing = (x * LIGHT[0] + y * LIGHT[1] + z * LIGHT[2]).max(0.0);
+    let light = 0.42 + 0.62 * facing;
+    let shine = 70.0 * facing.powi(24);
+    let edge = if z < 0.25 { 0.72 + 1.12 * z } else { 1.0 };
+    base.map(|c| (f64::from(c) * light * edge + shine).clamp(0.0, 255.0) as u8)
+}
+
+fn averaged(depth: &[f32], colours: &[[u8; 3]], width: usize, height: usize, fine: usize) -> Image {
+    let mut rgba = Vec::with_capacity(4 * width * height);
+    let samples = (fine * fine) as u32;
+    for y in 0..height {
+        for x in 0..width {
+            let mut sum = [0_u32; 3];
+            let mut hit = 0_u32;
+            for at in (0..fine * fine).map(|k| (y * fine + k / fine) * width * fine + x * fine + k % fine) {
+                if depth[at] > f32::NEG_INFINITY {
+                    hit += 1;
+                    for k in 0..3 {
+                        sum[k] += u32::from(colours[at][k]);
+                    }
+                }
+            }
+            rgba.extend(sum.map(|s| s.checked_div(hit).unwrap_or(0) as u8));
+            rgba.push((255 * hit / samples) as u8);
+        }
+    }
+    Image { width: width as u32, height: height as u32, rgba }
+}
+
+/// Draws an SVG in pixels, with the fonts that come along; `None` if it is no SVG.
+pub fn from_svg(svg: &str, scale: f32) -> Option<Image> {
+    static FONTS: OnceLock<Arc<fontdb::Database>> = OnceLock::new();
+    let fonts = FONTS.get_or_init(|| {
+        let mut fonts = fontdb::Database::new();
+        fonts.load_font_data(epaint_default_fonts::UBUNTU_LIGHT.to_vec());
+        fonts.load_font_data(epaint_default_fonts::HACK_REGULAR.to_vec());
+        fonts.set_sans_serif_family("Ubuntu");
+        fonts.set_serif_family("Ubuntu");
+        fonts.set_monospace_family("Hack");
+        Arc::new(fonts)
+    });
+    let options = Options { fontdb: Arc::clone(fonts), font_family: "Ubuntu".into(), ..Options::default() };
+    let tree = Tree::from_str(svg, &options).ok()?;
+    let size = tree.size();
+    let (w, h) = ((size.width() * scale).ceil() as u32, (size.height() * scale).ceil() as u32);
+    let mut pixels = Pixmap::new(w, h)?;
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
+    let rgba = pixels
+        .pixels()
+        .iter()
+        .flat_map(|p| {
+            let c = p.demultiply();
+            [c.red(), c.green(), c.blue(), c.alpha()]
+        })
+        .collect();
+    Some(Image { width: w, height: h, rgba })
+}

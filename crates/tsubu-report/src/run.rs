@@ -1,0 +1,179 @@
+//! The report of one run.
+
+use tsubu_frame::{Status, Summary, Table, csv::split_unit};
+
+use crate::figure::{Axis, Figure, Series};
+use crate::moments;
+use crate::page::{Block, Report, Tone};
+use crate::source::{
+    Source, card, claims_table, cost_table, energy_blocks, method_name, quantity, result_cards, results_table, spoken,
+    summary_cards, versions,
+};
+use crate::text::{count, duration, short};
+
+/// Words that mark an energy as turned over since the start, rather than stored now.
+const TURNED_OVER: [&str; 9] = ["dissipat", "work", "loss", "lost", "damp", "input", "drag", "sliding", "rolling"];
+
+pub(crate) fn build(source: &mut Source) -> Report {
+    let summary = source.summary();
+    let history = source.table("history.csv");
+    if history.is_none() {
+        source.notes.push("There is no history.csv, so nothing is drawn over time.".into());
+    }
+    let mut report = Report {
+        kind: "Simulation run".into(),
+        title: source.title(),
+        headline: headline(summary.as_ref(), history.as_ref()),
+        verdict: Some(verdict(summary.as_ref())),
+        versions: versions(summary.as_ref()),
+        ..Report::default()
+    };
+    if let Some(summary) = &summary {
+        report.cards = summary_cards(summary);
+        report.cards.extend(host_card(history.as_ref()));
+        report.cards.extend(result_cards(summary, 4));
+    }
+    let motion = history.as_ref().map(|h| motion_blocks(source, h)).unwrap_or_default();
+    let pictures = moments::blocks(source, history.as_ref(), "");
+    let mut energy = history.as_ref().map(|h| energy_over_time(source, h)).unwrap_or_default();
+    if let Some(summary) = &summary {
+        energy.extend(energy_blocks(source, &[(summary.method.as_str(), summary)]));
+    }
+    let mut remarks = source.note_blocks();
+    for warning in summary.iter().flat_map(|s| &s.warnings) {
+        remarks.push(Block::Note(Tone::Warning, warning.clone()));
+    }
+    report.section("To be noted", remarks);
+    report.section("Motion", motion);
+    report.section("Grains", pictures);
+    report.section("Energy", energy);
+    if let Some(summary) = &summary {
+        if !summary.claims.is_empty() {
+            report.section("Claims", vec![claims_table(&summary.claims.iter().collect::<Vec<_>>())]);
+        }
+        report.section("Results", results_table(summary).into_iter().collect());
+        report.section("Cost", vec![cost_table(&[(method_name(&summary.method), summary)])]);
+    }
+    source.scene_and_verdict(&mut report);
+    report
+}
+
+fn verdict(summary: Option<&Summary>) -> (Tone, String) {
+    let Some(summary) = summary else { return (Tone::Warning, "unfinished".into()) };
+    match summary.status {
+        Status::Finished if summary.claims.iter().any(|c| !c.pass) => (Tone::Bad, "a claim failed".into()),
+        Status::Finished => (Tone::Good, "finished".into()),
+        Status::Interrupted => (Tone::Warning, "interrupted".into()),
+        Status::Failed => (Tone::Bad, "failed".into()),
+    }
+}
+
+fn headline(summary: Option<&Summary>, history: Option<&Table>) -> String {
+    let Some(s) = summary else { return "This run has left no summary; what there is, is shown.".into() };
+    let did = match s.status {
+        Status::Finished => "simulated",
+        Status::Interrupted => "simulated before the interruption",
+        Status::Failed => "simulated before it failed",
+    };
+    let mut text = format!(
+        "{} grains by {}: {} s {did}, computed in {}.",
+        count(s.particles),
+        method_name(&s.method),
+        short(s.simulated_seconds),
+        duration(s.wall_seconds)
+    );
+    if let Some((name, peak)) = history.and_then(host_peak) {
+        text.push_str(&format!(" The {name} reaches {}.", spoken(peak, "m")));
+    }
+    let residual = s.energy.residual_relative;
+    if residual.is_finite() && !s.energy.terms.is_empty() {
+        text.push_str(&format!(" The energy books close to {}.", short(residual.abs())));
+    }
+    text
+}
+
+fn host_peak(history: &Table) -> Option<(String, f64)> {
+    let column = *moments::host_columns(history).first()?;
+    let values = history.rows.iter().filter_map(|r| r[column].number()).filter(|v| v.is_finite());
+    let peak = values.fold(None, |a: Option<f64>, v| Some(a.map_or(v.abs(), |a| a.max(v.abs()))))?;
+    Some((split_unit(&history.header[column]).0.to_owned(), peak))
+}
+
+fn host_card(history: Option<&Table>) -> Option<crate::page::Card> {
+    let (name, peak) = host_peak(history?)?;
+    let (value, unit) = quantity(peak, "m");
+    Some(card("Largest host displacement", value, &unit, name, Tone::Plain))
+}
+
+fn column(history: &Table, i: usize) -> Vec<(f64, f64)> {
+    let value = |row: &[tsubu_frame::Cell], i: usize| row[i].number().unwrap_or(f64::NAN);
+    history.rows.iter().map(|r| (value(r, 0), value(r, i))).collect()
+}
+
+/// Columns that share a unit, as one figure.
+fn over_time(history: &Table, columns: &[usize], label: &str) -> Figure {
+    let unit = columns.first().and_then(|i| split_unit(&history.header[*i]).1).unwrap_or("-");
+    let mut figure = Figure::new("", Axis::new("time", "s"), Axis::new(label, unit));
+    for i in columns {
+        let name = if columns.len() == 1 { "" } else { split_unit(&history.header[*i]).0 };
+        figure = figure.with(Series::line(name, column(history, *i)));
+    }
+    figure.height = 280;
+    figure
+}
+
+fn motion_blocks(source: &mut Source, history: &Table) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    let hosts = moments::host_columns(history);
+    if !hosts.is_empty() {
+        let label = split_unit(&history.header[hosts[0]]).0.to_owned();
+        let label = if hosts.len() == 1 { label } else { "host displacement".into() };
+        let figure = over_time(history, &hosts, &label);
+        blocks.extend(source.figure("host_displacement", &figure, "Displacement of the host over the whole run."));
+        if let Some(period) = moments::last_period(history) {
+            let end = history.rows.last().and_then(|r| r[0].number()).unwrap_or(f64::NAN);
+            let from = end - 6.0 * period.length;
+            if from > history.rows[0][0].number().unwrap_or(f64::NAN) + period.length {
+                let mut close = figure;
+                for series in &mut close.series {
+                    series.points.retain(|p| p.0 >= from);
+                }
+                blocks.extend(source.figure("host_displacement_end", &close, "The last six periods of it."));
+            }
+        }
+    }
+    let others: Vec<usize> = (1..history.header.len())
+        .filter(|i| !hosts.contains(i) && split_unit(&history.header[*i]).1 != Some("J"))
+        .collect();
+    let mut inside = Vec::new();
+    for i in others.into_iter().take(12) {
+        let name = split_unit(&history.header[i]).0.to_owned();
+        let file = format!("history_{}", name.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
+        inside.extend(source.figure(&file, &over_time(history, &[i], &name), ""));
+    }
+    if blocks.is_empty() {
+        blocks = inside;
+    } else if !inside.is_empty() {
+        blocks.push(crate::source::folded("More over time", inside));
+    }
+    blocks
+}
+
+fn energy_over_time(source: &mut Source, history: &Table) -> Vec<Block> {
+    let energies = (1..history.header.len()).filter(|i| {
+        let (name, unit) = split_unit(&history.header[*i]);
+        unit == Some("J") && !name.contains("residual")
+    });
+    let (turned, stored): (Vec<usize>, Vec<usize>) =
+        energies.partition(|i| TURNED_OVER.iter().any(|w| history.header[*i].contains(w)));
+    let mut blocks = Vec::new();
+    if !stored.is_empty() {
+        let figure = over_time(history, &stored, "energy");
+        blocks.extend(source.figure("energy_stored", &figure, "Energy stored, over time."));
+    }
+    if !turned.is_empty() {
+        let figure = over_time(history, &turned, "energy");
+        blocks.extend(source.figure("energy_turned_over", &figure, "Energy turned over since the start."));
+    }
+    blocks
+}

@@ -1,0 +1,312 @@
+//! A finished folder as the reports read it: every file may be missing, and what is missing is said.
+
+use std::path::{Path, PathBuf};
+
+use tsubu_frame::{Claim, ResultValue, Summary, Table, csv::split_unit};
+
+use crate::figure::{Axis, Bars, Figure};
+use crate::page::{Block, Card, Grid, Report, Tone};
+use crate::text::{count, duration, short};
+
+/// A folder, what went amiss in reading it, and the figures made on the way.
+#[derive(Debug, Default)]
+pub(crate) struct Source {
+    pub dir: PathBuf,
+    pub notes: Vec<String>,
+    pub files: Vec<(String, Vec<u8>)>,
+}
+
+impl Source {
+    pub fn new(dir: &Path) -> Self {
+        Self { dir: dir.to_owned(), ..Self::default() }
+    }
+
+    /// A view of a folder inside, for comparisons and sweeps.
+    pub fn inside(&self, name: &str) -> Self {
+        Self::new(&self.dir.join(name))
+    }
+
+    /// The name of the folder, for titles.
+    pub fn title(&self) -> String {
+        let full = std::fs::canonicalize(&self.dir).unwrap_or_else(|_| self.dir.clone());
+        full.file_name().map_or_else(|| "tsubu".to_owned(), |n| n.to_string_lossy().into_owned())
+    }
+
+    pub fn has(&self, name: &str) -> bool {
+        self.dir.join(name).exists()
+    }
+
+    pub fn summary(&mut self) -> Option<Summary> {
+        if !self.has("summary.json") {
+            self.notes.push("There is no summary.json: the run has not ended, or was killed.".into());
+            return None;
+        }
+        Summary::read(&self.dir.join("summary.json")).map_err(|e| self.notes.push(said(&e))).ok()
+    }
+
+    pub fn table(&mut self, name: &str) -> Option<Table> {
+        if !self.has(name) {
+            return None;
+        }
+        let table = Table::read(&self.dir.join(name)).map_err(|e| self.notes.push(said(&e))).ok()?;
+        if table.rows.is_empty() {
+            self.notes.push(format!("{name} has no rows."));
+            return None;
+        }
+        Some(table)
+    }
+
+    pub fn text(&self, name: &str) -> Option<String> {
+        let bytes = std::fs::read(self.dir.join(name)).ok()?;
+        Some(String::from_utf8_lossy(&bytes).into_owned())
+    }
+
+    /// A figure on the page and as a file; nothing if there is nothing to see.
+    pub fn figure(&mut self, name: &str, figure: &Figure, caption: &str) -> Option<Block> {
+        if figure.is_empty() {
+            return None;
+        }
+        self.files.push((format!("figures/{name}.svg"), figure.to_svg().into_bytes()));
+        Some(Block::Drawing { svg: figure.to_inline_svg(), caption: caption.to_owned() })
+    }
+
+    /// The same for a ready drawing.
+    pub fn drawing(&mut self, name: &str, svg: String, caption: &str) -> Block {
+        let file = crate::figure::on_white(&svg).into_bytes();
+        self.files.push((format!("figures/{name}.svg"), file));
+        Block::Drawing { svg, caption: caption.to_owned() }
+    }
+
+    /// The notes as blocks, for the head of the page.
+    pub fn note_blocks(&mut self) -> Vec<Block> {
+        self.notes.drain(..).map(|n| Block::Note(Tone::Warning, n)).collect()
+    }
+
+    /// Scene and verdict, folded away at the end.
+    pub fn scene_and_verdict(&self, report: &mut Report) {
+        let mut blocks = Vec::new();
+        if let Some(text) = self.text("check.txt") {
+            blocks.push(folded("The verdict of `tsubu check`", vec![Block::Typed(text)]));
+        }
+        if let Some(text) = self.text("scene.toml") {
+            blocks.push(Block::Text(
+                "The scene as run, with every default written out: running it again gives the same numbers.".into(),
+            ));
+            blocks.push(folded("scene.toml", vec![Block::Typed(text)]));
+        }
+        report.section("Scene", blocks);
+    }
+}
+
+pub(crate) fn folded(summary: &str, inside: Vec<Block>) -> Block {
+    Block::Folded { summary: summary.to_owned(), inside }
+}
+
+/// The message without the path in front of the file's name: a report is mailed, its folder is not.
+fn said(error: &tsubu_frame::FileError) -> String {
+    let message = error.to_string();
+    let folder = error.path().parent().map(|p| format!("{}/", p.display())).unwrap_or_default();
+    let short = if folder.len() > 1 { message.replace(&folder, "") } else { message };
+    let mut letters = short.chars();
+    letters.next().map_or_else(String::new, |c| c.to_uppercase().chain(letters).collect())
+}
+
+pub(crate) fn card(label: &str, value: String, unit: &str, note: String, tone: Tone) -> Card {
+    Card { label: label.to_owned(), value, unit: unit.to_owned(), note, tone }
+}
+
+/// A quantity with the prefix that makes it short.
+pub(crate) fn quantity(x: f64, unit: &str) -> (String, String) {
+    let (factor, unit) = crate::figure::prefix(unit, x.abs());
+    (short(x * factor), if unit == "-" { String::new() } else { unit })
+}
+
+/// The same as one text.
+pub(crate) fn spoken(x: f64, unit: &str) -> String {
+    let (value, unit) = quantity(x, unit);
+    if unit.is_empty() { value } else { format!("{value} {unit}") }
+}
+
+/// Cards that every summary gives.
+pub(crate) fn summary_cards(summary: &Summary) -> Vec<Card> {
+    let residual = summary.energy.residual_relative;
+    let closes = if residual.abs() < 1e-3 { Tone::Good } else { Tone::Warning };
+    vec![
+        card(
+            "Grains",
+            count(summary.particles),
+            "",
+            format!("{}, {}-D", method_name(&summary.method), summary.dimension),
+            Tone::Plain,
+        ),
+        card(
+            "Simulated",
+            short(summary.simulated_seconds),
+            "s",
+            format!("{} steps of {}", count(summary.steps), spoken(summary.time_step, "s")),
+            Tone::Plain,
+        ),
+        card(
+            "Computed in",
+            duration(summary.wall_seconds),
+            "",
+            format!("{} grain-steps/s", short(summary.particle_steps_per_second)),
+            Tone::Plain,
+        ),
+        card("Energy residual", short(residual), "", "of the energy turned over".into(), closes),
+    ]
+}
+
+/// Results that are single numbers, as cards.
+pub(crate) fn result_cards(summary: &Summary, most: usize) -> Vec<Card> {
+    let numbers = summary.results.iter().filter_map(|(name, value)| match value {
+        ResultValue::Number(x) => Some((name, *x)),
+        ResultValue::List(_) => None,
+    });
+    numbers
+        .take(most)
+        .map(|(name, x)| {
+            let (name, unit) = split_unit(name);
+            let (value, unit) = quantity(x, unit.unwrap_or("-"));
+            card(name, value, &unit, String::new(), Tone::Plain)
+        })
+        .collect()
+}
+
+/// All results as a table.
+pub(crate) fn results_table(summary: &Summary) -> Option<Block> {
+    if summary.results.is_empty() {
+        return None;
+    }
+    let mut grid = Grid::new(["result", "value", "unit"]);
+    for (name, value) in summary.results.iter() {
+        let (name, unit) = split_unit(name);
+        let value = match value {
+            ResultValue::Number(x) => short(*x),
+            ResultValue::List(list) => {
+                let shown: Vec<_> = list.iter().take(12).map(|x| short(*x)).collect();
+                format!("{}{}", shown.join(", "), if list.len() > 12 { ", …" } else { "" })
+            }
+        };
+        grid.push(Tone::Plain, [name, value.as_str(), unit.filter(|u| *u != "-").unwrap_or("")]);
+    }
+    Some(Block::Table(grid))
+}
+
+/// What the run cost.
+pub(crate) fn cost_table(runs: &[(&str, &Summary)]) -> Block {
+    let mut grid = Grid::new([
+        "method",
+        "grains",
+        "steps",
+        "time step [s]",
+        "threads",
+        "wall time [s]",
+        "grain-steps [1/s]",
+        "wall / simulated",
+    ]);
+    for (name, s) in runs {
+        grid.push(
+            Tone::Plain,
+            [
+                (*name).to_owned(),
+                count(s.particles),
+                count(s.steps),
+                short(s.time_step),
+                s.threads.to_string(),
+                short(s.wall_seconds),
+                short(s.particle_steps_per_second),
+                short(s.wall_seconds / s.simulated_seconds),
+            ],
+        );
+    }
+    Block::Table(grid)
+}
+
+/// Claims with their ranges; a failed one stands out.
+pub(crate) fn claims_table(claims: &[&Claim]) -> Block {
+    let mut grid = Grid::new(["", "claim", "value", "accepted", "source"]);
+    for claim in claims {
+        let end = |x: Option<f64>| x.map_or(String::new(), short);
+        let range = match (claim.low, claim.high) {
+            (None, None) => "any".to_owned(),
+            (Some(_), None) => format!("≥ {}", end(claim.low)),
+            (None, Some(_)) => format!("≤ {}", end(claim.high)),
+            (Some(low), Some(high)) if low == high => short(low),
+            _ => format!("{} … {}", end(claim.low), end(claim.high)),
+        };
+        let (tone, word) = if claim.pass { (Tone::Good, "pass") } else { (Tone::Bad, "FAIL") };
+        grid.push(tone, [word, &claim.name, &short(claim.value), &range, &claim.source]);
+    }
+    Block::Table(grid)
+}
+
+/// Energy by cause: bars for the eye, the table for the books. Several runs stand side by side.
+pub(crate) fn energy_blocks(source: &mut Source, runs: &[(&str, &Summary)]) -> Vec<Block> {
+    let mut names: Vec<&str> = Vec::new();
+    for (_, summary) in runs {
+        for (name, _) in summary.energy.terms.iter() {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+    }
+    if names.is_empty() {
+        return Vec::new();
+    }
+    let value = |s: &Summary, name: &str| s.energy.terms.get(name).map_or(f64::NAN, |j| j.0);
+    let parts = runs.iter().map(|(run, s)| ((*run).to_owned(), names.iter().map(|n| value(s, n)).collect())).collect();
+    let bars =
+        Bars { categories: names.iter().map(|n| (*n).to_owned()).collect(), parts, stacked: false, horizontal: true };
+    let mut figure = Figure::of_bars("", Axis::new("energy at the end", "J"), bars);
+    figure.height = (90 + 30 * names.len() as u32 * runs.len().max(1) as u32).clamp(180, 700);
+    let mut blocks = Vec::new();
+    blocks.extend(source.figure("energy_by_cause", &figure, "Where the energy went, by cause."));
+    let mut grid = Grid::new(std::iter::once("cause".to_owned()).chain(
+        runs.iter().map(|(run, _)| if runs.len() == 1 { "energy [J]".to_owned() } else { format!("{run} [J]") }),
+    ));
+    for name in &names {
+        let cells = runs.iter().map(|(_, s)| short(value(s, name)));
+        grid.push(Tone::Plain, std::iter::once((*name).to_owned()).chain(cells));
+    }
+    let residuals = runs.iter().map(|(_, s)| short(s.energy.residual_relative));
+    grid.push(Tone::Plain, std::iter::once("residual, relative".to_owned()).chain(residuals));
+    blocks.push(folded("Energy terms in numbers", vec![Block::Table(grid)]));
+    blocks
+}
+
+/// A CSV table for the eye: numbers rounded to what can be read.
+pub(crate) fn shown(table: &Table) -> Block {
+    let mut grid = Grid::new(table.header.iter().cloned());
+    for row in &table.rows {
+        let cells = row.iter().map(|cell| match cell {
+            tsubu_frame::Cell::Number(x) => short(*x),
+            tsubu_frame::Cell::Text(text) => text.clone(),
+        });
+        grid.push(Tone::Plain, cells);
+    }
+    Block::Table(grid)
+}
+
+/// Versions for the foot of the page.
+pub(crate) fn versions(summary: Option<&Summary>) -> Vec<(String, String)> {
+    let mut versions = Vec::new();
+    if let Some(s) = summary {
+        versions.push(("tsubu".to_owned(), s.tsubu_version.clone()));
+        if !s.state_hash.is_empty() {
+            versions.push(("state hash".to_owned(), s.state_hash.clone()));
+        }
+    }
+    versions.push(("report".to_owned(), env!("CARGO_PKG_VERSION").to_owned()));
+    versions
+}
+
+/// A method as readers call it.
+pub(crate) fn method_name(method: &str) -> &str {
+    match method {
+        "dem" => "DEM",
+        "lattice" => "lattice automaton",
+        "cl-ca" => "CL-CA",
+        other => other,
+    }
+}

@@ -1,0 +1,217 @@
+//! Particle pictures as SVG: one, or several side by side.
+
+use std::fmt::Write as _;
+
+use crate::balls::{Balls, Look, common};
+use crate::colour;
+use crate::figure::prefix;
+use crate::plot::{AXIS, FAINT, INK};
+use crate::raster;
+
+/// Above this many grains a picture is drawn in pixels inside the SVG: circles would make it too heavy to open.
+const MOST_CIRCLES: usize = 1500;
+const GAP: f64 = 12.0;
+const WIDTH: f64 = 1000.0;
+
+/// One picture of a strip.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Panel {
+    /// What is seen.
+    pub balls: Balls,
+    /// Text below it, such as the phase.
+    pub label: String,
+    /// Direction in which the box moves, in the picture plane; its length counts against the longest of the strip.
+    pub arrow: Option<[f64; 2]>,
+}
+
+/// Pictures side by side in one window and one colour scale, `columns` in a row, with a colour bar below.
+pub fn strip(panels: &[Panel], look: &Look, columns: usize) -> String {
+    let all: Vec<Balls> = panels.iter().map(|p| p.balls.clone()).collect();
+    let look = common(&all, look);
+    let window = look.window.unwrap_or([0.0, 0.0, 1.0, 1.0]);
+    let range = look.range.unwrap_or((0.0, 1.0));
+    let columns = columns.clamp(1, panels.len().max(1));
+    let rows = panels.len().div_ceil(columns);
+    let cell = ((WIDTH + GAP) / columns as f64 - GAP).min(420.0);
+    let margin = 0.03 * (window[2] - window[0]).max(window[3] - window[1]);
+    let (w, h) = (window[2] - window[0] + 2.0 * margin, window[3] - window[1] + 2.0 * margin);
+    let scale = cell / w;
+    let (picture, label) = (h * scale, 40.0);
+    let width = columns as f64 * (cell + GAP) - GAP;
+    let bar = 46.0;
+    let height = rows as f64 * (picture + label) + bar;
+    let longest = panels.iter().filter_map(|p| p.arrow).map(|a| a[0].hypot(a[1])).fold(0.0, f64::max);
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
+         viewBox=\"0 0 {width:.1} {height:.1}\" font-family=\"system-ui, -apple-system, Segoe UI, Roboto, Helvetica, \
+         Arial, sans-serif\" fill=\"{INK}\">"
+    );
+    for (i, panel) in panels.iter().enumerate() {
+        let x = (i % columns) as f64 * (cell + GAP);
+        let y = (i / columns) as f64 * (picture + label);
+        let place = Place { x: x - (window[0] - margin) * scale, y: y + picture + (window[1] - margin) * scale, scale };
+        draw(&mut out, &panel.balls, &look, range, &place, [x, y, cell, picture]);
+        let middle = x + cell / 2.0;
+        let _ = write!(
+            out,
+            "<text x=\"{middle:.1}\" y=\"{:.1}\" font-size=\"13\" text-anchor=\"middle\">{}</text>",
+            y + picture + 16.0,
+            escape(&panel.label)
+        );
+        if let Some(a) = panel.arrow.filter(|_| longest > 0.0) {
+            let reach = 0.38 * cell / longest;
+            arrow(&mut out, [middle, y + picture + 28.0], [a[0] * reach, -a[1] * reach]);
+        }
+    }
+    if let Some(first) = panels.first() {
+        let gradient = format!("scale-{}-{}", panels.len(), (range.1.to_bits() ^ window[2].to_bits()) % 1_000_003);
+        colour_bar(&mut out, &first.balls.quantity, range, [width / 2.0, height - 30.0], &gradient);
+    }
+    out.push_str("</svg>");
+    out
+}
+
+/// One picture.
+pub fn picture(balls: &Balls, look: &Look) -> String {
+    let label = time_label(balls.time);
+    strip(&[Panel { balls: balls.clone(), label, arrow: None }], look, 1)
+}
+
+/// Time as a reader writes it.
+pub fn time_label(time: f64) -> String {
+    if time.abs() >= 1.0 || time == 0.0 { format!("t = {time:.3} s") } else { format!("t = {:.2} ms", time * 1e3) }
+}
+
+struct Place {
+    x: f64,
+    y: f64,
+    scale: f64,
+}
+
+impl Place {
+    fn of(&self, p: &[f64; 3]) -> (f64, f64) {
+        (self.x + p[0] * self.scale, self.y - p[1] * self.scale)
+    }
+}
+
+fn draw(out: &mut String, balls: &Balls, look: &Look, range: (f64, f64), place: &Place, frame: [f64; 4]) {
+    let [x, y, w, h] = frame;
+    for outline in &balls.outlines {
+        let points: String = outline.iter().map(|p| place.of(p)).fold(String::new(), |mut s, (u, v)| {
+            let _ = write!(s, "{u:.2},{v:.2} ");
+            s
+        });
+        let _ = write!(
+            out,
+            "<polygon points=\"{}\" fill=\"none\" stroke=\"{AXIS}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"/>",
+            points.trim_end()
+        );
+    }
+    if balls.outlines.is_empty() {
+        let _ = write!(
+            out,
+            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"none\" stroke=\"{FAINT}\"/>"
+        );
+    }
+    if balls.centres.len() > MOST_CIRCLES {
+        let look = Look { range: Some(range), ..look.clone() };
+        let png = raster::spheres(balls, &look, (2.0 * w) as u32, (2.0 * h) as u32).to_png();
+        let data = crate::page::base64(&png);
+        let _ = write!(
+            out,
+            "<image x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" href=\"data:image/png;base64,{data}\"/>"
+        );
+        return;
+    }
+    let mut order: Vec<usize> = (0..balls.centres.len()).collect();
+    order.sort_by(|&a, &b| balls.centres[a][2].total_cmp(&balls.centres[b][2]));
+    let fastest = balls.velocities.iter().map(|v| v[0].hypot(v[1])).fold(0.0, f64::max);
+    for i in order {
+        let centre = &balls.centres[i];
+        if !centre.iter().all(|c| c.is_finite()) {
+            continue;
+        }
+        let (u, v) = place.of(centre);
+        let r = balls.radii[i] * place.scale;
+        let fill = colour::hex(balls.shade(i, range));
+        let _ = write!(
+            out,
+            "<circle cx=\"{u:.2}\" cy=\"{v:.2}\" r=\"{:.2}\" fill=\"{fill}\" stroke=\"#000\" stroke-opacity=\".35\" stroke-width=\"{:.2}\"/>",
+            r,
+            (0.08 * r).clamp(0.2, 1.0)
+        );
+        if let Some(velocity) = balls.velocities.get(i).filter(|_| look.arrows && fastest > 0.0) {
+            let reach = 3.0 * r / fastest;
+            arrow(
+                out,
+                [u + 0.5 * velocity[0] * reach, v - 0.5 * velocity[1] * reach],
+                [velocity[0] * reach, -velocity[1] * reach],
+            );
+        }
+    }
+}
+
+/// An arrow about its middle, in pixels.
+fn arrow(out: &mut String, middle: [f64; 2], along: [f64; 2]) {
+    let length = along[0].hypot(along[1]);
+    if length < 2.0 {
+        let _ = write!(out, "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"1.6\" fill=\"{INK}\"/>", middle[0], middle[1]);
+        return;
+    }
+    let (ux, uy) = (along[0] / length, along[1] / length);
+    let tip = [middle[0] + along[0] / 2.0, middle[1] + along[1] / 2.0];
+    let tail = [middle[0] - along[0] / 2.0, middle[1] - along[1] / 2.0];
+    let head = length.min(6.0);
+    let neck = [tip[0] - ux * head, tip[1] - uy * head];
+    let _ = write!(
+        out,
+        "<line x1=\"{:.1}\" y1=\"{:.1}\" x2=\"{:.1}\" y2=\"{:.1}\" stroke=\"{INK}\" stroke-width=\"1.4\"/>\
+         <polygon points=\"{:.1},{:.1} {:.1},{:.1} {:.1},{:.1}\" fill=\"{INK}\"/>",
+        tail[0],
+        tail[1],
+        neck[0],
+        neck[1],
+        tip[0],
+        tip[1],
+        neck[0] - uy * head * 0.5,
+        neck[1] + ux * head * 0.5,
+        neck[0] + uy * head * 0.5,
+        neck[1] - ux * head * 0.5,
+    );
+}
+
+/// The colour scale with its ends, about a middle.
+pub(crate) fn colour_bar(
+    out: &mut String,
+    (name, unit): &(String, String),
+    (low, high): (f64, f64),
+    [middle, top]: [f64; 2],
+    id: &str,
+) {
+    let (factor, unit) = prefix(unit, low.abs().max(high.abs()));
+    let title = if unit == "-" { name.clone() } else { format!("{name} [{unit}]") };
+    let half = 90.0;
+    let _ = write!(
+        out,
+        "<defs><linearGradient id=\"{id}\">{}</linearGradient></defs>\
+         <rect x=\"{:.1}\" y=\"{top:.1}\" width=\"{:.1}\" height=\"9\" rx=\"2\" fill=\"url(#{id})\"/>\
+         <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"12\" text-anchor=\"end\">{}</text>\
+         <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"12\">{}</text>\
+         <text x=\"{middle:.1}\" y=\"{:.1}\" font-size=\"12\" text-anchor=\"middle\">{}</text>",
+        colour::stops(),
+        middle - half,
+        2.0 * half,
+        middle - half - 7.0,
+        top + 9.0,
+        crate::text::short(low * factor),
+        middle + half + 7.0,
+        top + 9.0,
+        crate::text::short(high * factor),
+        top + 25.0,
+        escape(&title),
+    );
+}
+
+fn escape(text: &str) -> String {
+    crate::text::escape(text)
+}
