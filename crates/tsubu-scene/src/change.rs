@@ -24,8 +24,9 @@ pub(crate) fn apply(root: &mut Node, text: &str, source: usize) -> Result<(), Co
             .at(&whole, "no `=`")
             .hint("write key.path=value, for example particles.balls.count=30"));
     };
-    let steps = steps(&text[..split], source)
-        .ok_or_else(|| Complaint::new("an empty key in the path").at(&Place::new(source, 0..split), "not a path of keys"))?;
+    let steps = steps(&text[..split], source).ok_or_else(|| {
+        Complaint::new("an empty key in the path").at(&Place::new(source, 0..split), "not a path of keys")
+    })?;
     let value = value(&text[split + 1..], source, split + 1)?;
     match &mut root.value {
         Value::Table(table) => put(table, keys::SCENE, "", &steps, value),
@@ -118,7 +119,13 @@ fn put(table: &mut Table, keys: &'static [Key], path: &str, steps: &[Step], valu
     }
 }
 
-fn put_named(table: &mut Table, keys: &'static [Key], path: &str, steps: &[Step], value: Node) -> Result<(), Complaint> {
+fn put_named(
+    table: &mut Table,
+    keys: &'static [Key],
+    path: &str,
+    steps: &[Step],
+    value: Node,
+) -> Result<(), Complaint> {
     let [step, rest @ ..] = steps else { return Ok(()) };
     if rest.is_empty() {
         table.set(Entry { key: step.name.clone(), place: step.place.clone(), node: value });
@@ -156,14 +163,12 @@ fn put_in_list(
 
 /// The table under a step, made if it is not there.
 fn child<'a>(table: &'a mut Table, step: &Step) -> Result<&'a mut Table, Complaint> {
-    let at = match table.entries.iter().position(|entry| entry.key == step.name) {
-        Some(at) => at,
-        None => {
-            let node = Node { value: Value::Table(Table::default()), place: step.place.clone() };
-            table.entries.push(Entry { key: step.name.clone(), place: step.place.clone(), node });
-            table.entries.len() - 1
-        }
-    };
+    let known = table.entries.iter().position(|entry| entry.key == step.name);
+    let at = known.unwrap_or_else(|| {
+        let node = Node { value: Value::Table(Table::default()), place: step.place.clone() };
+        table.entries.push(Entry { key: step.name.clone(), place: step.place.clone(), node });
+        table.entries.len() - 1
+    });
     match &mut table.entries[at].node.value {
         Value::Table(inner) => Ok(inner),
         _ => Err(Complaint::new(format!("`{}` is not a table in the scene", step.name))
@@ -177,7 +182,11 @@ fn unknown_word<'a>(step: &Step, path: &str, names: impl Iterator<Item = &'a str
         complaint = complaint.hint(format!("did you mean `{near}`?"));
     }
     let known = suggest::list(names);
-    complaint.hint(if known.is_empty() { "there are none in this scene".to_string() } else { format!("known here: {known}") })
+    complaint.hint(if known.is_empty() {
+        "there are none in this scene".to_string()
+    } else {
+        format!("known here: {known}")
+    })
 }
 
 fn join(path: &str, name: &str) -> String {

@@ -28,7 +28,8 @@ pub(crate) fn check(resolved: &toml::Table, root: &Node) -> Vec<Complaint> {
     let walls = named(resolved, "walls");
     let hosts = named(resolved, "hosts");
     let typed = |key: &str| resolved.get(key).and_then(toml::Value::as_table).map_or(0, toml::Table::len);
-    let incomplete = particles.len() != typed("particles") || walls.len() != typed("walls") || hosts.len() != typed("hosts");
+    let incomplete =
+        particles.len() != typed("particles") || walls.len() != typed("walls") || hosts.len() != typed("hosts");
     let parts = Parts { root, resolved, particles, walls, hosts, incomplete };
     let mut complaints = Vec::new();
     place::check(&parts, &mut complaints);
@@ -100,18 +101,22 @@ fn claims(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
 }
 
 fn is_typed(parts: &Parts<'_>, index: &str, key: &str) -> bool {
-    let Some(crate::node::Value::List(items)) = parts.root.find(&["claim"]).map(|node| &node.value) else { return false };
+    let Some(crate::node::Value::List(items)) = parts.root.find(&["claim"]).map(|node| &node.value) else {
+        return false;
+    };
     index.parse::<usize>().ok().and_then(|index| items.get(index)).is_some_and(|item| item.find(&[key]).is_some())
 }
 
 /// The response varies the frequency of the host's sine; without one it would have nothing to turn.
 fn response(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
-    let Some(name) = parts.resolved.get("response").and_then(|response| response.get("host")).and_then(toml::Value::as_str)
+    let Some(name) =
+        parts.resolved.get("response").and_then(|response| response.get("host")).and_then(toml::Value::as_str)
     else {
         return;
     };
     let Some(host) = parts.hosts.get(name) else { return };
-    let sines = [&host.base, &host.force].into_iter().filter(|signal| matches!(signal, Some(Signal::Sine { .. }))).count();
+    let sines =
+        [&host.base, &host.force].into_iter().filter(|signal| matches!(signal, Some(Signal::Sine { .. }))).count();
     let place = parts.root.locate(&["hosts", name]);
     let asked = parts.root.locate(&["response"]);
     match sines {

@@ -2,8 +2,10 @@
 //!
 //! They are collected, not thrown: a user who fixes a file wants to see all of it at once.
 
+mod excerpt;
+
 use annotate_snippets::renderer::DecorStyle;
-use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Renderer, Snippet};
 use std::fmt;
 use std::ops::Range;
 
@@ -70,6 +72,10 @@ impl Complaint {
     pub fn title(&self) -> &str {
         &self.title
     }
+
+    pub fn place(&self) -> Option<&Place> {
+        self.place.as_ref().map(|(place, _)| place)
+    }
 }
 
 /// Everything that is wrong with a scene; never empty.
@@ -120,35 +126,46 @@ impl Complaints {
     }
 
     fn render_one(&self, renderer: &Renderer, complaint: &Complaint) -> String {
-        let Some((place, label)) = &complaint.place else {
-            let title = Level::ERROR.primary_title(printable(&complaint.title));
-            let hints = complaint.hints.iter().map(|hint| Level::HELP.with_name("hint").message(printable(hint)));
-            return renderer.render(&[Group::with_title(title).elements(hints)]);
-        };
-        let mut group = Group::with_title(Level::ERROR.primary_title(printable(&complaint.title)));
-        group = group.element(self.snippet(place, label, AnnotationKind::Primary));
-        for (other, text) in &complaint.also {
-            group = group.element(self.snippet(other, text, AnnotationKind::Context));
+        let title = Level::ERROR.primary_title(printable(&complaint.title));
+        let mut group = Group::with_title(title);
+        for snippet in self.snippets(complaint) {
+            group = group.element(snippet);
         }
         for hint in &complaint.hints {
             group = group.element(Level::HELP.with_name("hint").message(printable(hint)));
         }
-        renderer.render(&[group])
+        let rendered = renderer.render(&[group]);
+        // Without a snippet there is nothing for the bar between title and hints to lead to.
+        if complaint.place.is_none() { rendered.replacen("\n |\n", "\n", 1) } else { rendered }
     }
 
-    fn snippet<'a>(
-        &'a self,
-        place: &Place,
-        label: &str,
-        kind: AnnotationKind,
-    ) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
-        let source = &self.sources[place.source.min(self.sources.len() - 1)];
-        let cut = cut_out(&source.text, place.start..place.end);
-        Snippet::source(cut.text)
-            .path(source.name.as_str())
-            .line_numbering(source.numbered)
-            .line_start(cut.line)
-            .annotation(kind.span(cut.span).label(printable(label)))
+    /// Places in the same text are shown together when they are near, each for itself otherwise.
+    fn snippets<'a>(&'a self, complaint: &Complaint) -> Vec<Snippet<'a, Annotation<'a>>> {
+        let Some((place, label)) = &complaint.place else { return Vec::new() };
+        let mut together = vec![(place, label, AnnotationKind::Primary)];
+        let mut apart = Vec::new();
+        for (other, label) in &complaint.also {
+            let near = other.source == place.source && other.start.abs_diff(place.start) < 4000;
+            if near { &mut together } else { &mut apart }.push((other, label, AnnotationKind::Context));
+        }
+        let mut snippets = vec![self.snippet(&together)];
+        snippets.extend(apart.iter().map(|one| self.snippet(std::slice::from_ref(one))));
+        snippets
+    }
+
+    /// All marks are in the same text.
+    fn snippet<'a>(&'a self, marks: &[(&Place, &String, AnnotationKind)]) -> Snippet<'a, Annotation<'a>> {
+        let source = &self.sources[marks[0].0.source.min(self.sources.len() - 1)];
+        let spans: Vec<Range<usize>> = marks.iter().map(|(place, ..)| place.start..place.end).collect();
+        let mut cut = excerpt::cut_out(&source.text, &spans);
+        if !source.numbered {
+            cut.prepend(&format!("{} ", source.name));
+        }
+        let annotations =
+            marks.iter().zip(cut.spans).map(|((_, label, kind), span)| kind.span(span).label(printable(label)));
+        let snippet =
+            Snippet::source(cut.text).line_numbering(source.numbered).line_start(cut.line).annotations(annotations);
+        if source.numbered { snippet.path(source.name.as_str()) } else { snippet }
     }
 }
 
@@ -170,46 +187,4 @@ impl std::error::Error for Complaints {}
 /// Text from a file may hold control characters that would command the terminal.
 fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() && c != '\n' { '\u{fffd}' } else { c }).collect()
-}
-
-/// The lines around a span, ready to be printed.
-struct Cut {
-    text: String,
-    line: usize,
-    span: Range<usize>,
-}
-
-/// Only the first line of the span is shown: a wrong table of a hundred lines is known by its beginning.
-fn cut_out(text: &str, span: Range<usize>) -> Cut {
-    let floor = |mut at: usize| {
-        at = at.min(text.len());
-        while !text.is_char_boundary(at) {
-            at -= 1;
-        }
-        at
-    };
-    let start = floor(span.start);
-    let begin = text[..start].rfind('\n').map_or(0, |at| at + 1);
-    let line_end = text[start..].find('\n').map_or(text.len(), |at| start + at);
-    let line_end = begin + text[begin..line_end].trim_end_matches('\r').len();
-    let start = start.min(line_end);
-    let end = floor(span.end).clamp(start, line_end);
-    let line = text[..begin].matches('\n').count() + 1;
-    // A byte order mark is not seen by the user and must not shift the column.
-    let begin = if text[begin..].starts_with('\u{feff}') { (begin + 3).min(start.max(begin)) } else { begin };
-    // A line of a megabyte (one long list) would be copied for every complaint; what is near is enough.
-    let from = floor(start.saturating_sub(2000)).max(begin);
-    let until = floor(end.saturating_add(2000)).clamp(end, line_end);
-    let shown: String = text[from..until].chars().map(tame).collect();
-    let lead: usize = text[from..start].chars().map(|c| tame(c).len_utf8()).sum();
-    let width: usize = text[start..end].chars().map(|c| tame(c).len_utf8()).sum();
-    Cut { text: shown, line, span: lead..lead + width }
-}
-
-fn tame(c: char) -> char {
-    match c {
-        '\t' => ' ',
-        c if c.is_control() => '\u{fffd}',
-        c => c,
-    }
 }

@@ -139,11 +139,17 @@ impl Base {
 pub(crate) fn parse(text: &str, source: usize) -> (Node, Vec<Complaint>) {
     let base = Base { source, offset: 0 };
     let (tree, errors) = DeTable::parse_recoverable(text);
-    let complaints = errors.iter().map(|error| {
-        let place = base.place(&error.span().unwrap_or_default());
-        syntax(error.message()).at(&place, "")
-    });
-    let complaints = complaints.collect();
+    let mut complaints = Vec::new();
+    let mut last_line = None;
+    for error in &errors {
+        let span = error.span().unwrap_or_default();
+        // One slip makes the parser stumble several times in a line; the first time tells.
+        let line = text.as_bytes()[..span.start.min(text.len())].iter().rposition(|byte| *byte == b'\n');
+        if last_line.replace(line) != Some(line) {
+            let at_end = text.get(span.clone()).is_none_or(|here| here.trim().is_empty());
+            complaints.push(syntax(error.message(), at_end).at(&base.place(&span), "here"));
+        }
+    }
     (Node { value: Value::Table(table(tree.get_ref(), base)), place: Place::new(source, 0..0) }, complaints)
 }
 
@@ -152,14 +158,18 @@ pub(crate) fn parse_value(text: &str, source: usize, offset: usize) -> Result<No
     let base = Base { source, offset };
     match DeValue::parse(text) {
         Ok(value) => Ok(node(&value, base)),
-        Err(error) => {
-            Err(syntax(error.message()).at(&base.place(&error.span().unwrap_or_default()), ""))
-        }
+        Err(error) => Err(syntax(error.message(), false).at(&base.place(&error.span().unwrap_or_default()), "here")),
     }
 }
 
-fn syntax(message: &str) -> Complaint {
-    Complaint::new(format!("not valid TOML: {}", message.trim().replace('\n', "; ")))
+/// The parser's message, except where it guesses at what is simply not there.
+fn syntax(message: &str, at_end: bool) -> Complaint {
+    let unquoted = message.starts_with("string values must be quoted");
+    match (unquoted, at_end) {
+        (true, true) => Complaint::new("not valid TOML: no value after `=`"),
+        (true, false) => Complaint::new("not valid TOML: text must be in quotes"),
+        _ => Complaint::new(format!("not valid TOML: {}", message.trim().replace('\n', "; "))),
+    }
 }
 
 fn table(table: &DeTable<'_>, base: Base) -> Table {

@@ -72,6 +72,16 @@ pub enum Method {
     Lattice,
 }
 
+impl Method {
+    /// Name in scene files and summaries.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Dem => "dem",
+            Self::Lattice => "lattice",
+        }
+    }
+}
+
 /// Bulk properties of a material.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
@@ -122,7 +132,7 @@ pub struct Particles {
 
 /// How grains are placed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Start {
     /// Dropped into the box in random loose rows and settled by DEM (or filled row by row on the lattice) before time 0.
     Settled {
@@ -165,7 +175,7 @@ pub struct Wall {
 
 /// Geometry of a wall.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Shape {
     /// A closed box, grains inside. In the plane the front and back panes are frictionless and ignored.
     Box {
@@ -199,7 +209,7 @@ pub struct Motion {
 
 /// A quantity given against time: displacement [m] or force [N], as the place says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Signal {
     /// amplitude sin(2 pi frequency t + phase).
     Sine {
@@ -260,7 +270,7 @@ pub struct Host {
 
 /// The matrices of a host.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Structure {
     /// One degree of freedom.
     Oscillator {
@@ -325,7 +335,7 @@ pub struct Contact {
 
 /// Elastic normal force for overlap d.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Normal {
     /// k d^(3/2), k from the materials (Hertz).
     Hertz {},
@@ -338,7 +348,7 @@ pub enum Normal {
 
 /// Damping of the normal motion for overlap d and overlap rate d'.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Damping {
     /// No damping, whatever the restitution.
     None {},
@@ -358,7 +368,7 @@ pub enum Damping {
 
 /// Tangential force.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Tangential {
     /// None.
     None {},
@@ -373,7 +383,7 @@ pub enum Tangential {
 
 /// Rolling resistance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Rolling {
     /// None.
     None {},
@@ -417,6 +427,7 @@ pub enum Integrator {
 /// Settings of the damper automaton. `mode` sets what the other options default to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[expect(clippy::struct_excessive_bools, reason = "each is an independent reading of the published rules")]
 pub struct Lattice {
     /// Literal (paper A) or extended rules.
     pub mode: LatticeMode,
@@ -438,7 +449,7 @@ pub struct Lattice {
     pub resting_threshold: f64,
     /// Number representation of speeds.
     pub arithmetic: Arithmetic,
-    /// CH: rows of head-room added above and below the box's travel; `None`: from the motion at run time.
+    /// CH: rows of head-room added above and below the box's travel.
     pub head_room: usize,
 }
 

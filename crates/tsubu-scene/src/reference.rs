@@ -87,8 +87,7 @@ fn rows(page: &mut String, keys: &[Key]) {
     page.push_str("| key | value | default | meaning |\n|---|---|---|---|\n");
     for key in keys {
         let range = key.range.words().map(|words| format!(", {words}")).unwrap_or_default();
-        let _ =
-            writeln!(page, "| `{}` | {}{range} | {} | {} |", key.name, value(key), default(key), key.about);
+        let _ = writeln!(page, "| `{}` | {}{range} | {} | {} |", key.name, value(key), default(key), key.about);
     }
     page.push('\n');
 }
@@ -143,7 +142,12 @@ pub(crate) fn describe(key: &Key) -> String {
     let range = key.range.words().map(|words| format!("; {words}")).unwrap_or_default();
     let value = match key.kind {
         Kind::Quantity(dimension) if !dimension.si.is_empty() => {
-            format!(" ({} in {}, or text such as {})", bare_name(dimension.name), dimension.si, dimension.examples_text())
+            format!(
+                " ({} in {}, or text such as {})",
+                bare_name(dimension.name),
+                dimension.si,
+                dimension.examples_text()
+            )
         }
         _ => String::new(),
     };

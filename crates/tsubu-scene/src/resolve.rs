@@ -44,8 +44,10 @@ impl Resolver<'_> {
     }
 
     fn table(&mut self, keys: &'static [Key], typed: &Table, place: &Place, path: &str) -> toml::Table {
+        let mut misspelt = Vec::new();
         for entry in &typed.entries {
             if keys::find(keys, &entry.key).is_none() {
+                misspelt.extend(suggest::nearest(&entry.key, keys.iter().map(|key| key.name)));
                 self.complain(unknown_key(&entry.key, &entry.place, keys, path));
             }
         }
@@ -68,7 +70,10 @@ impl Resolver<'_> {
                 match key.need {
                     Need::Default(text) => self.default(key, text, path),
                     Need::Required => {
-                        missing.push(key);
+                        // One slip, one complaint: a misspelt key is there in spirit.
+                        if !misspelt.contains(&key.name) {
+                            missing.push(key);
+                        }
                         None
                     }
                     Need::Optional | Need::Word(_) | Need::Derived(_) => None,
@@ -106,7 +111,10 @@ impl Resolver<'_> {
                         self.complain(
                             Complaint::new(format!("[{path}] needs a table, not {}", entry.node.kind()))
                                 .at(&entry.node.place, format!("this is {}", entry.node.kind()))
-                                .hint(format!("keys of [{here}.NAME]: {}", suggest::list(keys.iter().map(|key| key.name)))),
+                                .hint(format!(
+                                    "keys of [{here}.NAME]: {}",
+                                    suggest::list(keys.iter().map(|key| key.name))
+                                )),
                         );
                         continue;
                     };
@@ -200,7 +208,11 @@ impl Resolver<'_> {
                 Some(toml::Table::from_iter([(variant.name.to_string(), resolved.into())]).into())
             }
             [] => {
-                self.complain(Complaint::new(format!("nothing is chosen for `{}`", key.name)).at(key_place, "empty").hint(choices));
+                self.complain(
+                    Complaint::new(format!("nothing is chosen for `{}`", key.name))
+                        .at(key_place, "empty")
+                        .hint(choices),
+                );
                 None
             }
             [first, second, ..] => {
@@ -241,7 +253,9 @@ pub(crate) fn unknown_key(name: &str, place: &Place, keys: &'static [Key], path:
     let homes = keys::homes(name);
     let complaint = match suggest::nearest(name, known.clone()) {
         Some(near) => complaint.hint(format!("did you mean `{near}`?")),
-        None if !homes.is_empty() => complaint.hint(format!("`{name}` belongs in {}", homes[..homes.len().min(4)].join(" or "))),
+        None if !homes.is_empty() => {
+            complaint.hint(format!("`{name}` belongs in {}", homes[..homes.len().min(4)].join(" or ")))
+        }
         None => complaint,
     };
     if keys.is_empty() {

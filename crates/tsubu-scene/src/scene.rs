@@ -112,7 +112,8 @@ impl Work {
 
     fn plan(&mut self, files: &mut Files, try_varied: bool, typed: &Typed) -> Option<Plan> {
         let broken = !self.complaints.is_empty();
-        let (mut resolved, complaints) = resolve::resolve(&self.root, broken);
+        let (mut resolved, mut complaints) = resolve::resolve(&self.root, broken);
+        complaints.retain(|complaint| !self.follows_from_syntax(complaint));
         self.complaints.extend(complaints);
         // What follows looks for what is missing, and would complain about the consequences of broken syntax.
         if broken {
@@ -121,7 +122,9 @@ impl Work {
         self.complaints.extend(resolve::derive(&mut resolved, &self.root, files, &mut self.sources));
         self.complaints.extend(check(&resolved, &self.root));
         if !self.complaints.is_empty() {
-            self.check_varied_paths();
+            if try_varied {
+                self.check_varied_paths();
+            }
             return None;
         }
         let plan = match toml::Value::Table(resolved).try_into::<Plan>() {
@@ -138,6 +141,17 @@ impl Work {
             self.try_varied(&plan, typed, files);
         }
         Some(plan)
+    }
+
+    /// What stands where the syntax is broken was guessed by the parser; complaining about it would be noise.
+    fn follows_from_syntax(&self, complaint: &Complaint) -> bool {
+        let line = |complaint: &Complaint| {
+            let place = complaint.place()?;
+            let text = &self.sources[place.source].text.as_bytes()[..place.start];
+            Some((place.source, text.split(|byte| *byte == b'\n').count()))
+        };
+        let guessed = complaint.place().is_some_and(|place| place.start == place.end);
+        !self.complaints.is_empty() && (guessed || self.complaints.iter().any(|known| line(known) == line(complaint)))
     }
 
     /// While the scene itself is wrong, only the paths of what is varied can be judged.

@@ -52,7 +52,7 @@ fn kind(key: &'static Key) -> Value {
     match key.kind {
         Kind::Quantity(dimension) => quantity(dimension, key.range),
         Kind::Whole => limited(json!({ "type": "integer" }), key.range),
-        Kind::Text => json!({ "type": "string" }),
+        Kind::Text | Kind::Name(_) => json!({ "type": "string" }),
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::OneOf(words) => {
             let words: Vec<Value> =
@@ -90,7 +90,6 @@ fn kind(key: &'static Key) -> Value {
                 },
             ] })
         }
-        Kind::Name(_) => json!({ "type": "string" }),
         Kind::NamePair => json!({ "type": "array", "minItems": 2, "maxItems": 2, "items": { "type": "string" } }),
         Kind::Table(keys) => table(keys, key.about),
         Kind::Named(keys, about) => json!({ "type": "object", "additionalProperties": table(keys, about) }),

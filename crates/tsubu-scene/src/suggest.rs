@@ -15,7 +15,8 @@ pub(crate) fn nearest<'a>(typed: &str, candidates: impl IntoIterator<Item = &'a 
 fn closeness(typed: &str, candidate: &str) -> f64 {
     let edit = strsim::normalized_damerau_levenshtein(typed, candidate);
     // `amp` for `amplitude` and `shapes` for `shape`: half a word is a good pointer too.
-    let part = typed.len() >= 3 && (candidate.starts_with(typed) || typed.starts_with(candidate) && candidate.len() >= 3);
+    let part =
+        typed.len() >= 3 && (candidate.starts_with(typed) || typed.starts_with(candidate) && candidate.len() >= 3);
     if part { edit.max(0.7) } else { edit }
 }
 

@@ -36,7 +36,7 @@ dimensions! {
     NUMBER "a plain number" "" [0, 0, 0, 0] ["%"] ["0.75", "75 %"] "Plain numbers."
     LENGTH "a length" "m" [1, 0, 0, 0] ["m", "cm", "mm", "um", "km"] ["6 mm", "0.096 m"] "Lengths."
     MASS "a mass" "kg" [0, 1, 0, 0] ["kg", "g", "mg", "t"] ["0.2 g", "86 g"] "Masses."
-    TIME "a time" "s" [0, 0, 1, 0] ["s", "ms", "us", "ns", "min", "h"] ["20 us", "2 s"] "Times."
+    TIME "a time" "s" [0, 0, 1, 0] ["s", "ms", "us", "ns", "min", "h"] ["2 s", "20 us"] "Times."
     FREQUENCY "a frequency" "Hz" [0, 0, -1, 0] ["Hz", "kHz", "1/s"] ["6 Hz"] "Frequencies, in cycles."
     SPEED "a speed" "m/s" [1, 0, -1, 0] ["m/s", "mm/s", "cm/s", "km/h"] ["1 m/s", "5 mm/s"] "Speeds."
     ACCELERATION "an acceleration" "m/s^2" [1, 0, -2, 0] ["m/s^2", "mm/s^2", "cm/s^2"] ["9.8 m/s^2"] "Accelerations."

@@ -113,8 +113,7 @@ fn text(value: &Value, may_break: bool) -> String {
     match value {
         Value::String(text) => quote(text),
         Value::Integer(whole) => whole.to_string(),
-        // The shortest digits that read back to the same double; an exponent for the very small and large.
-        Value::Float(number) => format!("{number:?}"),
+        Value::Float(number) => float(*number),
         Value::Boolean(flag) => flag.to_string(),
         Value::Datetime(date) => date.to_string(),
         Value::Array(items) => {
@@ -132,6 +131,12 @@ fn text(value: &Value, may_break: bool) -> String {
             format!("{{ {} }}", entries.join(", "))
         }
     }
+}
+
+/// The shortest digits that read back to the same double; with an exponent where zeros would have to be counted.
+fn float(number: f64) -> String {
+    let size = number.abs();
+    if size >= 1e6 || (size < 1e-3 && size > 0.0) { format!("{number:e}") } else { format!("{number:?}") }
 }
 
 fn join(path: &str, name: &str) -> String {

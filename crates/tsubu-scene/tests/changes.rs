@@ -25,7 +25,8 @@ fn a_later_change_wins() {
 #[test]
 fn a_choice_takes_the_place_of_the_one_before() {
     let text = format!("{GOOD}\n[contact]\ndamping.linear = {{ reference-speed = 2 }}\n");
-    let damping = |change: &str| read(&text, &[change]).unwrap_or_else(|c| panic!("{c}")).plan().contact.damping.clone();
+    let damping =
+        |change: &str| read(&text, &[change]).unwrap_or_else(|c| panic!("{c}")).plan().contact.damping.clone();
     assert_eq!(damping("contact.damping.quarter={}"), Damping::Quarter {});
     assert_eq!(damping("contact.damping.sqrt.reference-speed=3"), Damping::Sqrt { reference_speed: 3.0 });
     assert_eq!(damping("contact.damping.linear.reference-speed=3"), Damping::Linear { reference_speed: 3.0 });

@@ -1,15 +1,15 @@
 //! One binary for all integration tests of the crate: it links once.
 
-/// What a user reads when a scene is wrong; snapshots of whole messages.
-mod messages;
-/// What scenes mean: values, defaults, choices.
-mod meaning;
 /// `--set` and programmatic changes.
 mod changes;
-/// No text makes the reader panic.
-mod robust;
+/// What scenes mean: values, defaults, choices.
+mod meaning;
+/// What a user reads when a scene is wrong; snapshots of whole messages.
+mod messages;
 /// The resolved scene, the schema, the reference page, the templates.
 mod products;
+/// No text makes the reader panic.
+mod robust;
 
 use std::path::Path;
 use tsubu_scene::{Complaints, Scene};

@@ -119,7 +119,8 @@ fn a_table_is_read_with_its_units_and_kept_as_numbers() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let csv = "\u{feff}# measured\r\ntime [ms]; displacement [mm]\r\n0; 0\r\n\r\n10; 1.5\r\n";
     fs::write(folder.path().join("motion.csv"), csv).expect("written");
-    let text = edited("base.sine = { amplitude = \"0.5 mm\", frequency = \"6 Hz\" }", "base.table.file = \"motion.csv\"");
+    let text =
+        edited("base.sine = { amplitude = \"0.5 mm\", frequency = \"6 Hz\" }", "base.table.file = \"motion.csv\"");
     let scene = Scene::parse("scene.toml", &text, folder.path(), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
     let expected = Signal::Table { time: vec![0.0, 0.01], value: vec![0.0, 0.0015] };
     assert_eq!(scene.plan().hosts["spring"].base, Some(expected));

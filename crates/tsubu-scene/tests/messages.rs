@@ -14,7 +14,10 @@ fn about_table(csv: Option<&str>) -> String {
     if let Some(csv) = csv {
         fs::write(folder.path().join("motion.csv"), csv).expect("written");
     }
-    let text = edited("base.sine = { amplitude = \"0.5 mm\", frequency = \"6 Hz\" }", "base.table = { file = \"motion.csv\" }");
+    let text = edited(
+        "base.sine = { amplitude = \"0.5 mm\", frequency = \"6 Hz\" }",
+        "base.table = { file = \"motion.csv\" }",
+    );
     Scene::parse("scene.toml", &text, folder.path(), &[]).expect_err("the table is wrong").to_string()
 }
 
@@ -109,7 +112,10 @@ fn host_and_motion() {
 
 #[test]
 fn choice_with_two_variants() {
-    insta::assert_snapshot!(complaint(&format!("{GOOD}\n[contact]\ndamping.quarter = {{}}\ndamping.linear = {{}}\n"), &[]));
+    insta::assert_snapshot!(complaint(
+        &format!("{GOOD}\n[contact]\ndamping.quarter = {{}}\ndamping.linear = {{}}\n"),
+        &[]
+    ));
 }
 
 #[test]
@@ -135,7 +141,8 @@ fn plane_vector_in_space() {
 
 #[test]
 fn matrix_without_energy() {
-    let structure = "structure.matrices = { mass = [[1, 0], [0, 1]], damping = [[0, 0], [1, 0]], stiffness = [[1, -1], [-1, 1]] }";
+    let structure =
+        "structure.matrices = { mass = [[1, 0], [0, 1]], damping = [[0, 0], [1, 0]], stiffness = [[1, -1], [-1, 1]] }";
     let typed = "structure.oscillator = { mass = \"86 g\", stiffness = \"123.4 N/m\", damping = \"0.08 N s/m\" }";
     insta::assert_snapshot!(about(typed, structure));
 }
@@ -204,7 +211,8 @@ fn broken_syntax_and_a_wrong_value() {
 
 #[test]
 fn bad_changes() {
-    let changes = ["particles.balls.count", "particles.bals.count=3", "contact.damping.quart={}", "=3", "dem.skin=", "seed={"];
+    let changes =
+        ["particles.balls.count", "particles.bals.count=3", "contact.damping.quart={}", "=3", "dem.skin=", "seed={"];
     insta::assert_snapshot!(complaint(GOOD, &changes));
 }
 

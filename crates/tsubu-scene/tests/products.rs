@@ -1,4 +1,5 @@
 use crate::{GOOD, read};
+use proptest::prelude::*;
 use std::path::Path;
 use tsubu_scene::{Plan, Scene, TEMPLATES, keys, reference, schema};
 
@@ -99,6 +100,22 @@ fn resolved_scenes_mean_the_same_bit_by_bit() {
     }
 }
 
+proptest! {
+    #[test]
+    fn any_number_survives_the_run_folder(
+        mass in proptest::num::f64::POSITIVE | proptest::num::f64::NORMAL | proptest::num::f64::SUBNORMAL,
+        direction in [-1e3..1e3_f64, 1e-3..1e3_f64],
+        height in proptest::num::f64::NORMAL,
+    ) {
+        let [x, z] = direction;
+        let text = format!("{GOOD}direction = [{x:?}, {z:?}]\ndisplacement = {height:?}\n");
+        let mass = mass.abs().max(f64::MIN_POSITIVE);
+        let scene = read(&text, &[&format!("particles.balls.mass={mass:?}")]).unwrap_or_else(|wrong| panic!("{wrong}"));
+        prop_assert_eq!(scene.plan().particles["balls"].mass, mass);
+        again(scene.plan(), &scene.resolved_toml());
+    }
+}
+
 #[test]
 fn the_resolved_form_reads_well() {
     insta::assert_snapshot!(read(GOOD, &[]).expect("good").resolved_toml());
@@ -131,7 +148,8 @@ fn templates_are_right_and_named_once() {
 #[test]
 fn the_damper_runs_by_both_methods() {
     for method in ["dem", "lattice"] {
-        let scene = read(TEMPLATES[0].text, &[&format!("method={method}")]).unwrap_or_else(|complaints| panic!("{complaints}"));
+        let scene =
+            read(TEMPLATES[0].text, &[&format!("method={method}")]).unwrap_or_else(|complaints| panic!("{complaints}"));
         let response = scene.plan().response.as_ref().expect("a response");
         assert_eq!(response.frequency_ratio.len(), 31);
         assert_eq!(response.vary["particles.balls.count"].len(), 4);
@@ -151,7 +169,12 @@ fn the_schema_names_every_key() {
 #[test]
 fn the_reference_page_has_a_section_for_every_table() {
     let page = reference();
-    for heading in ["## `[materials.NAME]`", "## `[[claim]]`", "### Choice `contact.damping`", "`[hosts.NAME.structure.oscillator]`"] {
+    for heading in [
+        "## `[materials.NAME]`",
+        "## `[[claim]]`",
+        "### Choice `contact.damping`",
+        "`[hosts.NAME.structure.oscillator]`",
+    ] {
         assert!(page.contains(heading), "{heading}");
     }
 }

@@ -14,7 +14,10 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
             Structure::Oscillator { .. } => {}
             Structure::Modes { mode } => {
                 if mode.is_empty() {
-                    complaints.push(Complaint::new(format!("the host `{name}` has no modes")).at(&at(&["modes"]), "the list is empty"));
+                    complaints.push(
+                        Complaint::new(format!("the host `{name}` has no modes"))
+                            .at(&at(&["modes"]), "the list is empty"),
+                    );
                 } else if mode.iter().all(|mode| mode.shape == 0.0) {
                     complaints.push(
                         Complaint::new(format!("no mode of the host `{name}` moves the walls"))
@@ -27,19 +30,27 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
                 for (key, matrix) in [("damping", damping), ("stiffness", stiffness)] {
                     if matrix.len() != size {
                         complaints.push(
-                            Complaint::new(format!("`{key}` of the host `{name}` has another size than `mass`"))
-                                .at(&at(&["matrices", key]), format!("{0} x {0}, but `mass` is {size} x {size}", matrix.len())),
+                            Complaint::new(format!("`{key}` of the host `{name}` has another size than `mass`")).at(
+                                &at(&["matrices", key]),
+                                format!("{0} x {0}, but `mass` is {size} x {size}", matrix.len()),
+                            ),
                         );
                     }
                 }
-                for (key, matrix, definite) in [("mass", mass, true), ("damping", damping, false), ("stiffness", stiffness, true)] {
+                for (key, matrix, definite) in
+                    [("mass", mass, true), ("damping", damping, false), ("stiffness", stiffness, true)]
+                {
                     if let Some((i, j)) = asymmetry(matrix) {
-                        complaints.push(
-                            Complaint::new(format!("`{key}` of the host `{name}` is not symmetric")).at(
-                                &at(&["matrices", key]),
-                                format!("row {}, column {} is {}, but mirrored {}", i + 1, j + 1, matrix[i][j], matrix[j][i]),
+                        complaints.push(Complaint::new(format!("`{key}` of the host `{name}` is not symmetric")).at(
+                            &at(&["matrices", key]),
+                            format!(
+                                "row {}, column {} is {}, but mirrored {}",
+                                i + 1,
+                                j + 1,
+                                matrix[i][j],
+                                matrix[j][i]
                             ),
-                        );
+                        ));
                     } else if definite && !positive_definite(matrix) {
                         complaints.push(
                             Complaint::new(format!("`{key}` of the host `{name}` is not positive definite"))
@@ -48,10 +59,10 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
                     }
                 }
                 if *coordinate >= size {
-                    complaints.push(
-                        Complaint::new(format!("the host `{name}` has no coordinate {coordinate}"))
-                            .at(&at(&["matrices", "coordinate"]), format!("coordinates here: 0 to {}", size.saturating_sub(1))),
-                    );
+                    complaints.push(Complaint::new(format!("the host `{name}` has no coordinate {coordinate}")).at(
+                        &at(&["matrices", "coordinate"]),
+                        format!("coordinates here: 0 to {}", size.saturating_sub(1)),
+                    ));
                 }
             }
         }
@@ -96,7 +107,10 @@ mod tests {
     #[test]
     fn definiteness_is_told_apart() {
         assert!(positive_definite(&[vec![2.0, -1.0], vec![-1.0, 2.0]]));
-        assert!(!positive_definite(&[vec![1.0, -1.0], vec![-1.0, 1.0]]), "a free body has a rigid motion without energy");
+        assert!(
+            !positive_definite(&[vec![1.0, -1.0], vec![-1.0, 1.0]]),
+            "a free body has a rigid motion without energy"
+        );
         assert!(!positive_definite(&[vec![1.0, 2.0], vec![2.0, 1.0]]));
         assert!(!positive_definite(&[vec![0.0]]));
     }

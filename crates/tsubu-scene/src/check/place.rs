@@ -47,7 +47,12 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
             }
         }
         let placed = position.iter().enumerate();
-        grains.extend(placed.map(|(index, position)| Grain { group: name, index, diameter: group.diameter, position: *position }));
+        grains.extend(placed.map(|(index, position)| Grain {
+            group: name,
+            index,
+            diameter: group.diameter,
+            position: *position,
+        }));
     }
     let rooms: Vec<Room<'_>> = parts.walls.iter().filter_map(|(name, wall)| room(parts, name, wall)).collect();
     outside(parts, &grains, &rooms, complaints);
@@ -115,9 +120,12 @@ fn outside(parts: &Parts<'_>, grains: &[Grain<'_>], rooms: &[Room<'_>], complain
             found += 1;
             if found <= MOST_COMPLAINTS {
                 complaints.push(
-                    Complaint::new(format!("grain {} of `{}` begins outside the box `{}`", grain.index, grain.group, room.name))
-                        .at(&grain.place(parts), format!("reaches {} through the {side}", millimetres(depth)))
-                        .hint("positions are centres; x runs to the right, z up"),
+                    Complaint::new(format!(
+                        "grain {} of `{}` begins outside the box `{}`",
+                        grain.index, grain.group, room.name
+                    ))
+                    .at(&grain.place(parts), format!("reaches {} through the {side}", millimetres(depth)))
+                    .hint("positions are centres; x runs to the right, z up"),
                 );
             }
         }
@@ -125,8 +133,11 @@ fn outside(parts: &Parts<'_>, grains: &[Grain<'_>], rooms: &[Room<'_>], complain
             found += 1;
             if found <= MOST_COMPLAINTS {
                 complaints.push(
-                    Complaint::new(format!("grain {} of `{}` begins behind the plane `{name}`", grain.index, grain.group))
-                        .at(&grain.place(parts), format!("reaches {} into it", millimetres(depth))),
+                    Complaint::new(format!(
+                        "grain {} of `{}` begins behind the plane `{name}`",
+                        grain.index, grain.group
+                    ))
+                    .at(&grain.place(parts), format!("reaches {} into it", millimetres(depth))),
                 );
             }
         }
@@ -168,15 +179,27 @@ fn overlaps(parts: &Parts<'_>, grains: &mut [Grain<'_>], complaints: &mut Vec<Co
             }
             let (first, second) = if (a.group, a.index) <= (b.group, b.index) { (a, b) } else { (b, a) };
             complaints.push(
-                Complaint::new(format!(
-                    "grains {} of `{}` and {} of `{}` overlap at the start by {overlap:.3} diameters",
-                    first.index, first.group, second.index, second.group
-                ))
-                .at(&second.place(parts), format!("{} between the centres, the diameter is {}", millimetres(distance), millimetres(reach)))
-                .also(&first.place(parts), "the other grain")
-                .hint(format!("move one of them; up to {OVERLAP} diameters would be let through")),
+                Complaint::new(format!("{} overlap at the start by {overlap:.3} diameters", both(first, second)))
+                    .at(
+                        &second.place(parts),
+                        format!(
+                            "{} between the centres, the diameter is {}",
+                            millimetres(distance),
+                            millimetres(reach)
+                        ),
+                    )
+                    .also(&first.place(parts), "the other grain")
+                    .hint(format!("move one of them; up to {OVERLAP} diameters would be let through")),
             );
         }
+    }
+}
+
+fn both(first: &Grain<'_>, second: &Grain<'_>) -> String {
+    if first.group == second.group {
+        format!("grains {} and {} of `{}`", first.index, second.index, first.group)
+    } else {
+        format!("grains {} of `{}` and {} of `{}`", first.index, first.group, second.index, second.group)
     }
 }
 
@@ -201,9 +224,12 @@ fn capacity(parts: &Parts<'_>, rooms: &[Room<'_>], complaints: &mut Vec<Complain
         }
         ([(name, _), ..], [_, second, ..]) => {
             complaints.push(
-                Complaint::new(format!("there are {} boxes, so it is not clear where the grains `{name}` start", rooms.len()))
-                    .at(&parts.root.locate(&["walls", second.name]), "another box")
-                    .hint("keep one box, or give the places of the grains with start.at"),
+                Complaint::new(format!(
+                    "there are {} boxes, so it is not clear where the grains `{name}` start",
+                    rooms.len()
+                ))
+                .at(&parts.root.locate(&["walls", second.name]), "another box")
+                .hint("keep one box, or give the places of the grains with start.at"),
             );
             return;
         }

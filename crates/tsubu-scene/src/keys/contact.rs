@@ -5,9 +5,14 @@ use crate::units::{SPEED, STIFFNESS};
 
 pub(super) static CONTACT: &[Key] = &[
     Key::new("normal", Kind::Choice(NORMAL), "Elastic normal force for overlap d").default("{ hertz = {} }"),
-    Key::new("damping", Kind::Choice(DAMPING), "Damping of the normal motion; its coefficient is found from the restitution")
-        .default("{ quarter = {} }"),
-    Key::new("attraction", Kind::Flag, "Let damping make the normal force attractive instead of cutting it at zero").default("false"),
+    Key::new(
+        "damping",
+        Kind::Choice(DAMPING),
+        "Damping of the normal motion; its coefficient is found from the restitution",
+    )
+    .default("{ quarter = {} }"),
+    Key::new("attraction", Kind::Flag, "Let damping make the normal force attractive instead of cutting it at zero")
+        .default("false"),
     Key::new("tangential", Kind::Choice(TANGENTIAL), "Tangential force").default("{ mindlin = {} }"),
     Key::new("rolling", Kind::Choice(ROLLING), "Rolling resistance").default("{ none = {} }"),
     Key::new("rotation", Kind::Flag, "Whether grains spin").default("true"),
@@ -47,7 +52,9 @@ static TANGENTIAL: &[Variant] = &[
     Variant {
         name: "coulomb",
         about: "Sliding friction without a spring, smoothed near zero sliding speed; heaps creep",
-        keys: &[Key::new("smoothing-speed", Kind::Quantity(&SPEED), "Sliding speed below which friction fades").default("'1 mm/s'").above(0.0)],
+        keys: &[Key::new("smoothing-speed", Kind::Quantity(&SPEED), "Sliding speed below which friction fades")
+            .default("'1 mm/s'")
+            .above(0.0)],
     },
     Variant { name: "mindlin", about: "Spring with history, capped at the friction limit", keys: &[] },
 ];
@@ -57,6 +64,8 @@ static ROLLING: &[Variant] = &[
     Variant {
         name: "constant",
         about: "Torque of rolling friction times radius times normal force, against the relative rolling",
-        keys: &[Key::new("smoothing-speed", Kind::Quantity(&SPEED), "Rolling speed below which the torque fades").default("'1 mm/s'").above(0.0)],
+        keys: &[Key::new("smoothing-speed", Kind::Quantity(&SPEED), "Rolling speed below which the torque fades")
+            .default("'1 mm/s'")
+            .above(0.0)],
     },
 ];

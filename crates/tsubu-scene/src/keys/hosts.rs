@@ -36,9 +36,13 @@ static STRUCTURE: &[Variant] = &[
             Key::new("mass", Kind::Matrix(&MASS), "M, symmetric and positive definite"),
             Key::new("damping", Kind::Matrix(&DAMPING), "C, symmetric"),
             Key::new("stiffness", Kind::Matrix(&STIFFNESS), "K, symmetric and positive definite"),
-            Key::new("coordinate", Kind::Whole, "Index (from 0) of the coordinate that carries the walls and takes the force")
-                .default("0")
-                .at_least(0.0),
+            Key::new(
+                "coordinate",
+                Kind::Whole,
+                "Index (from 0) of the coordinate that carries the walls and takes the force",
+            )
+            .default("0")
+            .at_least(0.0),
         ],
     },
     Variant {

@@ -4,24 +4,40 @@ use super::{Key, Kind, Word};
 use crate::units::{NUMBER, TIME};
 
 pub(super) static DEM: &[Key] = &[
-    Key::new("time-step", Kind::Quantity(&TIME), "Time step; automatic: the shortest contact time over `steps-per-contact`")
-        .above(0.0)
-        .word("automatic"),
-    Key::new("steps-per-contact", Kind::Quantity(&NUMBER), "Steps per contact for the automatic time step; fewer than 10 is not safe")
-        .default("20")
-        .at_least(1.0),
+    Key::new(
+        "time-step",
+        Kind::Quantity(&TIME),
+        "Time step; automatic: the shortest contact time over `steps-per-contact`",
+    )
+    .above(0.0)
+    .word("automatic"),
+    Key::new(
+        "steps-per-contact",
+        Kind::Quantity(&NUMBER),
+        "Steps per contact for the automatic time step; fewer than 10 is not safe",
+    )
+    .default("20")
+    .at_least(1.0),
     Key::new("integrator", Kind::OneOf(INTEGRATOR), "Time integration of the grains").default("'velocity-verlet'"),
-    Key::new("skin", Kind::Quantity(&NUMBER), "Extra reach of the candidate search over the smallest diameter; changes speed, not results")
-        .default("0.3")
-        .at_least(0.0)
-        .at_most(10.0),
+    Key::new(
+        "skin",
+        Kind::Quantity(&NUMBER),
+        "Extra reach of the candidate search over the smallest diameter; changes speed, not results",
+    )
+    .default("0.3")
+    .at_least(0.0)
+    .at_most(10.0),
     Key::new("largest-overlap", Kind::Quantity(&NUMBER), "Overlap over diameter at which the run stops as blown up")
         .default("0.1")
         .above(0.0)
         .at_most(1.0),
-    Key::new("energy-tolerance", Kind::Quantity(&NUMBER), "Energy residual over turned-over energy above which the run warns")
-        .default("1e-3")
-        .above(0.0),
+    Key::new(
+        "energy-tolerance",
+        Kind::Quantity(&NUMBER),
+        "Energy residual over turned-over energy above which the run warns",
+    )
+    .default("1e-3")
+    .above(0.0),
 ];
 
 static INTEGRATOR: &[Word] = &[
@@ -33,17 +49,31 @@ static INTEGRATOR: &[Word] = &[
 pub(super) static LATTICE: &[Key] = &[
     Key::new("mode", Kind::OneOf(MODE), "Preset of rules").default("'extended'"),
     Key::new("time-step", Kind::Quantity(&TIME), "Time step").default("'0.1 ms'").above(0.0),
-    Key::new("oblique-gravity", Kind::OneOf(OBLIQUE_GRAVITY), "Gravity along the oblique directions").default("'projected'"),
+    Key::new("oblique-gravity", Kind::OneOf(OBLIQUE_GRAVITY), "Gravity along the oblique directions")
+        .default("'projected'"),
     Key::new("collision", Kind::OneOf(COLLISION), "Who changes in a collision of two balls").default("'pairwise'"),
-    Key::new("rebound-scatter", Kind::Flag, "Rebound straight back with probability 1/2, else to the two neighbours; false: straight back")
-        .default("true"),
-    Key::new("reset-when-blocked", Kind::Flag, "Forget the stored distance when a collision happens or a move is blocked").default("true"),
+    Key::new(
+        "rebound-scatter",
+        Kind::Flag,
+        "Rebound straight back with probability 1/2, else to the two neighbours; false: straight back",
+    )
+    .default("true"),
+    Key::new(
+        "reset-when-blocked",
+        Kind::Flag,
+        "Forget the stored distance when a collision happens or a move is blocked",
+    )
+    .default("true"),
     Key::new("keep-remainder", Kind::Flag, "Keep the remainder of the stored distance after a move").default("true"),
     Key::new("resting-impulses", Kind::Flag, "Resting contacts pass their impulse to the host")
         .derived("true in mode `extended`, false in `literal`"),
-    Key::new("resting-threshold", Kind::Quantity(&NUMBER), "Collisions at or below this many g dt of relative speed are resting contacts")
-        .default("2")
-        .at_least(0.0),
+    Key::new(
+        "resting-threshold",
+        Kind::Quantity(&NUMBER),
+        "Collisions at or below this many g dt of relative speed are resting contacts",
+    )
+    .default("2")
+    .at_least(0.0),
     Key::new("arithmetic", Kind::OneOf(ARITHMETIC), "Number representation of speeds").default("'fixed'"),
     Key::new("head-room", Kind::Whole, "Rows of free cells added above and below the travel of the box")
         .default("8")

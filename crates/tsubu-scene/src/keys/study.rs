@@ -4,13 +4,26 @@ use super::{Family, Key, Kind};
 use crate::units::{NUMBER, TIME};
 
 pub(super) static RESPONSE: &[Key] = &[
-    Key::new("host", Kind::Name(Family::Host), "The host whose displacement is measured; its base or force must be a sine")
-        .derived("the only host"),
+    Key::new(
+        "host",
+        Kind::Name(Family::Host),
+        "The host whose displacement is measured; its base or force must be a sine",
+    )
+    .derived("the only host"),
     Key::new("frequency-ratio", Kind::Ratios, "Frequencies over the host's first undamped natural frequency"),
-    Key::new("discard-periods", Kind::Whole, "Periods thrown away before measuring, with grains").default("40").at_least(0.0).at_most(1e6),
-    Key::new("discard-periods-empty", Kind::Whole, "Periods thrown away for the empty host").default("60").at_least(0.0).at_most(1e6),
+    Key::new("discard-periods", Kind::Whole, "Periods thrown away before measuring, with grains")
+        .default("40")
+        .at_least(0.0)
+        .at_most(1e6),
+    Key::new("discard-periods-empty", Kind::Whole, "Periods thrown away for the empty host")
+        .default("60")
+        .at_least(0.0)
+        .at_most(1e6),
     Key::new("measure-periods", Kind::Whole, "Periods measured").default("10").at_least(1.0).at_most(1e6),
-    Key::new("seeds", Kind::Whole, "Number of random seeds, from the scene's seed upwards").default("1").at_least(1.0).at_most(1e4),
+    Key::new("seeds", Kind::Whole, "Number of random seeds, from the scene's seed upwards")
+        .default("1")
+        .at_least(1.0)
+        .at_most(1e4),
     Key::new("vary", Kind::Vary, "Scene keys and the values they take; every combination is a curve").default("{}"),
 ];
 
@@ -18,9 +31,13 @@ pub(super) static SWEEP: &[Key] =
     &[Key::new("vary", Kind::Vary, "Scene keys and the values they take; every combination is a run")];
 
 pub(super) static OUTPUT: &[Key] = &[
-    Key::new("history-interval", Kind::Quantity(&TIME), "Simulated time between rows of history.csv").above(0.0).derived("duration / 1000"),
+    Key::new("history-interval", Kind::Quantity(&TIME), "Simulated time between rows of history.csv")
+        .above(0.0)
+        .derived("duration / 1000"),
     Key::new("frame-interval", Kind::Quantity(&TIME), "Simulated time between frames").above(0.0).word("none"),
-    Key::new("checkpoint-interval", Kind::Quantity(&TIME), "Simulated time between checkpoints").above(0.0).derived("duration / 10"),
+    Key::new("checkpoint-interval", Kind::Quantity(&TIME), "Simulated time between checkpoints")
+        .above(0.0)
+        .derived("duration / 10"),
     Key::new("xyz", Kind::Flag, "Also write extended XYZ, which OVITO opens").default("false"),
 ];
 

@@ -7,26 +7,47 @@ use crate::units::{DENSITY, LENGTH, MASS, NUMBER, PRESSURE, SPEED, TIME};
 pub static SCENE: &[Key] = &[
     Key::new("title", Kind::Text, "One line for people").default("''"),
     Key::new("method", Kind::OneOf(METHOD), "The method that `tsubu run` uses").default("'dem'"),
-    Key::new("dimension", Kind::Whole, "2: the plane (x to the right, z up), 3: space").default("2").at_least(2.0).at_most(3.0),
+    Key::new("dimension", Kind::Whole, "2: the plane (x to the right, z up), 3: space")
+        .default("2")
+        .at_least(2.0)
+        .at_most(3.0),
     Key::new("seed", Kind::Whole, "Seed of every random number of the run").default("1").at_least(0.0),
-    Key::new("gravity", Kind::Gravity, "Gravitational acceleration: a number points down (along -z), a vector where it says")
-        .default("'9.8 m/s^2'"),
+    Key::new(
+        "gravity",
+        Kind::Gravity,
+        "Gravitational acceleration: a number points down (along -z), a vector where it says",
+    )
+    .default("'9.8 m/s^2'"),
     Key::new("duration", Kind::Quantity(&TIME), "Simulated time").above(0.0),
-    Key::new("speed-scale", Kind::Quantity(&SPEED), "Typical fastest relative speed, for the time step and the verdict of `check`")
-        .above(0.0)
-        .word("automatic"),
+    Key::new(
+        "speed-scale",
+        Kind::Quantity(&SPEED),
+        "Typical fastest relative speed, for the time step and the verdict of `check`",
+    )
+    .above(0.0)
+    .word("automatic"),
     Key::new("materials", Kind::Named(MATERIAL, "A material, referred to by its name"), "The materials").default("{}"),
-    Key::new("material-pair", Kind::Many(MATERIAL_PAIR), "Exceptions to the mixing rule (geometric mean) for two materials")
-        .default("[]"),
+    Key::new(
+        "material-pair",
+        Kind::Many(MATERIAL_PAIR),
+        "Exceptions to the mixing rule (geometric mean) for two materials",
+    )
+    .default("[]"),
     Key::new("particles", Kind::Named(PARTICLES, "A group of equal spheres"), "The grains").default("{}"),
     Key::new("walls", Kind::Named(WALL, "A wall: still, moved, or carried by a host"), "The walls").default("{}"),
-    Key::new("hosts", Kind::Named(hosts::HOST, "A vibrating structure: M q'' + C (q' - y') + K (q - y) = F"), "The vibrating structures")
-        .default("{}"),
+    Key::new(
+        "hosts",
+        Kind::Named(hosts::HOST, "A vibrating structure: M q'' + C (q' - y') + K (q - y) = F"),
+        "The vibrating structures",
+    )
+    .default("{}"),
     Key::new("contact", Kind::Table(contact::CONTACT), "The contact law, a stack of parts").default("{}"),
     Key::new("dem", Kind::Table(methods::DEM), "What only the discrete element method reads").default("{}"),
     Key::new("lattice", Kind::Table(methods::LATTICE), "What only the lattice automaton reads").default("{}"),
-    Key::new("response", Kind::Table(study::RESPONSE), "What `tsubu response` reads: a sweep over frequency").optional(),
-    Key::new("sweep", Kind::Table(study::SWEEP), "What `tsubu sweep` reads: every combination of values is a run").optional(),
+    Key::new("response", Kind::Table(study::RESPONSE), "What `tsubu response` reads: a sweep over frequency")
+        .optional(),
+    Key::new("sweep", Kind::Table(study::SWEEP), "What `tsubu sweep` reads: every combination of values is a run")
+        .optional(),
     Key::new("output", Kind::Table(study::OUTPUT), "What is written, and how often").default("{}"),
     Key::new("claim", Kind::Many(study::CLAIM), "Results that must lie in a range").default("[]"),
 ];
@@ -39,24 +60,35 @@ static METHOD: &[Word] = &[
 static MATERIAL: &[Key] = &[
     Key::new("young-modulus", Kind::Quantity(&PRESSURE), "Young's modulus E").above(0.0),
     Key::new("poisson-ratio", Kind::Quantity(&NUMBER), "Poisson's ratio").default("0.3").above(-1.0).below(0.5),
-    Key::new("restitution", Kind::Quantity(&NUMBER), "Coefficient of restitution against the same material; 1 is elastic")
-        .default("0.9")
-        .above(0.0)
-        .at_most(1.0),
+    Key::new(
+        "restitution",
+        Kind::Quantity(&NUMBER),
+        "Coefficient of restitution against the same material; 1 is elastic",
+    )
+    .default("0.9")
+    .above(0.0)
+    .at_most(1.0),
     Key::new("friction", Kind::Quantity(&NUMBER), "Coulomb friction coefficient against the same material")
         .default("0.5")
         .at_least(0.0),
     Key::new("rolling-friction", Kind::Quantity(&NUMBER), "Rolling friction coefficient against the same material")
         .default("0")
         .at_least(0.0),
-    Key::new("density", Kind::Quantity(&DENSITY), "Density; needed where a group of grains gives no mass").above(0.0).optional(),
+    Key::new("density", Kind::Quantity(&DENSITY), "Density; needed where a group of grains gives no mass")
+        .above(0.0)
+        .optional(),
 ];
 
 static MATERIAL_PAIR: &[Key] = &[
     Key::new("between", Kind::NamePair, "The two materials"),
-    Key::new("restitution", Kind::Quantity(&NUMBER), "Coefficient of restitution of the pair").above(0.0).at_most(1.0).optional(),
+    Key::new("restitution", Kind::Quantity(&NUMBER), "Coefficient of restitution of the pair")
+        .above(0.0)
+        .at_most(1.0)
+        .optional(),
     Key::new("friction", Kind::Quantity(&NUMBER), "Friction coefficient of the pair").at_least(0.0).optional(),
-    Key::new("rolling-friction", Kind::Quantity(&NUMBER), "Rolling friction coefficient of the pair").at_least(0.0).optional(),
+    Key::new("rolling-friction", Kind::Quantity(&NUMBER), "Rolling friction coefficient of the pair")
+        .at_least(0.0)
+        .optional(),
 ];
 
 static PARTICLES: &[Key] = &[
@@ -80,9 +112,16 @@ static START: &[Variant] = &[
         name: "rows",
         about: "Rows from the floor up",
         keys: &[
-            Key::new("spacing", Kind::Quantity(&NUMBER), "Distance of centres over diameter").default("1.05").at_least(1.0),
-            Key::new("jitter", Kind::Quantity(&NUMBER), "Random displacement over the free gap").default("0.5").at_least(0.0).at_most(1.0),
-            Key::new("speed", Kind::Quantity(&SPEED), "Speed of each grain, in a random direction").default("0").at_least(0.0),
+            Key::new("spacing", Kind::Quantity(&NUMBER), "Distance of centres over diameter")
+                .default("1.05")
+                .at_least(1.0),
+            Key::new("jitter", Kind::Quantity(&NUMBER), "Random displacement over the free gap")
+                .default("0.5")
+                .at_least(0.0)
+                .at_most(1.0),
+            Key::new("speed", Kind::Quantity(&SPEED), "Speed of each grain, in a random direction")
+                .default("0")
+                .at_least(0.0),
         ],
     },
     Variant {
@@ -90,8 +129,10 @@ static START: &[Variant] = &[
         about: "Given places",
         keys: &[
             Key::new("position", Kind::Vectors(&LENGTH), "Centres"),
-            Key::new("velocity", Kind::Vectors(&SPEED), "Velocities, one for each position; empty: at rest").default("[]"),
-            Key::new("spin", Kind::Spins, "Spins, one for each position (in the plane a number, about y); empty: none").default("[]"),
+            Key::new("velocity", Kind::Vectors(&SPEED), "Velocities, one for each position; empty: at rest")
+                .default("[]"),
+            Key::new("spin", Kind::Spins, "Spins, one for each position (in the plane a number, about y); empty: none")
+                .default("[]"),
         ],
     },
 ];
@@ -110,7 +151,8 @@ static SHAPE: &[Variant] = &[
         keys: &[
             Key::new("width", Kind::Quantity(&LENGTH), "Inner size along x").above(0.0),
             Key::new("height", Kind::Quantity(&LENGTH), "Inner size along z").above(0.0),
-            Key::new("depth", Kind::Quantity(&LENGTH), "Inner size along y").above(0.0)
+            Key::new("depth", Kind::Quantity(&LENGTH), "Inner size along y")
+                .above(0.0)
                 .derived("in the plane the largest diameter, in space required"),
             Key::new("floor-centre", Kind::Vector(&LENGTH), "Centre of the floor").default("'origin'"),
         ],

@@ -82,11 +82,11 @@ fn count(group: &mut toml::Table, root: &Node, path: &[&str; 2], complaints: &mu
 fn boxes(resolved: &mut toml::Table, root: &Node, complaints: &mut Vec<Complaint>) {
     let space = resolved.get("dimension").and_then(Value::as_integer) == Some(3);
     let diameters = table_at(resolved, "particles").into_iter().flat_map(|groups| groups.iter());
-    let largest =
-        diameters.filter_map(|(_, group)| group.get("diameter").and_then(Value::as_float)).reduce(f64::max);
+    let largest = diameters.filter_map(|(_, group)| group.get("diameter").and_then(Value::as_float)).reduce(f64::max);
     for (name, wall) in tables_in(resolved, "walls") {
         let path = ["walls", &name, "shape", "box", "depth"];
-        let Some(shape) = wall.get_mut("shape").and_then(|shape| shape.get_mut("box")).and_then(Value::as_table_mut) else {
+        let Some(shape) = wall.get_mut("shape").and_then(|shape| shape.get_mut("box")).and_then(Value::as_table_mut)
+        else {
             continue;
         };
         if shape.contains_key("depth") || root.find(&path).is_some() {
@@ -144,7 +144,8 @@ fn settings(resolved: &mut toml::Table) {
 }
 
 fn response(resolved: &mut toml::Table, root: &Node, complaints: &mut Vec<Complaint>) {
-    let hosts: Vec<String> = table_at(resolved, "hosts").map(|hosts| hosts.keys().cloned().collect()).unwrap_or_default();
+    let hosts: Vec<String> =
+        table_at(resolved, "hosts").map(|hosts| hosts.keys().cloned().collect()).unwrap_or_default();
     let Some(response) = resolved.get_mut("response").and_then(Value::as_table_mut) else { return };
     if response.contains_key("host") || root.find(&["response", "host"]).is_some() {
         return;

@@ -52,14 +52,21 @@ pub(super) fn read(text: &str, source: usize, value: &Dimension) -> Result<Colum
         first = false;
         if header {
             units = [unit_of(time_cell.text), unit_of(value_cell.text)];
-            continue;
+            let cells = [(time_cell, &TIME), (value_cell, value)];
+            complaints.extend(
+                cells.iter().zip(&units).filter_map(|((cell, want), unit)| header_unit(cell, unit, source, want)),
+            );
+            if complaints.is_empty() {
+                continue;
+            }
+            break;
         }
         let numbers = [number(time_cell, &units[0], source, &TIME), number(value_cell, &units[1], source, value)];
         match numbers {
             [Ok(time), Ok(value)] => {
                 if let Some(last) = columns.time.last().filter(|last| **last >= time) {
                     complaints.push(
-                        Complaint::new(format!("time does not rise: {} s after {last} s", time))
+                        Complaint::new(format!("time does not rise: {time} s after {last} s"))
                             .at(&Place::new(source, time_cell.span.clone()), "must be later than the line before"),
                     );
                 } else {
@@ -74,7 +81,8 @@ pub(super) fn read(text: &str, source: usize, value: &Dimension) -> Result<Colum
         }
     }
     if complaints.is_empty() && columns.time.is_empty() {
-        complaints.push(Complaint::new("the table has no rows").at(&Place::new(source, 0..0), "no numbers in this file"));
+        complaints
+            .push(Complaint::new("the table has no rows").at(&Place::new(source, 0..0), "no numbers in this file"));
     }
     if complaints.is_empty() { Ok(columns) } else { Err(complaints) }
 }
@@ -105,6 +113,16 @@ fn is_header(cell: &str) -> bool {
 fn unit_of(cell: &str) -> String {
     let inside = cell.split_once('[').and_then(|(_, rest)| rest.split_once(']'));
     inside.map(|(unit, _)| unit.trim().to_string()).unwrap_or_default()
+}
+
+/// A unit that does not fit is one mistake in the header, not one in every row.
+fn header_unit(cell: &Cell<'_>, unit: &str, source: usize, want: &Dimension) -> Option<Complaint> {
+    let error = units::read(&format!("1 {unit}"), want).err().filter(|_| !unit.is_empty())?;
+    Some(
+        Complaint::new(format!("the unit [{unit}] does not fit: {}", error.title))
+            .at(&Place::new(source, cell.span.clone()), format!("needs {}", want.name))
+            .hints(error.hints),
+    )
 }
 
 fn number(cell: &Cell<'_>, unit: &str, source: usize, dimension: &Dimension) -> Result<f64, Complaint> {

@@ -99,7 +99,8 @@ impl Resolver<'_> {
         let inside = key.range.holds(value);
         if let (false, Some(words)) = (inside, key.range.words()) {
             self.complain(
-                Complaint::new(format!("`{}` must be {words}", key.name)).at(&node.place, format!("needs {what} {words}")),
+                Complaint::new(format!("`{}` must be {words}", key.name))
+                    .at(&node.place, format!("needs {what} {words}")),
             );
         }
         inside
@@ -123,8 +124,8 @@ impl Resolver<'_> {
         if names().any(|name| name == text) {
             return Some(toml::Value::String(text.clone()));
         }
-        let mut complaint =
-            Complaint::new(format!("unknown `{}`: `{text}`", key.name)).at(&node.place, "not one of the words known here");
+        let mut complaint = Complaint::new(format!("unknown `{}`: `{text}`", key.name))
+            .at(&node.place, "not one of the words known here");
         if let Some(near) = suggest::nearest(text, names()) {
             complaint = complaint.hint(format!("did you mean \"{near}\"?"));
         }
@@ -231,7 +232,11 @@ impl Resolver<'_> {
                 "z" => return Some([0.0, 0.0, sign]),
                 _ => {}
             }
-            let axes = if self.dimension == Some(2) { "\"x\", \"-x\", \"z\", \"-z\"" } else { "\"x\", \"y\", \"z\" with or without -" };
+            let axes = if self.dimension == Some(2) {
+                "\"x\", \"-x\", \"z\", \"-z\""
+            } else {
+                "\"x\", \"y\", \"z\" with or without -"
+            };
             self.complain(
                 Complaint::new(format!("`{}`: `{text}` is not a direction", key.name))
                     .at(&node.place, "not an axis here")
@@ -242,7 +247,9 @@ impl Resolver<'_> {
         let vector = self.vector(key, node, &NUMBER)?;
         let largest = vector.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         if largest == 0.0 {
-            self.complain(Complaint::new(format!("`{}` has no direction", key.name)).at(&node.place, "all entries are 0"));
+            self.complain(
+                Complaint::new(format!("`{}` has no direction", key.name)).at(&node.place, "all entries are 0"),
+            );
             return None;
         }
         // Scaled first, so that squares of tiny and huge entries neither vanish nor overflow.
@@ -264,13 +271,17 @@ impl Resolver<'_> {
                 for (end, name) in ends.iter_mut().zip(["from", "to", "step"]) {
                     let Some(entry) = table.get(name) else {
                         self.complain(
-                            Complaint::new(format!("`{}` has no `{name}`", key.name)).at(&node.place, format!("needs `{name}`")).hint(FORM),
+                            Complaint::new(format!("`{}` has no `{name}`", key.name))
+                                .at(&node.place, format!("needs `{name}`"))
+                                .hint(FORM),
                         );
                         return None;
                     };
                     *end = self.quantity(key, entry, &NUMBER)?;
                 }
-                if let Some(extra) = table.entries.iter().find(|entry| !["from", "to", "step"].contains(&entry.key.as_str())) {
+                if let Some(extra) =
+                    table.entries.iter().find(|entry| !["from", "to", "step"].contains(&entry.key.as_str()))
+                {
                     self.complain(
                         Complaint::new(format!("unknown key `{}` in `{}`", extra.key, key.name))
                             .at(&extra.place, "not a key here")
@@ -290,13 +301,23 @@ impl Resolver<'_> {
                 }
                 // 0.85 + 7 * 0.01 is 0.9199999999999999; nobody means that.
                 let tidy = |x: f64| format!("{x:.12e}").parse().unwrap_or(x);
-                ((0..=steps as usize).map(|i| tidy(from + i as f64 * step)).filter(|x| *x <= to + 1e-9 * step).collect(), &node.place)
+                (
+                    (0..=steps as usize)
+                        .map(|i| tidy(from + i as f64 * step))
+                        .filter(|x| *x <= to + 1e-9 * step)
+                        .collect(),
+                    &node.place,
+                )
             }
             _ => return self.wrong_kind(key, node, FORM, None),
         };
         let rising = values.windows(2).all(|pair| pair[0] < pair[1]);
         if values.is_empty() || values[0] <= 0.0 || !rising {
-            let label = if values.is_empty() { "the list is empty" } else { "numbers above 0, each larger than the one before" };
+            let label = if values.is_empty() {
+                "the list is empty"
+            } else {
+                "numbers above 0, each larger than the one before"
+            };
             self.complain(Complaint::new(format!("`{}` needs rising numbers above 0", key.name)).at(place, label));
             return None;
         }
@@ -327,11 +348,14 @@ impl Resolver<'_> {
     }
 
     fn name_pair(&mut self, key: &Key, node: &Node) -> Option<toml::Value> {
-        let names = self.list(key, node, "two material names in a list", |me, item| me.name(key, Family::Material, item))?;
+        let names =
+            self.list(key, node, "two material names in a list", |me, item| me.name(key, Family::Material, item))?;
         if names.as_array().is_some_and(|names| names.len() == 2) {
             return Some(names);
         }
-        self.complain(Complaint::new(format!("`{}` needs two names", key.name)).at(&node.place, "[\"one\", \"other\"]"));
+        self.complain(
+            Complaint::new(format!("`{}` needs two names", key.name)).at(&node.place, "[\"one\", \"other\"]"),
+        );
         None
     }
 
@@ -345,9 +369,12 @@ impl Resolver<'_> {
                         varied.insert(entry.key.clone(), list);
                         continue;
                     }
-                    Complaint::new("a date is no value of any key").at(&entry.node.place, "there is a date in this list")
+                    Complaint::new("a date is no value of any key")
+                        .at(&entry.node.place, "there is a date in this list")
                 }
-                Value::List(_) => Complaint::new(format!("no values for `{}`", entry.key)).at(&entry.node.place, "the list is empty"),
+                Value::List(_) => {
+                    Complaint::new(format!("no values for `{}`", entry.key)).at(&entry.node.place, "the list is empty")
+                }
                 Value::Table(_) => Complaint::new("a varied key must be in quotes")
                     .at(&entry.place, "without quotes the points make tables")
                     .hint("for example \"particles.balls.count\" = [10, 30, 50]"),
