@@ -4,6 +4,7 @@ use crate::ledger::{Ledger, Stocks};
 use crate::partner::Hosts;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, State};
+use tsubu_scene::plan::{Method, Plan};
 
 /// What an engine did with one entry of the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,6 +79,31 @@ pub struct Refusal {
     pub method: &'static str,
     /// Every refused entry.
     pub notes: Vec<Note>,
+}
+
+/// Why an engine could not be built.
+#[derive(Debug, thiserror::Error)]
+pub enum OpenError {
+    /// The scene asks for something that the method cannot do.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// The settling before time 0 failed.
+    #[error("while settling before time 0: {0}")]
+    Settling(Fault),
+    /// A step after time 0 failed.
+    #[error(transparent)]
+    Running(#[from] Fault),
+    /// A settled bed does not fit the engine it is given to.
+    #[error("{0}")]
+    Bed(String),
+}
+
+/// Builds the engine that the plan's method names, at time 0.
+pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
+    Ok(match plan.method {
+        Method::Dem => Box::new(crate::dem::DemEngine::new(plan, hosts)?),
+        Method::Lattice => return Err(OpenError::Bed("method `lattice` is not there yet".to_owned())),
+    })
 }
 
 /// Something that can advance a plan.

@@ -13,5 +13,10 @@ pub mod ledger;
 pub mod motion;
 pub mod partner;
 pub mod random;
+pub mod run;
 pub mod state;
+pub mod study;
 pub mod wall;
+
+/// Version of the program, as written into summaries and checkpoints.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

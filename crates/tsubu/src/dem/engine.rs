@@ -6,7 +6,7 @@ use super::step::Flows;
 use super::touch::{Forces, Touch};
 use crate::check;
 use crate::contact::{Law, Table};
-use crate::engine::{Engine, Fault, Note, Refusal, Verdict};
+use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
 use crate::find::Candidates;
 use crate::ledger::{Ledger, Stocks};
 use crate::partner::Hosts;
@@ -51,7 +51,7 @@ pub struct DemEngine {
 
 impl DemEngine {
     /// Builds the engine at time 0; grains that the scene wants settled have settled.
-    pub fn new(plan: &Plan, hosts: &Hosts) -> Result<Self, BuildError> {
+    pub fn new(plan: &Plan, hosts: &Hosts) -> Result<Self, OpenError> {
         // Every field is named: a new one does not compile until it is decided here.
         let Plan {
             title: _,
@@ -133,7 +133,7 @@ impl DemEngine {
         engine.move_walls(0.0, hosts);
         engine.start();
         if settle > 0.0 {
-            engine.settle(settle)?;
+            engine.settle(settle).map_err(OpenError::Settling)?;
             engine.start();
         }
         Ok(engine)
@@ -165,17 +165,6 @@ impl DemEngine {
         }
         forces
     }
-}
-
-/// Why a DEM engine could not be built.
-#[derive(Debug, thiserror::Error)]
-pub enum BuildError {
-    /// The scene asks for something that DEM cannot do.
-    #[error(transparent)]
-    Refused(#[from] Refusal),
-    /// The settling before time 0 failed.
-    #[error("while settling before time 0: {0}")]
-    Settling(#[from] Fault),
 }
 
 impl Engine for DemEngine {
@@ -244,7 +233,7 @@ impl Engine for DemEngine {
 
     fn save(&self, state: &mut State) {
         self.grains.save("grains", state);
-        state.put_integer("dem.step", vec![self.step as i64]);
+        state.put_integer("dem.step", vec![self.step as i64, self.forces.sums.contacts as i64]);
         let mut reals = self.last_flows.powers.to_vec();
         reals.extend(self.last_flows.wall_force.to_array());
         reals.push(self.forces.sums.stored);
@@ -263,7 +252,8 @@ impl Engine for DemEngine {
     fn load(&mut self, state: &State) -> Result<(), MissingSection> {
         let missing = |name: &str| MissingSection { name: name.to_owned(), kind: "real" };
         self.grains = Grains::load("grains", self.grains.len(), state)?;
-        self.step = *state.integer("dem.step")?.first().ok_or_else(|| missing("dem.step"))? as u64;
+        let &[step, contacts] = state.integer("dem.step")? else { return Err(missing("dem.step")) };
+        (self.step, self.forces.sums.contacts) = (step as u64, contacts as usize);
         let flows = state.real("dem.flows")?;
         if flows.len() != 8 {
             return Err(missing("dem.flows"));

@@ -87,6 +87,11 @@ impl Host {
         dot(&self.seen, &self.a)
     }
 
+    /// Force of the grains in the last step [N].
+    pub fn grain_force(&self) -> f64 {
+        self.grain_force
+    }
+
     /// Number of coordinates.
     pub fn coordinates(&self) -> usize {
         self.n

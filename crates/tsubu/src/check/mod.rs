@@ -1,5 +1,9 @@
 //! The verdict on a scene before it runs.
 
+mod verdict;
+
+pub use verdict::{Line, Verdict, check, human_time, verdict};
+
 use crate::contact::Table;
 use crate::partner::Hosts;
 use tsubu_scene::plan::{Plan, Shape, Signal, Start};

@@ -1,0 +1,255 @@
+//! The verdict: is this scene resolved well enough, and what will it cost?
+
+use super::{shortest_period, speed_scale, touching_pairs};
+use crate::contact::{Law, Table};
+use crate::engine::{self, Engine, OpenError};
+use crate::ledger::Ledger;
+use crate::partner::Hosts;
+use std::fmt;
+use std::time::Instant;
+use tsubu_scene::plan::{Damping, Integrator, Method, Plan};
+
+/// One judgement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// `false`: a warning.
+    pub good: bool,
+    /// What was found.
+    pub text: String,
+    /// What to change, with the key; empty where nothing needs changing.
+    pub advice: String,
+}
+
+/// All judgements on a scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Verdict {
+    /// The lines, in the order of importance to a reader.
+    pub lines: Vec<Line>,
+}
+
+impl Verdict {
+    /// Whether there is a warning.
+    pub fn warns(&self) -> bool {
+        self.lines.iter().any(|l| !l.good)
+    }
+
+    fn say(&mut self, text: String) {
+        self.lines.push(Line { good: true, text, advice: String::new() });
+    }
+
+    fn judge(&mut self, good: bool, text: String, advice: impl FnOnce() -> String) {
+        let advice = if good { String::new() } else { advice() };
+        self.lines.push(Line { good, text, advice });
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for line in &self.lines {
+            writeln!(f, "{} {}", if line.good { "ok  " } else { "warn" }, line.text)?;
+            if !line.advice.is_empty() {
+                writeln!(f, "       change: {}", line.advice)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Builds the scene, judges it, and measures for a moment how fast this machine moves it.
+pub fn check(plan: &Plan) -> Result<Verdict, OpenError> {
+    let mut hosts = Hosts::new(&plan.hosts);
+    let mut engine = engine::open(plan, &hosts)?;
+    let mut verdict = verdict(plan, &hosts, &*engine);
+    let mut ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+    let total = plan.duration / engine.time_step();
+    let (mut block, begun) = (64, Instant::now());
+    while begun.elapsed().as_millis() < 300 && (engine.steps() as f64) < total {
+        engine.advance(block, &mut hosts, &mut ledger)?;
+        block *= 2;
+    }
+    let per_step = begun.elapsed().as_secs_f64() / engine.steps().max(1) as f64;
+    verdict.say(format!(
+        "time: about {} on this machine for one run ({} a step, one thread)",
+        human_time(per_step * total),
+        human_time(per_step)
+    ));
+    if let Some(response) = &plan.response {
+        let cases: usize = response.vary.values().map(Vec::len).product();
+        let runs = cases * response.frequency_ratio.len() * response.seeds as usize;
+        let f0 = hosts.index(&response.host).and_then(|i| hosts.list[i].natural_frequencies().first().copied());
+        let seconds = f64::from(response.discard_periods + response.measure_periods) / f0.unwrap_or(1.0);
+        let all = per_step * seconds / engine.time_step() * runs as f64 / rayon::current_num_threads() as f64;
+        verdict.say(format!("time: at most about {} for `tsubu response` ({runs} runs side by side)", human_time(all)));
+    }
+    Ok(verdict)
+}
+
+/// The judgement without the measurement.
+pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
+    let mut verdict = Verdict::default();
+    let speed = speed_scale(plan, hosts);
+    let dt = engine.time_step();
+    let origin =
+        if plan.speed_scale.is_some() { "told by `speed-scale`" } else { "estimated; set `speed-scale` to tell it" };
+    verdict.say(format!("speed scale {speed:.3} m/s ({origin})"));
+    match plan.method {
+        Method::Dem => dem(&mut verdict, plan, dt, speed),
+        Method::Lattice => lattice(&mut verdict, plan, dt, speed),
+    }
+    let period = shortest_period(hosts);
+    if period.is_finite() {
+        let steps = period / dt;
+        verdict.judge(
+            steps >= 50.0,
+            format!("host: shortest natural period {period:.4e} s, {steps:.0} steps a period (wanted: 50 or more)"),
+            || format!("shorten `{}` to {:.2e} s or less", step_key(plan), period / 50.0),
+        );
+    }
+    for note in engine.notes() {
+        verdict.say(format!("approximated: `{}`: {}", note.key, note.text));
+    }
+    let steps = plan.duration / dt;
+    let bytes = engine.grains() as f64 * 1000.0 + 2e5;
+    verdict.say(format!(
+        "{} grains, {steps:.0} steps of {dt:.3e} s, {:.3e} particle-steps, about {:.1} MB of memory",
+        engine.grains(),
+        steps * engine.grains() as f64,
+        bytes / 1e6
+    ));
+    verdict
+}
+
+fn step_key(plan: &Plan) -> &'static str {
+    match plan.method {
+        Method::Dem => "dem.time-step",
+        Method::Lattice => "lattice.time-step",
+    }
+}
+
+fn dem(verdict: &mut Verdict, plan: &Plan, dt: f64, speed: f64) {
+    let law = Law::new(&plan.contact);
+    let table = Table::new(plan, &law);
+    for (a, b) in touching_pairs(plan, &table) {
+        let name = |i: u32| {
+            let wall = table.species[i as usize].radius.is_infinite();
+            plan.particles.keys().nth(i as usize).map_or_else(
+                || format!("wall of {}", table.species[i as usize].material),
+                |group| if wall { String::new() } else { group.clone() },
+            )
+        };
+        let label = format!("{} on {}", name(a), name(b));
+        let pair = table.pair(a, b);
+        let time = pair.contact_time(speed);
+        let steps = time / dt;
+        // Osada 2004: fewer than 10 steps a contact give abnormal rebounds.
+        verdict.judge(
+            steps >= 9.999,
+            format!("{label}: contact time {time:.3e} s at {speed:.3} m/s, {steps:.1} steps per contact (never below 10, good from 20)"),
+            || format!("`dem.time-step` to {:.2e} s or less, or leave it out (20 steps per contact)", time / 20.0),
+        );
+        let species = &table.species[a as usize];
+        let overlap = pair.largest_overlap(speed) / (2.0 * species.radius);
+        verdict.judge(
+            overlap <= 0.01,
+            format!(
+                "{label}: largest overlap / d = {overlap:.2e} (window 0.001 to 0.01{})",
+                if overlap < 0.001 { "; stiffer than it need be, safe" } else { "" }
+            ),
+            || {
+                format!(
+                    "stiffen: {} by {:.1}, or lower `speed-scale`",
+                    stiffness_key(plan, &species.material),
+                    (overlap / 0.01).powf(2.5)
+                )
+            },
+        );
+        damping_stable(verdict, plan, &label, pair, dt);
+    }
+    for (name, group) in &plan.particles {
+        if group.count == 0 {
+            continue;
+        }
+        let m = &plan.materials[&group.material];
+        let density = group.mass / (std::f64::consts::PI / 6.0 * group.diameter.powi(3));
+        let shear = m.young_modulus / (2.0 * (1.0 + m.poisson_ratio));
+        let rayleigh = std::f64::consts::PI * 0.5 * group.diameter * (density / shear).sqrt()
+            / (0.1631 * m.poisson_ratio + 0.8766);
+        verdict.judge(
+            dt <= 0.5 * rayleigh,
+            format!(
+                "{name}: Rayleigh time {rayleigh:.3e} s, step is {:.0} % of it (usual: 10 to 30 %, limit 50 %)",
+                100.0 * dt / rayleigh
+            ),
+            || format!("`dem.time-step` to {:.2e} s or less", 0.3 * rayleigh),
+        );
+    }
+}
+
+/// Explicit dashpots: forward Euler gains energy when dt > eta/k; all schemes need eta dt / m below 1/2.
+fn damping_stable(verdict: &mut Verdict, plan: &Plan, label: &str, pair: &crate::contact::Pair, dt: f64) {
+    if matches!(plan.contact.damping, Damping::None {}) {
+        return;
+    }
+    let depth = pair.largest_overlap(1.0);
+    let power = match plan.contact.damping {
+        Damping::Sqrt { .. } => 0.5,
+        Damping::Quarter {} => 0.25,
+        _ => 0.0,
+    };
+    let eta = pair.damping * depth.powf(power);
+    let tangent = pair.exponent * pair.stiffness * depth.powf(pair.exponent - 1.0);
+    let number = eta * dt / pair.mass;
+    verdict.judge(number < 0.5, format!("{label}: dashpot number eta dt / m* = {number:.3} (limit 0.5)"), || {
+        format!("`dem.time-step` to {:.2e} s or less", 0.4 * pair.mass / eta)
+    });
+    if plan.dem.integrator == Integrator::ForwardEuler {
+        let limit = eta / tangent;
+        verdict.judge(
+            dt <= limit,
+            format!("{label}: forward Euler needs dt <= eta / k = {limit:.2e} s, else contacts gain energy"),
+            || "`dem.integrator = \"velocity-verlet\"`".to_owned(),
+        );
+    }
+}
+
+fn stiffness_key(plan: &Plan, material: &str) -> String {
+    match plan.contact.normal {
+        tsubu_scene::plan::Normal::Hertz {} => format!("`materials.{material}.young-modulus`"),
+        tsubu_scene::plan::Normal::Hooke { .. } => "`contact.normal.hooke.stiffness`".to_owned(),
+    }
+}
+
+fn lattice(verdict: &mut Verdict, plan: &Plan, dt: f64, speed: f64) {
+    let Some(cell) = plan.particles.values().map(|p| p.diameter).reduce(f64::min) else { return };
+    let limit = cell / dt;
+    verdict.judge(
+        speed < 0.5 * limit,
+        format!("lattice: cell {:.3} mm, speed limit {limit:.1} m/s (one cell a step)", 1e3 * cell),
+        || format!("`lattice.time-step` to {:.2e} s or less", 0.5 * cell / speed),
+    );
+    let gravity = plan.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
+    if gravity > 0.0 {
+        let quantum = gravity * dt;
+        verdict.judge(
+            quantum < 0.02 * speed,
+            format!(
+                "lattice: speed quantum g dt = {:.3} mm/s, {:.2} % of the speed scale",
+                1e3 * quantum,
+                100.0 * quantum / speed
+            ),
+            || format!("`lattice.time-step` to {:.2e} s or less", 0.01 * speed / gravity),
+        );
+    }
+}
+
+/// A time in the unit that suits it.
+pub fn human_time(seconds: f64) -> String {
+    match seconds {
+        s if s < 1e-6 => format!("{:.0} ns", s * 1e9),
+        s if s < 1e-3 => format!("{:.1} us", s * 1e6),
+        s if s < 1.0 => format!("{:.0} ms", s * 1e3),
+        s if s < 120.0 => format!("{s:.1} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.1} h", s / 3600.0),
+    }
+}

@@ -1,0 +1,167 @@
+//! The moving box: its displacement is rounded to whole cells; when it shifts, what is in the way is ejected.
+//!
+//! The cluster is every ball that touches the advancing wall, and every ball that touches one of the cluster. All get the
+//! velocity of the box and are moved with it by one cell; their change of momentum is delivered to the box. Since floor
+//! and ceiling belong to one rigid box, the opposite wall gives way by the same cell and never squeezes the cluster.
+//!
+//! When the floor recedes, resting balls ride down with it if resting contacts count: their contact is a lasting one, and
+//! the shift is only the rounding of a motion that they share. In the literal automaton they are left behind and fall.
+
+use super::Damper;
+use crate::lattice::direction::Direction;
+use crate::lattice::grid::EMPTY;
+
+/// The box cannot move there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum OutOfRoom {
+    /// It leaves the grid.
+    #[error(
+        "the box moved more than {head} cells from its place, out of the automaton's grid\nhint: raise `lattice.head-room`, or shake less"
+    )]
+    Grid {
+        /// Cells above and below.
+        head: usize,
+    },
+    /// It moves too fast.
+    #[error(
+        "the box moves faster than a quarter of a cell a step, too fast for the automaton\nhint: shorten `lattice.time-step`, or shake less"
+    )]
+    Speed,
+    /// The cells that an ejected cluster moves to are taken.
+    #[error(
+        "an ejected cluster of {balls} balls is squeezed against the opposite wall\nhint: use fewer balls, or a higher box"
+    )]
+    Squeezed {
+        /// Size of the cluster.
+        balls: usize,
+    },
+}
+
+impl Damper {
+    /// Moves the box by one cell.
+    pub(super) fn shift(&mut self, up: bool, wall: i64) -> Result<(), OutOfRoom> {
+        let level = self.place.level + if up { 1 } else { -1 };
+        if level.unsigned_abs() as usize > self.place.head {
+            return Err(OutOfRoom::Grid { head: self.place.head });
+        }
+        if !up && !self.rules.resting_impulses {
+            self.release_riders();
+        }
+        self.gather(up);
+        for place in 0..self.cluster.len() {
+            let i = self.cluster[place];
+            if !self.resting[i] {
+                self.eject(i, up, wall);
+            }
+        }
+        self.move_cells(up, level)?;
+        self.place.level = level;
+        Ok(())
+    }
+
+    /// The literal automaton forgets resting balls when the floor recedes. They were given this step's rise already.
+    fn release_riders(&mut self) {
+        for column in 1..=self.place.columns {
+            if self.rest.height[column] > 0 {
+                let lowest = self.grid.at(self.grid.index(column, self.place.floor()));
+                self.release_above(lowest as usize);
+            }
+        }
+        self.rest.risen = 0;
+    }
+
+    /// Collects the cluster: the row at the advancing wall, all that touch it in turn, and all resting balls.
+    fn gather(&mut self, up: bool) {
+        let mut cluster = std::mem::take(&mut self.cluster);
+        cluster.clear();
+        self.hit.0.fill(0);
+        let floor = self.place.floor();
+        let row = if up { floor } else { floor + self.place.rows - 1 };
+        for column in 1..=self.place.columns {
+            if let Ok(i) = usize::try_from(self.grid.at(self.grid.index(column, row))) {
+                self.hit.insert(i);
+                cluster.push(i);
+            }
+        }
+        let mut next = 0;
+        while next < cluster.len() {
+            let i = cluster[next];
+            next += 1;
+            for direction in Direction::ALL {
+                let other = self.grid.at(self.grid.neighbour(self.cell[i], self.odd[i], direction));
+                if let Ok(other) = usize::try_from(other)
+                    && !self.hit.contains(other)
+                {
+                    self.hit.insert(other);
+                    cluster.push(other);
+                }
+            }
+        }
+        for i in 0..self.balls() {
+            if self.resting[i] && !self.hit.contains(i) {
+                cluster.push(i);
+            }
+        }
+        self.cluster = cluster;
+    }
+
+    /// A ball of the cluster takes the velocity of the box.
+    fn eject(&mut self, i: usize, up: bool, wall: i64) {
+        let old = self.velocity(i);
+        let k = 2 * wall - old.k;
+        self.tally.wall.k += k;
+        self.tally.wall.h -= old.h;
+        let gain = wall * wall - old.square4() / 4 + self.scale.gravity / 2 * k;
+        self.tally.rules += k * wall - gain;
+        let moving_up = wall > 0 || (wall == 0 && up);
+        let direction = if moving_up { Direction::N } else { Direction::S };
+        // The height it has is kept: the shift turns it into a whole cell. `redirect` would see only the direction.
+        let height = self.stored[i] * self.direction[i].k() / 2;
+        self.tally.rules += self.scale.gravity * (self.stored[i] * self.direction[i].k() - 2 * height);
+        self.stored[i] = if moving_up { height } else { -height };
+        self.point(i, direction, wall.abs());
+    }
+
+    /// Moves the cluster and the walls by one cell.
+    fn move_cells(&mut self, up: bool, level: i64) -> Result<(), OutOfRoom> {
+        let (sign, step) = if up { (1, 1_isize) } else { (-1, -1) };
+        for &i in &self.cluster {
+            self.grid.set(self.cell[i], EMPTY);
+        }
+        for &i in &self.cluster {
+            let cell = self.cell[i].wrapping_add_signed(step);
+            if self.grid.at(cell) >= 0 {
+                return Err(OutOfRoom::Squeezed { balls: self.cluster.len() });
+            }
+            self.cell[i] = cell;
+        }
+        let forget = self.rules.reset_when_blocked;
+        let cell = self.scale.cell;
+        for place in 0..self.cluster.len() {
+            let i = self.cluster[place];
+            if self.resting[i] {
+                if forget {
+                    self.tally.rules -= self.scale.gravity * 2 * cell * sign;
+                }
+                continue;
+            }
+            let half_k = self.direction[i].k() / 2;
+            let height = self.stored[i] * half_k;
+            // More than one cell behind the wall would be inside it.
+            let kept = if forget { 0 } else { (height - sign * cell).clamp(-cell, cell) };
+            self.tally.rules -= self.scale.gravity * 2 * (kept - height + sign * cell);
+            self.stored[i] = kept * half_k;
+        }
+        if !forget {
+            self.rest.risen -= sign * cell;
+        }
+        let floor = (self.place.head as i64 + 1 + level) as usize;
+        self.grid.paint_box(self.place.columns, floor, self.place.rows);
+        for i in 0..self.cell.len() {
+            self.grid.set(self.cell[i], i as i32);
+            self.ahead[i] = self.grid.neighbour(self.cell[i], self.odd[i], self.direction[i]);
+        }
+        self.stale.fill(self.cell.len());
+        Ok(())
+    }
+}

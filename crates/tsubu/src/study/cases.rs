@@ -1,0 +1,55 @@
+//! Every combination of the values that a study varies.
+
+use std::collections::BTreeMap;
+use toml::Value;
+use tsubu_scene::{Complaints, Scene};
+
+/// One combination.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Case {
+    /// `count = 30, friction = 0.6`: the last words of the keys with their values; empty when nothing varies.
+    pub name: String,
+    /// Keys and values.
+    pub values: Vec<(String, Value)>,
+}
+
+impl Case {
+    /// The scene of this case.
+    pub fn scene(&self, scene: &Scene) -> Result<Scene, Complaints> {
+        let changes: Vec<(&str, &Value)> = self.values.iter().map(|(path, value)| (path.as_str(), value)).collect();
+        scene.with(&changes)
+    }
+}
+
+/// All combinations; the last key varies fastest.
+pub fn cases(vary: &BTreeMap<String, Vec<Value>>) -> Vec<Case> {
+    let mut all = vec![Vec::new()];
+    for (path, values) in vary {
+        all = all
+            .into_iter()
+            .flat_map(|case: Vec<(String, Value)>| {
+                values.iter().map(move |value| {
+                    let mut longer = case.clone();
+                    longer.push((path.clone(), value.clone()));
+                    longer
+                })
+            })
+            .collect();
+    }
+    all.into_iter().map(|values| Case { name: name(&values), values }).collect()
+}
+
+/// Keys are shortened to their last word as long as that tells them apart.
+fn name(values: &[(String, Value)]) -> String {
+    let word = |path: &str| path.rsplit('.').next().unwrap_or(path).to_owned();
+    let clash = |path: &str| values.iter().filter(|(other, _)| word(other) == word(path)).count() > 1;
+    let parts: Vec<String> = values
+        .iter()
+        .map(|(path, value)| {
+            let key = if clash(path) { path.clone() } else { word(path) };
+            let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+            format!("{key} = {value}")
+        })
+        .collect();
+    parts.join(", ")
+}

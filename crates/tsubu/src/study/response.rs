@@ -1,0 +1,178 @@
+//! Frequency response of a host: every case at every frequency, side by side.
+//!
+//! Each case settles its grains once a seed; all its frequencies start from that bed. Periods in which the transient dies
+//! away are thrown away, then whole periods are measured, mean removed (Komatsuzaki 2003: root mean square over ten
+//! periods). A response that was stopped goes on where it was: every finished run is a line in `progress.jsonl`.
+
+mod curve;
+mod tasks;
+mod write;
+
+pub use curve::{CaseResult, Peak, peak};
+pub use tasks::{Point, measure};
+
+use super::cases::{Case, cases};
+use crate::engine::OpenError;
+use crate::partner::Hosts;
+use crate::run::{RunError, Watcher, scene_hash};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs::{File, OpenOptions};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+use tsubu_frame::{Existing, FileError, RunFolder, State, Status, Summary};
+use tsubu_scene::{Plan, Scene};
+
+/// Why there is no response.
+#[derive(Debug, thiserror::Error)]
+pub enum ResponseError {
+    /// The scene says nothing about a response, or its host is not shaken by a sine.
+    #[error("{0}")]
+    Scene(String),
+    /// A run went wrong.
+    #[error("case `{case}`: {error}")]
+    Run {
+        /// Name of the case.
+        case: String,
+        /// What went wrong.
+        error: RunError,
+    },
+    /// A file or folder.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+/// One run of the response.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+struct Key {
+    case: usize,
+    seed: u32,
+    frequency: usize,
+}
+
+/// Computes the frequency response of a scene into `folder`. An existing folder of the same scene is gone on with.
+pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Summary, ResponseError> {
+    let begun = Instant::now();
+    let plan = scene.plan();
+    let wanted = plan.response.clone().ok_or_else(|| {
+        ResponseError::Scene("the scene has no `[response]`: say which frequencies, for example `frequency-ratio = { from = 0.85, to = 1.15, step = 0.01 }`".to_owned())
+    })?;
+    let reference = tasks::reference_frequency(plan, &wanted.host).map_err(ResponseError::Scene)?;
+    let list = cases(&wanted.vary);
+    let plans = case_plans(scene, &list)?;
+    let resolved = scene.resolved_toml();
+    let (folder, done) = open_folder(folder, &resolved, overwrite)?;
+    let mut beds = Vec::new();
+    for case in 0..plans.len() {
+        for seed in 0..wanted.seeds {
+            beds.push((case, seed));
+        }
+    }
+    let fail = |case: usize, error: RunError| ResponseError::Run { case: list[case].name.clone(), error };
+    let settled: BTreeMap<(usize, u32), State> = beds
+        .par_iter()
+        .map(|&(case, seed)| {
+            let bed = tasks::bed(&plans[case], seed).map_err(|e| fail(case, e.into()))?;
+            Ok(((case, seed), bed))
+        })
+        .collect::<Result<_, ResponseError>>()?;
+    let mut keys: Vec<Key> = Vec::new();
+    for &(case, seed) in &beds {
+        for frequency in 0..wanted.frequency_ratio.len() {
+            let key = Key { case, seed, frequency };
+            if !done.contains_key(&key) {
+                keys.push(key);
+            }
+        }
+    }
+    // Long runs first, so that no core is left with one at the end.
+    keys.sort_by_key(|k| std::cmp::Reverse(tasks::weight(&plans[k.case])));
+    let total = keys.len() + done.len();
+    let counter = AtomicUsize::new(done.len());
+    let journal = Mutex::new(journal(&folder)?);
+    let fresh: Vec<(Key, Point)> = keys
+        .par_iter()
+        .map(|key| {
+            if watcher.interrupted.load(Ordering::Relaxed) {
+                return Ok(None);
+            }
+            let frequency = reference * wanted.frequency_ratio[key.frequency];
+            let bed = &settled[&(key.case, key.seed)];
+            let point =
+                measure(&plans[key.case], &wanted, key.seed, bed, frequency).map_err(|e| fail(key.case, e.into()))?;
+            if let Ok(mut file) = journal.lock() {
+                let line = serde_json::to_string(&(key, &point)).unwrap_or_default();
+                writeln!(file, "{line}").map_err(FileError::write(&folder.file("progress.jsonl")))?;
+            }
+            let finished = counter.fetch_add(1, Ordering::Relaxed) + 1;
+            (watcher.progress)(finished as f64 / total as f64);
+            Ok(Some((*key, point)))
+        })
+        .filter_map(Result::transpose)
+        .collect::<Result<_, ResponseError>>()?;
+    let mut points = done;
+    points.extend(fresh);
+    let status = if points.len() < total { Status::Interrupted } else { Status::Finished };
+    let results: Vec<CaseResult> = list
+        .iter()
+        .zip(&plans)
+        .enumerate()
+        .map(|(index, (case, plan))| {
+            let of_case: Vec<(usize, &Point)> =
+                points.iter().filter(|(k, _)| k.case == index).map(|(k, p)| (k.frequency, p)).collect();
+            CaseResult::new(&case.name, plan, reference, &wanted.frequency_ratio, &of_case)
+        })
+        .collect();
+    let summary = write::write(&folder, scene, &plans, &results, status, begun.elapsed().as_secs_f64())?;
+    Ok(summary)
+}
+
+fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, ResponseError> {
+    list.iter()
+        .map(|case| Ok(case.scene(scene).map_err(|c| ResponseError::Scene(c.to_string()))?.plan().clone()))
+        .collect()
+}
+
+type Done = BTreeMap<Key, Point>;
+
+/// Makes the folder, or finds in it what an interrupted response of the same scene has done.
+fn open_folder(path: &Path, resolved: &str, overwrite: bool) -> Result<(RunFolder, Done), ResponseError> {
+    let mark = path.join("progress.jsonl");
+    let first = serde_json::json!({ "scene": scene_hash(resolved), "version": crate::VERSION }).to_string();
+    if !overwrite
+        && let Ok(text) = std::fs::read_to_string(&mark)
+        && text.lines().next() == Some(first.as_str())
+    {
+        // The last line may be cut in half; it is computed again.
+        let done = text.lines().skip(1).filter_map(|l| serde_json::from_str::<(Key, Point)>(l).ok()).collect();
+        return Ok((RunFolder::create(path, Existing::Resume)?, done));
+    }
+    let existing = if overwrite { Existing::Overwrite } else { Existing::Refuse };
+    let folder = RunFolder::create(path, existing)?;
+    folder.write("scene.toml", resolved.as_bytes())?;
+    folder.write("progress.jsonl", format!("{first}\n").as_bytes())?;
+    Ok((folder, Done::new()))
+}
+
+fn journal(folder: &RunFolder) -> Result<File, FileError> {
+    let path: PathBuf = folder.file("progress.jsonl");
+    let mut file = OpenOptions::new().append(true).open(&path).map_err(FileError::write(&path))?;
+    // A line cut short by a kill must not swallow the next one.
+    writeln!(file).map_err(FileError::write(&path))?;
+    Ok(file)
+}
+
+impl From<OpenError> for ResponseError {
+    fn from(error: OpenError) -> Self {
+        Self::Scene(error.to_string())
+    }
+}
+
+/// Hosts of a plan; kept here for callers that only want natural frequencies.
+pub fn hosts(plan: &Plan) -> Hosts {
+    Hosts::new(&plan.hosts)
+}

@@ -1,0 +1,167 @@
+//! From the points of a case to its curve, its peak and its damping.
+
+use super::tasks::Point;
+use crate::ledger::Account;
+use crate::partner::Hosts;
+use tsubu_scene::plan::Plan;
+
+/// One frequency of a case, over all seeds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Frequency [Hz].
+    pub frequency: f64,
+    /// Frequency over the host's natural frequency [-].
+    pub ratio: f64,
+    /// Root mean square displacement: mean, lowest, highest over the seeds [m].
+    pub rms: [f64; 3],
+    /// Largest displacement, mean over the seeds [m].
+    pub peak: f64,
+    /// Mass the grains add, mean over the seeds [kg].
+    pub apparent_mass: f64,
+    /// Loss per cycle, mean over the seeds [J].
+    pub loss: f64,
+    /// Energy of every account per cycle, mean over the seeds [J].
+    pub flows: Vec<f64>,
+    /// Largest drift over the seeds [-].
+    pub drift: f64,
+}
+
+/// Top of a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// Where [-].
+    pub ratio: f64,
+    /// How high [m].
+    pub rms: f64,
+    /// Half the width at 1/sqrt(2) of the height over the peak's place: the half-power damping ratio; not-a-number where
+    /// the curve does not fall that far on both sides.
+    pub half_power_damping: f64,
+}
+
+/// A case with everything that is reported of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CaseResult {
+    /// Name of the case.
+    pub name: String,
+    /// Number of grains.
+    pub particles: usize,
+    /// The curve.
+    pub rows: Vec<Row>,
+    /// Its top; `None` without points.
+    pub peak: Option<Peak>,
+    /// Energy lost per cycle over 2 pi times the spring energy, at the frequency nearest to the peak [-].
+    pub loss_factor: f64,
+    /// Mass the grains add, there [kg].
+    pub apparent_mass: f64,
+    /// 1/sqrt(1 + m/M): where the peak would be if all grains moved with the host [-].
+    pub added_mass_limit: f64,
+    /// Energy of every account per cycle, there [J].
+    pub flows: Vec<f64>,
+    /// Computing time of all points [s].
+    pub wall: f64,
+    /// Largest energy residual of its runs.
+    pub residual: f64,
+}
+
+impl CaseResult {
+    /// Gathers the points (frequency index, point) of a case.
+    pub fn new(name: &str, plan: &Plan, reference: f64, ratios: &[f64], points: &[(usize, &Point)]) -> Self {
+        let rows: Vec<Row> = ratios
+            .iter()
+            .enumerate()
+            .filter_map(|(i, &ratio)| {
+                let at: Vec<&Point> = points.iter().filter(|(k, _)| *k == i).map(|(_, p)| *p).collect();
+                row(ratio, &at)
+            })
+            .collect();
+        let host = Hosts::new(&plan.hosts);
+        let wanted = plan.response.as_ref().and_then(|r| host.index(&r.host)).unwrap_or_default();
+        let mass = host.list.get(wanted).map_or(f64::NAN, crate::partner::Host::effective_mass);
+        let grains: f64 = plan.particles.values().map(|p| p.mass * p.count as f64).sum();
+        let curve: Vec<(f64, f64)> = rows.iter().map(|r| (r.ratio, r.rms[0])).collect();
+        let top = peak(&curve);
+        let nearest = top
+            .and_then(|t| rows.iter().min_by(|a, b| (a.ratio - t.ratio).abs().total_cmp(&(b.ratio - t.ratio).abs())));
+        let stiffness = mass * (std::f64::consts::TAU * reference).powi(2);
+        // Spring energy at the largest stretch: the root mean square of a sine is its amplitude over sqrt 2.
+        let loss_factor = nearest
+            .map_or(f64::NAN, |r| r.loss / (std::f64::consts::TAU * 0.5 * stiffness * 2.0 * r.rms[0] * r.rms[0]));
+        Self {
+            name: name.to_owned(),
+            particles: plan.particles.values().map(|p| p.count).sum(),
+            peak: top,
+            loss_factor,
+            apparent_mass: nearest.map_or(f64::NAN, |r| r.apparent_mass),
+            added_mass_limit: 1.0 / (1.0 + grains / mass).sqrt(),
+            flows: nearest.map_or_else(|| vec![0.0; Account::ALL.len()], |r| r.flows.clone()),
+            wall: points.iter().map(|(_, p)| p.wall).sum(),
+            residual: points.iter().map(|(_, p)| p.residual.abs()).fold(0.0, f64::max),
+            rows,
+        }
+    }
+}
+
+fn row(ratio: f64, points: &[&Point]) -> Option<Row> {
+    let n = points.len() as f64;
+    let first = points.first()?;
+    let mean = |f: &dyn Fn(&Point) -> f64| points.iter().map(|p| f(p)).sum::<f64>() / n;
+    let lowest = points.iter().map(|p| p.rms).fold(f64::INFINITY, f64::min);
+    let highest = points.iter().map(|p| p.rms).fold(0.0, f64::max);
+    Some(Row {
+        frequency: first.frequency,
+        ratio,
+        rms: [mean(&|p| p.rms), lowest, highest],
+        peak: mean(&|p| p.peak),
+        apparent_mass: mean(&|p| p.apparent_mass),
+        loss: mean(&|p| p.loss),
+        flows: (0..first.flows.len()).map(|i| mean(&|p| p.flows[i])).collect(),
+        drift: points.iter().map(|p| p.drift.abs()).fold(0.0, f64::max),
+    })
+}
+
+/// Top of a curve of (place, height), by the parabola through the highest point and its neighbours, and the half-power
+/// damping by straight lines between the points.
+pub fn peak(curve: &[(f64, f64)]) -> Option<Peak> {
+    let (i, &(x, y)) = curve.iter().enumerate().max_by(|a, b| a.1.1.total_cmp(&b.1.1))?;
+    let (mut ratio, mut rms) = (x, y);
+    if i > 0 && i + 1 < curve.len() {
+        let ((x0, y0), (x2, y2)) = (curve[i - 1], curve[i + 1]);
+        // Newton's divided differences; exact for unequal spacing.
+        let first = (y - y0) / (x - x0);
+        let second = ((y2 - y) / (x2 - x) - first) / (x2 - x0);
+        if second < 0.0 {
+            ratio = 0.5 * (x0 + x) - 0.5 * first / second;
+            rms = y0 + first * (ratio - x0) + second * (ratio - x0) * (ratio - x);
+        }
+    }
+    let half = rms / std::f64::consts::SQRT_2;
+    let crossing = |a: (f64, f64), b: (f64, f64)| a.0 + (b.0 - a.0) * (half - a.1) / (b.1 - a.1);
+    let left = (0..i).rev().find(|&k| curve[k].1 <= half).map(|k| crossing(curve[k], curve[k + 1]));
+    let right = (i + 1..curve.len()).find(|&k| curve[k].1 <= half).map(|k| crossing(curve[k - 1], curve[k]));
+    let half_power_damping = match (left, right) {
+        (Some(left), Some(right)) => (right - left) / (2.0 * ratio),
+        _ => f64::NAN,
+    };
+    Some(Peak { ratio, rms, half_power_damping })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::peak;
+
+    /// The closed form of a damped oscillator: the peak and the half-power damping come back from its sampled curve.
+    #[test]
+    fn peak_of_a_known_oscillator() {
+        let zeta = 0.05;
+        let height = |r: f64, zeta: f64| 1.0 / ((1.0 - r * r).powi(2) + (2.0 * zeta * r).powi(2)).sqrt();
+        let curve = |zeta: f64| -> Vec<(f64, f64)> {
+            (0..=60).map(|i| 0.7 + 0.01 * f64::from(i)).map(|r| (r, height(r, zeta))).collect()
+        };
+        let top = peak(&curve(zeta)).expect("a curve has a top");
+        assert!((top.ratio - (1.0 - 2.0 * zeta * zeta).sqrt()).abs() < 1e-3);
+        assert!((top.half_power_damping / zeta - 1.0).abs() < 0.02, "{}", top.half_power_damping);
+        // The control: another damping is told apart by the same tolerance.
+        let other = peak(&curve(1.05 * zeta)).expect("a curve has a top");
+        assert!((other.half_power_damping / zeta - 1.0).abs() > 0.02);
+    }
+}

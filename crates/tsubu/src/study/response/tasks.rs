@@ -1,0 +1,160 @@
+//! One run of a response: a bed, a frequency, a measurement.
+
+use crate::engine::{self, Engine, OpenError};
+use crate::ledger::{Account, Ledger};
+use crate::partner::Hosts;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+use std::time::Instant;
+use tsubu_frame::State;
+use tsubu_scene::plan::{Plan, Response, Signal, Start};
+
+/// What one run at one frequency gives.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    /// Frequency [Hz].
+    pub frequency: f64,
+    /// Root mean square displacement, mean removed [m].
+    pub rms: f64,
+    /// Largest displacement from the mean [m].
+    pub peak: f64,
+    /// Amplitude of the displacement at the driving frequency [m].
+    pub amplitude: f64,
+    /// Mean displacement [m].
+    pub mean: f64,
+    /// In-phase part of the grains' force over acceleration: the mass the grains add [kg].
+    pub apparent_mass: f64,
+    /// Energy lost per cycle, grains and structure [J].
+    pub loss: f64,
+    /// Energy of every account per cycle [J], in the order of [`Account::ALL`].
+    pub flows: Vec<f64>,
+    /// Change of the root mean square from the first to the second half of the measured time, relative.
+    pub drift: f64,
+    /// Energy residual over turned-over energy.
+    pub residual: f64,
+    /// Computing time [s].
+    pub wall: f64,
+}
+
+/// First natural frequency of the host [Hz]; an error text if the host cannot be swept.
+pub(super) fn reference_frequency(plan: &Plan, host: &str) -> Result<f64, String> {
+    let hosts = Hosts::new(&plan.hosts);
+    let index = hosts.index(host).ok_or_else(|| format!("`response.host`: there is no host `{host}`"))?;
+    let shaken = &plan.hosts[host];
+    let sine = |s: &Option<Signal>| matches!(s, Some(Signal::Sine { .. }));
+    if !sine(&shaken.base) && !sine(&shaken.force) {
+        return Err(format!(
+            "`hosts.{host}` is not shaken by a sine: a response needs `base.sine` or `force.sine`, whose frequency it varies"
+        ));
+    }
+    hosts.list[index]
+        .natural_frequencies()
+        .first()
+        .copied()
+        .ok_or_else(|| format!("`hosts.{host}` has no natural frequency"))
+}
+
+/// How long a run of this plan takes, compared with others.
+pub(super) fn weight(plan: &Plan) -> usize {
+    plan.particles.values().map(|p| p.count).sum()
+}
+
+fn seeded(plan: &Plan, seed: u32) -> Plan {
+    let mut plan = plan.clone();
+    plan.seed += u64::from(seed);
+    plan
+}
+
+/// The state at time 0 of a case and seed, settled.
+pub(super) fn bed(plan: &Plan, seed: u32) -> Result<State, OpenError> {
+    let plan = seeded(plan, seed);
+    let hosts = Hosts::new(&plan.hosts);
+    let mut state = State::default();
+    engine::open(&plan, &hosts)?.save(&mut state);
+    Ok(state)
+}
+
+/// Runs one frequency [Hz] from a settled bed and measures.
+pub fn measure(plan: &Plan, wanted: &Response, seed: u32, bed: &State, frequency: f64) -> Result<Point, OpenError> {
+    let begun = Instant::now();
+    let mut plan = seeded(plan, seed);
+    for group in plan.particles.values_mut() {
+        if let Start::Settled { time } = &mut group.start {
+            *time = 0.0;
+        }
+    }
+    let mut hosts = Hosts::new(&plan.hosts);
+    let host = hosts.index(&wanted.host).unwrap_or_default();
+    hosts.list[host].set_frequency(frequency);
+    let mut engine = engine::open(&plan, &hosts)?;
+    engine.load(bed).map_err(|e| OpenError::Bed(e.to_string()))?;
+    let mut ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+    let dt = engine.time_step();
+    let steps = |periods: u32| (f64::from(periods) / (frequency * dt)).round() as u64;
+    let empty = weight(&plan) == 0;
+    let discard = if empty { wanted.discard_periods_empty } else { wanted.discard_periods };
+    engine.advance(steps(discard), &mut hosts, &mut ledger)?;
+    let before = Account::ALL.map(|a| ledger.flow(a));
+    let mut window = Window::default();
+    let count = steps(wanted.measure_periods);
+    for step in 0..count {
+        engine.advance(1, &mut hosts, &mut ledger)?;
+        let phase = TAU * frequency * engine.time();
+        window.take(hosts.list[host].displacement(), hosts.list[host].grain_force(), phase, 2 * step >= count);
+    }
+    let periods = f64::from(wanted.measure_periods);
+    let flows: Vec<f64> = Account::ALL.iter().zip(before).map(|(&a, b)| (ledger.flow(a) - b) / periods).collect();
+    let loss = Account::ALL.iter().zip(&flows).filter(|(a, _)| !a.is_work()).map(|(_, f)| f).sum();
+    let residual = ledger.residual_relative(&engine::stocks(&*engine, &hosts));
+    Ok(Point { frequency, loss, flows, residual, wall: begun.elapsed().as_secs_f64(), ..window.point(frequency) })
+}
+
+/// Sums over the measured periods.
+#[derive(Default)]
+struct Window {
+    /// Number, sum and sum of squares of the displacement in each half.
+    halves: [[f64; 3]; 2],
+    highest: Option<f64>,
+    lowest: Option<f64>,
+    /// Displacement and force times cosine and sine.
+    fourier: [[f64; 2]; 2],
+}
+
+impl Window {
+    fn take(&mut self, z: f64, force: f64, phase: f64, second: bool) {
+        let half = &mut self.halves[usize::from(second)];
+        *half = [half[0] + 1.0, half[1] + z, half[2] + z * z];
+        self.highest = Some(self.highest.map_or(z, |h| h.max(z)));
+        self.lowest = Some(self.lowest.map_or(z, |l| l.min(z)));
+        let (sin, cos) = phase.sin_cos();
+        for (sums, value) in self.fourier.iter_mut().zip([z, force]) {
+            sums[0] += value * cos;
+            sums[1] += value * sin;
+        }
+    }
+
+    fn point(&self, frequency: f64) -> Point {
+        let [a, b] = self.halves;
+        let n = a[0] + b[0];
+        let mean = (a[1] + b[1]) / n;
+        let rms = |h: [f64; 3]| ((h[2] / h[0]) - (h[1] / h[0]).powi(2)).max(0.0).sqrt();
+        let all = ((a[2] + b[2]) / n - mean * mean).max(0.0).sqrt();
+        let [z, f] = self.fourier.map(|s| [2.0 * s[0] / n, 2.0 * s[1] / n]);
+        let size = z[0] * z[0] + z[1] * z[1];
+        let w = TAU * frequency;
+        Point {
+            frequency,
+            rms: all,
+            peak: (self.highest.unwrap_or(mean) - mean).max(mean - self.lowest.unwrap_or(mean)),
+            amplitude: size.sqrt(),
+            mean,
+            // F = -m a - c v: the part of F in phase with z is m w^2.
+            apparent_mass: if size > 0.0 { (f[0] * z[0] + f[1] * z[1]) / (size * w * w) } else { 0.0 },
+            loss: 0.0,
+            flows: Vec::new(),
+            drift: if all > 0.0 { (rms(b) - rms(a)) / all } else { 0.0 },
+            residual: 0.0,
+            wall: 0.0,
+        }
+    }
+}

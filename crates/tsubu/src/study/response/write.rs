@@ -1,0 +1,132 @@
+//! The files of a response.
+
+use super::curve::CaseResult;
+use crate::engine;
+use crate::ledger::Account;
+use crate::partner::Hosts;
+use crate::{check, run};
+use tsubu_frame::{Cell, FileError, ResultValue, RunFolder, Status, Summary, Table};
+use tsubu_scene::{Plan, Scene};
+
+fn number(value: f64) -> Cell {
+    Cell::Number(value)
+}
+
+fn text(value: &str) -> Cell {
+    Cell::Text(value.to_owned())
+}
+
+/// Writes `response.csv`, `cases.csv`, `energy_by_cause.csv`, `check.txt` and `summary.json`.
+pub(super) fn write(
+    folder: &RunFolder,
+    scene: &Scene,
+    plans: &[Plan],
+    results: &[CaseResult],
+    status: Status,
+    wall_seconds: f64,
+) -> Result<Summary, FileError> {
+    let plan = scene.plan();
+    let mut curves = Table::new([
+        "frequency [Hz]",
+        "frequency ratio [-]",
+        "rms displacement [m]",
+        "peak displacement [m]",
+        "rms spread low [m]",
+        "rms spread high [m]",
+        "apparent mass [kg]",
+        "loss per cycle [J]",
+        "drift [-]",
+        "particles [-]",
+        "case [text]",
+        "method [text]",
+    ]);
+    let mut cases = Table::new([
+        "case [text]",
+        "method [text]",
+        "particles [-]",
+        "peak frequency ratio [-]",
+        "peak rms [m]",
+        "half-power damping [-]",
+        "loss factor [-]",
+        "apparent mass [kg]",
+        "added-mass limit [-]",
+        "energy residual [-]",
+        "wall seconds [s]",
+    ]);
+    let losses: Vec<Account> = Account::ALL.into_iter().filter(|a| !a.is_work()).collect();
+    let header = std::iter::once("case [text]".to_owned()).chain(losses.iter().map(|a| format!("{} [J]", a.name())));
+    let mut causes = Table::new(header);
+    let mut summary = Summary {
+        tsubu_version: crate::VERSION.to_owned(),
+        status,
+        method: plan.method.name().to_owned(),
+        dimension: u32::from(plan.dimension),
+        wall_seconds,
+        threads: rayon::current_num_threads() as u32,
+        ..Summary::default()
+    };
+    for (case, case_plan) in results.iter().zip(plans) {
+        let method = case_plan.method.name();
+        let name = if case.name.is_empty() { "scene" } else { &case.name };
+        for row in &case.rows {
+            curves.push([
+                number(row.frequency),
+                number(row.ratio),
+                number(row.rms[0]),
+                number(row.peak),
+                number(row.rms[1]),
+                number(row.rms[2]),
+                number(row.apparent_mass),
+                number(row.loss),
+                number(row.drift),
+                number(case.particles as f64),
+                text(name),
+                text(method),
+            ]);
+        }
+        let Some(peak) = case.peak else { continue };
+        let values = [
+            ("peak frequency ratio", peak.ratio),
+            ("peak rms", peak.rms),
+            ("half-power damping", peak.half_power_damping),
+            ("loss factor", case.loss_factor),
+            ("apparent mass", case.apparent_mass),
+            ("added-mass limit", case.added_mass_limit),
+        ];
+        let mut cells = vec![text(name), text(method), number(case.particles as f64)];
+        cells.extend(values.iter().map(|(_, v)| number(*v)));
+        cells.extend([number(case.residual), number(case.wall)]);
+        cases.push(cells);
+        causes.push(
+            std::iter::once(text(name))
+                .chain(Account::ALL.iter().zip(&case.flows).filter(|(a, _)| !a.is_work()).map(|(_, f)| number(*f))),
+        );
+        let suffix = if case.name.is_empty() { String::new() } else { format!(" {}", case.name) };
+        for (label, value) in values {
+            summary.results.insert(format!("{label}{suffix}"), ResultValue::Number(value));
+        }
+        summary.energy.residual_relative = summary.energy.residual_relative.max(case.residual);
+        summary.particles = summary.particles.max(case.particles as u64);
+        let drift = case.rows.iter().map(|r| r.drift).fold(0.0, f64::max);
+        if drift > 0.1 && status == Status::Finished {
+            summary.warnings.push(format!(
+                "case `{name}`: the amplitude still changes by up to {:.0} % within the measured periods; more `response.discard-periods` settle it, or the motion is irregular",
+                100.0 * drift
+            ));
+        }
+    }
+    let hosts = Hosts::new(&plan.hosts);
+    if let Ok(engine) = engine::open(plan, &hosts) {
+        summary.time_step = engine.time_step();
+        summary.warnings.extend(engine.notes().iter().map(|n| format!("{}: {}", n.key, n.text)));
+        folder.write("check.txt", check::verdict(plan, &hosts, &*engine).to_string().as_bytes())?;
+    }
+    if status == Status::Finished {
+        run::judge(plan, &mut summary);
+    }
+    curves.write(&folder.file("response.csv"))?;
+    cases.write(&folder.file("cases.csv"))?;
+    causes.write(&folder.file("energy_by_cause.csv"))?;
+    summary.write(&folder.file("summary.json"))?;
+    Ok(summary)
+}
