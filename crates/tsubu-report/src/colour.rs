@@ -1,5 +1,7 @@
 //! From a number to a colour.
 
+use std::fmt::Write as _;
+
 /// Viridis at equal distances: it grows evenly to the eye, in print and for colour-blind readers.
 const VIRIDIS: [[u8; 3]; 11] = [
     [68, 1, 84],
@@ -35,5 +37,9 @@ pub fn hex(t: f64) -> String {
 
 /// The stops of an SVG gradient over the whole map.
 pub fn stops() -> String {
-    (0..=10).map(|i| format!("<stop offset=\"{}%\" stop-color=\"{}\"/>", i * 10, hex(f64::from(i) / 10.0))).collect()
+    (0..=10).fold(String::new(), |mut out, i| {
+        let colour = hex(f64::from(i) / 10.0);
+        let _ = write!(out, "<stop offset=\"{}%\" stop-color=\"{colour}\"/>", i * 10);
+        out
+    })
 }

@@ -45,7 +45,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
             pictures.extend(drawn);
         }
         source.files.append(&mut inside.files);
-        source.notes.append(&mut inside.notes);
+        source.notes.extend(inside.notes.into_iter().map(|n| format!("{}: {n}", method.name)));
     }
     let mut cost = Vec::new();
     if runs.len() > 1 {

@@ -85,13 +85,29 @@ impl Series {
     }
 }
 
-/// A reference line across the figure.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Mark {
+/// A dashed reference line across the figure.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mark {
+    /// Where: an x, or a y if `horizontal`.
+    pub at: f64,
+    /// From left to right rather than from bottom to top.
+    pub horizontal: bool,
+    /// Text at its end; empty for none.
+    pub label: String,
+    /// Index in the palette, if it belongs to a series.
+    pub colour: Option<usize>,
+}
+
+impl Mark {
     /// At this x, from bottom to top.
-    Vertical(f64, String),
+    pub fn vertical(at: f64, label: impl Into<String>) -> Self {
+        Self { at, label: label.into(), ..Self::default() }
+    }
+
     /// At this y, from left to right.
-    Horizontal(f64, String),
+    pub fn horizontal(at: f64, label: impl Into<String>) -> Self {
+        Self { at, horizontal: true, label: label.into(), ..Self::default() }
+    }
 }
 
 /// Bars by category, one colour a part.
@@ -122,7 +138,7 @@ pub struct Figure {
     pub marks: Vec<Mark>,
     /// Bars, instead of curves.
     pub bars: Option<Bars>,
-    /// Height of the drawing area in pixels, at a width of 760; 0 for the default.
+    /// Height of the drawing area in pixels, at a width of 860; 0 for the default.
     pub height: u32,
 }
 

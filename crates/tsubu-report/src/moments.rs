@@ -19,29 +19,17 @@ const MOST_ANIMATED: usize = 200_000;
 
 /// Strip and animation of a folder's snapshots.
 pub(crate) fn blocks(source: &mut Source, history: Option<&Table>, stem: &str) -> Vec<Block> {
-    let found = match snapshots(&source.dir) {
-        Ok(found) => found,
-        Err(error) => {
-            source.notes.push(error.to_string());
-            return Vec::new();
-        }
-    };
+    let read = snapshots(&source.dir);
+    let found = source.told(read).unwrap_or_default();
     if found.is_empty() {
         return Vec::new();
     }
-    match draw(source, history, &found, stem) {
-        Ok(blocks) => blocks,
-        Err(error) => {
-            source.notes.push(format!("The pictures are left out: {error}"));
-            Vec::new()
-        }
-    }
+    let drawn = draw(source, history, &found, stem);
+    source.told(drawn).unwrap_or_default()
 }
 
 fn draw(source: &mut Source, history: Option<&Table>, found: &[Snapshot], stem: &str) -> Result<Vec<Block>, FileError> {
-    let period = history.and_then(last_period);
-    let spacing = typical_spacing(found);
-    let resolved = period.filter(|p| spacing <= p.length / 6.0);
+    let resolved = history.and_then(|h| shown_period(h, found));
     let chosen = match resolved {
         Some(p) => eighths(found, p),
         None => evenly(found, PICTURES).into_iter().map(|i| (i, None)).collect(),
@@ -55,7 +43,9 @@ fn draw(source: &mut Source, history: Option<&Table>, found: &[Snapshot], stem: 
         panels.push(Panel { arrow: motion(found, *i, &balls)?, balls, label });
     }
     if panels.iter().all(|p| p.arrow.is_none_or(|a| a[0].hypot(a[1]) == 0.0)) {
-        panels.iter_mut().for_each(|p| p.arrow = None);
+        for panel in &mut panels {
+            panel.arrow = None;
+        }
     }
     let arrows = if panels.iter().any(|p| p.arrow.is_some()) { " Arrows show how the box moves." } else { "" };
     let caption = match resolved {
@@ -152,9 +142,15 @@ pub(crate) fn host_columns(history: &Table) -> Vec<usize> {
     history.header.iter().enumerate().filter(|(_, h)| is_host(h)).map(|(i, _)| i).collect()
 }
 
-/// The last whole period of the first host's displacement, from one upward passage of its middle to the next.
+/// The last whole period of the first host's displacement.
 pub(crate) fn last_period(history: &Table) -> Option<Period> {
-    let column = *host_columns(history).first()?;
+    periods(history).pop()
+}
+
+/// Whole periods of the first host's displacement, from one upward passage of its middle to the next. The middle is
+/// that of the later half, when the start has died away.
+fn periods(history: &Table) -> Vec<Period> {
+    let Some(&column) = host_columns(history).first() else { return Vec::new() };
     let points: Vec<(f64, f64)> = history
         .rows
         .iter()
@@ -162,15 +158,27 @@ pub(crate) fn last_period(history: &Table) -> Option<Period> {
         .filter(|p| p.0.is_finite() && p.1.is_finite())
         .collect();
     let late = &points[points.len() / 2..];
-    let (low, high) = late.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.1), h.max(p.1)));
+    let ends = |(l, h): (f64, f64), p: &(f64, f64)| (l.min(p.1), h.max(p.1));
+    let (low, high) = late.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
     let middle = f64::midpoint(low, high);
-    let passages: Vec<f64> = late
+    let passages: Vec<f64> = points
         .windows(2)
         .filter(|w| w[0].1 < middle && w[1].1 >= middle)
         .map(|w| w[0].0 + (w[1].0 - w[0].0) * (middle - w[0].1) / (w[1].1 - w[0].1))
         .collect();
-    let [.., start, end] = passages.as_slice() else { return None };
-    (high - low > 0.0 && end > start).then_some(Period { start: *start, length: end - start })
+    let whole = |w: &[f64]| Period { start: w[0], length: w[1] - w[0] };
+    passages.windows(2).map(whole).filter(|p| p.length > 0.0).collect()
+}
+
+/// The last period that the snapshots show from end to end, finely enough for eighths.
+fn shown_period(history: &Table, found: &[Snapshot]) -> Option<Period> {
+    let spacing = typical_spacing(found);
+    let (first, last) = (found.first()?.time, found.last()?.time);
+    periods(history).into_iter().rev().find(|p| {
+        first - spacing / 2.0 <= p.start
+            && p.start + p.length * 7.0 / 8.0 <= last + spacing / 2.0
+            && spacing <= p.length / 6.0
+    })
 }
 
 fn typical_spacing(found: &[Snapshot]) -> f64 {

@@ -265,7 +265,12 @@ fn write_grid(out: &mut String, grid: &Grid) {
     for (tone, row) in &grid.rows {
         let _ = write!(out, "<tr class=\"{}\">", tone.class());
         for (c, cell) in row.iter().take(columns).enumerate() {
-            let _ = write!(out, "<td{}>{}</td>", class(c), escape(cell));
+            let class = match class(c) {
+                // A short label broken in two reads badly; a long text may wrap.
+                "" if cell.chars().count() <= 26 => " class=\"whole\"",
+                other => other,
+            };
+            let _ = write!(out, "<td{class}>{}</td>", escape(cell));
         }
         out.push_str("</tr>\n");
     }

@@ -8,7 +8,7 @@ use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::theme::Theme;
 
-use crate::figure::{Axis, Bars, Figure, Mark, Series, Style, prefix};
+use crate::figure::{Axis, Bars, Figure, Series, Style, prefix};
 
 /// Okabe and Ito's colours, told apart by colour-blind readers too; the order puts dark ones first.
 pub(crate) const PALETTE: [&str; 8] =
@@ -18,7 +18,7 @@ pub(crate) const INK: &str = "#24292f";
 pub(crate) const FAINT: &str = "#e3e6ea";
 pub(crate) const AXIS: &str = "#6e7781";
 
-const WIDTH: f64 = 760.0;
+const WIDTH: f64 = 860.0;
 const FONT: &str = "system-ui, -apple-system, Segoe UI, Roboto, Helvetica, Arial, sans-serif";
 /// More points than pixels make a file large and a figure no better.
 const MOST_POINTS: usize = 2400;
@@ -129,19 +129,22 @@ fn draw_series(figure: &Figure) -> (Vec<Plot>, Layout) {
     if figure.y.log {
         layout = layout.with_log_y();
     }
-    // A curve should fill the width; kuva rounds the ends outwards.
-    let span = |v: &dyn Fn(f64, f64) -> f64, start| points().map(|p| p.0).filter(|x| x.is_finite()).fold(start, v);
-    let (low, high) = (span(&f64::min, f64::INFINITY) * fx, span(&f64::max, f64::NEG_INFINITY) * fx);
+    // A curve should fill the width, where kuva rounds the ends outwards; a hair more lets the last tick show.
+    let ends = |(l, h): (f64, f64), x: f64| (l.min(x), h.max(x));
+    let finite = points().map(|p| p.0 * fx).filter(|x| x.is_finite());
+    let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), ends);
     if !figure.x.log && high > low {
-        layout = layout.with_x_axis_min(low).with_x_axis_max(high);
+        layout = layout.with_x_axis_min(low).with_x_axis_max(high + 0.003 * (high - low));
     }
     for mark in &figure.marks {
-        let (line, label) = match mark {
-            Mark::Vertical(x, label) => (ReferenceLine::vertical(x * fx), label),
-            Mark::Horizontal(y, label) => (ReferenceLine::horizontal(y * fy), label),
+        let line = if mark.horizontal {
+            ReferenceLine::horizontal(mark.at * fy)
+        } else {
+            ReferenceLine::vertical(mark.at * fx)
         };
-        let line = line.with_color(AXIS).with_dasharray("5 4");
-        layout = layout.with_reference_line(if label.is_empty() { line } else { line.with_label(label) });
+        let colour = mark.colour.map_or(AXIS, |i| PALETTE[i % PALETTE.len()]);
+        let line = line.with_color(colour).with_dasharray("5 4");
+        layout = layout.with_reference_line(if mark.label.is_empty() { line } else { line.with_label(&mark.label) });
     }
     (plots, layout)
 }

@@ -1,5 +1,6 @@
 //! Particle pictures in pixels: shaded spheres, any number, no display needed.
 
+use std::fmt::Write as _;
 use std::sync::{Arc, OnceLock};
 
 use resvg::tiny_skia::{Pixmap, Transform};
@@ -89,16 +90,14 @@ pub fn picture(balls: &Balls, look: &Look, width: u32) -> Image {
                 format!("{x:.2},{y:.2}")
             })
             .collect();
-        svg.push_str(&format!(
+        let _ = write!(
+            svg,
             "<polygon points=\"{}\" fill=\"none\" stroke=\"{AXIS}\" stroke-width=\"1.6\"/>",
             points.join(" ")
-        ));
+        );
     }
-    svg.push_str(&format!(
-        "<text x=\"10\" y=\"{}\" font-size=\"13\">{}</text>",
-        inner + 24,
-        escape(&time_label(balls.time))
-    ));
+    let _ =
+        write!(svg, "<text x=\"10\" y=\"{}\" font-size=\"13\">{}</text>", inner + 24, escape(&time_label(balls.time)));
     let range = look.range.unwrap_or((0.0, 1.0));
     let middle = (f64::from(width) - 145.0).max(f64::from(width) / 2.0);
     colour_bar(&mut svg, &balls.quantity, range, [middle, f64::from(inner) + 14.0], "scale");

@@ -168,24 +168,43 @@ fn charts(source: &mut Source, curves: &[Curve], cases: Option<&Table>, by_ratio
     }
     rms.height = 420 + 12 * curves.len() as u32;
     peak.height = rms.height;
-    if let Some(limits) = cases.filter(|_| by_ratio).and_then(|c| c.numbers("added-mass limit")) {
-        let mut limits: Vec<f64> = limits.into_iter().filter(|x| x.is_finite() && *x < 1.0).collect();
-        limits.sort_by(f64::total_cmp);
-        limits.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
-        if limits.len() <= 3 {
-            for limit in limits {
-                rms = rms.marked(Mark::Vertical(limit, "added mass".into()));
-            }
-        }
+    let limits = added_mass_limits(curves, cases.filter(|_| by_ratio));
+    let dashed = if limits.is_empty() {
+        ""
+    } else {
+        " Dashed: where each case would peak if its grains were fixed to the host."
+    };
+    for (curve, limit) in limits {
+        rms = rms.marked(Mark { colour: Some(curve), ..Mark::vertical(limit, "") });
     }
     let band = if spread { " The bands span the seeds." } else { "" };
-    let caption = format!("Steady rms displacement of the host against the frequency of excitation.{band}");
+    let caption = format!("Steady rms displacement of the host against the frequency of excitation.{band}{dashed}");
     let mut blocks = Vec::new();
     blocks.extend(source.figure("response_rms", &rms, &caption));
     if let Some(chart) = source.figure("response_peak", &peak, "The largest displacement at each frequency.") {
         blocks.push(crate::source::folded("Peak displacement", vec![chart]));
     }
     blocks
+}
+
+/// Curve and frequency ratio of each case's added-mass limit.
+fn added_mass_limits(curves: &[Curve], cases: Option<&Table>) -> Vec<(usize, f64)> {
+    let Some((table, limits)) = cases.and_then(|t| Some((t, t.numbers("added-mass limit")?))) else {
+        return Vec::new();
+    };
+    let (case, method) = (table.texts("case"), table.texts("method"));
+    let mut found: Vec<(usize, f64)> = Vec::new();
+    for (row, limit) in limits.into_iter().enumerate().filter(|(_, x)| x.is_finite() && *x < 1.0) {
+        let text = |column: &Option<Vec<String>>| column.as_ref().map_or(String::new(), |c| c[row].clone());
+        let (case, method) = (text(&case), text(&method));
+        let named = |c: &Curve| c.name == case || c.name == format!("{case}, {}", method_name(&method));
+        let curve = curves.iter().position(named);
+        // Methods share the limit of a case; one line says it.
+        if let Some(curve) = curve.filter(|_| !found.iter().any(|f| f.1 == limit)) {
+            found.push((curve, limit));
+        }
+    }
+    found
 }
 
 fn cause_blocks(source: &mut Source, table: &Table) -> Vec<Block> {
@@ -228,7 +247,7 @@ fn picture_blocks(source: &mut Source) -> Vec<Block> {
             blocks.extend(drawn);
         }
         source.files.append(&mut case.files);
-        source.notes.append(&mut case.notes);
+        source.notes.extend(case.notes.into_iter().map(|n| format!("{name}: {n}")));
     }
     blocks
 }

@@ -1,5 +1,7 @@
 //! The report of one run.
 
+use std::fmt::Write as _;
+
 use tsubu_frame::{Status, Summary, Table, csv::split_unit};
 
 use crate::figure::{Axis, Figure, Series};
@@ -17,7 +19,7 @@ const TURNED_OVER: [&str; 9] = ["dissipat", "work", "loss", "lost", "damp", "inp
 pub(crate) fn build(source: &mut Source) -> Report {
     let summary = source.summary();
     let history = source.table("history.csv");
-    if history.is_none() {
+    if history.is_none() && !source.has("history.csv") {
         source.notes.push("There is no history.csv, so nothing is drawn over time.".into());
     }
     let mut report = Report {
@@ -83,11 +85,11 @@ fn headline(summary: Option<&Summary>, history: Option<&Table>) -> String {
         duration(s.wall_seconds)
     );
     if let Some((name, peak)) = history.and_then(host_peak) {
-        text.push_str(&format!(" The {name} reaches {}.", spoken(peak, "m")));
+        let _ = write!(text, " The {name} reaches {}.", spoken(peak, "m"));
     }
     let residual = s.energy.residual_relative;
     if residual.is_finite() && !s.energy.terms.is_empty() {
-        text.push_str(&format!(" The energy books close to {}.", short(residual.abs())));
+        let _ = write!(text, " The energy books close to {}.", short(residual.abs()));
     }
     text
 }

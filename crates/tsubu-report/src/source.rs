@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use tsubu_frame::{Claim, ResultValue, Summary, Table, csv::split_unit};
+use tsubu_frame::{Claim, FileError, ResultValue, Summary, Table, csv::split_unit};
 
 use crate::figure::{Axis, Bars, Figure};
 use crate::page::{Block, Card, Grid, Report, Tone};
@@ -41,14 +41,26 @@ impl Source {
             self.notes.push("There is no summary.json: the run has not ended, or was killed.".into());
             return None;
         }
-        Summary::read(&self.dir.join("summary.json")).map_err(|e| self.notes.push(said(&e))).ok()
+        let read = Summary::read(&self.dir.join("summary.json"));
+        self.told(read)
+    }
+
+    /// The value, or a note on why there is none. A report is mailed, its folder is not: the note leaves out where
+    /// the folder stands.
+    pub fn told<T>(&mut self, read: Result<T, FileError>) -> Option<T> {
+        read.map_err(|error| {
+            let here = format!("{}/", self.dir.display());
+            self.notes.push(error.to_string().replace(&here, ""));
+        })
+        .ok()
     }
 
     pub fn table(&mut self, name: &str) -> Option<Table> {
         if !self.has(name) {
             return None;
         }
-        let table = Table::read(&self.dir.join(name)).map_err(|e| self.notes.push(said(&e))).ok()?;
+        let read = Table::read(&self.dir.join(name));
+        let table = self.told(read)?;
         if table.rows.is_empty() {
             self.notes.push(format!("{name} has no rows."));
             return None;
@@ -86,7 +98,7 @@ impl Source {
     pub fn scene_and_verdict(&self, report: &mut Report) {
         let mut blocks = Vec::new();
         if let Some(text) = self.text("check.txt") {
-            blocks.push(folded("The verdict of `tsubu check`", vec![Block::Typed(text)]));
+            blocks.push(folded("The verdict of tsubu check", vec![Block::Typed(text)]));
         }
         if let Some(text) = self.text("scene.toml") {
             blocks.push(Block::Text(
@@ -100,15 +112,6 @@ impl Source {
 
 pub(crate) fn folded(summary: &str, inside: Vec<Block>) -> Block {
     Block::Folded { summary: summary.to_owned(), inside }
-}
-
-/// The message without the path in front of the file's name: a report is mailed, its folder is not.
-fn said(error: &tsubu_frame::FileError) -> String {
-    let message = error.to_string();
-    let folder = error.path().parent().map(|p| format!("{}/", p.display())).unwrap_or_default();
-    let short = if folder.len() > 1 { message.replace(&folder, "") } else { message };
-    let mut letters = short.chars();
-    letters.next().map_or_else(String::new, |c| c.to_uppercase().chain(letters).collect())
 }
 
 pub(crate) fn card(label: &str, value: String, unit: &str, note: String, tone: Tone) -> Card {
@@ -277,10 +280,25 @@ pub(crate) fn energy_blocks(source: &mut Source, runs: &[(&str, &Summary)]) -> V
 
 /// A CSV table for the eye: numbers rounded to what can be read.
 pub(crate) fn shown(table: &Table) -> Block {
-    let mut grid = Grid::new(table.header.iter().cloned());
+    let scales: Vec<(f64, String)> = table
+        .header
+        .iter()
+        .enumerate()
+        .map(|(c, header)| {
+            let largest = table.rows.iter().filter_map(|r| r[c].number()).fold(0.0_f64, |a, x| a.max(x.abs()));
+            match split_unit(header) {
+                (name, Some(unit @ ("m" | "J"))) => {
+                    let (factor, unit) = crate::figure::prefix(unit, largest);
+                    (factor, format!("{name} [{unit}]"))
+                }
+                _ => (1.0, header.clone()),
+            }
+        })
+        .collect();
+    let mut grid = Grid::new(scales.iter().map(|s| s.1.clone()));
     for row in &table.rows {
-        let cells = row.iter().map(|cell| match cell {
-            tsubu_frame::Cell::Number(x) => short(*x),
+        let cells = row.iter().zip(&scales).map(|(cell, (factor, _))| match cell {
+            tsubu_frame::Cell::Number(x) => short(*x * factor),
             tsubu_frame::Cell::Text(text) => text.clone(),
         });
         grid.push(Tone::Plain, cells);

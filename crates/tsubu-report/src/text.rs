@@ -11,7 +11,7 @@ pub fn short(x: f64) -> String {
     let size = x.abs();
     let text = if size == 0.0 {
         "0".to_owned()
-    } else if size >= 1e7 || size < 1e-3 {
+    } else if !(1e-3..1e7).contains(&size) {
         let text = format!("{x:.3e}");
         let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
         let digits = digits.trim_end_matches('0').trim_end_matches('.');

@@ -68,11 +68,9 @@ fn read(source: &mut Source) -> Vec<Claim> {
         List(Vec<Claim>),
         Object { claims: Vec<Claim> },
     }
-    match read_json(&source.dir.join("verify.json")) {
-        Ok(Either::List(claims) | Either::Object { claims }) => claims,
-        Err(error) => {
-            source.notes.push(error.to_string());
-            Vec::new()
-        }
+    let read = read_json(&source.dir.join("verify.json"));
+    match source.told(read) {
+        Some(Either::List(claims) | Either::Object { claims }) => claims,
+        None => Vec::new(),
     }
 }

@@ -1,0 +1,169 @@
+//! Figures and particle pictures: drawable, honest about missing values, the right colour at the right place.
+
+use tsubu_report::animation::{apng, gif};
+use tsubu_report::balls::{Balls, ColourBy, Look, View, common};
+use tsubu_report::figure::{Axis, Bars, Figure, Mark, Series, Style, prefix};
+use tsubu_report::raster::{Image, from_svg, picture, spheres};
+use tsubu_report::strip::{Panel, strip};
+use tsubu_report::text::{count, duration, escape, short};
+
+use crate::fixture;
+
+fn drawable(svg: &str) -> Image {
+    from_svg(svg, 1.0).unwrap_or_else(|| panic!("not an SVG: {}", &svg[..svg.len().min(300)]))
+}
+
+fn is_blank(image: &Image) -> bool {
+    image.rgba.as_chunks::<4>().0.windows(2).all(|w| w[0] == w[1])
+}
+
+#[test]
+fn figures_take_any_numbers() {
+    let wild = [f64::NAN, f64::INFINITY, -1.0, 0.0, 1e-300, 1.0, 1e300];
+    let points: Vec<_> = wild.iter().map(|x| (*x, *x)).collect();
+    for log in [false, true] {
+        for style in [Style::Line, Style::Dashed, Style::Points, Style::LineAndPoints] {
+            let axis = Axis { log, ..Axis::new("x < \"y\" & z", "m") };
+            let figure = Figure::new("a & b <c>", axis.clone(), axis)
+                .with(Series::line("one <", points.clone()).styled(style).with_band(points.clone()))
+                .marked(Mark::vertical(1.0, "<mark>"))
+                .marked(Mark::horizontal(0.5, ""));
+            drawable(&figure.to_svg());
+            drawable(&figure.to_inline_svg());
+        }
+    }
+}
+
+#[test]
+fn one_point_none_and_flat_lines_are_drawn() {
+    let axis = || Axis::new("x", "-");
+    let with = |points| Figure::new("", axis(), axis()).with(Series::line("s", points));
+    for points in [vec![], vec![(1.0, 1.0)], vec![(0.0, 2.0), (1.0, 2.0)], vec![(f64::NAN, 0.0)]] {
+        drawable(&with(points).to_svg());
+    }
+    assert!(with(vec![(f64::NAN, 0.0)]).is_empty());
+    assert!(!with(vec![(0.0, 0.0)]).is_empty());
+    drawable(&Figure::of_bars("", axis(), Bars::default()).to_svg());
+}
+
+#[test]
+fn a_long_history_keeps_its_peaks_and_stays_small() {
+    let mut points: Vec<_> = (0..200_000).map(|i| (f64::from(i), (f64::from(i) * 0.01).sin())).collect();
+    points[123_456].1 = 50.0;
+    let svg = Figure::new("", Axis::new("t", "s"), Axis::new("y", "-")).with(Series::line("", points)).to_svg();
+    assert!(svg.len() < 150_000, "{} bytes", svg.len());
+    assert!(svg.contains(">50<") || svg.contains(">60<"), "the axis reaches the peak");
+}
+
+#[test]
+fn prefixes_make_short_numbers() {
+    assert_eq!(prefix("m", 0.0041), (1e3, "mm".into()));
+    assert_eq!(prefix("m", 2.0), (1.0, "m".into()));
+    assert_eq!(prefix("m", 3e-6), (1e6, "µm".into()));
+    assert_eq!(prefix("J", 2.5e4), (1e-3, "kJ".into()));
+    assert_eq!(prefix("-", 1e-9), (1.0, "-".into()));
+    assert_eq!(prefix("m", f64::NAN), (1.0, "m".into()));
+}
+
+#[test]
+fn numbers_read_well() {
+    let cases = [
+        (0.0, "0"),
+        (4.083_61, "4.084"),
+        (-0.05, "−0.05"),
+        (2.7e-7, "2.7·10⁻⁷"),
+        (123_456.7, "123\u{202f}457"),
+        (1e9, "1·10⁹"),
+        (100.0, "100"),
+        (f64::NAN, "–"),
+        (999.96, "1000"),
+    ];
+    for (x, text) in cases {
+        assert_eq!(short(x), text, "{x}");
+    }
+    assert_eq!(count(1_234_567), "1\u{202f}234\u{202f}567");
+    assert_eq!(
+        (duration(0.0213), duration(75.0), duration(605.0)),
+        ("21.3 ms".into(), "75 s".into(), "10 min 05 s".into())
+    );
+    assert_eq!(escape("<a b='c'>&\u{8}"), "&lt;a b=&#39;c&#39;&gt;&amp;\u{fffd}");
+}
+
+#[test]
+fn a_strip_shows_every_panel_in_one_scale() {
+    let look = Look { arrows: true, ..Look::default() };
+    let panels: Vec<_> = (0..8)
+        .map(|i| Panel {
+            balls: Balls::of(&fixture::frame(4.0 + 0.06 * f64::from(i), 30), &look),
+            label: format!("{}° & <", 45 * i),
+            arrow: Some([0.01 * f64::from(i - 4), 0.0]),
+        })
+        .collect();
+    let svg = strip(&panels, &look, 4);
+    assert!(!is_blank(&drawable(&svg)));
+    assert_eq!(svg.matches("stroke-linejoin=\"round\"").count(), 8, "eight boxes");
+    assert_eq!(svg.matches("<linearGradient").count(), 1, "one scale");
+    drawable(&strip(&[], &look, 8));
+}
+
+#[test]
+fn many_grains_go_into_pixels() {
+    let balls = Balls::of(&fixture::frame(1.0, 4000), &Look::default());
+    let svg = strip(&[Panel { balls, ..Panel::default() }], &Look::default(), 1);
+    assert!(svg.contains("data:image/png;base64,") && !svg.contains("<circle"));
+}
+
+#[test]
+fn a_sphere_is_where_it_should_be_and_hides_what_is_behind() {
+    let balls = Balls {
+        centres: vec![[0.25, 0.75, 0.0], [0.25, 0.75, -1.0], [f64::NAN, 0.0, 0.0]],
+        radii: vec![0.1; 3],
+        values: vec![1.0, 0.0, 0.0],
+        ..Balls::default()
+    };
+    let look = Look { window: Some([0.0, 0.0, 1.0, 1.0]), range: Some((0.0, 1.0)), ..Look::default() };
+    let image = spheres(&balls, &look, 106, 106);
+    let pixel = |x: usize, y: usize| &image.rgba[4 * (y * 106 + x)..][..4];
+    let [r, g, b, a] = pixel(28, 28) else { panic!() };
+    assert!(*a == 255 && r > b && g > b, "the near one is yellow: {r} {g} {b}");
+    assert_eq!(pixel(80, 80)[3], 0);
+    let edge = (0..106).filter(|x| !matches!(pixel(*x, 22)[3], 0 | 255)).count();
+    assert!((2..=4).contains(&edge), "both edges are smooth: {edge}");
+}
+
+#[test]
+fn pictures_become_png_gif_and_apng() {
+    let look = Look { colour: ColourBy::Column("radius".into()), ..Look::default() };
+    let series: Vec<_> = [0.0, 1.0, 1.1].map(|t| Balls::of(&fixture::frame(t, 30), &look)).into();
+    let look = common(&series, &look);
+    let pictures: Vec<_> = series.iter().map(|b| picture(b, &look, 200)).collect();
+    assert!(!is_blank(&pictures[0]));
+    let png = pictures[0].to_png();
+    let back = png::Decoder::new(std::io::Cursor::new(&png)).read_info().unwrap();
+    assert_eq!((back.info().width, back.info().height), (200, pictures[0].height));
+    let moving = apng(&pictures, 10.0).unwrap();
+    let back = png::Decoder::new(std::io::Cursor::new(&moving)).read_info().unwrap();
+    assert_eq!(back.info().animation_control().unwrap().num_frames, 3);
+    let moving = gif(&pictures, 10.0).unwrap();
+    let mut back = gif::DecodeOptions::new().read_info(moving.as_slice()).unwrap();
+    let mut frames = 0;
+    while back.read_next_frame().unwrap().is_some() {
+        frames += 1;
+    }
+    assert_eq!(frames, 3);
+    assert!(gif(&[], 10.0).is_err());
+    assert!(apng(&[Image::filled(2, 2, [0; 4]), Image::filled(3, 2, [0; 4])], 1.0).is_err());
+}
+
+#[test]
+fn views_turn_the_right_way() {
+    let mut frame = tsubu_frame::Frame::default();
+    let points = vec![[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]];
+    frame.vector(tsubu_frame::Kind::Grain, "position", "m", points);
+    let seen = |view| Balls::of(&frame, &Look { view, ..Look::default() }).centres[1];
+    assert_eq!(seen(View::Front), [1.0, 2.0, 3.0]);
+    assert_eq!(seen(View::Side), [1.0, 3.0, -2.0]);
+    let [_, up, _] = seen(View::Slant);
+    assert!(up > 0.0);
+    assert_eq!(seen(View::Auto), seen(View::Slant));
+}

@@ -1,0 +1,178 @@
+//! Reports: complete, self-contained, and made of whatever is there.
+
+use std::fs;
+use std::path::Path;
+
+use tsubu_report::page::{Block, Report, Tone};
+use tsubu_report::{ReportError, build, report};
+
+use crate::fixture;
+
+fn titles(report: &Report) -> Vec<&str> {
+    report.sections.iter().map(|s| s.title.as_str()).collect()
+}
+
+fn written(dir: &Path) -> String {
+    let page = report(dir).unwrap();
+    assert_eq!(page, dir.join("report.html"));
+    fs::read_to_string(page).unwrap()
+}
+
+/// Nothing on the page may ask for anything from outside, and nothing may run.
+fn self_contained(html: &str) {
+    let plain = html.replace("http://www.w3.org/2000/svg", "").replace("http://www.w3.org/1999/xlink", "");
+    for forbidden in ["http:", "https:", "<script", "<link", "@import", "src=\"/", "onload", "javascript:"] {
+        assert!(!plain.contains(forbidden), "the page has {forbidden}");
+    }
+    assert!(html.ends_with("</html>\n"));
+    for tag in ["section", "table", "figure", "details", "svg", "div", "tr"] {
+        let open = html.matches(&format!("<{tag}>")).count() + html.matches(&format!("<{tag} ")).count();
+        assert_eq!(open, html.matches(&format!("</{tag}>")).count(), "{tag}");
+    }
+    let ids: Vec<_> = html.split(" id=\"").skip(1).map(|s| s.split('"').next().unwrap()).collect();
+    let mut unique = ids.clone();
+    unique.sort_unstable();
+    unique.dedup();
+    assert_eq!(unique.len(), ids.len(), "ids are unique: {ids:?}");
+}
+
+#[test]
+fn a_run_is_told_whole() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::run(dir.path(), "dem", 30);
+    let html = written(dir.path());
+    self_contained(&html);
+    for said in [
+        "30 grains by DEM",
+        "The host structure displacement reaches 4.069 mm",
+        "2.7·10⁻⁷",
+        "the overlap reached 1.3 %",
+        "60 steps per contact",
+        "&lt;script&gt;alert(1)&lt;/script&gt;",
+        "9f2c1ab0d4e85f1170ac66d2381b7c55",
+        "data:image/gif;base64,",
+    ] {
+        assert!(html.contains(said), "the page does not say {said}");
+    }
+    for file in ["host_displacement.svg", "strip.svg", "energy_by_cause.svg", "animation.gif", "last.png"] {
+        assert!(dir.path().join("figures").join(file).exists(), "{file}");
+    }
+    let report = build(dir.path()).unwrap();
+    assert_eq!(titles(&report), ["To be noted", "Motion", "Grains", "Energy", "Claims", "Results", "Cost", "Scene"]);
+}
+
+#[test]
+fn the_same_folder_gives_the_same_page() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::response(dir.path());
+    assert_eq!(written(dir.path()), written(dir.path()));
+}
+
+#[test]
+fn a_response_names_its_lowest_peak() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::response(dir.path());
+    self_contained(&written(dir.path()));
+    let report = build(dir.path()).unwrap();
+    assert!(
+        report.headline.starts_with("The lowest peak is that of N = 40: 3.717 mm rms at 0.96"),
+        "{}",
+        report.headline
+    );
+    assert_eq!(report.cards[0].label, "Peak rms, N = 0");
+    assert!(titles(&report).contains(&"Energy by cause"));
+}
+
+#[test]
+fn a_comparison_says_what_each_method_cost() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::compare(dir.path());
+    self_contained(&written(dir.path()));
+    let report = build(dir.path()).unwrap();
+    assert!(report.headline.contains("91.9 times as long"), "{}", report.headline);
+    assert!(titles(&report).contains(&"What differs"));
+}
+
+#[test]
+fn a_failed_claim_cannot_be_overlooked() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::verify(dir.path(), true);
+    assert_eq!(build(dir.path()).unwrap().verdict, Some((Tone::Good, "all pass".into())));
+    fixture::verify(dir.path(), false);
+    let report = build(dir.path()).unwrap();
+    assert_eq!(report.verdict, Some((Tone::Bad, "1 FAIL".into())));
+    assert_eq!(report.sections[0].title, "What does not hold");
+    let html = written(dir.path());
+    self_contained(&html);
+    assert!(html.contains("FAIL") && html.contains("V-60 peak"));
+}
+
+#[test]
+fn a_folder_without_results_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let error = build(dir.path()).unwrap_err();
+    assert!(matches!(error, ReportError::NoResults { .. }));
+    assert!(error.to_string().contains("summary.json"), "{error}");
+    let error = build(&dir.path().join("none")).unwrap_err().to_string();
+    assert!(error.contains("is not a folder"), "{error}");
+    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0, "nothing is written");
+}
+
+#[test]
+fn each_missing_file_costs_only_its_part() {
+    for missing in ["summary.json", "history.csv", "frames", "scene.toml", "check.txt"] {
+        let dir = tempfile::tempdir().unwrap();
+        fixture::run(dir.path(), "dem", 4);
+        let path = dir.path().join(missing);
+        if path.is_dir() {
+            fs::remove_dir_all(path).unwrap();
+        } else {
+            fs::remove_file(path).unwrap();
+        }
+        self_contained(&written(dir.path()));
+    }
+}
+
+#[test]
+fn damaged_files_become_notes() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::run(dir.path(), "dem", 4);
+    fixture::text(dir.path(), "summary.json", "{\"tsubu_version\": ");
+    fixture::text(dir.path(), "history.csv", "time [s],x [m]\n1\n");
+    let cut = dir.path().join("frames/grains_000002.vtp");
+    let bytes = fs::read(&cut).unwrap();
+    fs::write(&cut, &bytes[..200]).unwrap();
+    let report = build(dir.path()).unwrap();
+    let notes: Vec<_> = report.sections[0]
+        .blocks
+        .iter()
+        .filter_map(|b| match b {
+            Block::Note(_, text) => Some(text.as_str()),
+            _ => None,
+        })
+        .collect();
+    for file in ["summary.json", "history.csv", "grains_000002.vtp"] {
+        assert!(notes.iter().any(|n| n.contains(file)), "{file} in {notes:?}");
+    }
+    let html = written(dir.path());
+    self_contained(&html);
+    assert!(!html.contains(&dir.path().display().to_string()), "a mailed page tells nobody's folders");
+}
+
+#[test]
+fn verify_without_readable_claims_says_so() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::text(dir.path(), "verify.json", "[{\"name\": 3}]");
+    let report = build(dir.path()).unwrap();
+    assert_eq!(report.verdict, Some((Tone::Warning, "nothing checked".into())));
+    assert_eq!(report.sections[0].title, "To be noted");
+}
+
+#[test]
+fn nothing_typed_reaches_the_page_as_markup() {
+    let nasty = "<img src=x onerror=alert(1)>&\"'\u{1}";
+    let mut page = Report { title: nasty.into(), headline: nasty.into(), ..Report::default() };
+    page.section(nasty, vec![Block::Text(nasty.into()), Block::Typed(nasty.into())]);
+    let html = page.to_html();
+    assert!(!html.contains("<img") && !html.contains('\u{1}'));
+}
