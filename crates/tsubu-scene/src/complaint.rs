@@ -165,7 +165,7 @@ impl Complaints {
             marks.iter().zip(cut.spans).map(|((_, label, kind), span)| kind.span(span).label(printable(label)));
         let snippet =
             Snippet::source(cut.text).line_numbering(source.numbered).line_start(cut.line).annotations(annotations);
-        if source.numbered { snippet.path(source.name.as_str()) } else { snippet }
+        if source.numbered { snippet.path(printable(&source.name)) } else { snippet }
     }
 }
 

@@ -24,8 +24,6 @@ the tables of a choice can be given.
 NAME stands for a name of your own. A value can be changed from the command line without touching the file:
 `--set particles.balls.count=30`, `--set contact.damping.quarter={}`.
 
-A key without a default is required, unless its default is \"none\".
-
 ";
 
 /// The page in Markdown.
@@ -124,7 +122,8 @@ fn value(key: &Key) -> String {
 fn default(key: &Key) -> String {
     match key.need {
         Need::Required => "required".to_string(),
-        Need::Optional => "none".to_string(),
+        Need::Optional => "not there".to_string(),
+        Need::Default("{}") if matches!(key.kind, Kind::Table(_)) => "all its defaults".to_string(),
         Need::Default("{}" | "[]" | "''") => "empty".to_string(),
         Need::Default(text) => format!("`{}`", text.replace('\'', "\"")),
         Need::Word(word) => format!("`\"{word}\"`"),

@@ -288,3 +288,22 @@ fn explain(key: &Key) -> String {
 fn join(path: &str, name: &str) -> String {
     if path.is_empty() { name.to_string() } else { format!("{path}.{name}") }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_default_is_a_value_that_could_be_typed() {
+        let root = Node { value: Value::Table(Table::default()), place: Place::new(0, 0..0) };
+        keys::walk(&mut |path, keys| {
+            for key in keys {
+                let Need::Default(text) = key.need else { continue };
+                let mut resolver =
+                    Resolver { root: &root, dimension: Some(2), quiet_about_missing: false, complaints: Vec::new() };
+                assert!(resolver.default(key, text, path).is_some(), "{path}.{}: {text}", key.name);
+                assert!(resolver.complaints.is_empty(), "{path}.{}: {:?}", key.name, resolver.complaints);
+            }
+        });
+    }
+}

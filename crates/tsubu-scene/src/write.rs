@@ -10,7 +10,7 @@ use crate::units::Dimension;
 use std::fmt::Write as _;
 use toml::Value;
 
-/// Longer lists are broken into one line for each entry.
+/// Longer lists are broken into lines of about this many characters.
 const LINE: usize = 100;
 
 /// The plan as a scene: SI numbers and every default. Reading it gives the same plan, bit by bit.
@@ -122,8 +122,7 @@ fn text(value: &Value, may_break: bool) -> String {
             if !may_break || line.len() <= LINE {
                 return line;
             }
-            let lines: Vec<String> = items.iter().map(|item| format!("    {item},\n")).collect();
-            format!("[\n{}]", lines.concat())
+            wrapped(&items)
         }
         Value::Table(table) => {
             let entries: Vec<String> =
@@ -131,6 +130,21 @@ fn text(value: &Value, may_break: bool) -> String {
             format!("{{ {} }}", entries.join(", "))
         }
     }
+}
+
+fn wrapped(items: &[String]) -> String {
+    let mut out = String::from("[");
+    let mut column = LINE;
+    for item in items {
+        if column + item.len() > LINE {
+            out.push_str("\n   ");
+            column = 3;
+        }
+        let _ = write!(out, " {item},");
+        column += item.len() + 2;
+    }
+    out.push_str("\n]");
+    out
 }
 
 /// The shortest digits that read back to the same double; with an exponent where zeros would have to be counted.

@@ -132,6 +132,26 @@ fn a_table_is_read_with_its_units_and_kept_as_numbers() {
 }
 
 #[test]
+fn a_scene_file_is_read_with_the_files_beside_it() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fs::write(folder.path().join("push.csv"), "0 0\n0.1   2.5\n").expect("written");
+    let text =
+        edited("base.sine = { amplitude = \"0.5 mm\", frequency = \"6 Hz\" }", "force.table.file = \"push.csv\"");
+    fs::write(folder.path().join("scene.toml"), text).expect("written");
+    let scene = Scene::read(&folder.path().join("scene.toml"), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let expected = Signal::Table { time: vec![0.0, 0.1], value: vec![0.0, 2.5] };
+    assert_eq!(scene.plan().hosts["spring"].force, Some(expected));
+}
+
+#[test]
+fn grains_move_with_a_box_that_begins_displaced() {
+    let at = "start.at = { position = [[0, \"-10 mm\"]] }";
+    let text = edited("count = 20", at);
+    assert!(read(&text, &[]).is_err());
+    assert!(read(&text, &["hosts.spring.displacement=-20 mm"]).is_ok());
+}
+
+#[test]
 fn space_needs_a_depth() {
     let text = format!("dimension = 3\n{GOOD}");
     assert!(read(&text, &[]).expect_err("no depth").to_string().contains("depth"));

@@ -227,6 +227,25 @@ fn missing_scene_file() {
 }
 
 #[test]
+fn scene_file_that_is_no_text() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("scene.toml");
+    fs::write(&path, b"title = \"a\"\n\xff\xfe").expect("written");
+    let message = Scene::read(&path, &[]).expect_err("not text").to_string();
+    insta::assert_snapshot!(message.replace(&path.display().to_string(), "scene.toml"));
+}
+
+#[test]
+fn a_forgotten_unit_makes_giants() {
+    insta::assert_snapshot!(about("\"6 mm\"", "6"));
+}
+
+#[test]
+fn a_fraction_of_a_ball() {
+    insta::assert_snapshot!(about("count = 20", "count = 20.5"));
+}
+
+#[test]
 fn an_empty_scene_says_what_it_needs() {
     insta::assert_snapshot!(complaint("", &[]));
 }

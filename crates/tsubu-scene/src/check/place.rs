@@ -239,25 +239,36 @@ fn capacity(parts: &Parts<'_>, rooms: &[Room<'_>], complaints: &mut Vec<Complain
         let fits = fits(group, room, parts.space());
         filled += group.count as f64 / fits.max(f64::MIN_POSITIVE);
         if filled > 1.0 + 1e-9 {
-            let alone = group.count as f64 > fits;
-            let title = if alone {
-                format!("{} grains of `{name}` do not fit into the box `{}`", group.count, room.name)
-            } else {
-                format!("the groups of grains together do not fit into the box `{}`", room.name)
-            };
-            let spaced = match group.start {
-                Start::Rows { spacing, .. } if spacing > 1.0 => format!(" at a spacing of {spacing} diameters"),
-                _ => String::new(),
-            };
-            complaints.push(
-                Complaint::new(title)
-                    .at(&parts.root.locate(&["particles", name, "count"]), format!("{fits} fit{spaced}"))
-                    .also(&parts.root.locate(&["walls", room.name, "shape", "box"]), "the box")
-                    .hint("take fewer or smaller grains, or a larger box"),
-            );
+            complaints.push(overfull(parts, room, name, group, fits));
             return;
         }
     }
+}
+
+fn overfull(parts: &Parts<'_>, room: &Room<'_>, name: &str, group: &Particles, fits: f64) -> Complaint {
+    let box_place = parts.root.locate(&["walls", room.name, "shape", "box"]);
+    let at = |key: &str| parts.root.locate(&["particles", name, key]);
+    if fits == 0.0 {
+        let [width, depth, height] = room.size.map(millimetres);
+        let depth = if parts.space() { format!(", {depth} deep") } else { String::new() };
+        return Complaint::new(format!("not one grain of `{name}` fits into the box `{}`", room.name))
+            .at(&at("diameter"), format!("{} wide", millimetres(group.diameter)))
+            .also(&box_place, format!("{width} wide, {height} high{depth}"))
+            .hint("is a unit missing?");
+    }
+    let title = if group.count as f64 > fits {
+        format!("{} grains of `{name}` do not fit into the box `{}`", group.count, room.name)
+    } else {
+        format!("the groups of grains together do not fit into the box `{}`", room.name)
+    };
+    let spaced = match group.start {
+        Start::Rows { spacing, .. } if spacing > 1.0 => format!(" at a spacing of {spacing} diameters"),
+        _ => String::new(),
+    };
+    Complaint::new(title)
+        .at(&at("count"), format!("{fits} fit{spaced}"))
+        .also(&box_place, "the box")
+        .hint("take fewer or smaller grains, or a larger box")
 }
 
 /// How many grains of the group fill the box in rows.

@@ -108,10 +108,14 @@ impl Resolver<'_> {
 
     fn whole(&mut self, key: &Key, node: &Node) -> Option<toml::Value> {
         let Value::Whole(whole) = node.value else {
-            return match node.value {
-                Value::Number(_) => self.wrong_kind(key, node, "a whole number", None),
-                _ => self.wrong_kind(key, node, "a whole number", Some("10, without quotes".to_string())),
-            };
+            if !matches!(node.value, Value::Number(_)) {
+                return self.wrong_kind(key, node, "a whole number", Some("10, without quotes".to_string()));
+            }
+            self.complain(
+                Complaint::new(format!("`{}` needs a whole number", key.name))
+                    .at(&node.place, "has a point or too many digits"),
+            );
+            return None;
         };
         self.in_range(key, node, whole as f64, "a whole number").then_some(toml::Value::Integer(whole))
     }
