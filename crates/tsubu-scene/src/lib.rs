@@ -5,7 +5,7 @@
 //! ```
 //!
 //! [`keys`] is the table of everything a scene may say. Validation, unit conversion, defaults, the JSON Schema
-//! ([`schema`]) and the reference page ([`reference`]) all read it; nothing about a key is said anywhere else.
+//! ([`schema()`]) and the reference page ([`reference()`]) all read it; nothing about a key is said anywhere else.
 //!
 //! ```
 //! use tsubu_scene::Scene;

@@ -7,6 +7,8 @@
 //! Axes: x to the right, z up, y into the picture. In the plane (`dimension = 2`) vectors are typed with two entries
 //! (x, z) and stored here with three; y is locked.
 
+#![allow(rustdoc::broken_intra_doc_links, reason = "[s] is a unit, not a link")]
+
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
