@@ -9,6 +9,7 @@ pub mod contact;
 pub mod dem;
 pub mod engine;
 pub mod find;
+pub mod lattice;
 pub mod ledger;
 pub mod motion;
 pub mod partner;

@@ -159,8 +159,7 @@ mod tests {
     fn nearest_is_within_thirty_degrees() {
         for degree in 0..360 {
             let angle = f64::from(degree).to_radians();
-            let vector =
-                Vector { h: (1e6 * angle.cos() / 0.75_f64.sqrt()) as i64, k: (2e6 * angle.sin()) as i64 };
+            let vector = Vector { h: (1e6 * angle.cos() / 0.75_f64.sqrt()) as i64, k: (2e6 * angle.sin()) as i64 };
             let unit = Direction::nearest(vector).unit();
             let cosine = unit[0] * angle.cos() + unit[2] * angle.sin();
             assert!(cosine > 30.0_f64.to_radians().cos() - 1e-5, "{degree}: {cosine}");

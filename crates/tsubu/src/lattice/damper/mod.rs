@@ -194,8 +194,8 @@ impl Damper {
             ObliqueGravity::Projected => scale.gravity / 2,
             ObliqueGravity::Unit => scale.gravity,
         };
-        let pull_of = Direction::ALL
-            .map(|d| if d.is_vertical() { -scale.gravity * d.k() / 2 } else { -oblique_pull * d.k() });
+        let pull_of =
+            Direction::ALL.map(|d| if d.is_vertical() { -scale.gravity * d.k() / 2 } else { -oblique_pull * d.k() });
         let cell: Vec<usize> = balls.iter().map(|b| grid.index(b.column, place.floor() + b.row)).collect();
         let mut damper = Self {
             scale,
@@ -281,12 +281,16 @@ impl Damper {
         (0..self.balls()).map(|i| self.velocity(i).square4() / 4).sum()
     }
 
-    /// Twice the height of a ball over the centre of the lowest cell, at the time of its velocity: z - v_z dt / 2, which is
-    /// what free flight conserves the energy with [distance units].
-    pub fn twice_height(&self, i: usize) -> i64 {
-        let (column, row) = self.seat(i);
-        let half_cells = 2 * row + (column % 2) as i64;
-        half_cells * self.scale.cell + self.offset(i).k - self.velocity(i).k / 2
+    /// Potential energy, from the centre of the lowest cell of an even column [m u^2 / 2]. The height is that at the time
+    /// of the velocity, z - v_z dt / 2, with which free flight conserves the energy exactly.
+    pub fn potential(&self) -> i64 {
+        let g = self.scale.gravity;
+        let energy = |i| {
+            let (column, row) = self.seat(i);
+            let half_cells = 2 * row + (column % 2) as i64;
+            g * (half_cells * self.scale.cell + self.offset(i).k) - g / 2 * self.velocity(i).k
+        };
+        (0..self.balls()).map(energy).sum()
     }
 
     /// Touching pairs, of balls and of balls with walls, now.
@@ -333,8 +337,7 @@ impl Damper {
         self.tally.rules += (meant.square4() - got.square4()) / 4 + self.scale.gravity / 2 * (meant.k - got.k);
         let old = self.direction[i];
         let stored = self.stored[i];
-        let kept =
-            if self.rules.reset_when_blocked { 0 } else { stored * old.twice_cosine(direction) / 2 };
+        let kept = if self.rules.reset_when_blocked { 0 } else { stored * old.twice_cosine(direction) / 2 };
         self.tally.rules += self.scale.gravity * (stored * old.k() - kept * direction.k());
         self.stored[i] = kept;
         self.point(i, direction, speed);

@@ -51,7 +51,8 @@ impl Damper {
             if self.claims[self.movers[first]] != WANTS {
                 continue;
             }
-            let rivals = self.movers[first..].iter().filter(|&&i| self.ahead[i] == goal).count();
+            let rivals =
+                self.movers[first..].iter().filter(|&&i| self.ahead[i] == goal && self.claims[i] == WANTS).count();
             if rivals < 2 {
                 continue;
             }
@@ -60,7 +61,7 @@ impl Damper {
             let mut number = 0;
             for place in first..self.movers.len() {
                 let i = self.movers[place];
-                if self.ahead[i] == goal {
+                if self.ahead[i] == goal && self.claims[i] == WANTS {
                     if number != winner {
                         self.claims[i] = STAYS;
                     }

@@ -33,7 +33,7 @@ impl Damper {
                     continue;
                 }
                 if self.rest.height[column] == 0 {
-                    self.hit_floor_or_ceiling(i, wall);
+                    self.hit_floor(i, wall, true);
                 } else {
                     let top = self.grid.at(cell - 1) as usize;
                     self.strike(i, top, approach, Direction::S);
@@ -50,7 +50,7 @@ impl Damper {
             let Ok(i) = usize::try_from(self.grid.at(self.grid.index(column, top))) else { continue };
             let free = !self.resting[i] && self.direction[i].is_vertical() && !self.hit.contains(i);
             if free && self.velocity(i).k > 2 * wall {
-                self.hit_floor_or_ceiling(i, wall);
+                self.hit_floor(i, wall, false);
             }
         }
     }
@@ -61,7 +61,7 @@ impl Damper {
         if column == 0 || column > self.place.columns {
             self.hit_side(i, wall);
         } else {
-            self.hit_floor_or_ceiling(i, wall);
+            self.hit_floor(i, wall, self.direction[i].k() < 0);
         }
     }
 
@@ -71,11 +71,10 @@ impl Damper {
         self.grid.at(self.ahead[i]) == WALL
     }
 
-    fn hit_floor_or_ceiling(&mut self, i: usize, wall: i64) {
-        let old = self.velocity(i);
-        let relative = 2 * wall - old.k;
-        let from_below = !self.is_at_ceiling(i);
-        if (from_below && relative <= 0) || (!from_below && relative >= 0) {
+    /// `floor`: else the ceiling.
+    fn hit_floor(&mut self, i: usize, wall: i64, floor: bool) {
+        let relative = 2 * wall - self.velocity(i).k;
+        if relative == 0 || (relative > 0) != floor {
             return;
         }
         let approach = relative.abs();
@@ -87,11 +86,6 @@ impl Damper {
         // An even change keeps the energy of the lattice vector a whole number.
         jump -= jump % (2 * self.scale.quantum);
         self.rebound_from_wall(i, Vector { h: 0, k: jump * relative.signum() }, wall);
-    }
-
-    fn is_at_ceiling(&self, i: usize) -> bool {
-        let (_, row) = self.grid.place(self.cell[i]);
-        2 * (row - self.place.floor()) >= self.place.rows
     }
 
     fn hit_side(&mut self, i: usize, wall: i64) {

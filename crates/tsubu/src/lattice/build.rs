@@ -1,0 +1,357 @@
+//! From a plan to the automaton: what it honours, what it approximates and by how much, and what it refuses.
+
+use super::damper::{BoxPlace, Damper, Rules};
+use super::fixed::{Restitution, Scale};
+use super::grid::COLUMN_SPACING;
+use super::start;
+use crate::engine::{Note, Refusal, Verdict};
+use tsubu_scene::plan::{
+    self, Collision, LatticeMode, ObliqueGravity, Plan, Rolling, Shape, Signal, Start, Tangential,
+};
+
+/// Everything that the engine needs from a plan.
+pub(super) struct Built {
+    pub damper: Damper,
+    pub notes: Vec<Note>,
+    /// Name of the wall that is the box.
+    pub wall: String,
+    pub dt: f64,
+    /// Mass of a ball [kg].
+    pub mass: f64,
+    /// Radius of a ball [m].
+    pub radius: f64,
+    /// Centre of the floor at level 0 [m].
+    pub floor_centre: plan::Vector,
+    /// Cell spacing [m].
+    pub spacing: f64,
+}
+
+/// Collects what is to be said about the scene.
+#[derive(Default)]
+pub(super) struct Remarks(Vec<Note>);
+
+impl Remarks {
+    pub fn refuse(&mut self, key: impl Into<String>, text: impl Into<String>) {
+        self.0.push(Note { key: key.into(), verdict: Verdict::Refused, text: text.into() });
+    }
+
+    pub fn approximate(&mut self, key: impl Into<String>, text: impl Into<String>) {
+        self.0.push(Note { key: key.into(), verdict: Verdict::Approximated, text: text.into() });
+    }
+
+    fn refusal(&self) -> Option<Refusal> {
+        let notes: Vec<Note> = self.0.iter().filter(|n| n.verdict == Verdict::Refused).cloned().collect();
+        (!notes.is_empty()).then_some(Refusal { method: "lattice", notes })
+    }
+}
+
+/// The box of the scene.
+struct Casing<'a> {
+    name: &'a str,
+    material: &'a str,
+    width: f64,
+    height: f64,
+    floor_centre: plan::Vector,
+    host: Option<&'a str>,
+    motion: Option<&'a plan::Motion>,
+}
+
+/// The balls' common properties.
+struct Kind<'a> {
+    material: &'a str,
+    diameter: f64,
+    mass: f64,
+    count: usize,
+}
+
+/// Takes the plan apart, every field by name, so that a new field does not compile until it has been decided on here.
+pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
+    let Plan {
+        title: _,
+        method: _,
+        dimension,
+        seed,
+        gravity,
+        duration: _,
+        speed_scale: _, // Only chooses DEM's step.
+        materials: _,   // Read pair by pair in `restitution`.
+        material_pair: _,
+        particles: _,
+        walls: _,
+        hosts,
+        contact,
+        dem: _,
+        lattice,
+        response: _,
+        sweep: _,
+        output: _,
+        claim: _,
+    } = plan;
+    let mut remarks = Remarks::default();
+    if *dimension != 2 {
+        remarks.refuse("dimension", "the automaton lives in the plane; set `dimension = 2`, or use `method = \"dem\"`");
+    }
+    if gravity[0] != 0.0 || gravity[1] != 0.0 || gravity[2] > 0.0 {
+        remarks.refuse(
+            "gravity",
+            "the lattice has gravity along -z or none; set `gravity = [0, -9.8]`, or turn the scene",
+        );
+    }
+    let casing = casing(plan, &mut remarks);
+    let kind = kind(plan, &mut remarks);
+    remark_contact(contact, plan, &mut remarks);
+    let (Some(casing), Some(kind)) = (casing, kind) else {
+        return Err(remarks.refusal().unwrap_or(Refusal { method: "lattice", notes: Vec::new() }));
+    };
+    check_carrier(&casing, &kind, hosts, lattice, &mut remarks);
+    let place = place(&casing, &kind, lattice, &mut remarks);
+    let scale = scale(&kind, -gravity[2], lattice, &mut remarks);
+    let rules = rules(plan, &casing, &kind, *seed, &scale);
+    if let Some(refusal) = remarks.refusal() {
+        return Err(refusal);
+    }
+    let geometry = start::Geometry {
+        spacing: kind.diameter,
+        floor_centre: casing.floor_centre,
+        columns: place.columns,
+        rows: place.rows,
+    };
+    let balls = start::place(plan, &geometry, &scale, &mut remarks);
+    if let Some(refusal) = remarks.refusal() {
+        return Err(refusal);
+    }
+    Ok(Built {
+        damper: Damper::new(scale, rules, place, &balls),
+        notes: remarks.0,
+        wall: casing.name.to_owned(),
+        dt: lattice.time_step,
+        mass: kind.mass,
+        radius: 0.5 * kind.diameter,
+        floor_centre: casing.floor_centre,
+        spacing: kind.diameter,
+    })
+}
+
+/// The one wall, a box.
+fn casing<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Option<Casing<'a>> {
+    if plan.walls.len() != 1 {
+        let names = plan.walls.keys().cloned().collect::<Vec<_>>().join(", ");
+        remarks.refuse(
+            "walls",
+            format!(
+                "the automaton needs exactly one wall, of shape `box`; there are {} ({names}); use `method = \"dem\"` for other walls",
+                plan.walls.len()
+            ),
+        );
+        return None;
+    }
+    let (name, wall) = plan.walls.iter().next()?;
+    let plan::Wall { material, shape, host, motion } = wall;
+    match shape {
+        Shape::Box { width, height, depth: _, floor_centre } => Some(Casing {
+            name,
+            material,
+            width: *width,
+            height: *height,
+            floor_centre: *floor_centre,
+            host: host.as_deref(),
+            motion: motion.as_ref(),
+        }),
+        Shape::Plane { .. } => {
+            remarks.refuse(
+                format!("walls.{name}.shape.plane"),
+                "the automaton's balls live in a closed box; use `shape.box`, or `method = \"dem\"`",
+            );
+            None
+        }
+    }
+}
+
+/// The one kind of ball.
+fn kind<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Option<Kind<'a>> {
+    let mut groups = plan.particles.iter();
+    let Some((first_name, first)) = groups.next() else {
+        // An empty box is what every response curve is compared with; cells still need a size.
+        let wall = plan.walls.values().next()?;
+        let Shape::Box { width, .. } = wall.shape else { return None };
+        return Some(Kind { material: &wall.material, diameter: width / 10.0, mass: 0.0, count: 0 });
+    };
+    let mut count = first.count;
+    for (name, group) in groups {
+        for (key, value, common) in [("diameter", group.diameter, first.diameter), ("mass", group.mass, first.mass)] {
+            if value != common {
+                remarks.refuse(
+                    format!("particles.{name}.{key}"),
+                    format!(
+                        "{value} differs from the {common} of `{first_name}`; all balls of the automaton are equal"
+                    ),
+                );
+            }
+        }
+        if restitution(plan, &group.material, &group.material) != restitution(plan, &first.material, &first.material) {
+            remarks.refuse(
+                format!("particles.{name}.material"),
+                format!("its restitution differs from that of `{first_name}`; all balls of the automaton are equal"),
+            );
+        }
+        count += group.count;
+    }
+    Some(Kind { material: &first.material, diameter: first.diameter, mass: first.mass, count })
+}
+
+/// What of the contact law the automaton leaves out.
+fn remark_contact(contact: &plan::Contact, plan: &Plan, remarks: &mut Remarks) {
+    let plan::Contact { normal: _, damping: _, attraction: _, tangential, rolling, rotation } = contact;
+    if !matches!(tangential, Tangential::None {}) && plan.materials.values().any(|m| m.friction > 0.0) {
+        remarks.approximate("contact.tangential", "the automaton knows no friction: balls slide freely");
+    }
+    if *rotation || !matches!(rolling, Rolling::None {}) {
+        remarks.approximate("contact.rotation", "the automaton knows no spin and no rolling resistance");
+    }
+}
+
+/// Whoever moves the box must move it up and down.
+fn check_carrier(
+    casing: &Casing,
+    kind: &Kind,
+    hosts: &std::collections::BTreeMap<String, plan::Host>,
+    lattice: &plan::Lattice,
+    remarks: &mut Remarks,
+) {
+    let vertical = |d: &plan::Vector| d[0] == 0.0 && d[1] == 0.0 && d[2].abs() == 1.0;
+    let name = casing.name;
+    if let Some(host_name) = casing.host
+        && let Some(host) = hosts.get(host_name)
+    {
+        if !vertical(&host.direction) {
+            remarks.refuse(
+                format!("hosts.{host_name}.direction"),
+                "the automaton's box moves up and down only; set it to [0, 1] or [0, -1], or use `method = \"dem\"`",
+            );
+        }
+        let effective = crate::partner::Host::new(host).effective_mass();
+        let balls = kind.count as f64 * kind.mass;
+        if lattice.resting_impulses && balls >= effective {
+            remarks.refuse(
+                "lattice.resting-impulses",
+                format!(
+                    "the balls ({balls} kg) are not lighter than the structure ({effective} kg): passing their inertia one step late is unstable; use fewer balls, or `method = \"dem\"`"
+                ),
+            );
+        }
+    }
+    if casing.motion.is_some_and(|m| !vertical(&m.direction)) {
+        remarks.refuse(
+            format!("walls.{name}.motion.direction"),
+            "the automaton's box moves up and down only; set it to [0, 1] or [0, -1], or use `method = \"dem\"`",
+        );
+    }
+}
+
+/// Whole columns and rows for the box, and room for it to move.
+fn place(casing: &Casing, kind: &Kind, lattice: &plan::Lattice, remarks: &mut Remarks) -> BoxPlace {
+    let d = kind.diameter;
+    let columns = (casing.width / d).round() as usize;
+    let rows = (casing.height / d).round() as usize;
+    let key = format!("walls.{}.shape.box", casing.name);
+    if columns == 0 || rows == 0 {
+        remarks.refuse(&key, format!("it is smaller than one ball of {:.4} mm", 1e3 * d));
+    }
+    let width = columns as f64 * COLUMN_SPACING * d;
+    remarks.approximate(
+        format!("{key}.width"),
+        format!(
+            "{columns} columns of the lattice: {:.1} mm instead of {:.1} mm (the number of columns counts)",
+            1e3 * width,
+            1e3 * casing.width
+        ),
+    );
+    let height = rows as f64 * d;
+    if (height - casing.height).abs() > 1e-9 * d {
+        remarks.approximate(
+            format!("{key}.height"),
+            format!("{rows} rows of the lattice: {:.1} mm instead of {:.1} mm", 1e3 * height, 1e3 * casing.height),
+        );
+    }
+    let travel = casing.motion.map_or(0.0, |m| largest(&m.signal));
+    BoxPlace { columns, rows, head: lattice.head_room + (travel / d).ceil() as usize, level: 0 }
+}
+
+/// Largest displacement of a given motion [m].
+fn largest(signal: &Signal) -> f64 {
+    match signal {
+        Signal::Sine { amplitude, .. } | Signal::SineSweep { amplitude, .. } => amplitude.abs(),
+        Signal::Impact { peak, .. } => peak.abs(),
+        Signal::Table { value, .. } => value.iter().fold(0.0, |most, v| v.abs().max(most)),
+    }
+}
+
+/// Units, and whether whole numbers can hold them.
+fn scale(kind: &Kind, gravity: f64, lattice: &plan::Lattice, remarks: &mut Remarks) -> Scale {
+    let dt = lattice.time_step;
+    if dt.is_nan() || dt <= 0.0 {
+        remarks.refuse("lattice.time-step", "it must be positive; the automaton of Komatsuzaki (2003) uses \"0.1 ms\"");
+    }
+    let half = lattice.oblique_gravity == ObliqueGravity::Projected;
+    let scale = Scale::new(kind.diameter, gravity, dt, lattice.arithmetic, half);
+    if scale.gravity > 0 && !(1 << 17..1 << 32).contains(&scale.cell) {
+        let longest = (kind.diameter * 1024.0 / gravity / f64::from(1 << 17)).sqrt();
+        let shortest = (kind.diameter * 1024.0 / gravity / 2.0_f64.powi(32)).sqrt();
+        remarks.refuse(
+            "lattice.time-step",
+            format!("{dt} s is outside of what balls of this size need: {shortest:.1e} to {longest:.1e} s"),
+        );
+    }
+    scale
+}
+
+fn rules(plan: &Plan, casing: &Casing, kind: &Kind, seed: u64, scale: &Scale) -> Rules {
+    let plan::Lattice {
+        mode,
+        time_step: _,
+        oblique_gravity,
+        collision,
+        rebound_scatter,
+        reset_when_blocked,
+        keep_remainder,
+        resting_impulses,
+        resting_threshold,
+        arithmetic: _,
+        head_room: _,
+    } = &plan.lattice;
+    // The mode has done its work when the scene was read: it chose the defaults of the options below.
+    let (LatticeMode::Literal | LatticeMode::Extended) = mode;
+    let (Collision::Pairwise | Collision::Literal) = collision;
+    Rules {
+        oblique_gravity: *oblique_gravity,
+        collision: *collision,
+        rebound_scatter: *rebound_scatter,
+        reset_when_blocked: *reset_when_blocked,
+        keep_remainder: *keep_remainder,
+        resting_impulses: *resting_impulses,
+        resting_speed: (resting_threshold * scale.gravity as f64).round() as i64,
+        ball: Restitution::new(restitution(plan, kind.material, kind.material)),
+        wall: Restitution::new(restitution(plan, kind.material, casing.material)),
+        seed,
+    }
+}
+
+/// Restitution of a pair of materials: what the scene says of the pair, else the geometric mean.
+fn restitution(plan: &Plan, a: &str, b: &str) -> f64 {
+    let named = plan.material_pair.iter().find(|p| {
+        let [x, y] = &p.between;
+        (x == a && y == b) || (x == b && y == a)
+    });
+    let own = |name: &str| plan.materials.get(name).map_or(1.0, |m| m.restitution);
+    // The square root of e e can miss e by one bit.
+    let mean = || if a == b { own(a) } else { (own(a) * own(b)).sqrt() };
+    named.and_then(|p| p.restitution).unwrap_or_else(mean)
+}
+
+/// Number of balls of a group: with given places, the number of places.
+pub(super) fn count_of(group: &plan::Particles) -> usize {
+    match &group.start {
+        Start::At { position, .. } => position.len(),
+        Start::Settled { .. } | Start::Rows { .. } => group.count,
+    }
+}

@@ -1,0 +1,178 @@
+//! Where the balls of the automaton begin.
+//!
+//! `settled` and `rows` fill the box row by row from the floor; the columns of the last, incomplete row are drawn at
+//! random. `at` takes the nearest cell, and the lattice direction nearest to the velocity.
+
+use super::build::{Remarks, count_of};
+use super::damper::Ball;
+use super::direction::{Direction, Vector as LatticeVector};
+use super::fixed::Scale;
+use super::grid::COLUMN_SPACING;
+use crate::random::{Purpose, words};
+use std::collections::BTreeMap;
+use tsubu_scene::plan::{Plan, Start, Vector};
+
+/// The interior of the box.
+#[derive(Clone, Copy, Debug)]
+pub struct Geometry {
+    /// Cell spacing: a ball's diameter [m].
+    pub spacing: f64,
+    /// Centre of the floor [m].
+    pub floor_centre: Vector,
+    /// Interior columns, numbered from 1.
+    pub columns: usize,
+    /// Interior rows, numbered from 0.
+    pub rows: usize,
+}
+
+impl Geometry {
+    /// Centre of a cell [m].
+    pub fn centre(&self, column: usize, row: i64) -> Vector {
+        let x = (column as f64 - 0.5 * (self.columns + 1) as f64) * COLUMN_SPACING;
+        let z = row as f64 + 0.5 + if column % 2 == 1 { 0.5 } else { 0.0 };
+        let [x0, y0, z0] = self.floor_centre;
+        [x0 + self.spacing * x, y0, z0 + self.spacing * z]
+    }
+
+    /// Interior cell nearest to a point, and its distance [m].
+    fn nearest(&self, point: Vector) -> (usize, usize, f64) {
+        let mut best = (1, 0, f64::INFINITY);
+        for column in 1..=self.columns {
+            for row in 0..self.rows {
+                let [x, _, z] = self.centre(column, row as i64);
+                let distance = (x - point[0]).hypot(z - point[2]);
+                if distance < best.2 {
+                    best = (column, row, distance);
+                }
+            }
+        }
+        best
+    }
+}
+
+/// Cells taken so far, with the ball that took them.
+type Taken = BTreeMap<(usize, usize), usize>;
+
+pub(super) fn place(plan: &Plan, geometry: &Geometry, scale: &Scale, remarks: &mut Remarks) -> Vec<Ball> {
+    let cells = geometry.columns * geometry.rows;
+    let count: usize = plan.particles.values().map(count_of).sum();
+    if count > cells {
+        remarks.refuse(
+            "particles",
+            format!(
+                "{count} balls do not fit into {} columns of {} cells; the automaton's box holds {cells}",
+                geometry.columns, geometry.rows
+            ),
+        );
+        return Vec::new();
+    }
+    let mut taken = Taken::new();
+    let mut balls = Vec::with_capacity(count);
+    for (name, group) in &plan.particles {
+        let key = format!("particles.{name}.start");
+        match &group.start {
+            Start::At { position, velocity, spin } => {
+                place_at(&key, position, velocity, geometry, scale, &mut taken, &mut balls, remarks);
+                if spin.iter().any(|s| *s != [0.0; 3]) {
+                    remarks.approximate(format!("{key}.at.spin"), "the automaton knows no spin; taken as zero");
+                }
+            }
+            Start::Settled { time: _ } => {
+                fill(group.count, plan.seed, geometry, &mut taken, &mut balls);
+                remarks.approximate(
+                    format!("{key}.settled"),
+                    "filled row by row from the floor, the columns of the last row at random, instead of dropped",
+                );
+            }
+            Start::Rows { spacing: _, jitter: _, speed } => {
+                let first = balls.len();
+                fill(group.count, plan.seed, geometry, &mut taken, &mut balls);
+                remarks.approximate(
+                    format!("{key}.rows"),
+                    "cells have one spacing: filled row by row from the floor, without gaps and jitter",
+                );
+                for (i, ball) in balls.iter_mut().enumerate().skip(first) {
+                    let word = words(plan.seed, Purpose::Placement, i as u32, 1)[0];
+                    ball.direction = if *speed > 0.0 {
+                        Direction::from_index((u64::from(word) * 6 >> 32) as usize)
+                    } else {
+                        Direction::S
+                    };
+                    ball.speed = scale.cut(scale.speed_units(*speed));
+                }
+            }
+        }
+    }
+    balls
+}
+
+#[expect(clippy::too_many_arguments, reason = "one call; a struct for it would only rename the arguments")]
+fn place_at(
+    key: &str,
+    position: &[Vector],
+    velocity: &[Vector],
+    geometry: &Geometry,
+    scale: &Scale,
+    taken: &mut Taken,
+    balls: &mut Vec<Ball>,
+    remarks: &mut Remarks,
+) {
+    let mut farthest = 0.0_f64;
+    let mut turned = 0.0_f64;
+    for (index, point) in position.iter().enumerate() {
+        let (column, row, distance) = geometry.nearest(*point);
+        farthest = farthest.max(distance);
+        if let Some(other) = taken.insert((column, row), balls.len()) {
+            remarks.refuse(
+                format!("{key}.at.position[{index}]"),
+                format!(
+                    "its nearest cell (column {column}, row {}) is that of ball {other}; the lattice holds one ball a cell",
+                    row + 1
+                ),
+            );
+        }
+        let [x, _, z] = velocity.get(index).copied().unwrap_or_default();
+        let units = |speed: f64| scale.speed_units(speed);
+        let wanted = LatticeVector { h: units(x / COLUMN_SPACING), k: units(2.0 * z) };
+        let direction = Direction::nearest(wanted);
+        let speed = scale.cut(direction.along4(wanted) / 4);
+        let [ux, _, uz] = direction.unit();
+        let real = speed as f64 * scale.speed;
+        turned = turned.max((x - real * ux).hypot(z - real * uz));
+        balls.push(Ball { column, row, direction, speed });
+    }
+    if farthest > 1e-6 * geometry.spacing {
+        remarks.approximate(
+            format!("{key}.at.position"),
+            format!("taken to the nearest cell, at most {:.2} mm away", 1e3 * farthest),
+        );
+    }
+    if turned > 4.0 * scale.speed * scale.quantum as f64 {
+        remarks.approximate(
+            format!("{key}.at.velocity"),
+            format!("projected on the nearest lattice direction, at most {turned:.3} m/s off"),
+        );
+    }
+}
+
+/// Fills the lowest free cells row by row; the columns of a row that is not filled up are drawn at random.
+fn fill(count: usize, seed: u64, geometry: &Geometry, taken: &mut Taken, balls: &mut Vec<Ball>) {
+    let mut left = count;
+    for row in 0..geometry.rows {
+        let mut free: Vec<usize> = (1..=geometry.columns).filter(|&c| !taken.contains_key(&(c, row))).collect();
+        if left < free.len() {
+            // Fisher-Yates from the end; the drawn columns are put in order so that ids run from left to right.
+            for last in (1..free.len()).rev() {
+                let word = words(seed, Purpose::Placement, last as u32, 0)[0];
+                free.swap(last, (u64::from(word) * (last as u64 + 1) >> 32) as usize);
+            }
+            free.truncate(left);
+            free.sort_unstable();
+        }
+        left -= free.len();
+        for column in free {
+            taken.insert((column, row), balls.len());
+            balls.push(Ball { column, row, direction: Direction::S, speed: 0 });
+        }
+    }
+}

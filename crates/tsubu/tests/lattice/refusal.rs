@@ -1,0 +1,65 @@
+//! What the automaton cannot do, it says: all at once, with the key and a way out.
+
+use super::plans::{at, casing, coupled, plan};
+use tsubu::engine::Engine;
+use tsubu::lattice::engine::LatticeEngine;
+use tsubu::partner::Hosts;
+use tsubu_scene::plan::*;
+
+fn message(plan: &Plan) -> String {
+    let hosts = Hosts::new(&plan.hosts);
+    LatticeEngine::new(plan, &hosts).err().map_or_else(|| "it was accepted".to_owned(), |e| e.to_string())
+}
+
+#[test]
+fn bad_plans_are_refused_with_all_reasons() {
+    let good = || plan(50, LatticeMode::Extended);
+    let mut bad = good();
+    bad.dimension = 3;
+    bad.gravity = [1.0, 0.0, -9.8];
+    let mut other = bad.particles["balls"].clone();
+    other.diameter = 5e-3;
+    bad.particles.insert("dust".into(), other);
+    let text = message(&bad);
+    for key in ["dimension: ", "gravity: ", "particles.dust.diameter: "] {
+        assert!(text.contains(key), "{text}");
+    }
+    assert_eq!(
+        message(&plan(161, LatticeMode::Extended)),
+        "method `lattice` cannot run this scene:\n  particles: 161 balls do not fit into 10 columns of 16 cells; the automaton's box holds 160"
+    );
+    let mut bad = good();
+    casing(&mut bad).shape = Shape::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+    assert!(message(&bad).contains("walls.casing.shape.plane: "), "{}", message(&bad));
+    let bad = at(good(), vec![[0.0, 0.0, 0.02], [0.0, 0.0, 0.0201]], vec![]);
+    assert!(message(&bad).contains("particles.balls.start.at.position[1]: "), "{}", message(&bad));
+    let mut bad = coupled(good(), 1e-3, 1.0);
+    bad.hosts.get_mut("spring").expect("coupled").direction = [1.0, 0.0, 0.0];
+    assert!(message(&bad).contains("hosts.spring.direction: "), "{}", message(&bad));
+    let mut bad = coupled(good(), 1e-3, 1.0);
+    bad.hosts.get_mut("spring").expect("coupled").structure =
+        Structure::Oscillator { mass: 9e-3, stiffness: 12.0, damping: 0.0 };
+    assert!(message(&bad).contains("lattice.resting-impulses: "), "{}", message(&bad));
+    let mut bad = good();
+    bad.lattice.time_step = 0.1;
+    assert!(message(&bad).contains("lattice.time-step: "), "{}", message(&bad));
+    assert_eq!(message(&good()), "it was accepted");
+}
+
+/// What is only approximated is noted with its size.
+#[test]
+fn approximations_are_noted() {
+    let plan = plan(50, LatticeMode::Extended);
+    let engine = LatticeEngine::new(&plan, &Hosts::default()).expect("a good plan");
+    let width = engine.notes().iter().find(|n| n.key == "walls.casing.shape.box.width").expect("the width is noted");
+    assert!(width.text.contains("10 columns") && width.text.contains("52.0 mm instead of 60.0 mm"), "{}", width.text);
+}
+
+/// A box that leaves its grid stops the run and says which key to change.
+#[test]
+fn head_room_is_named() {
+    let plan = coupled(plan(10, LatticeMode::Extended), 3e-3, 1.0);
+    let mut run = super::plans::Run::new(&plan);
+    let fault = run.advance(100_000).expect_err("the box swings further than 5 cells");
+    assert!(fault.to_string().contains("lattice.head-room"), "{fault}");
+}

@@ -1,0 +1,4 @@
+//! The integration tests of the crate, one binary.
+#![allow(clippy::unwrap_used, reason = "a test that panics is a test that fails")]
+
+mod lattice;
