@@ -102,7 +102,7 @@ pub enum OpenError {
 pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
     Ok(match plan.method {
         Method::Dem => Box::new(crate::dem::DemEngine::new(plan, hosts)?),
-        Method::Lattice => return Err(OpenError::Bed("method `lattice` is not there yet".to_owned())),
+        Method::Lattice => Box::new(crate::lattice::engine::LatticeEngine::new(plan, hosts)?),
     })
 }
 

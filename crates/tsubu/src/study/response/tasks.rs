@@ -1,6 +1,6 @@
 //! One run of a response: a bed, a frequency, a measurement.
 
-use crate::engine::{self, Engine, OpenError};
+use crate::engine::{self, OpenError};
 use crate::ledger::{Account, Ledger};
 use crate::partner::Hosts;
 use serde::{Deserialize, Serialize};
