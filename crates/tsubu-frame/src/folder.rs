@@ -15,6 +15,7 @@ const OURS: &[&str] = &[
     "response.csv",
     "cases.csv",
     "energy_by_cause.csv",
+    "sweep.csv",
     "compare.csv",
     "compare.json",
     "verify.json",

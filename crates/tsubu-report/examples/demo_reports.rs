@@ -10,8 +10,9 @@ fn main() {
     fixture::run(&dir.join("swinging-box"), "dem", 60);
     fixture::response(&dir.join("damper-response"));
     fixture::compare(&dir.join("two-methods"));
+    fixture::sweep(&dir.join("sweep"));
     fixture::verify(&dir.join("verification"), false);
-    for name in ["swinging-box", "damper-response", "two-methods", "verification"] {
+    for name in ["swinging-box", "damper-response", "two-methods", "sweep", "verification"] {
         println!("{}", tsubu_report::report(&dir.join(name)).unwrap().display());
     }
 }

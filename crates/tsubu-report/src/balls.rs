@@ -17,7 +17,7 @@ pub enum ColourBy {
 /// From where one looks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum View {
-    /// Onto the plane if all grains lie in one, slantwise from above (z up) otherwise.
+    /// Onto the plane if all grains lie in one (of y or z), slantwise from above (z up) otherwise.
     #[default]
     Auto,
     /// Against z: x to the right, y up.
@@ -177,9 +177,11 @@ fn outlines(frame: &Frame) -> Vec<Vec<[f64; 3]>> {
 }
 
 fn turned(view: View, position: &[[f64; 3]]) -> impl Fn([f64; 3]) -> [f64; 3] + use<> {
-    let flat = position.windows(2).all(|p| p[0][2] == p[1][2]);
+    let flat = |axis: usize| position.windows(2).all(|p| p[0][axis] == p[1][axis]);
     let view = match view {
-        View::Auto if flat => View::Front,
+        // Up is z wherever the plane allows it.
+        View::Auto if flat(1) => View::Side,
+        View::Auto if flat(2) => View::Front,
         View::Auto => View::Slant,
         chosen => chosen,
     };

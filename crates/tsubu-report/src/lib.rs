@@ -21,6 +21,7 @@ mod response;
 mod run;
 mod source;
 pub mod strip;
+mod sweep;
 pub mod text;
 mod verify;
 
@@ -38,7 +39,7 @@ pub enum ReportError {
     },
     /// It holds nothing that tsubu writes.
     #[error(
-        "{} holds no results: none of summary.json, history.csv, response.csv, compare.json, verify.json or frames/ is in it",
+        "{} holds no results: none of summary.json, history.csv, response.csv, sweep.csv, compare.json, verify.json or frames/ is in it",
         path.display()
     )]
     NoResults {
@@ -79,6 +80,8 @@ fn gather(dir: &Path) -> Result<(Report, Files), ReportError> {
         compare::build(&mut source)
     } else if source.has("response.csv") {
         response::build(&mut source)
+    } else if source.has("sweep.csv") {
+        sweep::build(&mut source)
     } else if ["summary.json", "history.csv", "frames"].iter().any(|name| source.has(name)) {
         run::build(&mut source)
     } else {

@@ -1,6 +1,6 @@
 //! Which moments of a run to show: eight of a period where one can be told, evenly spread ones otherwise.
 
-use tsubu_frame::{FileError, Kind, Snapshot, Table, Values, read_frame, snapshots};
+use tsubu_frame::{FileError, Snapshot, Table, read_frame, snapshots};
 
 use crate::animation;
 use crate::balls::{Balls, ColourBy, Look, common};
@@ -77,13 +77,7 @@ fn animated(source: &mut Source, found: &[Snapshot], periodic: bool, stem: &str)
         evenly(found, MOST_FRAMES)
     };
     let first = read_frame(&found[0].path)?;
-    let heights = match first.column(Kind::Grain, "position").map(|c| &c.values) {
-        Some(Values::Vector(p)) => {
-            let up = if p.windows(2).all(|w| w[0][2] == w[1][2]) { 1 } else { 2 };
-            p.iter().map(|x| x[up]).collect()
-        }
-        _ => Vec::new(),
-    };
+    let heights: Vec<f64> = Balls::of(&first, &Look::default()).centres.iter().map(|c| c[1]).collect();
     let mut look =
         Look { colour: ColourBy::Given("height at the start".into(), "m".into(), heights.clone()), ..Look::default() };
     let mut series = Vec::new();

@@ -280,7 +280,7 @@ fn write_grid(out: &mut String, grid: &Grid) {
 /// The unit is of less weight than the name; a column without one does not show `-`, one of text not `text`.
 fn header_html(cell: &str) -> String {
     match tsubu_frame::csv::split_unit(cell) {
-        (name, Some("-" | "text") | None) => escape(name),
+        (name, Some("-" | "text" | "SI") | None) => escape(name),
         (name, Some(unit)) => format!("{} <span class=\"unit\">{}</span>", escape(name), escape(unit)),
     }
 }

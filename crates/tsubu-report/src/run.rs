@@ -13,9 +13,6 @@ use crate::source::{
 };
 use crate::text::{count, duration, short};
 
-/// Words that mark an energy as turned over since the start, rather than stored now.
-const TURNED_OVER: [&str; 9] = ["dissipat", "work", "loss", "lost", "damp", "input", "drag", "sliding", "rolling"];
-
 pub(crate) fn build(source: &mut Source) -> Report {
     let summary = source.summary();
     let history = source.table("history.csv");
@@ -166,8 +163,10 @@ fn energy_over_time(source: &mut Source, history: &Table) -> Vec<Block> {
         let (name, unit) = split_unit(&history.header[*i]);
         unit == Some("J") && !name.contains("residual")
     });
-    let (turned, stored): (Vec<usize>, Vec<usize>) =
-        energies.partition(|i| TURNED_OVER.iter().any(|w| history.header[*i].contains(w)));
+    let moves = |i: &usize| history.rows.iter().any(|r| r[*i].number().is_some_and(|x| x != 0.0));
+    // What is held now is called an energy; what was turned over since the start goes by its cause.
+    let is_held = |i: &usize| split_unit(&history.header[*i]).0.ends_with("energy");
+    let (stored, turned): (Vec<usize>, Vec<usize>) = energies.filter(moves).partition(is_held);
     let mut blocks = Vec::new();
     if !stored.is_empty() {
         let figure = over_time(history, &stored, "energy");

@@ -142,12 +142,29 @@ fn draw(out: &mut String, balls: &Balls, look: &Look, range: (f64, f64), place: 
         );
         if let Some(velocity) = balls.velocities.get(i).filter(|_| look.arrows && fastest > 0.0) {
             let reach = 3.0 * r / fastest;
-            arrow(
+            arrow_on_grain(
                 out,
                 [u + 0.5 * velocity[0] * reach, v - 0.5 * velocity[1] * reach],
                 [velocity[0] * reach, -velocity[1] * reach],
             );
         }
+    }
+}
+
+/// An arrow on a light ground, to be seen on dark grains too.
+fn arrow_on_grain(out: &mut String, middle: [f64; 2], along: [f64; 2]) {
+    if along[0].hypot(along[1]) >= 2.0 {
+        let (dx, dy) = (along[0] / 2.0, along[1] / 2.0);
+        let _ = write!(
+            out,
+            "<line x1=\"{:.1}\" y1=\"{:.1}\" x2=\"{:.1}\" y2=\"{:.1}\" stroke=\"#fff\" stroke-opacity=\".75\" \
+             stroke-width=\"4\" stroke-linecap=\"round\"/>",
+            middle[0] - dx,
+            middle[1] - dy,
+            middle[0] + dx,
+            middle[1] + dy
+        );
+        arrow(out, middle, along);
     }
 }
 

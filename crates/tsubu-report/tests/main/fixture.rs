@@ -192,6 +192,26 @@ pub fn compare(dir: &Path) {
     run(&dir.join("lattice"), "lattice", 0);
 }
 
+/// A folder of `tsubu sweep`.
+pub fn sweep(dir: &Path) {
+    let mut table = Table::new([
+        "case [text]",
+        "particles.balls.count [text]",
+        "contact.restitution [text]",
+        "wall seconds [s]",
+        "energy residual [-]",
+        "rms displacement [SI]",
+    ]);
+    for (i, n) in [10.0, 20.0, 40.0, 10.0, 20.0, 40.0].into_iter().enumerate() {
+        let e = if i < 3 { "0.5" } else { "0.75" };
+        let words = [format!("count = {n}, e = {e}"), n.to_string(), e.to_owned()].map(Cell::Text);
+        let rms = 0.02 / (n + 4.0) * if i < 3 { 1.0 } else { 0.8 };
+        table.push(words.into_iter().chain([0.1 * n, 1e-6, rms].map(Cell::Number)));
+    }
+    table.write(&dir.join("sweep.csv")).unwrap();
+    text(dir, "scene.toml", "[sweep]\n");
+}
+
 /// A folder of `tsubu verify`; `good` or with one claim that fails.
 pub fn verify(dir: &Path, good: bool) {
     let high = if good { 4.09e-3 } else { 4.0e-3 };

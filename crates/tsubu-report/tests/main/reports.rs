@@ -94,6 +94,17 @@ fn a_comparison_says_what_each_method_cost() {
 }
 
 #[test]
+fn a_sweep_is_drawn_over_what_varied() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::sweep(dir.path());
+    self_contained(&written(dir.path()));
+    let report = build(dir.path()).unwrap();
+    assert!(report.headline.starts_with("6 cases"), "{}", report.headline);
+    assert_eq!(titles(&report), ["Results over what varied", "Cases", "Scene"]);
+    assert!(dir.path().join("figures/sweep_rms_displacement.svg").exists());
+}
+
+#[test]
 fn a_failed_claim_cannot_be_overlooked() {
     let dir = tempfile::tempdir().unwrap();
     fixture::verify(dir.path(), true);
