@@ -9,6 +9,7 @@ use kuva::render::plots::Plot;
 use kuva::render::theme::Theme;
 
 use crate::figure::{Axis, Bars, Figure, Series, Style, prefix};
+use crate::text::superscript;
 
 /// Okabe and Ito's colours, told apart by colour-blind readers too; the order puts dark ones first.
 pub(crate) const PALETTE: [&str; 8] =
@@ -87,6 +88,18 @@ fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.filter(|v| v.is_finite()).fold(0.0, |a, v| a.max(v.abs()))
 }
 
+/// Factor and unit with which an axis carries short numbers: a prefix where the unit takes one, else a power of ten.
+fn scale(axis: &Axis, largest: f64) -> (f64, String) {
+    let (factor, unit) = prefix(&axis.unit, largest);
+    let plain = (0.05..1e5).contains(&largest) || largest == 0.0 || !largest.is_finite();
+    if factor != 1.0 || axis.log || plain {
+        return (factor, unit);
+    }
+    let power = 3 * (largest.log10() / 3.0).floor() as i32;
+    let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
+    (10f64.powi(-power), format!("10{}{unit}", superscript(&power.to_string())))
+}
+
 fn axis_label(axis: &Axis, unit: &str) -> String {
     if unit == "-" || unit.is_empty() { axis.label.clone() } else { format!("{} [{unit}]", axis.label) }
 }
@@ -94,9 +107,9 @@ fn axis_label(axis: &Axis, unit: &str) -> String {
 fn draw_series(figure: &Figure) -> (Vec<Plot>, Layout) {
     let points = || figure.series.iter().flat_map(|s| s.points.iter());
     let bands = figure.series.iter().filter_map(|s| s.band.as_ref()).flatten();
-    let (fx, x_unit) = prefix(&figure.x.unit, largest(points().map(|p| p.0)));
+    let (fx, x_unit) = scale(&figure.x, largest(points().map(|p| p.0)));
     let tallest = largest(points().map(|p| p.1).chain(bands.map(|b| b.1)));
-    let (fy, y_unit) = prefix(&figure.y.unit, tallest);
+    let (fy, y_unit) = scale(&figure.y, tallest);
     let keep =
         |x: f64, y: f64| x.is_finite() && y.is_finite() && (!figure.x.log || x > 0.0) && (!figure.y.log || y > 0.0);
     let mut plots = Vec::new();
@@ -194,7 +207,7 @@ fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 
 fn draw_bars(figure: &Figure, bars: &Bars) -> (Vec<Plot>, Layout) {
     let all = bars.parts.iter().flat_map(|(_, v)| v.iter().copied());
-    let (factor, unit) = prefix(&figure.y.unit, largest(all));
+    let (factor, unit) = scale(&figure.y, largest(all));
     let mut plot = BarPlot::new().with_width(0.7).with_horizontal(bars.horizontal);
     let order: Vec<usize> = if bars.horizontal {
         // kuva counts from the bottom; a reader from the top.

@@ -65,7 +65,8 @@ fn grouped(digits: &str) -> String {
     out
 }
 
-fn superscript(power: &str) -> String {
+/// Digits and sign raised.
+pub(crate) fn superscript(power: &str) -> String {
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     power.chars().map(|c| if c == '-' { '⁻' } else { c.to_digit(10).map_or(c, |d| RAISED[d as usize]) }).collect()
 }
