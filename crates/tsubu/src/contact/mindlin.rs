@@ -32,6 +32,8 @@ impl Part for Mindlin {
 
     fn prepare(&self, pair: &mut Pair) {
         pair.shear = 8.0 * pair.shear_modulus * pair.radius.sqrt();
+        // Equal damping ratios: the dashpots stand as the roots of the two tangent stiffnesses.
+        pair.shear_damping = (pair.shear / (1.5 * pair.stiffness)).sqrt();
     }
 
     fn apply(&self, chunk: &mut Chunk, dt: f64) {
@@ -41,32 +43,30 @@ impl Part for Mindlin {
             let slip = Chunk::vector(&chunk.slip, i);
             let old = DVec3::new(chunk.history[0][i], chunk.history[1][i], chunk.history[2][i]);
             let old_stiffness = chunk.history[3][i];
-            let old_stored = if old_stiffness > 0.0 { old.length_squared() / (2.0 * old_stiffness) } else { 0.0 };
-
-            // Turn the spring with the contact: into the new tangent plane, at its old length.
-            let flat = old - normal * old.dot(normal);
-            let length = flat.length();
-            let mut spring = if length > 0.0 { flat * (old.length() / length) } else { DVec3::ZERO };
-            // A shrinking contact disc cannot hold the force that a larger one held.
-            if stiffness < old_stiffness {
-                spring *= stiffness / old_stiffness;
+            let squared = old.length_squared();
+            let mut stored_before = 0.0;
+            let mut spring = DVec3::ZERO;
+            if squared > 0.0 {
+                stored_before = squared / (2.0 * old_stiffness);
+                // Turn the spring with the contact: into the new tangent plane, at its old length.
+                let flat = old - normal * old.dot(normal);
+                // A shrinking contact disc cannot hold the force that a larger one held.
+                let shrink = (stiffness / old_stiffness).min(1.0);
+                spring = flat * (shrink * (squared / flat.length_squared()).sqrt());
             }
             spring -= slip * (stiffness * dt);
-            // The tangential dashpot is the normal one over the root of the stiffness ratio: equal damping ratios.
-            let ratio = (chunk.shear[i] / (1.5 * chunk.stiffness[i])).sqrt();
-            let dashpot = slip * (-chunk.dashpot[i] * ratio);
+            let mut total = spring - slip * (chunk.dashpot[i] * chunk.shear_damping[i]);
             let limit = chunk.friction[i] * chunk.normal_force[i].max(0.0);
-            let mut total = spring + dashpot;
-            let size = total.length();
-            if size > limit {
+            let size = total.length_squared();
+            if size > limit * limit {
                 // Sliding: the cone holds for the whole force, the spring gives way and the dashpot is dropped.
-                total *= limit / size;
+                total *= limit / size.sqrt();
                 spring = total;
             }
-            let stored = if stiffness > 0.0 { spring.length_squared() / (2.0 * stiffness) } else { 0.0 };
+            let stored = spring.length_squared() / (2.0 * stiffness);
             chunk.stored[i] += stored;
             // Work taken from the motion and not stored is lost.
-            chunk.lost_sliding[i] += -total.dot(slip) - (stored - old_stored) / dt;
+            chunk.lost_sliding[i] += -total.dot(slip) - (stored - stored_before) / dt;
             for (column, value) in chunk.history.iter_mut().zip([spring.x, spring.y, spring.z, stiffness]) {
                 column[i] = value;
             }

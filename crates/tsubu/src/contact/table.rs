@@ -40,6 +40,8 @@ pub struct Pair {
     pub damping: f64,
     /// 8 G* sqrt(R*), set by Mindlin's part [N/m^1.5].
     pub shear: f64,
+    /// Tangential over normal dashpot, set by Mindlin's part [-].
+    pub shear_damping: f64,
 }
 
 impl Pair {

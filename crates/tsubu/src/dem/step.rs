@@ -104,11 +104,11 @@ impl DemEngine {
     pub(super) fn accelerate(&mut self) {
         let grains = &mut self.grains;
         for i in 0..grains.id.len() {
-            grains.acceleration[i] = self.forces.force[i] / grains.mass[i] + self.gravity;
+            grains.acceleration[i] = self.forces.force[i] * (1.0 / grains.mass[i]) + self.gravity;
         }
         if self.rotation {
             for i in 0..grains.id.len() {
-                grains.spin_rate[i] = self.forces.torque[i] / grains.inertia[i];
+                grains.spin_rate[i] = self.forces.torque[i] * (1.0 / grains.inertia[i]);
             }
         }
     }

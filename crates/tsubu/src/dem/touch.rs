@@ -300,6 +300,7 @@ impl Block {
         chunk.stiffness[r] = pair.stiffness;
         chunk.damping[r] = pair.damping;
         chunk.shear[r] = pair.shear;
+        chunk.shear_damping[r] = pair.shear_damping;
         chunk.friction[r] = pair.friction;
         chunk.rolling[r] = pair.rolling_friction * pair.radius;
         chunk.radius[r] = pair.radius;
