@@ -1,14 +1,15 @@
 //! The moving box: its displacement is rounded to whole cells; when it shifts, what is in the way is ejected.
 //!
 //! The cluster is every ball that touches the advancing wall, and every ball that touches one of the cluster. All get the
-//! velocity of the box and are moved with it by one cell; their change of momentum is delivered to the box. Since floor
-//! and ceiling belong to one rigid box, the opposite wall gives way by the same cell and never squeezes the cluster.
+//! velocity of the box and are moved with it by one cell. With resting impulses their change of momentum is delivered to
+//! the box; without, the box feels only the balls that hit it (A11), and the change is the rules' doing. Since floor and
+//! ceiling belong to one rigid box, the opposite wall gives way by the same cell and never squeezes the cluster.
 //!
 //! When the floor recedes, resting balls ride down with it if resting contacts count: their contact is a lasting one, and
 //! the shift is only the rounding of a motion that they share. In the literal automaton they are left behind and fall.
 
 use super::Damper;
-use crate::lattice::direction::Direction;
+use crate::lattice::direction::{Direction, Vector};
 use crate::lattice::grid::EMPTY;
 
 /// The box cannot move there.
@@ -109,10 +110,15 @@ impl Damper {
     fn eject(&mut self, i: usize, up: bool, wall: i64) {
         let old = self.velocity(i);
         let k = 2 * wall - old.k;
-        self.tally.wall.k += k;
-        self.tally.wall.h -= old.h;
         let gain = wall * wall - old.square4() / 4 + self.scale.gravity / 2 * k;
-        self.tally.rules += k * wall - gain;
+        let impulse = Vector { h: -old.h, k };
+        if self.rules.resting_impulses {
+            self.tally.wall = self.tally.wall.plus(impulse);
+            self.tally.rules += k * wall - gain;
+        } else {
+            self.tally.rule = self.tally.rule.plus(impulse);
+            self.tally.rules -= gain;
+        }
         let moving_up = wall > 0 || (wall == 0 && up);
         let direction = if moving_up { Direction::N } else { Direction::S };
         // The height it has is kept: the shift turns it into a whole cell. `redirect` would see only the direction.

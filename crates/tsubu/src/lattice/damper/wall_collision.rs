@@ -3,14 +3,15 @@
 //!
 //! Floor and ceiling have vertical normals and move at the speed of the box, side walls have horizontal normals and
 //! v_w = 0; the other component stays, and the ball takes the lattice direction nearest to the sum. Straight hits go
-//! straight back, as the drop test of Komatsuzaki (2003, fig. 8) needs. The signs of the speeds count: a floor that comes
-//! up faster than a rising ball hits it too.
+//! straight back, as the drop test of Komatsuzaki (2003, fig. 8) needs. The signs of the speeds count: with `pairwise` a
+//! floor that comes up faster than a rising ball hits it too; with `literal` a ball meets only the wall that it looks at.
 //!
 //! A contact at no more than the resting speed is a resting one: the ball takes the velocity of the box.
 
 use super::Damper;
 use crate::lattice::direction::{Direction, Vector};
 use crate::lattice::grid::WALL;
+use tsubu_scene::plan::Collision;
 
 impl Damper {
     /// The lowest ball above the floor or the resting stack of every column that flies vertically.
@@ -24,7 +25,7 @@ impl Damper {
                     break;
                 }
                 let approach = 2 * wall - self.velocity(i).k;
-                if approach <= 0 {
+                if approach <= 0 || self.looks_away(i, Direction::S) {
                     break;
                 }
                 if approach <= 2 * self.rules.resting_speed {
@@ -49,7 +50,7 @@ impl Damper {
         for column in 1..=self.place.columns {
             let Ok(i) = usize::try_from(self.grid.at(self.grid.index(column, top))) else { continue };
             let free = !self.resting[i] && self.direction[i].is_vertical() && !self.hit.contains(i);
-            if free && self.velocity(i).k > 2 * wall {
+            if free && self.velocity(i).k > 2 * wall && !self.looks_away(i, Direction::N) {
                 self.hit_floor(i, wall, false);
             }
         }
@@ -63,6 +64,13 @@ impl Damper {
         } else {
             self.hit_floor(i, wall, self.direction[i].k() < 0);
         }
+    }
+
+    /// In the literal automaton a ball meets only what is ahead of it: a floor that overtakes a rising ball is not felt
+    /// until the box moves by a cell and ejects it.
+    #[inline]
+    fn looks_away(&self, i: usize, wall_side: Direction) -> bool {
+        self.rules.collision == Collision::Literal && self.direction[i] != wall_side
     }
 
     /// Whether the cell ahead of a ball is a wall.
