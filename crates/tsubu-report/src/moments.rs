@@ -29,7 +29,10 @@ pub(crate) fn blocks(source: &mut Source, history: Option<&Table>, stem: &str) -
 }
 
 fn draw(source: &mut Source, history: Option<&Table>, found: &[Snapshot], stem: &str) -> Result<Vec<Block>, FileError> {
-    let resolved = history.and_then(|h| shown_period(h, found));
+    let by_host = history.map(periods).unwrap_or_default();
+    let who = if by_host.is_empty() { "box" } else { "host" };
+    let all = if by_host.is_empty() { whole_periods(&box_motion(found)?) } else { by_host };
+    let resolved = shown_period(all, found);
     let chosen = match resolved {
         Some(p) => eighths(found, p),
         None => evenly(found, PICTURES).into_iter().map(|i| (i, None)).collect(),
@@ -50,7 +53,7 @@ fn draw(source: &mut Source, history: Option<&Table>, found: &[Snapshot], stem: 
     let arrows = if panels.iter().any(|p| p.arrow.is_some()) { " Arrows show how the box moves." } else { "" };
     let caption = match resolved {
         Some(p) => format!(
-            "One period of {} from t = {} s on, in eighths; 0° is where the host passes its middle going up.{arrows}",
+            "One period of {} from t = {} s on, in eighths; 0° is where the {who} passes its middle going up.{arrows}",
             spoken(p.length, "s"),
             short(p.start)
         ),
@@ -113,12 +116,7 @@ fn motion(found: &[Snapshot], i: usize, balls: &Balls) -> Result<Option<[f64; 2]
         return Ok(None);
     }
     let next = Balls::of(&read_frame(&found[other].path)?, &Look::default());
-    let middle = |b: &Balls| {
-        let points: Vec<_> = b.outlines.iter().flatten().collect();
-        let n = points.len().max(1) as f64;
-        [points.iter().map(|p| p[0]).sum::<f64>() / n, points.iter().map(|p| p[1]).sum::<f64>() / n]
-    };
-    let (a, b) = (middle(balls), middle(&next));
+    let (a, b) = (middle_of(balls), middle_of(&next));
     let dt = (next.time - balls.time).abs();
     Ok((dt > 0.0).then(|| [sign * (b[0] - a[0]) / dt, sign * (b[1] - a[1]) / dt]))
 }
@@ -141,18 +139,18 @@ pub(crate) fn last_period(history: &Table) -> Option<Period> {
     periods(history).pop()
 }
 
-/// Whole periods of the first host's displacement, from one upward passage of its middle to the next. The middle is
-/// that of the later half, when the start has died away.
 fn periods(history: &Table) -> Vec<Period> {
     let Some(&column) = host_columns(history).first() else { return Vec::new() };
-    let points: Vec<(f64, f64)> = history
-        .rows
-        .iter()
-        .filter_map(|r| Some((r[0].number()?, r[column].number()?)))
-        .filter(|p| p.0.is_finite() && p.1.is_finite())
-        .collect();
+    let pair = |r: &Vec<tsubu_frame::Cell>| Some((r[0].number()?, r[column].number()?));
+    whole_periods(&history.rows.iter().filter_map(pair).collect::<Vec<_>>())
+}
+
+/// Whole periods of a motion, from one upward passage of its middle to the next. The middle is that of the later half,
+/// when the start has died away.
+fn whole_periods(motion: &[(f64, f64)]) -> Vec<Period> {
+    let points: Vec<_> = motion.iter().filter(|p| p.0.is_finite() && p.1.is_finite()).collect();
     let late = &points[points.len() / 2..];
-    let ends = |(l, h): (f64, f64), p: &(f64, f64)| (l.min(p.1), h.max(p.1));
+    let ends = |(l, h): (f64, f64), p: &&(f64, f64)| (l.min(p.1), h.max(p.1));
     let (low, high) = late.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
     let middle = f64::midpoint(low, high);
     let passages: Vec<f64> = points
@@ -164,11 +162,38 @@ fn periods(history: &Table) -> Vec<Period> {
     passages.windows(2).map(whole).filter(|p| p.length > 0.0).collect()
 }
 
+/// Where the box is, for boxes that move without a host: the middle of the walls along the way they go farthest.
+fn box_motion(found: &[Snapshot]) -> Result<Vec<(f64, f64)>, FileError> {
+    const MOST: usize = 300;
+    const MOST_GRAINS: usize = 20_000;
+    let mut middles = Vec::new();
+    for snapshot in &found[found.len().saturating_sub(MOST)..] {
+        let balls = Balls::of(&read_frame(&snapshot.path)?, &Look::default());
+        if balls.outlines.is_empty() || balls.centres.len() > MOST_GRAINS {
+            return Ok(Vec::new());
+        }
+        middles.push((snapshot.time, middle_of(&balls)));
+    }
+    let reach = |k: usize| {
+        let values = || middles.iter().map(|m| m.1[k]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    let way = usize::from(reach(1) > reach(0));
+    Ok(middles.iter().map(|(t, m)| (*t, m[way])).collect())
+}
+
+/// The middle of all wall corners.
+fn middle_of(balls: &Balls) -> [f64; 2] {
+    let n = balls.outlines.iter().map(Vec::len).sum::<usize>().max(1) as f64;
+    let sum = |k: usize| balls.outlines.iter().flatten().map(|p| p[k]).sum::<f64>();
+    [sum(0) / n, sum(1) / n]
+}
+
 /// The last period that the snapshots show from end to end, finely enough for eighths.
-fn shown_period(history: &Table, found: &[Snapshot]) -> Option<Period> {
+fn shown_period(periods: Vec<Period>, found: &[Snapshot]) -> Option<Period> {
     let spacing = typical_spacing(found);
     let (first, last) = (found.first()?.time, found.last()?.time);
-    periods(history).into_iter().rev().find(|p| {
+    periods.into_iter().rev().find(|p| {
         first - spacing / 2.0 <= p.start
             && p.start + p.length * 7.0 / 8.0 <= last + spacing / 2.0
             && spacing <= p.length / 6.0

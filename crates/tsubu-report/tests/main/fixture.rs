@@ -117,7 +117,7 @@ pub fn run(dir: &Path, method: &str, snapshots: usize) {
     text(
         dir,
         "scene.toml",
-        "[run]\nduration = \"5 s\"\nmethod = \"dem\" # <script>alert(1)</script>\n\n[[host]]\nname = \"structure\"\nstiffness = \"123.4 N/m\"\n",
+        "title = \"Swinging box\"\n\n[run]\nduration = \"5 s\"\nmethod = \"dem\" # <script>alert(1)</script>\n\n[[host]]\nname = \"structure\"\nstiffness = \"123.4 N/m\"\n",
     );
     text(
         dir,

@@ -39,10 +39,12 @@ fn self_contained(html: &str) {
 #[test]
 fn a_run_is_told_whole() {
     let dir = tempfile::tempdir().unwrap();
-    fixture::run(dir.path(), "dem", 30);
+    fixture::run(dir.path(), "dem", 60);
     let html = written(dir.path());
     self_contained(&html);
     for said in [
+        "<h1>Swinging box</h1>",
+        "0° is where the host passes its middle going up",
         "30 grains by DEM",
         "The host structure displacement reaches 4.069 mm",
         "2.7·10⁻⁷",
@@ -127,6 +129,16 @@ fn a_folder_without_results_is_refused() {
     let error = build(&dir.path().join("none")).unwrap_err().to_string();
     assert!(error.contains("is not a folder"), "{error}");
     assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0, "nothing is written");
+}
+
+#[test]
+fn without_a_host_the_box_gives_the_period() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::run(dir.path(), "dem", 60);
+    fs::remove_file(dir.path().join("history.csv")).unwrap();
+    let html = written(dir.path());
+    assert!(html.contains("0° is where the box passes its middle going up"));
+    assert!(html.contains("One period of 0.476"));
 }
 
 #[test]
