@@ -1,0 +1,15 @@
+//! Claims as lines.
+
+use crate::output::Stream;
+use crate::table;
+use tsubu_frame::Claim;
+
+/// `pass  study  name  value  [low, high]  source`
+pub fn line(claim: &Claim) -> String {
+    let verdict = if claim.pass { Stream::Data.green("pass") } else { Stream::Data.bold_red("FAIL") };
+    let study = if claim.study.is_empty() { String::new() } else { format!("{:<12}  ", claim.study) };
+    let value = table::number(claim.value);
+    let range = table::range(claim.low, claim.high);
+    format!("{verdict}  {study}{:<48}  {value:>11}  {range:<24}  {}", claim.name, claim.source).trim_end().to_owned()
+        + "\n"
+}

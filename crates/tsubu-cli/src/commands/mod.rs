@@ -1,0 +1,61 @@
+//! The commands, one file each.
+
+mod check;
+mod claims;
+mod compare;
+mod completions;
+mod new;
+mod report;
+mod response;
+mod run;
+mod schema;
+mod sweep;
+mod verify;
+mod view;
+
+use crate::failure::Failure;
+use clap::Subcommand;
+
+/// What tsubu can be asked to do.
+#[derive(Subcommand)]
+pub enum Command {
+    /// Run a scene to its end
+    Run(run::Options),
+    /// Judge a scene without running it: is it resolved well enough, and what will it cost?
+    Check(check::Options),
+    /// Run every case of a parameter sweep, side by side
+    Sweep(sweep::Options),
+    /// Frequency response of the vibrating structure, with figures and report.html
+    Response(response::Options),
+    /// One scene by several methods: what differs, and what each costs
+    Compare(compare::Options),
+    /// Check the shipped verification cases and published studies, claim by claim
+    Verify(verify::Options),
+    /// Make figures and a self-contained report.html from a folder of results
+    Report(report::Options),
+    /// Look at a simulation in the browser (not there yet)
+    View(view::Options),
+    /// Write a commented example scene
+    New(new::Options),
+    /// Print the JSON Schema of the scene file, for editors
+    Schema,
+    /// Print the completion script for a shell
+    Completions(completions::Options),
+}
+
+/// Does it.
+pub fn run(command: Command) -> Result<(), Failure> {
+    match command {
+        Command::Run(options) => run::run(&options),
+        Command::Check(options) => check::run(&options),
+        Command::Sweep(options) => sweep::run(&options),
+        Command::Response(options) => response::run(&options),
+        Command::Compare(options) => compare::run(&options),
+        Command::Verify(options) => verify::run(&options),
+        Command::Report(options) => report::run(&options),
+        Command::View(options) => view::run(&options),
+        Command::New(options) => new::run(&options),
+        Command::Schema => schema::run(),
+        Command::Completions(options) => completions::run(&options),
+    }
+}

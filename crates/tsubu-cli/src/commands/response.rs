@@ -1,0 +1,86 @@
+//! `tsubu response`: vibration against frequency.
+
+use super::{claims, report, run::warnings};
+use crate::failure::Failure;
+use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
+use crate::output;
+use crate::progress::Progress;
+use crate::{stop, table};
+use clap::Args;
+use std::path::Path;
+use tsubu::check::human_time;
+use tsubu::run::Watcher;
+use tsubu_frame::{Status, Table};
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  tsubu response damper.toml                            into out/damper-response
+  tsubu response damper.toml --set method=lattice       the cellular automaton: coarser, far faster
+  tsubu response damper.toml --set response.seeds=3     mean and spread over three beds
+
+An interrupted response goes on where it was when the same command is typed again.")]
+pub struct Options {
+    #[command(flatten)]
+    scene: SceneOptions,
+    #[command(flatten)]
+    folder: FolderOptions,
+    /// Go on where an interrupted response stopped; this happens anyway
+    #[arg(long, conflicts_with = "overwrite")]
+    resume: bool,
+    #[command(flatten)]
+    work: WorkOptions,
+}
+
+pub fn run(options: &Options) -> Result<(), Failure> {
+    let scene = options.scene.read()?;
+    let folder = options.folder.folder(&options.scene, "-response");
+    let pool = options.work.pool()?;
+    if options.resume && !folder.is_dir() {
+        return Err(Failure::wrong(format!("nothing to resume: {} is not a folder", folder.display())));
+    }
+    let progress = Progress::new("response", options.work.quiet);
+    let watcher = Watcher { interrupted: stop::listen(), progress: &|done| progress.set(done) };
+    let overwrite = options.folder.overwrite;
+    let done = pool.install(|| tsubu::study::response::response(&scene, &folder, overwrite, &watcher));
+    progress.end();
+    let summary = done.map_err(|error| Failure::of_response(&error, &folder))?;
+    if summary.status == Status::Interrupted {
+        let message = format!("interrupted; the finished frequencies are in {}", folder.display());
+        return Err(Failure::interrupted(message).hint(format!("go on with `{}`", command_to_resume())));
+    }
+    let page = pool.install(|| report::write(&folder))?;
+    let claims: String = summary.claims.iter().map(claims::line).collect();
+    output::print(&(cases(&folder)? + &claims + &warnings(&summary.warnings)))?;
+    output::tell(&format!("results in {}; open {}\n", folder.display(), page.display()));
+    if summary.claims.iter().all(|claim| claim.pass) { Ok(()) } else { Err(Failure::claim()) }
+}
+
+/// Columns of `cases.csv` that fit on a terminal, with the factor to the unit shown.
+const COLUMNS: [(&str, &str, f64); 6] = [
+    ("peak frequency ratio", "peak ratio", 1.0),
+    ("peak rms", "peak rms mm", 1e3),
+    ("half-power damping", "half-power damping", 1.0),
+    ("loss factor", "loss factor", 1.0),
+    ("apparent mass", "apparent mass g", 1e3),
+    ("added-mass limit", "added-mass limit", 1.0),
+];
+
+fn cases(folder: &Path) -> Result<String, Failure> {
+    let file = folder.join("cases.csv");
+    let cases = Table::read(&file).map_err(|error| Failure::of_file(&error, folder))?;
+    let column = |name: &str| cases.numbers(name).unwrap_or_else(|| vec![f64::NAN; cases.rows.len()]);
+    let mut rows = vec![vec!["case".to_owned()]];
+    rows[0].extend(COLUMNS.map(|(_, shown, _)| shown.to_owned()));
+    rows[0].push("computed in".to_owned());
+    rows.extend(cases.texts("case").unwrap_or_default().into_iter().map(|name| vec![name]));
+    for (name, _, factor) in COLUMNS {
+        for (row, value) in rows[1..].iter_mut().zip(column(name)) {
+            row.push(table::number(factor * value));
+        }
+    }
+    for (row, seconds) in rows[1..].iter_mut().zip(column("wall seconds")) {
+        row.push(human_time(seconds));
+    }
+    Ok(table::aligned(&rows))
+}

@@ -1,0 +1,116 @@
+//! `tsubu run`: one scene to its end.
+
+use super::claims;
+use crate::failure::Failure;
+use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
+use crate::output::{self, Stream};
+use crate::progress::Progress;
+use crate::{stop, table};
+use clap::Args;
+use std::fmt::Write as _;
+use tsubu::check::human_time;
+use tsubu::run::Watcher;
+use tsubu_frame::{Existing, ResultValue, Status, Summary};
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  tsubu run damper.toml                                     into out/damper
+  tsubu run damper.toml -o few --set particles.balls.count=10
+  tsubu run damper.toml --resume                            go on after Ctrl-C or a power cut
+
+The folder holds scene.toml (as run, with every default), summary.json, history.csv, frames/ (for ParaView)
+and checkpoint/. `tsubu report DIR` makes figures and a page of it.")]
+pub struct Options {
+    #[command(flatten)]
+    scene: SceneOptions,
+    #[command(flatten)]
+    folder: FolderOptions,
+    /// Go on from the checkpoint in the folder
+    #[arg(long, conflicts_with = "overwrite")]
+    resume: bool,
+    #[command(flatten)]
+    work: WorkOptions,
+}
+
+pub fn run(options: &Options) -> Result<(), Failure> {
+    let scene = options.scene.read()?;
+    let folder = options.folder.folder(&options.scene, "");
+    let existing = if options.resume { Existing::Resume } else { options.folder.existing() };
+    let pool = options.work.pool()?;
+    let progress = Progress::new("run", options.work.quiet);
+    let watcher = Watcher { interrupted: stop::listen(), progress: &|done| progress.set(done) };
+    let done = pool.install(|| tsubu::run::run(&scene, &folder, existing, &watcher));
+    progress.end();
+    let summary = done.map_err(|error| Failure::of_run(&error, &folder))?;
+    if summary.status == Status::Interrupted {
+        let message = format!(
+            "interrupted at t = {} s, step {}; the checkpoint is in {}",
+            table::number(summary.simulated_seconds),
+            summary.steps,
+            folder.display()
+        );
+        return Err(Failure::interrupted(message).hint(format!("go on with `{}`", command_to_resume())));
+    }
+    output::print(&told(&scene.plan().title, &summary))?;
+    output::tell(&format!("results in {}; figures and a page: tsubu report {0}\n", folder.display()));
+    if summary.claims.iter().all(|claim| claim.pass) { Ok(()) } else { Err(Failure::claim()) }
+}
+
+/// A summary in a few lines.
+fn told(title: &str, summary: &Summary) -> String {
+    let mut text = String::new();
+    if !title.is_empty() {
+        let _ = writeln!(text, "{}", Stream::Data.bold_cyan(title));
+    }
+    let plural = |n: u64, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
+    let _ = writeln!(
+        text,
+        "  simulated  {} s in {} of {} s, {}, method {}",
+        table::number(summary.simulated_seconds),
+        plural(summary.steps, "step"),
+        table::number(summary.time_step),
+        plural(summary.particles, "grain"),
+        summary.method
+    );
+    let _ = writeln!(
+        text,
+        "  computed   in {} with {}, {:.2e} particle-steps/s",
+        human_time(summary.wall_seconds),
+        plural(u64::from(summary.threads), "thread"),
+        summary.particle_steps_per_second
+    );
+    let _ =
+        writeln!(text, "  energy     the books miss {:.1e} of what was turned over", summary.energy.residual_relative);
+    let _ = writeln!(text, "  state      {}", summary.state_hash);
+    let results: Vec<Vec<String>> = summary
+        .results
+        .iter()
+        .map(|(name, value)| {
+            let value = match value {
+                ResultValue::Number(value) => table::number(*value),
+                ResultValue::List(values) => values.iter().map(|v| table::number(*v)).collect::<Vec<_>>().join(" "),
+            };
+            vec![format!("  {name}"), value]
+        })
+        .collect();
+    if !results.is_empty() {
+        let _ = writeln!(text, "  results (SI units)");
+        text += &table::aligned(&results);
+    }
+    if !summary.claims.is_empty() {
+        let _ = writeln!(text, "  claims");
+        for claim in &summary.claims {
+            let _ = write!(text, "    {}", claims::line(claim));
+        }
+    }
+    text + &warnings(&summary.warnings)
+}
+
+/// Warnings, a line each.
+pub fn warnings(list: &[String]) -> String {
+    list.iter().fold(String::new(), |mut text, warning| {
+        let _ = writeln!(text, "  {}: {warning}", Stream::Data.yellow("warning"));
+        text
+    })
+}

@@ -1,0 +1,203 @@
+//! How a command ends when it does not end well: a message, hints and an exit code.
+
+use crate::output::{self, Stream};
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::ExitCode;
+use tsubu::engine::OpenError;
+use tsubu::run::RunError;
+use tsubu::study::compare::CompareError;
+use tsubu::study::response::ResponseError;
+use tsubu::study::sweep::SweepError;
+use tsubu_frame::{CheckpointError, FileError, checkpoint};
+use tsubu_report::ReportError;
+use tsubu_scene::Complaints;
+
+/// The scene or the command line is wrong; nothing was written.
+const WRONG: u8 = 2;
+/// The run failed; what was computed so far is kept.
+const FAILED: u8 = 3;
+
+/// A command that did not end well.
+#[derive(Debug, Default)]
+pub struct Failure {
+    code: u8,
+    /// Nothing where all has been said.
+    message: Option<Message>,
+    hints: Vec<String>,
+}
+
+#[derive(Debug)]
+enum Message {
+    /// To be put after `error: `.
+    Plain(String),
+    /// In its final form: complaints about a scene, or no error at all.
+    Ready(String),
+}
+
+impl Failure {
+    /// The scene or the command line is wrong.
+    pub fn wrong(message: impl Into<String>) -> Self {
+        Self::new(WRONG, message)
+    }
+
+    /// What was begun could not be finished.
+    pub fn failed(message: impl Into<String>) -> Self {
+        Self::new(FAILED, message)
+    }
+
+    /// A claim does not hold; what is to be said was printed with the results.
+    pub fn claim() -> Self {
+        Self { code: 1, ..Self::default() }
+    }
+
+    /// The user stopped it.
+    pub fn interrupted(message: impl Into<String>) -> Self {
+        Self { code: 130, message: Some(Message::Ready(message.into())), hints: Vec::new() }
+    }
+
+    /// The reader of stdout has gone away, as in `tsubu schema | head`: no failure of ours.
+    pub fn nobody_reads() -> Self {
+        Self::default()
+    }
+
+    /// Adds a way out.
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hints.push(hint.into());
+        self
+    }
+
+    /// `message` may end in lines that begin with `hint: `, and may be a scene's complaints in full.
+    fn new(code: u8, message: impl Into<String>) -> Self {
+        let message: String = message.into();
+        if message.starts_with("error") {
+            return Self { code, message: Some(Message::Ready(message)), hints: Vec::new() };
+        }
+        let mut parts = message.split("\nhint: ");
+        let text = parts.next().unwrap_or_default().to_owned();
+        Self { code, message: Some(Message::Plain(text)), hints: parts.map(str::to_owned).collect() }
+    }
+
+    /// Prints the message and gives the exit code.
+    pub fn report(&self) -> ExitCode {
+        let stream = Stream::Error;
+        let mut text = String::new();
+        match &self.message {
+            Some(Message::Plain(message)) => {
+                let _ = writeln!(text, "{}: {message}", stream.bold_red("error"));
+            }
+            Some(Message::Ready(message)) => {
+                let _ = writeln!(text, "{message}");
+            }
+            None => {}
+        }
+        for hint in &self.hints {
+            let _ = writeln!(text, "{}: {hint}", stream.bold_cyan("hint"));
+        }
+        output::tell(&text);
+        ExitCode::from(self.code)
+    }
+
+    /// What went wrong in a run into `folder`.
+    pub fn of_run(error: &RunError, folder: &Path) -> Self {
+        match error {
+            RunError::Open(error) => error.into(),
+            RunError::File(error) => Self::of_file(error, folder),
+            RunError::Checkpoint(CheckpointError::Unreadable { path, source })
+                if source.kind() == std::io::ErrorKind::NotFound =>
+            {
+                Self::wrong(format!("nothing to resume: there is no checkpoint {}", path.display()))
+                    .hint("start again with `--overwrite` in place of `--resume`")
+            }
+            RunError::Checkpoint(error) => Self::wrong(error.to_string()),
+            RunError::NotThisScene(message) => Self::wrong(message.as_str()),
+            RunError::Fault(fault) => Self::failed(fault.to_string())
+                .hint(format!("what was computed so far is kept in {}", folder.display())),
+        }
+    }
+
+    /// What went wrong with a file of the results in `folder`.
+    ///
+    /// A folder that cannot be made and results that cannot be read stop a run before it begins; a file that cannot
+    /// be written stops it on its way.
+    pub fn of_file(error: &FileError, folder: &Path) -> Self {
+        let FileError::Write { path, .. } = error else { return Self::wrong(error.to_string()) };
+        if path == folder {
+            return Self::wrong(error.to_string()).hint("name another folder with `-o`");
+        }
+        let failure = Self::failed(error.to_string());
+        let failure = match checkpoint::read(&checkpoint::path(folder)) {
+            Ok((header, _)) => failure.hint(format!(
+                "the checkpoint of step {}, t = {} s is whole: `--resume` goes on from it",
+                header.step, header.time
+            )),
+            Err(_) => failure,
+        };
+        if error.is_disk_full() {
+            failure.hint("the disk is full: make room, or name another disk with `-o`")
+        } else {
+            failure
+        }
+    }
+
+    /// What went wrong with a report.
+    pub fn of_report(error: &ReportError) -> Self {
+        match error {
+            ReportError::File(_) => Self::failed(error.to_string()),
+            _ => Self::wrong(error.to_string()),
+        }
+    }
+
+    /// What went wrong in a response, sweep or comparison into `folder`; a case is named with its own trouble.
+    pub fn of_response(error: &ResponseError, folder: &Path) -> Self {
+        match error {
+            ResponseError::Scene(message) => Self::wrong(message.as_str()),
+            ResponseError::Run { case, error } => Self::of_run(error, folder).about("case", case),
+            ResponseError::File(error) => Self::of_file(error, folder),
+        }
+    }
+
+    /// The same for a sweep.
+    pub fn of_sweep(error: &SweepError, folder: &Path) -> Self {
+        match error {
+            SweepError::Scene(message) => Self::wrong(message.as_str()),
+            SweepError::Run { case, error } => Self::of_run(error, folder).about("case", case),
+            SweepError::File(error) => Self::of_file(error, folder),
+        }
+    }
+
+    /// The same for a comparison.
+    pub fn of_compare(error: &CompareError, folder: &Path) -> Self {
+        match error {
+            CompareError::Scene(complaints) => complaints.into(),
+            CompareError::Run { method, error } => Self::of_run(error, &folder.join(method)).about("method", method),
+            CompareError::File(error) => Self::of_file(error, folder),
+        }
+    }
+
+    fn about(mut self, kind: &str, name: &str) -> Self {
+        if let Some(Message::Plain(text)) = &mut self.message
+            && !name.is_empty()
+            && !text.starts_with(kind)
+        {
+            *text = format!("{kind} `{name}`: {text}");
+        }
+        self
+    }
+}
+
+impl From<&Complaints> for Failure {
+    fn from(complaints: &Complaints) -> Self {
+        let text = complaints.render(Stream::Error.colour());
+        Self { code: WRONG, message: Some(Message::Ready(text)), hints: Vec::new() }
+    }
+}
+
+impl From<&OpenError> for Failure {
+    fn from(error: &OpenError) -> Self {
+        match error {
+            OpenError::Running(_) => Self::failed(error.to_string()),
+            _ => Self::wrong(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! Options that several commands share.
+
+use crate::failure::Failure;
+use clap::{Args, value_parser};
+use std::path::{Path, PathBuf};
+use tsubu_frame::Existing;
+use tsubu_scene::Scene;
+
+/// Which scene.
+#[derive(Args)]
+pub struct SceneOptions {
+    /// The scene file, or a folder with a scene.toml in it
+    pub scene: PathBuf,
+    /// Change a value of the scene, as in --set particles.balls.count=20 or --set duration='3 s'; may be repeated
+    #[arg(long, value_name = "KEY.PATH=VALUE")]
+    pub set: Vec<String>,
+}
+
+impl SceneOptions {
+    /// Reads the scene.
+    pub fn read(&self) -> Result<Scene, Failure> {
+        Scene::read(&self.file(), &self.set).map_err(|complaints| Failure::from(&complaints))
+    }
+
+    fn file(&self) -> PathBuf {
+        let inside = self.scene.join("scene.toml");
+        if inside.is_file() { inside } else { self.scene.clone() }
+    }
+
+    /// Where results go unless told: `out/` and the scene's name; the folder's name where the file says only "scene".
+    fn default_folder(&self, suffix: &str) -> PathBuf {
+        let file = self.file();
+        let stem = |path: &Path| path.file_stem().map(|s| s.to_string_lossy().into_owned());
+        let name = match stem(&file) {
+            Some(name) if name != "scene" => name,
+            other => {
+                let folder = file.parent().and_then(|p| p.canonicalize().ok());
+                folder.and_then(|p| stem(&p)).or(other).unwrap_or_else(|| "scene".to_owned())
+            }
+        };
+        Path::new("out").join(format!("{name}{suffix}"))
+    }
+}
+
+/// Where to.
+#[derive(Args)]
+pub struct FolderOptions {
+    /// Folder for the results [default: out/ and the scene's name]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Replace the results that are in the folder
+    #[arg(long)]
+    pub overwrite: bool,
+}
+
+impl FolderOptions {
+    /// The folder.
+    pub fn folder(&self, scene: &SceneOptions, suffix: &str) -> PathBuf {
+        self.output.clone().unwrap_or_else(|| scene.default_folder(suffix))
+    }
+
+    /// What to do with an existing one.
+    pub fn existing(&self) -> Existing {
+        if self.overwrite { Existing::Overwrite } else { Existing::Refuse }
+    }
+}
+
+/// With how much, and how loud.
+#[derive(Args)]
+pub struct WorkOptions {
+    /// Threads to work with; results are the same for any number [default: all cores]
+    #[arg(long, visible_alias = "jobs", value_name = "N", value_parser = value_parser!(u16).range(1..=4096))]
+    threads: Option<u16>,
+    /// No progress on stderr
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+impl WorkOptions {
+    /// The threads to work with.
+    pub fn pool(&self) -> Result<rayon::ThreadPool, Failure> {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads.map_or(0, usize::from))
+            .build()
+            .map_err(|error| Failure::wrong(format!("cannot start the threads: {error}")))
+    }
+}
+
+/// The command that goes on with what this one began.
+pub fn command_to_resume() -> String {
+    let mut words = vec!["tsubu".to_owned()];
+    words.extend(
+        std::env::args().skip(1).filter(|word| word != "--overwrite" && word != "--resume").map(|w| quoted(&w)),
+    );
+    words.push("--resume".to_owned());
+    words.join(" ")
+}
+
+/// A word as a shell wants it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn words_survive_the_shell() {
+        assert_eq!(quoted("particles.balls.count=20"), "particles.balls.count=20");
+        assert_eq!(quoted("duration=3 s"), "'duration=3 s'");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+        assert_eq!(quoted(""), "''");
+    }
+}
