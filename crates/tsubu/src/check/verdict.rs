@@ -64,7 +64,13 @@ pub fn check(plan: &Plan) -> Result<Verdict, OpenError> {
     let total = plan.duration / engine.time_step();
     let (mut block, begun) = (64, Instant::now());
     while begun.elapsed().as_millis() < 300 && (engine.steps() as f64) < total {
-        engine.advance(block, &mut hosts, &mut ledger)?;
+        if let Err(fault) = engine.advance(block, &mut hosts, &mut ledger) {
+            // The lines above say why; without them the user would be left with the blow-up alone.
+            let text = fault.to_string();
+            let (what, hint) = text.split_once("\nhint: ").unwrap_or((&text, "`dem.time-step`"));
+            verdict.judge(false, format!("the run would fail: {what}"), || hint.to_owned());
+            return Ok(verdict);
+        }
         block *= 2;
     }
     let per_step = begun.elapsed().as_secs_f64() / engine.steps().max(1) as f64;
@@ -93,7 +99,7 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         if plan.speed_scale.is_some() { "told by `speed-scale`" } else { "estimated; set `speed-scale` to tell it" };
     verdict.say(format!("speed scale {speed:.3} m/s ({origin})"));
     match plan.method {
-        Method::Dem => dem(&mut verdict, plan, dt, speed),
+        Method::Dem => dem(&mut verdict, plan, hosts, dt, speed),
         Method::Lattice => lattice(&mut verdict, plan, dt, speed),
     }
     let period = shortest_period(hosts);
@@ -126,9 +132,9 @@ fn step_key(plan: &Plan) -> &'static str {
     }
 }
 
-fn dem(verdict: &mut Verdict, plan: &Plan, dt: f64, speed: f64) {
+fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
     let law = Law::new(&plan.contact);
-    let table = Table::new(plan, &law);
+    let table = Table::new(plan, &law, hosts);
     for (a, b) in touching_pairs(plan, &table) {
         let name = |i: u32| {
             let wall = table.species[i as usize].radius.is_infinite();

@@ -65,7 +65,7 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
     let list = cases(&wanted.vary);
     let plans = case_plans(scene, &list)?;
     let resolved = scene.resolved_toml();
-    let (folder, done) = open_folder(folder, &resolved, overwrite)?;
+    let earlier = earlier(folder, &resolved, overwrite)?;
     let mut beds = Vec::new();
     for case in 0..plans.len() {
         for seed in 0..wanted.seeds {
@@ -80,6 +80,8 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
             Ok(((case, seed), bed))
         })
         .collect::<Result<_, ResponseError>>()?;
+    // Only now, so that a scene that a method refuses leaves nothing behind.
+    let (folder, done) = open_folder(folder, earlier, &resolved, overwrite)?;
     let mut keys: Vec<Key> = Vec::new();
     for &(case, seed) in &beds {
         for frequency in 0..wanted.frequency_ratio.len() {
@@ -139,22 +141,39 @@ fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, ResponseError> 
 
 type Done = BTreeMap<Key, Point>;
 
-/// Makes the folder, or finds in it what an interrupted response of the same scene has done.
-fn open_folder(path: &Path, resolved: &str, overwrite: bool) -> Result<(RunFolder, Done), ResponseError> {
-    let mark = path.join("progress.jsonl");
-    let first = serde_json::json!({ "scene": scene_hash(resolved), "version": crate::VERSION }).to_string();
-    if !overwrite
-        && let Ok(text) = std::fs::read_to_string(&mark)
-        && text.lines().next() == Some(first.as_str())
-    {
+/// First line of the journal: which scene it belongs to.
+fn mark(resolved: &str) -> String {
+    serde_json::json!({ "scene": scene_hash(resolved), "version": crate::VERSION }).to_string()
+}
+
+/// What an interrupted response of the same scene has done in the folder; `None` where a new one is to begin.
+fn earlier(path: &Path, resolved: &str, overwrite: bool) -> Result<Option<Done>, FileError> {
+    if overwrite {
+        return Ok(None);
+    }
+    let text = std::fs::read_to_string(path.join("progress.jsonl")).unwrap_or_default();
+    if text.lines().next() == Some(mark(resolved).as_str()) {
         // The last line may be cut in half; it is computed again.
-        let done = text.lines().skip(1).filter_map(|l| serde_json::from_str::<(Key, Point)>(l).ok()).collect();
+        return Ok(Some(text.lines().skip(1).filter_map(|l| serde_json::from_str::<(Key, Point)>(l).ok()).collect()));
+    }
+    let occupied = std::fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_some());
+    if occupied { Err(FileError::NotEmpty { path: path.to_owned() }) } else { Ok(None) }
+}
+
+/// Makes the folder, or takes the one that an earlier response has begun.
+fn open_folder(
+    path: &Path,
+    earlier: Option<Done>,
+    resolved: &str,
+    overwrite: bool,
+) -> Result<(RunFolder, Done), FileError> {
+    if let Some(done) = earlier {
         return Ok((RunFolder::create(path, Existing::Resume)?, done));
     }
     let existing = if overwrite { Existing::Overwrite } else { Existing::Refuse };
     let folder = RunFolder::create(path, existing)?;
     folder.write("scene.toml", resolved.as_bytes())?;
-    folder.write("progress.jsonl", format!("{first}\n").as_bytes())?;
+    folder.write("progress.jsonl", format!("{}\n", mark(resolved)).as_bytes())?;
     Ok((folder, Done::new()))
 }
 
