@@ -34,6 +34,7 @@ pub struct LatticeEngine {
     energy_unit: f64,
     /// Impulse of gravity in a step [N.s], not positive.
     weight_impulse: f64,
+    /// Force on every host [N]; zero but for the one that carries the box.
     forces: Vec<f64>,
 }
 
@@ -123,7 +124,6 @@ impl LatticeEngine {
     /// Every host moves by one step; the one that carries the box feels the balls.
     fn push_hosts(&mut self, time: f64, impulse: f64, wall_speed: f64, hosts: &mut Hosts, ledger: &mut Ledger) {
         let mut before = 0.0;
-        self.forces.fill(0.0);
         if let Carrier::Host(index, direction) = &self.carrier {
             before = direction.z * hosts.list[*index].displacement();
             self.forces[*index] = -impulse / self.dt * direction.z;

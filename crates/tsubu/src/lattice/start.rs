@@ -94,7 +94,7 @@ pub(super) fn place(plan: &Plan, geometry: &Geometry, scale: &Scale, remarks: &m
                 for (i, ball) in balls.iter_mut().enumerate().skip(first) {
                     let word = words(plan.seed, Purpose::Placement, i as u32, 1)[0];
                     ball.direction = if *speed > 0.0 {
-                        Direction::from_index((u64::from(word) * 6 >> 32) as usize)
+                        Direction::from_index(((u64::from(word) * 6) >> 32) as usize)
                     } else {
                         Direction::S
                     };
@@ -164,7 +164,7 @@ fn fill(count: usize, seed: u64, geometry: &Geometry, taken: &mut Taken, balls: 
             // Fisher-Yates from the end; the drawn columns are put in order so that ids run from left to right.
             for last in (1..free.len()).rev() {
                 let word = words(seed, Purpose::Placement, last as u32, 0)[0];
-                free.swap(last, (u64::from(word) * (last as u64 + 1) >> 32) as usize);
+                free.swap(last, ((u64::from(word) * (last as u64 + 1)) >> 32) as usize);
             }
             free.truncate(left);
             free.sort_unstable();

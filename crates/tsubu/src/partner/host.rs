@@ -219,10 +219,11 @@ impl Host {
         let a3 = slope(1, q0 + half * v2, v3);
         let v4 = v0 + dt * a3;
         let a4 = slope(2, q0 + dt * v3, v4);
-        let (q, v) = (q0 + dt / 6.0 * (v0 + 2.0 * v2 + 2.0 * v3 + v4), v0 + dt / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4));
+        let sixth = dt / 6.0;
+        let (q, v) = (q0 + sixth * (v0 + 2.0 * v2 + 2.0 * v3 + v4), v0 + sixth * (a1 + 2.0 * a2 + 2.0 * a3 + a4));
         let a = slope(2, q, v);
         // Work by Simpson's rule; the state in the middle is that of the cubic through both ends.
-        let middle = (0.5 * (q0 + q) + dt / 8.0 * (v0 - v), 0.5 * (v0 + v) + dt / 8.0 * (a1 - a));
+        let middle = (0.5 * (q0 + q) + 0.125 * dt * (v0 - v), 0.5 * (v0 + v) + 0.125 * dt * (a1 - a));
         let power = |at: usize, q: f64, v: f64| {
             let (y, y_rate) = base[at];
             let damper = c * (v - r * y_rate);
@@ -230,7 +231,7 @@ impl Host {
         };
         let ends = [power(0, q0, v0), power(1, middle.0, middle.1), power(2, q, v)];
         for (i, account) in [Account::BaseWork, Account::ForceWork, Account::HostDamping].into_iter().enumerate() {
-            ledger.post(account, dt / 6.0 * (ends[0][i] + 4.0 * ends[1][i] + ends[2][i]));
+            ledger.post(account, sixth * (ends[0][i] + 4.0 * ends[1][i] + ends[2][i]));
         }
         debug_assert!((m * inverse - 1.0).abs() < 1e-12);
         (self.q[0], self.v[0], self.a[0]) = (q, v, a);
@@ -365,11 +366,13 @@ fn three(signal: Option<&Signal>, times: [f64; 3]) -> [(f64, f64); 3] {
 
 /// Sine and cosine; for the small angle of half a step a short series is exact to the last bit or so.
 fn short_sine(x: f64) -> (f64, f64) {
+    const C: [f64; 6] = [1.0 / 6.0, 1.0 / 20.0, 1.0 / 42.0, 1.0 / 2.0, 1.0 / 12.0, 1.0 / 30.0];
     if x.abs() > 0.01 {
         return x.sin_cos();
     }
     let s = x * x;
-    (x * (1.0 - s / 6.0 * (1.0 - s / 20.0 * (1.0 - s / 42.0))), 1.0 - s / 2.0 * (1.0 - s / 12.0 * (1.0 - s / 30.0)))
+    let sine = x * (1.0 - s * C[0] * (1.0 - s * C[1] * (1.0 - s * C[2])));
+    (sine, 1.0 - s * C[3] * (1.0 - s * C[4] * (1.0 - s * C[5])))
 }
 
 type Matrices = (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>);

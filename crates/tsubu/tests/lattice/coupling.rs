@@ -84,6 +84,9 @@ fn literal_automaton_damps_without_a_shift_down() {
         [0, 10, 30, 50].iter().map(|&n| peak(n, LatticeMode::Literal, 0.5e-3, &points)).collect();
     for pair in peaks.windows(2) {
         assert!(pair[1].1 < pair[0].1, "the peak must fall: {peaks:?}");
-        assert!(pair[1].0 > pair[0].0 - 0.005, "the peak must not move down: {peaks:?}");
+        // The curves are ragged: half a point of the frequency grid is what the peak can be told to.
+        assert!(pair[1].0 > pair[0].0 - 0.01, "the peak must not move down: {peaks:?}");
     }
+    let (extended, _) = peak(50, LatticeMode::Extended, 0.5e-3, &points);
+    assert!(extended < peaks[0].0 - 0.01, "the gate must notice a shift down: {extended}");
 }

@@ -5,6 +5,7 @@ use tsubu::engine::{Engine, Fault};
 use tsubu::lattice::engine::LatticeEngine;
 use tsubu::ledger::Ledger;
 use tsubu::partner::Hosts;
+#[allow(clippy::wildcard_imports, reason = "a plan names nearly all of them")]
 use tsubu_scene::plan::*;
 
 /// Paper A's box and balls with g = 10 m/s^2 and e = 0.75: `count` balls settled on the floor of a still box.

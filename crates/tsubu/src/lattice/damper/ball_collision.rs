@@ -26,7 +26,7 @@ pub(super) struct Pair {
 impl Damper {
     /// Phase 2, resting stacks apart.
     pub(super) fn collide(&mut self, wall: i64) {
-        self.hit.0.fill(0);
+        self.hit.clear();
         self.meet_floor(wall);
         self.meet_ceiling(wall);
         if self.look_everywhere {
@@ -44,8 +44,14 @@ impl Damper {
         }
         self.shuffle_pairs();
         let pairs = std::mem::take(&mut self.pairs);
+        // In a crowd everybody is next to somebody who collides: marking all at once is cheaper than one by one.
+        self.crowded = 8 * pairs.len() > self.speed.len();
         for pair in &pairs {
             self.bounce(*pair);
+        }
+        if self.crowded {
+            self.stale.fill(self.speed.len());
+            self.crowded = false;
         }
         self.pairs = pairs;
     }
@@ -180,14 +186,27 @@ impl Damper {
         self.redirect(b, meant, direction, speed);
     }
 
-    fn rebound_direction(&self, a: usize, back: Direction) -> Direction {
+    fn rebound_direction(&mut self, a: usize, back: Direction) -> Direction {
         if !self.rules.rebound_scatter {
             return back;
         }
-        match words(self.rules.seed, Purpose::Rebound, a as u32, self.step)[0] >> 30 {
+        match self.rebound_word(a) >> 62 {
             0 => back.clockwise(),
             1 => back.counter_clockwise(),
             _ => back,
         }
+    }
+
+    /// A random word for this ball's rebound: one word a step from the counter-based generator, mixed with the ball's
+    /// number (finaliser of SplitMix64), because a jammed bed rebounds fifty times a step.
+    fn rebound_word(&mut self, a: usize) -> u64 {
+        if self.lot.0 != self.step + 1 {
+            let word = words(self.rules.seed, Purpose::Rebound, 0, self.step);
+            self.lot = (self.step + 1, u64::from(word[0]) << 32 | u64::from(word[1]));
+        }
+        let mut z = self.lot.1.wrapping_add((a as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
     }
 }

@@ -75,7 +75,7 @@ impl Damper {
     fn gather(&mut self, up: bool) {
         let mut cluster = std::mem::take(&mut self.cluster);
         cluster.clear();
-        self.hit.0.fill(0);
+        self.hit.clear();
         let floor = self.place.floor();
         let row = if up { floor } else { floor + self.place.rows - 1 };
         for column in 1..=self.place.columns {

@@ -29,6 +29,7 @@ use super::grid::Grid;
 use tsubu_scene::plan::{Collision, ObliqueGravity};
 
 /// The named choices of the rules.
+#[expect(clippy::struct_excessive_bools, reason = "each is a rule that the scene switches on or off by its name")]
 #[derive(Clone, Copy, Debug)]
 pub struct Rules {
     /// Gravity along the oblique directions.
@@ -137,6 +138,10 @@ pub struct Damper {
     movers: Vec<usize>,
     cluster: Vec<usize>,
     claims: Vec<u8>,
+    /// This step's word for rebounds, and the step it was drawn for, counted from 1.
+    lot: (u64, u64),
+    /// So many collide in this step that all balls will be looked at again.
+    crowded: bool,
 }
 
 /// A set of balls.
@@ -161,6 +166,16 @@ impl Bits {
     #[inline]
     fn contains(&self, i: usize) -> bool {
         self.0[i / 64] >> (i % 64) & 1 == 1
+    }
+
+    #[inline]
+    fn clear(&mut self) {
+        // A word or two: cheaper one by one than by a call.
+        for word in &mut self.0 {
+            if *word != 0 {
+                *word = 0;
+            }
+        }
     }
 
     fn fill(&mut self, count: usize) {
@@ -221,6 +236,8 @@ impl Damper {
             movers: Vec::with_capacity(n),
             cluster: Vec::with_capacity(n),
             claims: vec![0; n],
+            lot: (0, 0),
+            crowded: false,
             grid,
             cell,
         };
@@ -235,6 +252,11 @@ impl Damper {
     /// Number of balls.
     pub fn balls(&self) -> usize {
         self.cell.len()
+    }
+
+    /// Number of balls that rest on the floor or on each other.
+    pub fn at_rest(&self) -> usize {
+        self.rest.count as usize
     }
 
     /// One step with the box moving upwards at `wall` [speed units] and standing at `level` cells at the end.
@@ -346,6 +368,9 @@ impl Damper {
 
     /// A ball changed its velocity or place: it and whoever looks at it must be looked at again.
     fn disturb(&mut self, i: usize) {
+        if self.crowded {
+            return;
+        }
         self.stale.insert(i);
         for direction in Direction::ALL {
             let other = self.grid.at(self.grid.neighbour(self.cell[i], self.odd[i], direction));

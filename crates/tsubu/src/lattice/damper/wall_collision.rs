@@ -19,8 +19,7 @@ impl Damper {
         let floor = self.place.floor();
         for column in 1..=self.place.columns {
             let mut cell = self.grid.index(column, floor) + self.rest.height[column];
-            loop {
-                let Ok(i) = usize::try_from(self.grid.at(cell)) else { break };
+            while let Ok(i) = usize::try_from(self.grid.at(cell)) {
                 if !self.direction[i].is_vertical() {
                     break;
                 }
