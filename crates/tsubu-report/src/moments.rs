@@ -13,7 +13,7 @@ use crate::text::short;
 const PICTURES: usize = 8;
 /// An animation of more pictures is heavier than a mail takes.
 const MOST_FRAMES: usize = 60;
-const ANIMATION_WIDTH: u32 = 420;
+const ANIMATION_HEIGHT: f64 = 420.0;
 /// Time a page may take for its animation sets the number of grains in it.
 const MOST_ANIMATED: usize = 200_000;
 
@@ -96,11 +96,13 @@ fn animated(source: &mut Source, found: &[Snapshot], periodic: bool, stem: &str)
         }
     }
     let look = common(&series, &look);
-    let pictures: Vec<_> = series.iter().map(|b| raster::picture(b, &look, ANIMATION_WIDTH)).collect();
+    let shape = look.window.map_or(1.0, |w| (w[2] - w[0]) / (w[3] - w[1]));
+    let width = (ANIMATION_HEIGHT * shape).clamp(290.0, 600.0) as u32;
+    let pictures: Vec<_> = series.iter().map(|b| raster::picture(b, &look, width)).collect();
     let Ok(bytes) = animation::gif(&pictures, 15.0) else { return Ok(None) };
     source.files.push((format!("figures/{stem}animation.gif"), bytes.clone()));
     if let Some(last) = series.last() {
-        let png = raster::picture(last, &look, 2 * ANIMATION_WIDTH).to_png();
+        let png = raster::picture(last, &look, 2 * width).to_png();
         source.files.push((format!("figures/{stem}last.png"), png));
     }
     let span = found[chosen[chosen.len() - 1]].time - found[chosen[0]].time;

@@ -73,7 +73,9 @@ pub fn picture(balls: &Balls, look: &Look, width: u32) -> Image {
     let (across, up) = (w[2] - w[0] + 2.0 * margin, w[3] - w[1] + 2.0 * margin);
     let width = width.max(16);
     let inner = ((f64::from(width) * up / across).round() as u32).clamp(16, 8 * width);
-    let footer = 52;
+    // Time and colour scale side by side need room; a narrow picture has them one below the other.
+    let narrow = width < 400;
+    let footer = if narrow { 74 } else { 52 };
     let mut image = Image::filled(width, inner + footer, [255; 4]);
     image.put(&spheres(balls, &look, width, inner), 0, 0);
     let scale = f64::from(width) / across;
@@ -96,10 +98,14 @@ pub fn picture(balls: &Balls, look: &Look, width: u32) -> Image {
             points.join(" ")
         );
     }
-    let _ =
-        write!(svg, "<text x=\"10\" y=\"{}\" font-size=\"13\">{}</text>", inner + 24, escape(&time_label(balls.time)));
+    let _ = write!(
+        svg,
+        "<text x=\"10\" y=\"{}\" font-size=\"13\">{}</text>",
+        inner + if narrow { 64 } else { 24 },
+        escape(&time_label(balls.time))
+    );
     let range = look.range.unwrap_or((0.0, 1.0));
-    let middle = (f64::from(width) - 145.0).max(f64::from(width) / 2.0);
+    let middle = if narrow { f64::from(width) / 2.0 } else { f64::from(width) - 145.0 };
     colour_bar(&mut svg, &balls.quantity, range, [middle, f64::from(inner) + 14.0], "scale");
     svg.push_str("</svg>");
     if let Some(over) = from_svg(&svg, 1.0) {

@@ -148,11 +148,11 @@ fn motion_blocks(source: &mut Source, history: &Table) -> Vec<Block> {
     for i in others.into_iter().take(12) {
         let name = split_unit(&history.header[i]).0.to_owned();
         let file = format!("history_{}", name.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
-        inside.extend(source.figure(&file, &over_time(history, &[i], &name), ""));
+        let drawn = source.figure(&file, &over_time(history, &[i], &name), "");
+        // Without a host the rest is what there is to see, short of what the books miss.
+        if hosts.is_empty() && !name.contains("residual") { blocks.extend(drawn) } else { inside.extend(drawn) }
     }
-    if blocks.is_empty() {
-        blocks = inside;
-    } else if !inside.is_empty() {
+    if !inside.is_empty() {
         blocks.push(crate::source::folded("More over time", inside));
     }
     blocks

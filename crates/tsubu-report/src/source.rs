@@ -171,8 +171,9 @@ pub(crate) fn summary_cards(summary: &Summary) -> Vec<Card> {
 /// Results that are single numbers, as cards.
 pub(crate) fn result_cards(summary: &Summary, most: usize) -> Vec<Card> {
     let numbers = summary.results.iter().filter_map(|(name, value)| match value {
-        ResultValue::Number(x) => Some((name, *x)),
-        ResultValue::List(_) => None,
+        // What the books miss is no result to be proud of; the energy has its own card.
+        ResultValue::Number(x) if !name.contains("residual") => Some((name, *x)),
+        _ => None,
     });
     numbers
         .take(most)
@@ -266,11 +267,13 @@ pub(crate) fn energy_blocks(source: &mut Source, runs: &[(&str, &Summary)]) -> V
         return Vec::new();
     }
     let value = |s: &Summary, name: &str| s.energy.terms.get(name).map_or(f64::NAN, |j| j.0);
-    let parts = runs.iter().map(|(run, s)| ((*run).to_owned(), names.iter().map(|n| value(s, n)).collect())).collect();
+    let moved = |name: &&str| runs.iter().any(|(_, s)| value(s, name) != 0.0);
+    let drawn: Vec<&str> = names.iter().copied().filter(moved).collect();
+    let parts = runs.iter().map(|(run, s)| ((*run).to_owned(), drawn.iter().map(|n| value(s, n)).collect())).collect();
     let bars =
-        Bars { categories: names.iter().map(|n| (*n).to_owned()).collect(), parts, stacked: false, horizontal: true };
+        Bars { categories: drawn.iter().map(|n| (*n).to_owned()).collect(), parts, stacked: false, horizontal: true };
     let mut figure = Figure::of_bars("", Axis::new("energy at the end", "J"), bars);
-    figure.height = (90 + 30 * names.len() as u32 * runs.len().max(1) as u32).clamp(180, 700);
+    figure.height = (90 + 30 * drawn.len() as u32 * runs.len().max(1) as u32).clamp(180, 700);
     let mut blocks = Vec::new();
     blocks.extend(source.figure("energy_by_cause", &figure, "Where the energy went, by cause."));
     let mut grid = Grid::new(std::iter::once("cause".to_owned()).chain(

@@ -59,8 +59,11 @@ pub fn strip(panels: &[Panel], look: &Look, columns: usize) -> String {
             escape(&panel.label)
         );
         if let Some(a) = panel.arrow.filter(|_| longest > 0.0) {
-            let reach = 0.38 * cell / longest;
-            arrow(&mut out, [middle, y + picture + 28.0], [a[0] * reach, -a[1] * reach]);
+            // Beside the label if it goes up and down, below it otherwise.
+            let upright = a[1].abs() > a[0].abs();
+            let reach = if upright { 32.0 } else { 0.38 * cell } / longest;
+            let at = if upright { [middle + 34.0, y + picture + 19.0] } else { [middle, y + picture + 28.0] };
+            arrow(&mut out, at, [a[0] * reach, -a[1] * reach]);
         }
     }
     if let Some(first) = panels.first() {
