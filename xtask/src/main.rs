@@ -1,1 +1,49 @@
-fn main() {}
+//! Chores of the project, run as `cargo xtask CHORE`.
+
+#[cfg(test)]
+mod architecture;
+mod bench;
+mod check;
+mod generate;
+mod shell;
+mod smoke;
+mod test;
+
+use std::process::ExitCode;
+
+const HELP: &str = "\
+cargo xtask CHORE
+
+  check [--no-test]   what must pass before a change goes in: format, lints, documentation, generated pages, a short
+                      run of every scene, all tests
+  test                all tests; with Python 3, also those that read written frames back with VTK
+  gen [--check]       write the generated pages, or only say which are out of date
+  smoke               run every scene for a moment
+  bench [ARGUMENT]... the benchmarks; arguments go to cargo bench
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let done = match words.as_slice() {
+        ["check"] => check::check(true),
+        ["check", "--no-test"] => check::check(false),
+        ["test"] => test::test(),
+        ["gen"] => generate::write(),
+        ["gen", "--check"] => generate::check(),
+        ["smoke"] => smoke::smoke(),
+        ["bench", rest @ ..] => bench::bench(rest),
+        [] | ["help" | "--help" | "-h"] => {
+            print!("{HELP}");
+            Ok(())
+        }
+        other => Err(format!("there is no chore `{}`\n\n{HELP}", other.join(" "))),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -78,12 +78,12 @@ impl Progress {
 impl Lines {
     fn set(&mut self, done: f64) {
         let first = *self.first.get_or_insert(done);
-        if done < self.next || self.spoke.elapsed() < PAUSE {
+        if done < self.next || done >= 1.0 || self.spoke.elapsed() < PAUSE {
             return;
         }
         let left = self.started.elapsed().as_secs_f64() * (1.0 - done) / (done - first).max(1e-9);
-        let percent = 100.0 * done;
-        crate::output::tell(&format!("{}: {percent:.0} %, about {} left\n", self.name, human_time(left)));
+        let (name, percent, left) = (&self.name, 100.0 * done, human_time(left.max(1.0).round()));
+        crate::output::tell(&format!("{name}: {percent:.0} %, about {left} left\n"));
         self.spoke = Instant::now();
         self.next = (10.0 * done + 1e-9).floor() / 10.0 + 0.1;
     }

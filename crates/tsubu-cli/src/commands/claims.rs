@@ -10,6 +10,6 @@ pub fn line(claim: &Claim) -> String {
     let study = if claim.study.is_empty() { String::new() } else { format!("{:<12}  ", claim.study) };
     let value = table::number(claim.value);
     let range = table::range(claim.low, claim.high);
-    format!("{verdict}  {study}{:<48}  {value:>11}  {range:<24}  {}", claim.name, claim.source).trim_end().to_owned()
+    format!("{verdict}  {study}{:<52}  {value:>11}  {range:<24}  {}", claim.name, claim.source).trim_end().to_owned()
         + "\n"
 }

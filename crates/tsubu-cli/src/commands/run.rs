@@ -80,8 +80,11 @@ fn told(title: &str, summary: &Summary) -> String {
         plural(u64::from(summary.threads), "thread"),
         summary.particle_steps_per_second
     );
-    let _ =
-        writeln!(text, "  energy     the books miss {:.1e} of what was turned over", summary.energy.residual_relative);
+    let _ = writeln!(
+        text,
+        "  energy     the books miss {:.1e} of what was turned over",
+        summary.energy.residual_relative.abs()
+    );
     let _ = writeln!(text, "  state      {}", summary.state_hash);
     let results: Vec<Vec<String>> = summary
         .results

@@ -1,0 +1,99 @@
+use crate::support::Desk;
+use insta::assert_snapshot;
+use std::io::Read;
+use std::process::Stdio;
+
+#[test]
+fn nothing_asked() {
+    assert_snapshot!(Desk::empty().shown(""));
+}
+
+#[test]
+fn help_lists_the_commands() {
+    let help = Desk::empty().done("--help").stdout;
+    for command in
+        ["run", "check", "sweep", "response", "compare", "verify", "report", "view", "new", "schema", "completions"]
+    {
+        assert!(help.contains(&format!("\n  {command} ")), "{command}: {help}");
+        Desk::empty().done(&format!("{command} --help"));
+    }
+    assert_snapshot!(Desk::empty().shown("run --help"));
+}
+
+#[test]
+fn a_misspelt_command() {
+    assert_snapshot!(Desk::empty().shown("rum damper.toml"));
+}
+
+#[test]
+fn view_is_not_there_yet() {
+    assert_snapshot!(Desk::empty().shown("view out/damper --port 8000"));
+}
+
+#[test]
+fn an_unknown_verification() {
+    assert_snapshot!(Desk::empty().shown("verify nonsense -o out"));
+}
+
+#[test]
+fn an_unknown_method() {
+    let desk = Desk::new();
+    assert_snapshot!(desk.shown("compare balls.toml --methods dem,cl-ca"));
+    assert_snapshot!(desk.shown("compare balls.toml --methods sph"));
+}
+
+#[test]
+fn a_report_of_nothing() {
+    let desk = Desk::new();
+    assert_snapshot!(desk.shown("report out/nothing"));
+    std::fs::create_dir(desk.path("empty")).unwrap();
+    assert_snapshot!(desk.shown("report empty"));
+}
+
+#[test]
+fn templates_are_written_once() {
+    let desk = Desk::empty();
+    let list = desk.done("new --list").stdout;
+    assert!(list.contains("damper"), "{list}");
+    assert_snapshot!(desk.shown("new damper"));
+    std::fs::write(desk.path("damper.toml"), "mine").unwrap();
+    assert_snapshot!(desk.shown("new damper"));
+    assert_eq!(desk.read("damper.toml"), "mine");
+    assert_eq!(desk.run("new dampr").code, Some(2));
+    assert_eq!(desk.run("new").code, Some(2));
+    desk.done("new drop other.toml");
+    desk.done("check other.toml --set 'duration=0.01 s'");
+}
+
+#[test]
+fn verifications_are_listed() {
+    let list = Desk::empty().done("verify --list").stdout;
+    assert!(list.contains("restitution") && list.contains("impact-damper"), "{list}");
+}
+
+#[test]
+fn the_schema_is_one() {
+    let schema: serde_json::Value = serde_json::from_str(&Desk::empty().done("schema").stdout).unwrap();
+    assert!(schema["properties"]["materials"].is_object());
+}
+
+#[test]
+fn shells_get_their_script() {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        assert!(Desk::empty().done(&format!("completions {shell}")).stdout.contains("tsubu"));
+    }
+}
+
+/// As in `tsubu schema | head -c 10`.
+#[test]
+fn a_reader_may_leave() {
+    let desk = Desk::new();
+    for line in ["schema", "completions bash", "new --list", "verify --list", "check balls.toml", "run balls.toml -q"] {
+        let mut child = desk.command(line).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let mut said = String::new();
+        child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(0), "{line}: {said}");
+        assert!(!said.contains("panicked"), "{line}: {said}");
+    }
+}

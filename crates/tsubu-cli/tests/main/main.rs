@@ -1,0 +1,18 @@
+//! The program as a user meets it: what it prints, how it exits, what it leaves behind.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop where it is")]
+
+/// The same bits for any number of threads, and after a kill or Ctrl-C.
+mod bits;
+/// Lists, schema, completion, help: commands that run nothing.
+mod commands;
+/// What a run folder holds.
+mod folder;
+/// What is said when something is wrong.
+mod messages;
+/// Every shipped scene runs and closes its books.
+mod scenes;
+/// Response, sweep, comparison, verification.
+mod studies;
+/// A place to work in, and small scenes.
+mod support;

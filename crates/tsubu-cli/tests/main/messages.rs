@@ -1,0 +1,167 @@
+use crate::support::{Desk, SCENE};
+use insta::assert_snapshot;
+use std::fs;
+use std::process::Command;
+
+/// Runs a scene with something wrong in it; nothing may be written.
+fn refused(find: &str, replace: &str) -> String {
+    assert!(SCENE.contains(find), "{find}");
+    let desk = Desk::with(&SCENE.replacen(find, replace, 1));
+    let shown = desk.shown("run balls.toml");
+    assert!(shown.ends_with("--- exit code 2\n--- files: balls.toml"), "{shown}");
+    shown
+}
+
+#[test]
+fn misspelt_key() {
+    assert_snapshot!(refused("restitution =", "restitutoin ="));
+}
+
+#[test]
+fn wrong_unit() {
+    assert_snapshot!(refused("diameter = \"6 mm\"", "diameter = \"6 kg\""));
+}
+
+#[test]
+fn missing_unit() {
+    assert_snapshot!(refused("diameter = \"6 mm\"", "diameter = \"6\""));
+}
+
+#[test]
+fn negative_mass() {
+    assert_snapshot!(refused("mass = \"0.2 g\"", "mass = \"-0.2 g\""));
+}
+
+#[test]
+fn overlapping_balls() {
+    let rows =
+        "count = 20\ndiameter = \"6 mm\"\nmass = \"0.2 g\"\nstart.rows = { spacing = 1.1, jitter = 0.5, speed = 0.3 }";
+    let at = "diameter = \"6 mm\"\nmass = \"0.2 g\"\nstart.at = { position = [[0, \"10 mm\"], [\"2 mm\", \"12 mm\"]] }";
+    let scene = SCENE.replace(rows, at);
+    let cut = scene[..scene.find("[response]").unwrap()].to_owned();
+    let desk = Desk::with(&cut);
+    assert_snapshot!(desk.shown("run balls.toml"));
+}
+
+#[test]
+fn more_balls_than_fit() {
+    assert_snapshot!(refused("count = 20", "count = 2000"));
+}
+
+#[test]
+fn everything_at_once() {
+    let scene = SCENE
+        .replace("restitution =", "restitutoin =")
+        .replace("\"6 mm\"", "\"6 kg\"")
+        .replace("count = 20", "count = -1");
+    assert_snapshot!(Desk::with(&scene).shown("check balls.toml"));
+}
+
+#[test]
+fn no_such_scene() {
+    assert_snapshot!(Desk::empty().shown("run nothing.toml"));
+}
+
+#[test]
+fn a_scene_that_is_no_text() {
+    let desk = Desk::empty();
+    fs::write(desk.path("balls.toml"), [0x89, 0x50, 0xff, 0x00]).unwrap();
+    assert_snapshot!(desk.shown("run balls.toml"));
+}
+
+#[test]
+fn not_a_number_in_a_table() {
+    let scene = SCENE
+        .replace("base.sine = { amplitude = \"5 mm\", frequency = \"6 Hz\" }", "base.table = { file = \"base.csv\" }");
+    let cut = scene[..scene.find("[response]").unwrap()].to_owned();
+    let desk = Desk::with(&cut);
+    fs::write(desk.path("base.csv"), "time [s],displacement [m]\n0,0\n0.1,nan\n0.2,0.001\n").unwrap();
+    assert_snapshot!(desk.shown("run balls.toml"));
+}
+
+#[test]
+fn a_method_that_cannot() {
+    let two = "[particles.giants]\nmaterial = \"acrylic\"\ncount = 2\ndiameter = \"9 mm\"\nmass = \"0.7 g\"\nstart.settled = {}\n\n[walls.box]";
+    let scene = SCENE
+        .replace("[walls.box]", two)
+        .replace("start.rows = { spacing = 1.1, jitter = 0.5, speed = 0.3 }", "start.settled = {}");
+    let desk = Desk::with(&scene);
+    assert_snapshot!(desk.shown("run balls.toml --set method=lattice"));
+    let response = desk.run("response balls.toml --set method=lattice");
+    assert_eq!(response.code, Some(2), "{}", response.stderr);
+    let compare = desk.run("compare balls.toml --methods dem,lattice");
+    assert_eq!(compare.code, Some(2), "{}", compare.stderr);
+    assert_eq!(desk.files(), ["balls.toml"]);
+}
+
+#[test]
+fn an_output_folder_that_exists() {
+    let desk = Desk::new();
+    fs::create_dir_all(desk.path("out/balls")).unwrap();
+    fs::write(desk.path("out/balls/mine.txt"), "").unwrap();
+    assert_snapshot!(desk.shown("run balls.toml"));
+    for command in [
+        "response balls.toml -o out/balls",
+        "sweep balls.toml -o out/balls",
+        "compare balls.toml --methods dem -o out/balls",
+    ] {
+        let ended = desk.run(command);
+        assert_eq!(ended.code, Some(2), "{command}: {}", ended.stderr);
+        assert!(ended.stderr.contains("not empty"), "{}", ended.stderr);
+    }
+    assert_eq!(desk.files(), ["balls.toml", "out/balls/mine.txt"]);
+}
+
+#[test]
+fn an_output_folder_that_cannot_be() {
+    let desk = Desk::new();
+    assert_snapshot!(desk.shown("run balls.toml -o balls.toml/out"));
+}
+
+#[test]
+fn a_step_too_long_is_warned_of() {
+    let desk = Desk::new();
+    let check = desk.done("check balls.toml --set 'dem.time-step=50 us'");
+    assert!(check.stdout.contains("warn balls on balls: contact time"), "{}", check.stdout);
+    assert!(check.stdout.contains("change: `dem.time-step` to"), "{}", check.stdout);
+    let strict = desk.run("check balls.toml --strict --set 'dem.time-step=50 us'");
+    assert_eq!(strict.code, Some(2));
+    assert!(strict.stderr.contains("`--strict` lets none pass"), "{}", strict.stderr);
+    assert_eq!(desk.files(), ["balls.toml"]);
+}
+
+#[test]
+fn a_run_that_blows_up_keeps_what_it_has() {
+    let desk = Desk::new();
+    let check = desk.done("check balls.toml --set 'dem.time-step=1 ms'");
+    assert!(check.stdout.contains("warn the run would fail: step "), "{}", check.stdout);
+    let ended = desk.run("run balls.toml -q -o blown --set 'dem.time-step=1 ms'");
+    assert_eq!(ended.code, Some(3), "{}", ended.stderr);
+    assert!(ended.stderr.starts_with("error: step "), "{}", ended.stderr);
+    assert!(ended.stderr.contains("hint: what was computed so far is kept in blown"), "{}", ended.stderr);
+    let summary = desk.summary("blown");
+    assert_eq!(summary["status"], "failed");
+    assert!(summary["warnings"][0].as_str().unwrap().starts_with("step "));
+    assert!(desk.read("blown/history.csv").lines().count() > 1);
+}
+
+#[test]
+fn a_full_disk() {
+    let desk = Desk::new();
+    let disk = desk.path("disk");
+    fs::create_dir(&disk).unwrap();
+    let mounted = Command::new("mount").args(["-t", "tmpfs", "-o", "size=256k", "tmpfs"]).arg(&disk).output();
+    if !mounted.is_ok_and(|out| out.status.success()) {
+        eprintln!("skipped: only root may mount the small disk that this test fills");
+        return;
+    }
+    let ended = desk.run("run balls.toml -q -o disk/run --set 'output.frame-interval=0.2 ms'");
+    let files = desk.files();
+    let unmounted = Command::new("umount").arg(&disk).status().unwrap();
+    assert_eq!(ended.code, Some(3), "{}", ended.stderr);
+    assert!(ended.stderr.starts_with("error: cannot write "), "{}", ended.stderr);
+    assert!(ended.stderr.contains("hint: the disk is full"), "{}", ended.stderr);
+    assert!(!ended.stderr.contains("panicked"), "{}", ended.stderr);
+    assert!(files.iter().all(|file| !file.ends_with(".tmp")), "half-written: {files:?}");
+    assert!(unmounted.success());
+}

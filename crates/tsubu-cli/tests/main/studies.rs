@@ -1,0 +1,75 @@
+use crate::support::Desk;
+
+#[test]
+fn a_response_leaves_curves_and_a_page() {
+    let desk = Desk::new();
+    let shown = desk.done("response balls.toml -q").stdout;
+    assert!(shown.contains("case") && shown.contains("peak rms mm") && shown.contains("count = 10"), "{shown}");
+    for name in ["scene.toml", "summary.json", "response.csv", "report.html"] {
+        assert!(desk.path(&format!("out/balls-response/{name}")).exists(), "{name}");
+    }
+    let header = desk.read("out/balls-response/response.csv");
+    assert!(header.starts_with("frequency [Hz],frequency ratio [-],rms displacement [m],peak displacement [m]"));
+    assert_eq!(header.lines().count(), 1 + 3 * 4);
+    assert!(desk.files().iter().any(|f| f.starts_with("out/balls-response/figures/")));
+    let again = desk.done("response balls.toml -q").stdout;
+    assert_eq!(shown.lines().next(), again.lines().next());
+}
+
+#[test]
+fn the_number_of_threads_does_not_change_a_response() {
+    let desk = Desk::new();
+    for method in ["dem", "lattice"] {
+        for threads in [1, 7] {
+            let folder = format!("{method}{threads}");
+            desk.done(&format!("response balls.toml -q --set method={method} -o {folder} --threads {threads}"));
+        }
+        assert_eq!(desk.read(&format!("{method}1/response.csv")), desk.read(&format!("{method}7/response.csv")));
+    }
+}
+
+#[test]
+fn a_response_without_a_word_about_it() {
+    let scene = crate::support::SCENE;
+    let cut = &scene[..scene.find("[response]").unwrap()];
+    let desk = Desk::with(cut);
+    insta::assert_snapshot!(desk.shown("response balls.toml"));
+    insta::assert_snapshot!(desk.shown("sweep balls.toml --jobs 2"));
+}
+
+#[test]
+fn a_sweep_runs_every_case_and_keeps_what_is_done() {
+    let desk = Desk::new();
+    let shown = desk.done("sweep balls.toml -q --jobs 2").stdout;
+    assert!(shown.contains("restitution = 0.5"), "{shown}");
+    assert_eq!(desk.read("out/balls-sweep/sweep.csv").lines().count(), 5);
+    let hash = |case: &str| desk.hash(&format!("out/balls-sweep/cases/{case}"));
+    assert_ne!(hash("0000"), hash("0003"));
+    let before = desk.read("out/balls-sweep/cases/0002/summary.json");
+    std::fs::remove_dir_all(desk.path("out/balls-sweep/cases/0001")).unwrap();
+    desk.done("sweep balls.toml -q --jobs 1");
+    assert_eq!(desk.read("out/balls-sweep/cases/0002/summary.json"), before, "a finished case was run again");
+    assert!(desk.path("out/balls-sweep/cases/0001/summary.json").exists());
+}
+
+#[test]
+fn two_methods_side_by_side() {
+    let desk = Desk::new();
+    let shown = desk.done("compare balls.toml --methods dem,lattice -q").stdout;
+    assert!(shown.contains("computing time s"), "{shown}");
+    for name in ["compare.csv", "report.html", "dem/summary.json", "lattice/summary.json"] {
+        assert!(desk.path(&format!("out/balls-compare/{name}")).exists(), "{name}");
+    }
+}
+
+#[test]
+fn a_verification_prints_a_line_a_claim() {
+    let desk = Desk::empty();
+    let shown = desk.done("verify restitution -q -o out").stdout;
+    let claims = shown.lines().filter(|line| line.starts_with("pass  contact ")).count();
+    assert!(claims > 10, "{shown}");
+    assert!(shown.ends_with(&format!("{claims} claims, all pass\n")), "{shown}");
+    let written: serde_json::Value = serde_json::from_str(&desk.read("out/verify.json")).unwrap();
+    assert_eq!(written["claims"].as_array().unwrap().len(), claims);
+    assert!(desk.path("out/report.html").exists());
+}

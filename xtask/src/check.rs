@@ -1,0 +1,18 @@
+//! What must pass before a change goes in.
+
+use crate::shell::{cargo, cargo_path, command, run};
+use crate::{generate, smoke, test};
+
+/// Everything, the quick things first; the tests only if `tests`.
+pub fn check(tests: bool) -> Result<(), String> {
+    cargo(&["fmt", "--all", "--check"])?;
+    generate::check()?;
+    cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "-D", "warnings"])?;
+    let mut documentation = command(&cargo_path(), &["doc", "--workspace", "--no-deps", "--quiet"]);
+    documentation.env("RUSTDOCFLAGS", "-D warnings");
+    run(documentation)?;
+    if tests {
+        test::test()?;
+    }
+    smoke::smoke()
+}

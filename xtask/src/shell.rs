@@ -1,0 +1,41 @@
+//! Other programs, started from the root of the project.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// The root of the project.
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// A program, started from the root.
+pub fn command(program: &str, arguments: &[&str]) -> Command {
+    let mut command = Command::new(program);
+    command.args(arguments).current_dir(root());
+    command
+}
+
+/// Runs cargo, as the one that runs this.
+pub fn cargo(arguments: &[&str]) -> Result<(), String> {
+    run(command(&cargo_path(), arguments))
+}
+
+/// The cargo that runs this.
+pub fn cargo_path() -> String {
+    std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned())
+}
+
+/// Runs a command, says which, and fails when it does.
+pub fn run(mut command: Command) -> Result<(), String> {
+    let words: Vec<_> = command.get_args().map(|word| word.to_string_lossy().into_owned()).collect();
+    let program = Path::new(command.get_program()).file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let told = format!("{program} {}", words.join(" "));
+    eprintln!("\n> {told}");
+    let status = command.status().map_err(|error| format!("cannot start `{told}`: {error}"))?;
+    if status.success() { Ok(()) } else { Err(format!("`{told}` failed ({status})")) }
+}
+
+/// Whether a command can be run and succeeds, in silence.
+pub fn succeeds(mut command: Command) -> bool {
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|s| s.success())
+}
