@@ -2,12 +2,12 @@
 
 use super::{shortest_period, speed_scale, touching_pairs};
 use crate::contact::{Law, Table};
-use crate::engine::{self, Engine, OpenError};
+use crate::engine::{self, Engine, Fault, OpenError};
 use crate::ledger::Ledger;
 use crate::partner::Hosts;
 use std::fmt;
 use std::time::Instant;
-use tsubu_scene::plan::{Damping, Integrator, Method, Plan};
+use tsubu_scene::plan::{Damping, Integrator, Method, Plan, Start};
 
 /// One judgement.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +37,13 @@ impl Verdict {
         self.lines.push(Line { good: true, text, advice: String::new() });
     }
 
+    /// The other lines say why; without them the user would be left with the blow-up alone.
+    fn fail(&mut self, what: &str, fault: &Fault) {
+        let text = fault.to_string();
+        let reason = text.split("\nhint: ").next().unwrap_or_default();
+        self.judge(false, format!("{what}: {reason}"), || "what the warnings above name".to_owned());
+    }
+
     fn judge(&mut self, good: bool, text: String, advice: impl FnOnce() -> String) {
         let advice = if good { String::new() } else { advice() };
         self.lines.push(Line { good, text, advice });
@@ -58,17 +65,17 @@ impl fmt::Display for Verdict {
 /// Builds the scene, judges it, and measures for a moment how fast this machine moves it.
 pub fn check(plan: &Plan) -> Result<Verdict, OpenError> {
     let mut hosts = Hosts::new(&plan.hosts);
-    let mut engine = engine::open(plan, &hosts)?;
+    let mut engine = match engine::open(plan, &hosts) {
+        Err(OpenError::Settling(fault)) => return unsettled(plan, &hosts, &fault),
+        other => other?,
+    };
     let mut verdict = verdict(plan, &hosts, &*engine);
     let mut ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
     let total = plan.duration / engine.time_step();
     let (mut block, begun) = (64, Instant::now());
     while begun.elapsed().as_millis() < 300 && (engine.steps() as f64) < total {
         if let Err(fault) = engine.advance(block, &mut hosts, &mut ledger) {
-            // The lines above say why; without them the user would be left with the blow-up alone.
-            let text = fault.to_string();
-            let (what, hint) = text.split_once("\nhint: ").unwrap_or((&text, "`dem.time-step`"));
-            verdict.judge(false, format!("the run would fail: {what}"), || hint.to_owned());
+            verdict.fail("the run would fail", &fault);
             return Ok(verdict);
         }
         block *= 2;
@@ -87,6 +94,20 @@ pub fn check(plan: &Plan) -> Result<Verdict, OpenError> {
         let all = per_step * seconds / engine.time_step() * runs as f64 / rayon::current_num_threads() as f64;
         verdict.say(format!("time: at most about {} for `tsubu response` ({runs} runs side by side)", human_time(all)));
     }
+    Ok(verdict)
+}
+
+/// The judgement on grains that do not come to rest: the same grains in rows say why.
+fn unsettled(plan: &Plan, hosts: &Hosts, fault: &Fault) -> Result<Verdict, OpenError> {
+    let mut plan = plan.clone();
+    for group in plan.particles.values_mut() {
+        if matches!(group.start, Start::Settled { .. }) {
+            group.start = Start::Rows { spacing: 1.0, jitter: 0.0, speed: 0.0 };
+        }
+    }
+    let engine = engine::open(&plan, hosts)?;
+    let mut verdict = verdict(&plan, hosts, &*engine);
+    verdict.fail("settling before time 0 would fail", fault);
     Ok(verdict)
 }
 
