@@ -19,8 +19,8 @@ Examples:
   tsubu run damper.toml -o few --set particles.balls.count=10
   tsubu run damper.toml --resume                            go on after Ctrl-C or a power cut
 
-The folder holds scene.toml (as run, with every default), summary.json, history.csv, frames/ (for ParaView)
-and checkpoint/. `tsubu report DIR` makes figures and a page of it.")]
+The folder holds scene.toml (as run, with every default), summary.json, history.csv,
+frames/ (for ParaView) and checkpoint/. `tsubu report DIR` makes figures and a page of it.")]
 pub struct Options {
     #[command(flatten)]
     scene: SceneOptions,

@@ -141,7 +141,8 @@ fn a_run_that_blows_up_keeps_what_it_has() {
     assert!(ended.stderr.contains("hint: what was computed so far is kept in blown"), "{}", ended.stderr);
     let summary = desk.summary("blown");
     assert_eq!(summary["status"], "failed");
-    assert!(summary["warnings"][0].as_str().unwrap().starts_with("step "));
+    let warnings = summary["warnings"].as_array().unwrap();
+    assert!(warnings.iter().any(|w| w.as_str().unwrap().starts_with("step ")), "{warnings:?}");
     assert!(desk.read("blown/history.csv").lines().count() > 1);
 }
 
