@@ -49,6 +49,8 @@ pub struct Chunk {
     pub history: [Column; HISTORY],
     /// Result: normal force [N], positive pushes the bodies apart.
     pub normal_force: Column,
+    /// Result: the part of the normal force that damps [N].
+    pub damping_force: Column,
     /// Result: local viscous coefficient of the normal damping [N.s/m], for tangential dashpots.
     pub dashpot: Column,
     /// Result: tangential force on the first body [N].
@@ -87,6 +89,7 @@ impl Default for Chunk {
             mass: ZERO,
             history: [ZERO; HISTORY],
             normal_force: ZERO,
+            damping_force: ZERO,
             dashpot: ZERO,
             tangential_force: VECTOR,
             torque: VECTOR,
@@ -102,7 +105,7 @@ impl Chunk {
     /// Sets the results of all rows to zero.
     pub fn clear_results(&mut self) {
         let n = self.len;
-        for column in [&mut self.normal_force, &mut self.dashpot, &mut self.stored]
+        for column in [&mut self.normal_force, &mut self.damping_force, &mut self.dashpot, &mut self.stored]
             .into_iter()
             .chain([&mut self.lost_normal, &mut self.lost_sliding, &mut self.lost_rolling])
             .chain(&mut self.tangential_force)

@@ -1,8 +1,9 @@
 //! The contact table: everything about a pair of species that does not change during a run.
 
 use super::law::Law;
+use crate::partner::Hosts;
 use std::collections::BTreeMap;
-use tsubu_scene::plan::{Material, MaterialPair, Plan};
+use tsubu_scene::plan::{Material, MaterialPair, Plan, Wall};
 
 /// Grains of one kind, or the walls of one material.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,8 +12,17 @@ pub struct Species {
     pub material: String,
     /// Radius [m]; infinite for walls.
     pub radius: f64,
-    /// Mass [kg]; infinite for walls.
+    /// Mass [kg]; infinite for walls that nothing light carries, the host's effective mass for those on a host.
     pub mass: f64,
+}
+
+impl Species {
+    /// The species of a wall. A wall on a light structure gives way in an impact: its mass is the one the structure shows.
+    fn of_wall(wall: &Wall, hosts: &Hosts) -> Self {
+        let host = wall.host.as_deref().and_then(|name| hosts.index(name));
+        let mass = host.map_or(f64::INFINITY, |index| hosts.list[index].effective_mass());
+        Self { material: wall.material.clone(), radius: f64::INFINITY, mass }
+    }
 }
 
 /// Two species in contact.
@@ -67,23 +77,23 @@ impl Pair {
 /// All pairs of species.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
-    /// The species: grain groups in the order of their names, then one a wall material.
+    /// The species: grain groups in the order of their names, then the kinds of walls.
     pub species: Vec<Species>,
     pairs: Vec<Pair>,
 }
 
 impl Table {
     /// The table of a plan under a law.
-    pub fn new(plan: &Plan, law: &Law) -> Self {
+    pub fn new(plan: &Plan, law: &Law, hosts: &Hosts) -> Self {
         let mut species: Vec<Species> = plan
             .particles
             .values()
             .map(|p| Species { material: p.material.clone(), radius: 0.5 * p.diameter, mass: p.mass })
             .collect();
         for wall in plan.walls.values() {
-            if !species.iter().any(|s| s.radius.is_infinite() && s.material == wall.material) {
-                let material = wall.material.clone();
-                species.push(Species { material, radius: f64::INFINITY, mass: f64::INFINITY });
+            let kind = Species::of_wall(wall, hosts);
+            if !species.contains(&kind) {
+                species.push(kind);
             }
         }
         let mut pairs = Vec::with_capacity(species.len() * species.len());
@@ -105,10 +115,10 @@ impl Table {
         &self.pairs[a as usize * self.species.len() + b as usize]
     }
 
-    /// Index of the wall species of a material.
-    pub fn wall_species(&self, material: &str) -> u32 {
-        let found = self.species.iter().position(|s| s.radius.is_infinite() && s.material == material);
-        found.unwrap_or_default() as u32
+    /// Index of the species of a wall of the plan.
+    pub fn wall_species(&self, wall: &Wall, hosts: &Hosts) -> u32 {
+        let kind = Species::of_wall(wall, hosts);
+        self.species.iter().position(|s| *s == kind).unwrap_or_default() as u32
     }
 }
 

@@ -92,6 +92,7 @@ impl Part for Viscous {
             let elastic = chunk.normal_force[i];
             let total = (elastic + chunk.dashpot[i] * chunk.closing[i]).max(floor);
             chunk.normal_force[i] = total;
+            chunk.damping_force[i] = total - elastic;
             // What is lost is whatever the contact takes from the motion beyond what it stores.
             chunk.lost_normal[i] = (total - elastic) * chunk.closing[i];
         }

@@ -83,7 +83,7 @@ impl DemEngine {
             return Err(refuse("contact.tangential.mindlin".to_owned(), text.to_owned()).into());
         }
         let law = Law::new(contact);
-        let table = Table::new(plan, &law);
+        let table = Table::new(plan, &law, hosts);
         let (grains, settle) = place::grains(plan, hosts).map_err(|(key, text)| refuse(key, text))?;
         let mut planes = Vec::new();
         let mut outlines = Vec::new();
@@ -97,7 +97,7 @@ impl DemEngine {
                     displacement: DVec3::ZERO,
                     velocity: DVec3::ZERO,
                     carrier: carrier.clone(),
-                    species: table.wall_species(&w.material),
+                    species: table.wall_species(w, hosts),
                     wall,
                 });
             }

@@ -26,7 +26,15 @@ impl DemEngine {
         self.touch_all();
         self.check_overlap()?;
         self.accelerate();
-        integrate::after(&mut self.grains, &self.halves, self.integrator, self.dt);
+        let correction = integrate::after(
+            &mut self.grains,
+            &self.halves,
+            self.integrator,
+            self.dt,
+            &self.forces.lossy,
+            &self.forces.torque,
+        );
+        self.forces.sums.correct(correction);
         self.reactions(hosts);
         hosts.after(time, self.dt, &self.host_forces, ledger);
         self.close_books(ledger);

@@ -22,6 +22,8 @@ pub(super) struct Forces {
     pub force: Vec<DVec3>,
     /// Contact torque on every grain [N.m].
     pub torque: Vec<DVec3>,
+    /// The part of the force that takes energy away: damping and friction [N].
+    pub lossy: Vec<DVec3>,
     /// Force of the grains on every plane [N].
     pub plane_force: Vec<DVec3>,
     /// Sums over all contacts.
@@ -50,12 +52,23 @@ impl Sums {
         self.contacts += other.contacts;
         self.deepest = self.deepest.max(other.deepest);
     }
+
+    /// Adds a correction of the losses [W], to each in proportion.
+    pub fn correct(&mut self, correction: f64) {
+        let total: f64 = self.lost.iter().map(|l| l.abs()).sum();
+        if total > 0.0 {
+            for lost in &mut self.lost {
+                *lost += correction * lost.abs() / total;
+            }
+        }
+    }
 }
 
 /// Force and torques of one touching pair.
 #[derive(Clone, Copy, Debug, Default)]
 struct Action {
     force: DVec3,
+    lossy: DVec3,
     torque: [DVec3; 2],
 }
 
@@ -104,6 +117,8 @@ impl Touch {
         let n = scene.grains.len();
         forces.force.clear();
         forces.force.resize(n, DVec3::ZERO);
+        forces.lossy.clear();
+        forces.lossy.resize(n, DVec3::ZERO);
         forces.torque.clear();
         forces.torque.resize(n, DVec3::ZERO);
         forces.plane_force.clear();
@@ -127,6 +142,8 @@ impl Touch {
                 let action = self.block.action(r, scene.rotation);
                 forces.force[i] += action.force;
                 forces.force[j] -= action.force;
+                forces.lossy[i] += action.lossy;
+                forces.lossy[j] -= action.lossy;
                 if scene.rotation {
                     forces.torque[i] += action.torque[0];
                     forces.torque[j] += action.torque[1];
@@ -156,14 +173,17 @@ impl Touch {
             .collect();
         sums.iter().for_each(|s| forces.sums.add(s));
         let (start, gather, actions) = (&self.gather_start, &self.gather, &self.actions);
-        forces.force.par_iter_mut().zip(forces.torque.par_iter_mut()).enumerate().with_min_len(256).for_each(
-            |(i, (force, torque))| {
+        let Forces { force, torque, lossy, .. } = forces;
+        force.par_iter_mut().zip(torque.par_iter_mut()).zip(lossy.par_iter_mut()).enumerate().with_min_len(256).for_each(
+            |(i, ((force, torque), lossy))| {
                 for &entry in &gather[start[i] as usize..start[i + 1] as usize] {
                     let action = &actions[(entry >> 1) as usize];
                     if entry & 1 == 0 {
                         *force += action.force;
+                        *lossy += action.lossy;
                     } else {
                         *force -= action.force;
+                        *lossy -= action.lossy;
                     }
                     *torque += action.torque[(entry & 1) as usize];
                 }
@@ -201,6 +221,7 @@ impl Touch {
                 let [i, k] = pairs[self.block.row[r] as usize].map(|i| i as usize);
                 let action = self.block.action(r, scene.rotation);
                 forces.force[i] += action.force;
+                forces.lossy[i] += action.lossy;
                 forces.plane_force[k] -= action.force;
                 if scene.rotation {
                     forces.torque[i] += action.torque[0];
@@ -350,12 +371,13 @@ impl Block {
         let normal = Chunk::vector(&chunk.normal, r);
         let tangential = Chunk::vector(&chunk.tangential_force, r);
         let force = tangential - normal * chunk.normal_force[r];
+        let lossy = tangential - normal * chunk.damping_force[r];
         if !rotation {
-            return Action { force, torque: [DVec3::ZERO; 2] };
+            return Action { force, lossy, torque: [DVec3::ZERO; 2] };
         }
         let turn = normal.cross(tangential);
         let rolling = Chunk::vector(&chunk.torque, r);
-        Action { force, torque: [turn * self.arm[r][0] + rolling, turn * self.arm[r][1] - rolling] }
+        Action { force, lossy, torque: [turn * self.arm[r][0] + rolling, turn * self.arm[r][1] - rolling] }
     }
 }
 

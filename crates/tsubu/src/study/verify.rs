@@ -2,6 +2,10 @@
 
 mod bench;
 mod contact;
+mod drop;
+mod host;
+mod impact_damper;
+mod lump;
 
 use tsubu_frame::Claim;
 
@@ -13,7 +17,7 @@ pub struct Case {
     pub study: &'static str,
     /// One line.
     pub about: &'static str,
-    /// Minutes rather than seconds: only with `--all`, or when asked for by its own name.
+    /// Minutes rather than seconds: only with `--all`, or when its name or its study's is given.
     pub long: bool,
     /// Runs it. The factor multiplies the constants of the contact law; 1 but in the tests that show that the
     /// claims can fail.
@@ -21,13 +25,25 @@ pub struct Case {
 }
 
 /// All cases, in the order they are listed and run.
-pub static CASES: &[Case] = &[Case {
-    name: "restitution",
-    study: "contact",
-    about: "V-05: restitution in = restitution out, for every damping form, at wall and pair",
-    long: false,
-    run: contact::restitution,
-}];
+pub static CASES: &[Case] = &[
+    quick("restitution", "contact", "V-05: restitution in = restitution out, every damping form", contact::restitution),
+    quick("drop-dem", "drop", "V-06, A-F8: a ball dropped in a still box, by DEM", drop::dem),
+    quick("drop-lattice", "drop", "A-F8: the same by the automaton", drop::lattice),
+    quick("lump", "shaken", "V-39: an inelastic ball locks to a shaken floor", lump::locking),
+    quick("impact-damper", "damper", "V-60: one ball, two impacts a cycle", impact_damper::symmetric),
+    quick("loss-factor", "damper", "the empty structure's loss factor by three ways", host::loss_factor),
+    quick("added-mass", "damper", "V-65, A-7.1: a bed at rest is an added mass", host::added_mass),
+    quick("ring-down", "damper", "loss factor with balls, driven and ringing down", host::loss_factor_with_grains),
+];
+
+const fn quick(
+    name: &'static str,
+    study: &'static str,
+    about: &'static str,
+    run: fn(f64) -> Result<Vec<Claim>, String>,
+) -> Case {
+    Case { name, study, about, long: false, run }
+}
 
 /// The cases that the given names choose: case names or study names; none given means all quick ones.
 /// Fails with the first name that is neither.
@@ -38,7 +54,7 @@ pub fn chosen(names: &[String], all: bool) -> Result<Vec<&'static Case>, String>
     let mut chosen = Vec::new();
     for name in names {
         let before = chosen.len();
-        chosen.extend(CASES.iter().filter(|c| c.name == name || (c.study == name && (all || !c.long))));
+        chosen.extend(CASES.iter().filter(|c| c.name == name || c.study == name));
         if chosen.len() == before {
             return Err(format!("there is no verification case or study `{name}`; `tsubu verify --list` shows them"));
         }
