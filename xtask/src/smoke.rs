@@ -2,7 +2,6 @@
 
 use crate::shell::{cargo, cargo_path, command, root, run};
 use std::fs;
-use std::path::PathBuf;
 
 /// Long enough for balls to meet; short enough for all scenes in a minute.
 const DURATION: &str = "duration=0.05 s";
@@ -10,11 +9,8 @@ const DURATION: &str = "duration=0.05 s";
 /// Runs every scene for a moment, by every step that a user takes.
 pub fn smoke() -> Result<(), String> {
     cargo(&["build", "--package", "tsubu-cli", "--quiet"])?;
-    let out = root().join("target/smoke");
-    for scene in scenes()? {
-        let name = scene.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let folder = out.join(name);
-        let (scene, folder) = (scene.to_string_lossy(), folder.to_string_lossy());
+    for name in scenes()? {
+        let (scene, folder) = (format!("scenes/{name}.toml"), format!("target/smoke/{name}"));
         tsubu(&["check", &scene])?;
         tsubu(&["run", &scene, "--set", DURATION, "--output", &folder, "--overwrite", "--quiet"])?;
         tsubu(&["report", &folder])?;
@@ -28,14 +24,13 @@ fn tsubu(words: &[&str]) -> Result<(), String> {
     run(command(&cargo_path(), &all))
 }
 
-/// Every scene, in order.
-fn scenes() -> Result<Vec<PathBuf>, String> {
+/// The name of every scene, in order.
+fn scenes() -> Result<Vec<String>, String> {
     let entries = fs::read_dir(root().join("scenes")).map_err(|error| format!("cannot list scenes/: {error}"))?;
-    let mut scenes: Vec<PathBuf> = entries
-        .flatten()
-        .map(|entry| entry.path())
-        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
-        .collect();
-    scenes.sort();
-    if scenes.is_empty() { Err("there are no scenes".to_owned()) } else { Ok(scenes) }
+    let files =
+        entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|e| e == "toml"));
+    let mut names: Vec<String> =
+        files.filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned())).collect();
+    names.sort();
+    if names.is_empty() { Err("there are no scenes".to_owned()) } else { Ok(names) }
 }

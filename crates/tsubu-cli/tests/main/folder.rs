@@ -1,4 +1,4 @@
-use crate::support::{Desk, SCENE};
+use crate::support::{Desk, SCENE, is};
 
 #[test]
 fn a_run_folder_holds_what_the_contract_says() {
@@ -10,14 +10,14 @@ fn a_run_folder_holds_what_the_contract_says() {
     {
         assert!(files.contains(&format!("out/balls/{name}")), "{name} is not in {files:?}");
     }
-    assert_eq!(files.iter().filter(|f| f.contains("frames/grains_") && f.ends_with(".vtp")).count(), 6);
-    assert!(files.iter().any(|f| f.ends_with(".xyz")), "{files:?}");
+    assert_eq!(files.iter().filter(|f| f.contains("frames/grains_") && is(f, "vtp")).count(), 6);
+    assert!(files.iter().any(|f| is(f, "xyz")), "{files:?}");
     assert!(desk.read("out/balls/history.csv").starts_with("time [s],"));
     assert_eq!(desk.read("out/balls/history.csv").lines().count(), 1 + 51);
     assert!(!desk.path("out/balls/report.html").exists());
     desk.done("report out/balls");
     assert!(desk.path("out/balls/report.html").exists());
-    assert!(desk.files().iter().any(|f| f.starts_with("out/balls/figures/") && f.ends_with(".svg")));
+    assert!(desk.files().iter().any(|f| f.starts_with("out/balls/figures/") && is(f, "svg")));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-use crate::support::{Desk, SCENE};
+use crate::support::{Desk, SCENE, is};
 use insta::assert_snapshot;
 use std::fs;
 use std::process::Command;
@@ -163,6 +163,6 @@ fn a_full_disk() {
     assert!(ended.stderr.starts_with("error: cannot write "), "{}", ended.stderr);
     assert!(ended.stderr.contains("hint: the disk is full"), "{}", ended.stderr);
     assert!(!ended.stderr.contains("panicked"), "{}", ended.stderr);
-    assert!(files.iter().all(|file| !file.ends_with(".tmp")), "half-written: {files:?}");
+    assert!(files.iter().all(|file| !is(file, "tmp")), "half-written: {files:?}");
     assert!(unmounted.success());
 }

@@ -158,11 +158,16 @@ fn list(root: &Path, folder: &Path, found: &mut Vec<String>) {
     }
 }
 
+/// Whether a file has this extension.
+pub fn is(file: &str, extension: &str) -> bool {
+    Path::new(file).extension().is_some_and(|found| found == extension)
+}
+
 /// Waits for a file to appear.
 pub fn wait_for(file: &Path) {
     let begun = Instant::now();
     while !file.exists() {
-        assert!(begun.elapsed() < Duration::from_secs(60), "{} never came", file.display());
+        assert!(begun.elapsed() < Duration::from_mins(1), "{} never came", file.display());
         std::thread::sleep(Duration::from_millis(2));
     }
 }
