@@ -14,7 +14,7 @@
 //! that rest on the floor, straight or in columns, are one body (`rest`).
 //!
 //! Books are kept in whole numbers: twice the energy over m u^2, and momentum over m u in the basis of
-//! [`Vector`](super::direction::Vector).
+//! [`Vector`].
 
 pub mod ball_collision;
 pub mod box_motion;
