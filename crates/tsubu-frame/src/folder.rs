@@ -24,6 +24,7 @@ const OURS: &[&str] = &[
     "frames",
     "figures",
     "checkpoint",
+    "progress.jsonl",
 ];
 
 /// What to do with a folder that has something in it.

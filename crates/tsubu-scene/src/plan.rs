@@ -406,7 +406,7 @@ pub struct Dem {
     pub steps_per_contact: f64,
     /// Time integration.
     pub integrator: Integrator,
-    /// Extra reach of the candidate search over the smallest diameter [-]; any value gives the same bits.
+    /// Extra reach of the candidate search over the smallest diameter [-]; changes speed, and above 96 grains the last bits.
     pub skin: f64,
     /// Overlap over diameter at which the run stops as blown up [-].
     pub largest_overlap: f64,

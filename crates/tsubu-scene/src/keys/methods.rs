@@ -22,7 +22,7 @@ pub(super) static DEM: &[Key] = &[
     Key::new(
         "skin",
         Kind::Quantity(&NUMBER),
-        "Extra reach of the candidate search over the smallest diameter; changes speed, not results",
+        "Extra reach of the candidate search over the smallest diameter; changes speed, and above 96 grains the last bits",
     )
     .default("0.3")
     .at_least(0.0)
@@ -51,7 +51,8 @@ pub(super) static LATTICE: &[Key] = &[
     Key::new("time-step", Kind::Quantity(&TIME), "Time step").default("'0.1 ms'").above(0.0),
     Key::new("oblique-gravity", Kind::OneOf(OBLIQUE_GRAVITY), "Gravity along the oblique directions")
         .default("'projected'"),
-    Key::new("collision", Kind::OneOf(COLLISION), "Who changes in a collision of two balls").default("'pairwise'"),
+    Key::new("collision", Kind::OneOf(COLLISION), "Who changes in a collision of two balls")
+        .derived("pairwise in mode `extended`, literal in `literal`"),
     Key::new(
         "rebound-scatter",
         Kind::Flag,

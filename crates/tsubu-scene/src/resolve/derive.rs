@@ -135,7 +135,9 @@ fn settings(resolved: &mut toml::Table) {
         && let Some(mode) = lattice.get("mode").and_then(Value::as_str)
     {
         let extended = mode == "extended";
+        let collision = if extended { "pairwise" } else { "literal" };
         lattice.entry("resting-impulses").or_insert(Value::Boolean(extended));
+        lattice.entry("collision").or_insert(Value::String(collision.to_string()));
     }
     if let (Some(output), Some(duration)) = (resolved.get_mut("output").and_then(Value::as_table_mut), duration) {
         output.entry("history-interval").or_insert(Value::Float(duration / 1000.0));

@@ -52,7 +52,10 @@ impl Part for Mindlin {
                 let flat = old - normal * old.dot(normal);
                 // A shrinking contact disc cannot hold the force that a larger one held.
                 let shrink = (stiffness / old_stiffness).min(1.0);
-                spring = flat * (shrink * (squared / flat.length_squared()).sqrt());
+                let remaining = flat.length_squared();
+                if remaining > 0.0 {
+                    spring = flat * (shrink * (squared / remaining).sqrt());
+                }
             }
             spring -= slip * (stiffness * dt);
             let mut total = spring - slip * (chunk.dashpot[i] * chunk.shear_damping[i]);

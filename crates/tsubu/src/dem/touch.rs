@@ -174,8 +174,13 @@ impl Touch {
         sums.iter().for_each(|s| forces.sums.add(s));
         let (start, gather, actions) = (&self.gather_start, &self.gather, &self.actions);
         let Forces { force, torque, lossy, .. } = forces;
-        force.par_iter_mut().zip(torque.par_iter_mut()).zip(lossy.par_iter_mut()).enumerate().with_min_len(256).for_each(
-            |(i, ((force, torque), lossy))| {
+        force
+            .par_iter_mut()
+            .zip(torque.par_iter_mut())
+            .zip(lossy.par_iter_mut())
+            .enumerate()
+            .with_min_len(256)
+            .for_each(|(i, ((force, torque), lossy))| {
                 for &entry in &gather[start[i] as usize..start[i + 1] as usize] {
                     let action = &actions[(entry >> 1) as usize];
                     if entry & 1 == 0 {
@@ -187,8 +192,7 @@ impl Touch {
                     }
                     *torque += action.torque[(entry & 1) as usize];
                 }
-            },
-        );
+            });
     }
 
     /// Lists the pairs of every grain, in the order of the pairs.

@@ -13,19 +13,18 @@ pub use tasks::{Point, measure};
 
 use super::cases::{Case, cases};
 use crate::engine::OpenError;
-use crate::partner::Hosts;
 use crate::run::{RunError, Watcher, scene_hash};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{File, OpenOptions};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 use tsubu_frame::{Existing, FileError, RunFolder, State, Status, Summary};
-use tsubu_scene::{Plan, Scene};
+use tsubu_scene::{Plan, Scene, plan};
 
 /// Why there is no response.
 #[derive(Debug, thiserror::Error)]
@@ -57,80 +56,150 @@ struct Key {
 /// Computes the frequency response of a scene into `folder`. An existing folder of the same scene is gone on with.
 pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Summary, ResponseError> {
     let begun = Instant::now();
-    let plan = scene.plan();
-    let wanted = plan.response.clone().ok_or_else(|| {
-        ResponseError::Scene("the scene has no `[response]`: say which frequencies, for example `frequency-ratio = { from = 0.85, to = 1.15, step = 0.01 }`".to_owned())
-    })?;
-    let reference = tasks::reference_frequency(plan, &wanted.host).map_err(ResponseError::Scene)?;
-    let list = cases(&wanted.vary);
-    let plans = case_plans(scene, &list)?;
+    let task = Task::new(scene)?;
     let resolved = scene.resolved_toml();
     let earlier = earlier(folder, &resolved, overwrite)?;
-    let mut beds = Vec::new();
-    for case in 0..plans.len() {
-        for seed in 0..wanted.seeds {
-            beds.push((case, seed));
-        }
-    }
-    let fail = |case: usize, error: RunError| ResponseError::Run { case: list[case].name.clone(), error };
-    let settled: BTreeMap<(usize, u32), State> = beds
-        .par_iter()
-        .map(|&(case, seed)| {
-            let bed = tasks::bed(&plans[case], seed).map_err(|e| fail(case, e.into()))?;
-            Ok(((case, seed), bed))
-        })
-        .collect::<Result<_, ResponseError>>()?;
+    let keys = task.missing(earlier.as_ref());
+    let beds = task.settle(&keys)?;
     // Only now, so that a scene that a method refuses leaves nothing behind.
-    let (folder, done) = open_folder(folder, earlier, &resolved, overwrite)?;
-    let mut keys: Vec<Key> = Vec::new();
-    for &(case, seed) in &beds {
-        for frequency in 0..wanted.frequency_ratio.len() {
-            let key = Key { case, seed, frequency };
-            if !done.contains_key(&key) {
-                keys.push(key);
+    let (folder, mut points) = open_folder(folder, earlier, &resolved, overwrite)?;
+    let journal = Mutex::new(journal(&folder)?);
+    let record = |key: &Key, point: &Point| -> Result<(), ResponseError> {
+        if let Ok(mut file) = journal.lock() {
+            let line = serde_json::to_string(&(key, point)).unwrap_or_default();
+            writeln!(file, "{line}").map_err(FileError::write(&folder.file("progress.jsonl")))?;
+        }
+        Ok(())
+    };
+    points.extend(task.measure(&keys, &beds, &record, watcher)?);
+    let status = if points.len() < task.total() { Status::Interrupted } else { Status::Finished };
+    let results = task.results(&points);
+    if status == Status::Finished {
+        task.film(&results, &folder)?;
+    }
+    Ok(write::write(&folder, scene, &task.plans, &results, status, begun.elapsed().as_secs_f64())?)
+}
+
+/// The curves of a scene's response, without any file.
+pub fn curves(scene: &Scene) -> Result<Vec<CaseResult>, ResponseError> {
+    let task = Task::new(scene)?;
+    let keys = task.missing(None);
+    let beds = task.settle(&keys)?;
+    let never = AtomicBool::new(false);
+    let watcher = Watcher { interrupted: &never, progress: &|_| {} };
+    Ok(task.results(&task.measure(&keys, &beds, &|_, _| Ok(()), &watcher)?))
+}
+
+type Done = BTreeMap<Key, Point>;
+
+/// Settled beds by case and seed.
+type Beds = BTreeMap<(usize, u32), State>;
+
+/// What a response has to compute.
+struct Task {
+    wanted: plan::Response,
+    reference: f64,
+    cases: Vec<Case>,
+    plans: Vec<Plan>,
+}
+
+impl Task {
+    fn new(scene: &Scene) -> Result<Self, ResponseError> {
+        let plan = scene.plan();
+        let wanted = plan.response.clone().ok_or_else(|| {
+            ResponseError::Scene("the scene has no `[response]`: say which frequencies, for example `frequency-ratio = { from = 0.85, to = 1.15, step = 0.01 }`".to_owned())
+        })?;
+        let reference = tasks::reference_frequency(plan, &wanted.host).map_err(ResponseError::Scene)?;
+        let cases = cases(&wanted.vary);
+        let plans = case_plans(scene, &cases)?;
+        Ok(Self { wanted, reference, cases, plans })
+    }
+
+    fn total(&self) -> usize {
+        self.plans.len() * self.wanted.seeds as usize * self.wanted.frequency_ratio.len()
+    }
+
+    /// The runs that are not done, long ones first, so that no core is left with one at the end.
+    fn missing(&self, done: Option<&Done>) -> Vec<Key> {
+        let mut keys: Vec<Key> = Vec::new();
+        for case in 0..self.plans.len() {
+            for seed in 0..self.wanted.seeds {
+                for frequency in 0..self.wanted.frequency_ratio.len() {
+                    keys.push(Key { case, seed, frequency });
+                }
             }
         }
+        keys.retain(|key| done.is_none_or(|done| !done.contains_key(key)));
+        keys.sort_by_key(|k| std::cmp::Reverse(tasks::weight(&self.plans[k.case])));
+        keys
     }
-    // Long runs first, so that no core is left with one at the end.
-    keys.sort_by_key(|k| std::cmp::Reverse(tasks::weight(&plans[k.case])));
-    let total = keys.len() + done.len();
-    let counter = AtomicUsize::new(done.len());
-    let journal = Mutex::new(journal(&folder)?);
-    let fresh: Vec<(Key, Point)> = keys
-        .par_iter()
-        .map(|key| {
-            if watcher.interrupted.load(Ordering::Relaxed) {
-                return Ok(None);
-            }
-            let frequency = reference * wanted.frequency_ratio[key.frequency];
-            let bed = &settled[&(key.case, key.seed)];
-            let point =
-                measure(&plans[key.case], &wanted, key.seed, bed, frequency).map_err(|e| fail(key.case, e.into()))?;
-            if let Ok(mut file) = journal.lock() {
-                let line = serde_json::to_string(&(key, &point)).unwrap_or_default();
-                writeln!(file, "{line}").map_err(FileError::write(&folder.file("progress.jsonl")))?;
-            }
-            let finished = counter.fetch_add(1, Ordering::Relaxed) + 1;
-            (watcher.progress)(finished as f64 / total as f64);
-            Ok(Some((*key, point)))
-        })
-        .filter_map(Result::transpose)
-        .collect::<Result<_, ResponseError>>()?;
-    let mut points = done;
-    points.extend(fresh);
-    let status = if points.len() < total { Status::Interrupted } else { Status::Finished };
-    let results: Vec<CaseResult> = list
-        .iter()
-        .zip(&plans)
-        .enumerate()
-        .map(|(index, (case, plan))| {
-            let of_case: Vec<(usize, &Point)> =
-                points.iter().filter(|(k, _)| k.case == index).map(|(k, p)| (k.frequency, p)).collect();
-            CaseResult::new(&case.name, plan, reference, &wanted.frequency_ratio, &of_case)
-        })
-        .collect();
-    let summary = write::write(&folder, scene, &plans, &results, status, begun.elapsed().as_secs_f64())?;
-    Ok(summary)
+
+    fn fail(&self, case: usize, error: RunError) -> ResponseError {
+        ResponseError::Run { case: self.cases[case].name.clone(), error }
+    }
+
+    /// Settles the bed of every case and seed among the keys.
+    fn settle(&self, keys: &[Key]) -> Result<Beds, ResponseError> {
+        let needed: BTreeSet<(usize, u32)> = keys.iter().map(|k| (k.case, k.seed)).collect();
+        needed
+            .par_iter()
+            .map(|&(case, seed)| {
+                let bed = tasks::bed(&self.plans[case], seed).map_err(|e| self.fail(case, e.into()))?;
+                Ok(((case, seed), bed))
+            })
+            .collect()
+    }
+
+    /// Runs the keys side by side; `record` hears of every finished one.
+    fn measure(
+        &self,
+        keys: &[Key],
+        beds: &Beds,
+        record: &(dyn Fn(&Key, &Point) -> Result<(), ResponseError> + Sync),
+        watcher: &Watcher,
+    ) -> Result<Done, ResponseError> {
+        let total = self.total();
+        let counter = AtomicUsize::new(total - keys.len());
+        keys.par_iter()
+            .map(|key| {
+                if watcher.interrupted.load(Ordering::Relaxed) {
+                    return Ok(None);
+                }
+                let frequency = self.reference * self.wanted.frequency_ratio[key.frequency];
+                let bed = &beds[&(key.case, key.seed)];
+                let point = measure(&self.plans[key.case], &self.wanted, key.seed, bed, frequency)
+                    .map_err(|e| self.fail(key.case, e.into()))?;
+                record(key, &point)?;
+                let finished = counter.fetch_add(1, Ordering::Relaxed) + 1;
+                (watcher.progress)(finished as f64 / total as f64);
+                Ok(Some((*key, point)))
+            })
+            .filter_map(Result::transpose)
+            .collect()
+    }
+
+    /// Eight pictures of one period of the fullest case at its peak.
+    fn film(&self, results: &[CaseResult], folder: &RunFolder) -> Result<(), ResponseError> {
+        let fullest = results.iter().enumerate().max_by_key(|(_, case)| case.particles);
+        let Some((index, peak)) = fullest.and_then(|(i, case)| Some((i, case.peak?))) else { return Ok(()) };
+        let bed = tasks::bed(&self.plans[index], 0).map_err(|e| self.fail(index, e.into()))?;
+        tasks::film(&self.plans[index], &self.wanted, &bed, self.reference * peak.ratio, folder)
+            .map_err(|e| self.fail(index, e))
+    }
+
+    fn results(&self, points: &Done) -> Vec<CaseResult> {
+        let of_case = |index: usize| -> Vec<(usize, &Point)> {
+            points.iter().filter(|(k, _)| k.case == index).map(|(k, p)| (k.frequency, p)).collect()
+        };
+        self.cases
+            .iter()
+            .zip(&self.plans)
+            .enumerate()
+            .map(|(index, (case, plan))| {
+                CaseResult::new(&case.name, plan, self.reference, &self.wanted.frequency_ratio, &of_case(index))
+            })
+            .collect()
+    }
 }
 
 fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, ResponseError> {
@@ -138,8 +207,6 @@ fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, ResponseError> 
         .map(|case| Ok(case.scene(scene).map_err(|c| ResponseError::Scene(c.to_string()))?.plan().clone()))
         .collect()
 }
-
-type Done = BTreeMap<Key, Point>;
 
 /// First line of the journal: which scene it belongs to.
 fn mark(resolved: &str) -> String {
@@ -189,9 +256,4 @@ impl From<OpenError> for ResponseError {
     fn from(error: OpenError) -> Self {
         Self::Scene(error.to_string())
     }
-}
-
-/// Hosts of a plan; kept here for callers that only want natural frequencies.
-pub fn hosts(plan: &Plan) -> Hosts {
-    Hosts::new(&plan.hosts)
 }

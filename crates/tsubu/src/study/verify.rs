@@ -2,6 +2,7 @@
 
 mod bench;
 mod contact;
+mod damper_2003;
 mod drop;
 mod host;
 mod impact_damper;
@@ -34,6 +35,20 @@ pub static CASES: &[Case] = &[
     quick("loss-factor", "damper", "the empty structure's loss factor by three ways", host::loss_factor),
     quick("added-mass", "damper", "V-65, A-7.1: a bed at rest is an added mass", host::added_mass),
     quick("ring-down", "damper", "loss factor with balls, driven and ringing down", host::loss_factor_with_grains),
+    quick("figure-8-dem", "damper-2003", "A-F8: drop test by DEM", drop::dem),
+    quick("figure-8-lattice", "damper-2003", "A-F8: drop test by the automaton", drop::lattice),
+    quick("figure-9", "damper-2003", "A-F9, A-F10: shaken box, landing and lift-off", damper_2003::figure_9),
+    long("figure-3a", "damper-2003", "A-F3a: response by DEM, literal law", damper_2003::figure_3a),
+    long("figure-3b", "damper-2003", "A-F3b: the same with more wall friction", damper_2003::figure_3b),
+    long("figure-3-extended", "damper-2003", "A-F3: response by DEM, extended law", damper_2003::figure_3_extended),
+    long(
+        "figure-11-literal",
+        "damper-2003",
+        "A-F11: response by the automaton, literal",
+        damper_2003::figure_11_literal,
+    ),
+    long("figure-11-extended", "damper-2003", "A-F11: the same, extended", damper_2003::figure_11_extended),
+    long("figure-12", "damper-2003", "A-F12: cost of both methods against N", damper_2003::figure_12),
 ];
 
 const fn quick(
@@ -43,6 +58,15 @@ const fn quick(
     run: fn(f64) -> Result<Vec<Claim>, String>,
 ) -> Case {
     Case { name, study, about, long: false, run }
+}
+
+const fn long(
+    name: &'static str,
+    study: &'static str,
+    about: &'static str,
+    run: fn(f64) -> Result<Vec<Claim>, String>,
+) -> Case {
+    Case { name, study, about, long: true, run }
 }
 
 /// The cases that the given names choose: case names or study names; none given means all quick ones.

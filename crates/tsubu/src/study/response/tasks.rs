@@ -1,12 +1,13 @@
 //! One run of a response: a bed, a frequency, a measurement.
 
-use crate::engine::{self, OpenError};
+use crate::engine::{self, Engine, OpenError};
 use crate::ledger::{Account, Ledger};
 use crate::partner::Hosts;
+use crate::run::RunError;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::time::Instant;
-use tsubu_frame::State;
+use tsubu_frame::{FrameWriter, RunFolder, State};
 use tsubu_scene::plan::{Plan, Response, Signal, Start};
 
 /// What one run at one frequency gives.
@@ -77,21 +78,11 @@ pub(super) fn bed(plan: &Plan, seed: u32) -> Result<State, OpenError> {
 /// Runs one frequency [Hz] from a settled bed and measures.
 pub fn measure(plan: &Plan, wanted: &Response, seed: u32, bed: &State, frequency: f64) -> Result<Point, OpenError> {
     let begun = Instant::now();
-    let mut plan = seeded(plan, seed);
-    for group in plan.particles.values_mut() {
-        if let Start::Settled { time } = &mut group.start {
-            *time = 0.0;
-        }
-    }
-    let mut hosts = Hosts::new(&plan.hosts);
+    let (mut engine, mut hosts, mut ledger) = open(plan, wanted, seed, bed, frequency)?;
     let host = hosts.index(&wanted.host).unwrap_or_default();
-    hosts.list[host].set_frequency(frequency);
-    let mut engine = engine::open(&plan, &hosts)?;
-    engine.load(bed).map_err(|e| OpenError::Bed(e.to_string()))?;
-    let mut ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
     let dt = engine.time_step();
     let steps = |periods: u32| (f64::from(periods) / (frequency * dt)).round() as u64;
-    let empty = weight(&plan) == 0;
+    let empty = weight(plan) == 0;
     let discard = if empty { wanted.discard_periods_empty } else { wanted.discard_periods };
     engine.advance(steps(discard), &mut hosts, &mut ledger)?;
     let before = Account::ALL.map(|a| ledger.flow(a));
@@ -107,6 +98,49 @@ pub fn measure(plan: &Plan, wanted: &Response, seed: u32, bed: &State, frequency
     let loss = Account::ALL.iter().zip(&flows).filter(|(a, _)| !a.is_work()).map(|(_, f)| f).sum();
     let residual = ledger.residual_relative(&engine::stocks(&*engine, &hosts));
     Ok(Point { frequency, loss, flows, residual, wall: begun.elapsed().as_secs_f64(), ..window.point(frequency) })
+}
+
+/// Everything at time 0 with the bed in place and the host shaken at this frequency [Hz].
+fn open(
+    plan: &Plan,
+    wanted: &Response,
+    seed: u32,
+    bed: &State,
+    frequency: f64,
+) -> Result<(Box<dyn Engine>, Hosts, Ledger), OpenError> {
+    let mut plan = seeded(plan, seed);
+    for group in plan.particles.values_mut() {
+        if let Start::Settled { time } = &mut group.start {
+            *time = 0.0;
+        }
+    }
+    let mut hosts = Hosts::new(&plan.hosts);
+    let host = hosts.index(&wanted.host).unwrap_or_default();
+    hosts.list[host].set_frequency(frequency);
+    let mut engine = engine::open(&plan, &hosts)?;
+    engine.load(bed).map_err(|e| OpenError::Bed(e.to_string()))?;
+    let ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+    Ok((engine, hosts, ledger))
+}
+
+/// Writes nine frames of one period, first and last of equal phase, after the transient has died away.
+pub(super) fn film(
+    plan: &Plan,
+    wanted: &Response,
+    bed: &State,
+    frequency: f64,
+    folder: &RunFolder,
+) -> Result<(), RunError> {
+    let (mut engine, mut hosts, mut ledger) = open(plan, wanted, 0, bed, frequency)?;
+    let step = |periods: f64| (periods / (frequency * engine.time_step())).round() as u64;
+    let begin = f64::from(wanted.discard_periods);
+    let moments: Vec<u64> = (0..=8).map(|k| step(begin + f64::from(k) / 8.0)).collect();
+    let mut frames = FrameWriter::create(folder.path(), plan.output.xyz)?;
+    for moment in moments {
+        engine.advance(moment - engine.steps(), &mut hosts, &mut ledger)?;
+        frames.write(&engine.frame(&hosts))?;
+    }
+    Ok(())
 }
 
 /// Sums over the measured periods.

@@ -18,3 +18,16 @@ pub(super) fn spoil(plan: &mut Plan, factor: f64) {
         *stiffness *= factor;
     }
 }
+
+/// The changes that multiply stiffness and restitution of every material of a scene text.
+pub(super) fn spoiled_materials(text: &str, factor: f64) -> Result<Vec<String>, String> {
+    if factor == 1.0 {
+        return Ok(Vec::new());
+    }
+    let mut changes = Vec::new();
+    for (name, material) in plan(text)?.materials {
+        changes.push(format!("materials.{name}.young-modulus={:e}", material.young_modulus * factor));
+        changes.push(format!("materials.{name}.restitution={}", material.restitution * factor));
+    }
+    Ok(changes)
+}
