@@ -17,7 +17,7 @@ pub fn test() -> Result<(), String> {
     };
     let mut read = command(
         &cargo_path(),
-        &["test", "--package", "tsubu-frame", "--test", "main", "--", "--ignored", "vtk_reads_every_snapshot"],
+        &["test", "--workspace", "--test", "main", "--quiet", "--", "--ignored", "vtk_reads_every_snapshot"],
     );
     read.env("TSUBU_VTK_PYTHON", python);
     run(read)
