@@ -238,7 +238,7 @@ impl Engine for DemEngine {
         reals.extend(self.last_flows.wall_force.to_array());
         reals.push(self.forces.sums.stored);
         state.put_real("dem.flows", reals);
-        let flat = |v: &[DVec3]| v.iter().flat_map(|p| p.to_array()).collect::<Vec<_>>();
+        let flat = |v: &[DVec3]| v.iter().flat_map(DVec3::to_array).collect::<Vec<_>>();
         state.put_real("dem.reference", flat(&self.candidates.reference));
         state.put_real("dem.plane-reference", flat(&self.candidates.plane_reference));
         let held = self.held_history();

@@ -171,7 +171,9 @@ impl Touch {
                 sums
             })
             .collect();
-        sums.iter().for_each(|s| forces.sums.add(s));
+        for part in &sums {
+            forces.sums.add(part);
+        }
         let (start, gather, actions) = (&self.gather_start, &self.gather, &self.actions);
         let Forces { force, torque, lossy, .. } = forces;
         force

@@ -1,7 +1,7 @@
 //! Pairs that are near enough to touch before the list is made again.
 //!
 //! The list holds every pair whose gap is below the skin; it is good until some grain has moved half the skin. Pairs are
-//! sorted, so that the touching ones among them are met in the same order whatever else is in the list. Above [`SMALL`]
+//! sorted, so that the touching ones among them are met in the same order whatever else is in the list. Above `SMALL`
 //! grains a search also sorts the grains, so there the skin decides when their order changes, and with it the last bits.
 
 use super::grid::Grid;

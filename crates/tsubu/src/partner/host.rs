@@ -161,20 +161,8 @@ impl Host {
             let matrix: Vec<f64> = self.mass.iter().zip(&self.damping).map(|(m, c)| m + 0.5 * dt * c).collect();
             self.implicit_inverse = (dt, inverse(&matrix, self.n));
         }
-        let (y, y_rate) = self.base(time);
-        let applied = self.applied(time) + grain_force;
-        let (rhs, rest) = self.work.split_at_mut(self.n);
-        for i in 0..self.n {
-            rest[i] = self.v_half[i] - self.driven[i] * y_rate;
-            rest[self.n + i] = self.q[i] - self.driven[i] * y;
-        }
-        for i in 0..self.n {
-            let row = i * self.n..(i + 1) * self.n;
-            rhs[i] = self.seen[i] * applied
-                - dot(&self.damping[row.clone()], &rest[..self.n])
-                - dot(&self.stiffness[row], &rest[self.n..2 * self.n]);
-        }
-        multiply(&self.implicit_inverse.1, rhs, &mut self.a);
+        self.net_force(time, grain_force, true);
+        multiply(&self.implicit_inverse.1, &self.work[..self.n], &mut self.a);
         for i in 0..self.n {
             self.v[i] = self.v_half[i] + 0.5 * dt * self.a[i];
         }
@@ -250,9 +238,9 @@ impl Host {
                 self.v[i] = v0[i] + fraction * dt * kv[i];
             }
             self.settle_acceleration(time + fraction * dt);
+            kq.copy_from_slice(&self.v);
+            kv.copy_from_slice(&self.a);
             for i in 0..n {
-                kq[i] = self.v[i];
-                kv[i] = self.a[i];
                 dq[i] += weight / 6.0 * kq[i];
                 dv[i] += weight / 6.0 * kv[i];
             }
@@ -297,22 +285,31 @@ impl Host {
         self.force.as_ref().map_or(0.0, |s| value_and_rate(s, time).0)
     }
 
+    /// Puts all forces on the coordinates into the first n entries of `work`; the dampers see the half-step velocities or
+    /// the present ones.
+    fn net_force(&mut self, time: f64, grain_force: f64, half: bool) {
+        let n = self.n;
+        let (y, y_rate) = self.base(time);
+        let applied = self.applied(time) + grain_force;
+        let velocity = if half { &self.v_half } else { &self.v };
+        let (force, rest) = self.work.split_at_mut(n);
+        let (rates, stretches) = rest.split_at_mut(n);
+        for i in 0..n {
+            rates[i] = velocity[i] - self.driven[i] * y_rate;
+            stretches[i] = self.q[i] - self.driven[i] * y;
+        }
+        for (i, force) in force.iter_mut().enumerate() {
+            let row = i * n..(i + 1) * n;
+            *force = self.seen[i] * applied
+                - dot(&self.damping[row.clone()], rates)
+                - dot(&self.stiffness[row], &stretches[..n]);
+        }
+    }
+
     /// Acceleration from the present q, v and grain force.
     fn settle_acceleration(&mut self, time: f64) {
-        let (y, y_rate) = self.base(time);
-        let applied = self.applied(time) + self.grain_force;
-        let (rhs, rest) = self.work.split_at_mut(self.n);
-        for i in 0..self.n {
-            rest[i] = self.v[i] - self.driven[i] * y_rate;
-            rest[self.n + i] = self.q[i] - self.driven[i] * y;
-        }
-        for i in 0..self.n {
-            let row = i * self.n..(i + 1) * self.n;
-            rhs[i] = self.seen[i] * applied
-                - dot(&self.damping[row.clone()], &rest[..self.n])
-                - dot(&self.stiffness[row], &rest[self.n..2 * self.n]);
-        }
-        multiply(&self.mass_inverse, rhs, &mut self.a);
+        self.net_force(time, self.grain_force, false);
+        multiply(&self.mass_inverse, &self.work[..self.n], &mut self.a);
         self.power = self.powers(time);
     }
 

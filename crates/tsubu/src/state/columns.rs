@@ -32,7 +32,7 @@ impl Value for u32 {
 
 impl Value for DVec3 {
     fn put(state: &mut State, name: &str, values: &[Self]) {
-        state.put_real(name, values.iter().flat_map(|v| v.to_array()).collect::<Vec<_>>());
+        state.put_real(name, values.iter().flat_map(DVec3::to_array).collect::<Vec<_>>());
     }
     fn take(state: &State, name: &str) -> Result<Vec<Self>, MissingSection> {
         Ok(state.real(name)?.chunks_exact(3).map(Self::from_slice).collect())

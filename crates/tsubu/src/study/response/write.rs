@@ -16,6 +16,7 @@ fn text(value: &str) -> Cell {
     Cell::Text(value.to_owned())
 }
 
+#[expect(clippy::too_many_lines, reason = "three tables and the summary from one pass over the cases")]
 /// Writes `response.csv`, `cases.csv`, `energy_by_cause.csv`, `check.txt` and `summary.json`.
 pub(super) fn write(
     folder: &RunFolder,
