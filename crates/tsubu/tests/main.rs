@@ -1,4 +1,8 @@
 //! The integration tests of the crate, one binary.
 #![allow(clippy::unwrap_used, reason = "a test that panics is a test that fails")]
 
+mod allocation;
+mod dem;
+mod host;
 mod lattice;
+mod verify;

@@ -219,6 +219,13 @@ impl Engine for DemEngine {
             .map(|i| self.grains.mass[i] * (self.grains.acceleration[i] - self.gravity))
             .collect();
         frame.vector(Kind::Grain, "contact force", "N", vectors(&force));
+        let contacts = self.contact_list();
+        let id = |i: usize| i64::from(self.grains.id[i]);
+        frame.integer(Kind::Contact, "first", "-", contacts.iter().map(|c| id(c.first)).collect());
+        frame.integer(Kind::Contact, "second", "-", contacts.iter().map(|c| c.second.map_or(-1, id)).collect());
+        frame.vector(Kind::Contact, "position", "m", contacts.iter().map(|c| c.position.to_array()).collect());
+        frame.vector(Kind::Contact, "force", "N", contacts.iter().map(|c| c.force.to_array()).collect());
+        frame.scalar(Kind::Contact, "overlap", "m", contacts.iter().map(|c| c.overlap).collect());
         let mut corners = Vec::new();
         let mut index = Vec::new();
         for (k, (outline, carrier)) in self.outlines.iter().enumerate() {

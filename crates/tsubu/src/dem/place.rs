@@ -88,18 +88,24 @@ fn rows(
     jitter: f64,
 ) -> f64 {
     let d = group.diameter;
-    let across = |length: f64, pitch: f64| ((length - d) / pitch + 1e-9).floor() as usize + 1;
+    // How far a grain may be shaken from its place, and how many places fit when the outermost are shaken towards a wall.
+    let free = |pitch: f64| 0.5 * (pitch - d) * jitter * 0.999;
+    let across =
+        |length: f64, pitch: f64| ((length - d - 2.0 * free(pitch)) / pitch + 1.0 + 1e-9).floor().max(0.0) as usize;
+    let up = |length: f64, pitch: f64| {
+        ((length - 0.5 * (pitch + d) - free(pitch)) / pitch + 1.0 + 1e-9).floor().max(0.0) as usize
+    };
     let mut pitch = spacing * d;
     let (mut nx, mut ny);
     loop {
-        nx = across(size.x, pitch);
-        ny = if plan.dimension == 3 { across(size.y, pitch) } else { 1 };
-        if group.count <= nx * ny * across(size.z - floor, pitch) || pitch <= d {
+        nx = across(size.x, pitch).max(1);
+        ny = if plan.dimension == 3 { across(size.y, pitch).max(1) } else { 1 };
+        if group.count <= nx * ny * up(size.z - floor, pitch) || pitch <= d {
             break;
         }
         pitch = (0.98 * pitch).max(d);
     }
-    let free = 0.5 * (pitch - d) * jitter * 0.999;
+    let free = free(pitch);
     let offset = |n: usize, i: usize| (i as f64 - 0.5 * (n - 1) as f64) * pitch;
     let mut top = floor;
     for k in 0..group.count {

@@ -2,7 +2,7 @@
 
 use super::engine::DemEngine;
 use super::integrate;
-use super::touch::Scene;
+use super::touch::{Contact, Scene};
 use crate::engine::{Engine, Fault};
 use crate::find::Candidates;
 use crate::ledger::{Account, Ledger};
@@ -96,16 +96,15 @@ impl DemEngine {
     }
 
     pub(super) fn touch_all(&mut self) {
-        let scene = Scene {
-            grains: &self.grains,
-            planes: &self.planes,
-            candidates: &self.candidates,
-            law: &self.law,
-            table: &self.table,
-            rotation: self.rotation,
-            dt: self.dt,
-        };
-        self.touch.forces(&scene, &mut self.forces);
+        let Self { grains, planes, candidates, law, table, rotation, dt, touch, forces, .. } = self;
+        let scene = Scene { grains, planes, candidates, law, table, rotation: *rotation, dt: *dt };
+        touch.forces(&scene, forces);
+    }
+
+    /// The contacts of this moment.
+    pub(super) fn contact_list(&self) -> Vec<Contact> {
+        let Self { grains, planes, candidates, law, table, rotation, dt, touch, .. } = self;
+        touch.contacts(&Scene { grains, planes, candidates, law, table, rotation: *rotation, dt: *dt })
     }
 
     /// Accelerations from contact forces and gravity.

@@ -237,6 +237,52 @@ impl Touch {
     }
 }
 
+/// A touching pair, for pictures.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Contact {
+    /// Index of the first grain.
+    pub first: usize,
+    /// Index of the second grain; `None` for a wall.
+    pub second: Option<usize>,
+    /// Point of contact [m].
+    pub position: DVec3,
+    /// Force on the first grain [N].
+    pub force: DVec3,
+    /// Overlap [m].
+    pub overlap: f64,
+}
+
+impl Touch {
+    /// All contacts, evaluated anew at the present positions and velocities without touching the history.
+    pub fn contacts(&self, scene: &Scene) -> Vec<Contact> {
+        // A step of length zero leaves the tangential springs as they are.
+        let scene = Scene { dt: 0.0, ..*scene };
+        let mut block = Block::default();
+        let mut contacts = Vec::new();
+        let mut take = |block: &Block, pairs: &[[u32; 2]], walls: bool| {
+            for r in 0..block.row.len() {
+                let [i, j] = pairs[block.row[r] as usize].map(|i| i as usize);
+                contacts.push(Contact {
+                    first: i,
+                    second: (!walls).then_some(j),
+                    position: scene.grains.position[i] + Chunk::vector(&block.chunk.normal, r) * block.arm[r][0],
+                    force: block.action(r, false).force,
+                    overlap: block.chunk.overlap[r],
+                });
+            }
+        };
+        for (pairs, history) in scene.candidates.pairs.chunks(ROWS).zip(self.pair_history.chunks(ROWS)) {
+            block.pairs(&scene, pairs, &mut history.to_vec());
+            take(&block, pairs, false);
+        }
+        for (pairs, history) in scene.candidates.walls.chunks(ROWS).zip(self.wall_history.chunks(ROWS)) {
+            block.walls(&scene, pairs, &mut history.to_vec());
+            take(&block, pairs, true);
+        }
+        contacts
+    }
+}
+
 impl Block {
     fn clear(&mut self) {
         self.chunk.len = 0;

@@ -1,0 +1,27 @@
+//! DEM by its outcome.
+
+mod books;
+mod law;
+mod plane;
+mod same_bits;
+
+use tsubu::engine::{self, Engine};
+use tsubu::ledger::Ledger;
+use tsubu::partner::Hosts;
+use tsubu_scene::{Scene, TEMPLATES};
+
+/// A template scene with some keys changed, at time 0.
+pub fn open(template: &str, changes: &[&str]) -> (Box<dyn Engine>, Hosts, Ledger) {
+    let text = TEMPLATES.iter().find(|t| t.name == template).unwrap().text;
+    open_text(text, changes)
+}
+
+/// A scene text with some keys changed, at time 0.
+pub fn open_text(text: &str, changes: &[&str]) -> (Box<dyn Engine>, Hosts, Ledger) {
+    let changes: Vec<String> = changes.iter().map(|c| (*c).to_owned()).collect();
+    let scene = Scene::parse("test", text, std::path::Path::new("."), &changes).unwrap_or_else(|c| panic!("{c}"));
+    let hosts = Hosts::new(&scene.plan().hosts);
+    let engine = engine::open(scene.plan(), &hosts).unwrap();
+    let ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+    (engine, hosts, ledger)
+}

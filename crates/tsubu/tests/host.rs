@@ -1,0 +1,73 @@
+//! Hosts: several degrees of freedom, matrices and modes.
+
+use tsubu::ledger::{Account, Ledger};
+use tsubu::partner::Host;
+use tsubu_scene::plan;
+
+fn host(structure: plan::Structure, displacement: f64) -> Host {
+    Host::new(&plan::Host {
+        structure,
+        direction: [0.0, 0.0, 1.0],
+        base: None,
+        force: None,
+        displacement,
+        velocity: 0.0,
+    })
+}
+
+/// Two equal masses between three equal springs: frequencies sqrt(k/m) and sqrt(3 k/m), closed form.
+#[test]
+fn two_masses_have_their_two_frequencies() {
+    let (m, k) = (2.0, 50.0);
+    let chain = plan::Structure::Matrices {
+        mass: vec![vec![m, 0.0], vec![0.0, m]],
+        damping: vec![vec![0.0; 2]; 2],
+        stiffness: vec![vec![2.0 * k, -k], vec![-k, 2.0 * k]],
+        coordinate: 1,
+    };
+    let found = host(chain, 0.0).natural_frequencies();
+    for (found, expected) in found.iter().zip([(k / m).sqrt(), (3.0 * k / m).sqrt()]) {
+        assert!((found * std::f64::consts::TAU / expected - 1.0).abs() < 1e-12);
+    }
+}
+
+/// The same structure as an oscillator and as its one mode moves the same, by both integrators, and its books close.
+#[test]
+fn one_mode_is_the_oscillator() {
+    let (m, c, k) = (0.086_f64, 0.08_f64, 123.4_f64);
+    let frequency = (k / m).sqrt() / std::f64::consts::TAU;
+    let mode =
+        plan::Mode { frequency, damping_ratio: c / (2.0 * (k * m).sqrt()), mass: m, shape: 1.0, participation: 1.0 };
+    let oscillator = plan::Structure::Oscillator { mass: m, stiffness: k, damping: c };
+    let (mut a, mut b) = (host(oscillator.clone(), 0.01), host(plan::Structure::Modes { mode: vec![mode] }, 0.01));
+    let mut rk = host(oscillator, 0.01);
+    let mut ledger = Ledger::default();
+    let opening: f64 = {
+        let (kinetic, spring) = a.energy(0.0);
+        kinetic + spring
+    };
+    let (mut ledger_b, mut ledger_rk) = (Ledger::default(), Ledger::default());
+    let (dt, steps) = (1e-4, 20_000);
+    for step in 1..=steps {
+        let time = dt * f64::from(step);
+        for (host, ledger) in [(&mut a, &mut ledger), (&mut b, &mut ledger_b)] {
+            host.before(dt);
+            host.after(time, dt, 0.0, ledger);
+        }
+        rk.runge_kutta(time - dt, dt, 0.0, &mut ledger_rk);
+    }
+    // Damped free motion, closed form.
+    let w0 = (k / m).sqrt();
+    let zeta = c / (2.0 * (k * m).sqrt());
+    let w = w0 * (1.0 - zeta * zeta).sqrt();
+    let t = dt * f64::from(steps);
+    let exact = 0.01 * (-zeta * w0 * t).exp() * ((w * t).cos() + zeta * w0 / w * (w * t).sin());
+    assert!((a.displacement() - b.displacement()).abs() < 1e-12);
+    assert!((rk.displacement() - exact).abs() < 1e-9, "{} {exact}", rk.displacement());
+    assert!((a.displacement() - exact).abs() < 1e-5, "{} {exact}", a.displacement());
+    for (host, ledger) in [(&a, &ledger), (&rk, &ledger_rk)] {
+        let (kinetic, spring) = host.energy(t);
+        let missing = kinetic + spring - opening + ledger.flow(Account::HostDamping);
+        assert!(missing.abs() < 1e-5 * opening, "{missing:e} of {opening:e}");
+    }
+}
