@@ -16,6 +16,7 @@ const OURS: &[&str] = &[
     "cases.csv",
     "energy_by_cause.csv",
     "sweep.csv",
+    "cases",
     "compare.csv",
     "compare.json",
     "verify.json",

@@ -1,6 +1,8 @@
 //! A parameter sweep: every case is a run of its own.
 
 use super::cases::{Case, cases};
+use crate::engine;
+use crate::partner::Hosts;
 use crate::run::{self, RunError, Watcher};
 use rayon::prelude::*;
 use std::path::Path;
@@ -34,6 +36,13 @@ pub fn sweep(scene: &Scene, folder: &Path, watcher: &Watcher) -> Result<Vec<Summ
         SweepError::Scene("the scene has no `[sweep]`: say what varies, for example `vary = { \"particles.balls.count\" = [10, 20] }`".to_owned())
     })?;
     let list = cases(&wanted.vary);
+    // A case that its method refuses must say so before the others have run, and leave nothing behind.
+    for case in &list {
+        let scene = case.scene(scene).map_err(|c| SweepError::Scene(c.to_string()))?;
+        let plan = super::unsettled(scene.plan());
+        engine::open(&plan, &Hosts::new(&plan.hosts))
+            .map_err(|error| SweepError::Run { case: case.name.clone(), error: error.into() })?;
+    }
     let existing = if folder.join("cases").is_dir() { Existing::Resume } else { Existing::Refuse };
     let folder = RunFolder::create(folder, existing)?;
     folder.write("scene.toml", scene.resolved_toml().as_bytes())?;

@@ -4,11 +4,12 @@ use crate::engine::{self, Engine, OpenError};
 use crate::ledger::{Account, Ledger};
 use crate::partner::Hosts;
 use crate::run::RunError;
+use crate::study::unsettled;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::time::Instant;
 use tsubu_frame::{FrameWriter, RunFolder, State};
-use tsubu_scene::plan::{Plan, Response, Signal, Start};
+use tsubu_scene::plan::{Plan, Response, Signal};
 
 /// What one run at one frequency gives.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -108,12 +109,7 @@ fn open(
     bed: &State,
     frequency: f64,
 ) -> Result<(Box<dyn Engine>, Hosts, Ledger), OpenError> {
-    let mut plan = seeded(plan, seed);
-    for group in plan.particles.values_mut() {
-        if let Start::Settled { time } = &mut group.start {
-            *time = 0.0;
-        }
-    }
+    let plan = unsettled(&seeded(plan, seed));
     let mut hosts = Hosts::new(&plan.hosts);
     let host = hosts.index(&wanted.host).unwrap_or_default();
     hosts.list[host].set_frequency(frequency);
