@@ -67,6 +67,44 @@ fn draw(source: &mut Source, history: Option<&Table>, found: &[Snapshot], stem: 
     Ok(blocks)
 }
 
+/// The strip of snapshots that were taken at the eighths of one period of the drive, the last of them a whole period after
+/// the first; `drive` says what of the drive is at 0°, `who` what is seen.
+pub(crate) fn filmed(source: &mut Source, who: &str, drive: &str) -> Vec<Block> {
+    let read = snapshots(&source.dir);
+    let found = source.told(read).unwrap_or_default();
+    if found.len() != PICTURES + 1 {
+        return Vec::new();
+    }
+    let drawn = draw_filmed(source, &found, who, drive);
+    source.told(drawn).into_iter().collect()
+}
+
+fn draw_filmed(source: &mut Source, found: &[Snapshot], who: &str, drive: &str) -> Result<Block, FileError> {
+    let look = Look::default();
+    let series =
+        found.iter().map(|f| Ok(Balls::of(&read_frame(&f.path)?, &look))).collect::<Result<Vec<_>, FileError>>()?;
+    let panels: Vec<Panel> = (0..PICTURES)
+        .map(|i| Panel {
+            balls: series[i].clone(),
+            label: format!("{:.0}°", 360.0 * i as f64 / PICTURES as f64),
+            // The last picture shows the phase of the first: what lies before the first lies before the last.
+            arrow: velocity(
+                &series[if i == 0 { PICTURES - 1 } else { i - 1 }],
+                &series[i + 1],
+                2.0 * found[1].time - 2.0 * found[0].time,
+            ),
+        })
+        .collect();
+    let length = found[PICTURES].time - found[0].time;
+    let caption = format!(
+        "{who} at {}: one period of {}, in eighths; 0° is where {drive}. Arrows show how the box moves.",
+        spoken(1.0 / length, "Hz"),
+        spoken(length, "s"),
+    );
+    let columns = if wide(&panels) { 4 } else { PICTURES };
+    Ok(source.drawing("strip", strip(&panels, &look, columns), &caption))
+}
+
 /// Eight in a row only if each is taller than wide.
 fn wide(panels: &[Panel]) -> bool {
     let look = common(&panels.iter().map(|p| p.balls.clone()).collect::<Vec<_>>(), &Look::default());
@@ -111,16 +149,23 @@ fn animated(source: &mut Source, found: &[Snapshot], periodic: bool, stem: &str)
     Ok(Some(Block::Picture { media: "image/gif", bytes, caption }))
 }
 
-/// How far the walls move from this snapshot to the next, in the picture plane.
+/// How fast the walls move at this snapshot, in the picture plane: from the one before it to the one after it.
 fn motion(found: &[Snapshot], i: usize, balls: &Balls) -> Result<Option<[f64; 2]>, FileError> {
-    let (other, sign) = if i + 1 < found.len() { (i + 1, 1.0) } else { (i.saturating_sub(1), -1.0) };
-    if other == i || balls.outlines.is_empty() {
+    let (before, after) = (i.saturating_sub(1), (i + 1).min(found.len() - 1));
+    if before == after || balls.outlines.is_empty() {
         return Ok(None);
     }
-    let next = Balls::of(&read_frame(&found[other].path)?, &Look::default());
-    let (a, b) = (middle_of(balls), middle_of(&next));
-    let dt = (next.time - balls.time).abs();
-    Ok((dt > 0.0).then(|| [sign * (b[0] - a[0]) / dt, sign * (b[1] - a[1]) / dt]))
+    let at = |k: usize| Ok(Balls::of(&read_frame(&found[k].path)?, &Look::default()));
+    Ok(velocity(&at(before)?, &at(after)?, found[after].time - found[before].time))
+}
+
+/// Mean velocity of the walls between two pictures.
+fn velocity(before: &Balls, after: &Balls, dt: f64) -> Option<[f64; 2]> {
+    if before.outlines.is_empty() || after.outlines.is_empty() || dt.is_nan() || dt <= 0.0 {
+        return None;
+    }
+    let (a, b) = (middle_of(before), middle_of(after));
+    Some([(b[0] - a[0]) / dt, (b[1] - a[1]) / dt])
 }
 
 /// A period of the host's motion.

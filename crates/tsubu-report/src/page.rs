@@ -267,7 +267,7 @@ fn write_grid(out: &mut String, grid: &Grid) {
         for (c, cell) in row.iter().take(columns).enumerate() {
             let class = match class(c) {
                 // A short label broken in two reads badly; a long text may wrap.
-                "" if cell.chars().count() <= 26 => " class=\"whole\"",
+                "" if cell.chars().count() <= 34 => " class=\"whole\"",
                 other => other,
             };
             let _ = write!(out, "<td{class}>{}</td>", escape(cell));

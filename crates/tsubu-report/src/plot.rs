@@ -53,9 +53,15 @@ fn tidied(svg: &str) -> String {
         let after = head.split_once(&format!(" {key}=\""))?.1;
         after.split_once('"')?.0.parse::<f64>().ok()
     };
-    let view = match (size("width"), size("height")) {
-        (Some(w), Some(h)) => format!(" viewBox=\"0 0 {w} {h}\""),
-        _ => String::new(),
+    // kuva keeps no room for the later rows of a long legend.
+    let lowest = body.split("<text ").skip(1).filter_map(|t| t.split_once(" y=\"")?.1.split('"').next()?.parse().ok());
+    let (head, view) = match (size("width"), size("height")) {
+        (Some(w), Some(h)) => {
+            let high = lowest.map(|y: f64| y + 10.0).fold(h, f64::max).ceil();
+            let head = head.replacen(&format!(" height=\"{h}\""), &format!(" height=\"{high}\""), 1);
+            (head, format!(" viewBox=\"0 0 {w} {high}\""))
+        }
+        _ => (head.to_owned(), String::new()),
     };
     let counted = body.split_once("id=\"kuva-clip-").and_then(|(_, b)| b.split_once('"')).map(|(n, _)| n);
     let body = match counted {

@@ -1,15 +1,17 @@
 //! The report of a frequency response.
 
-use tsubu_frame::{Table, csv::split_unit};
+use std::fmt::Write as _;
+
+use tsubu_frame::{Summary, Table, csv::split_unit};
 
 use crate::figure::{Axis, Bars, Figure, Mark, Series, Style};
 use crate::moments;
-use crate::page::{Block, Report, Tone};
+use crate::page::{Block, Card, Grid, Report, Tone};
 use crate::source::{
-    Source, card, claims_table, cost_table, method_name, quantity, result_cards, results_table, shown, spoken,
-    summary_cards, versions,
+    Source, card, claims_table, method_name, quantity, result_cards, results_table, shown, spoken, summary_cards,
+    versions,
 };
-use crate::text::short;
+use crate::text::{count, duration, short};
 
 /// The points of one case by one method.
 struct Curve {
@@ -36,14 +38,15 @@ pub(crate) fn build(source: &mut Source) -> Report {
     if curves.is_empty() {
         source.notes.push("response.csv holds no curve.".into());
     }
+    let listed = cases.as_ref().map(cases_of).unwrap_or_default();
     let mut report = Report {
         kind: "Frequency response".into(),
         title: source.title(),
-        headline: headline(&curves, by_ratio),
+        headline: headline(&curves, &listed, by_ratio),
         versions: versions(summary.as_ref()),
         ..Report::default()
     };
-    report.cards = peak_cards(&curves, by_ratio);
+    report.cards = key_cards(&listed);
     if let Some(s) = &summary {
         report
             .cards
@@ -60,22 +63,24 @@ pub(crate) fn build(source: &mut Source) -> Report {
     }
     let charts = charts(source, &curves, cases.as_ref(), by_ratio);
     let energy = causes.map(|t| cause_blocks(source, &t)).unwrap_or_default();
-    let pictures = picture_blocks(source);
+    let pictures = picture_blocks(source, &listed);
     let mut remarks = source.note_blocks();
     for warning in summary.iter().flat_map(|s| &s.warnings) {
         remarks.push(Block::Note(Tone::Warning, warning.clone()));
     }
     report.section("To be noted", remarks);
     report.section("Response", charts);
-    report.section("Cases", cases.iter().map(shown).collect());
+    report.section("Cases", cases.as_ref().map(|c| shown(&told_once(c))).into_iter().collect());
     report.section("Energy by cause", energy);
     report.section("Grains", pictures);
     if let Some(s) = &summary {
         if !s.claims.is_empty() {
             report.section("Claims", vec![claims_table(&s.claims.iter().collect::<Vec<_>>())]);
         }
-        report.section("Results", results_table(s).into_iter().collect());
-        report.section("Cost", vec![cost_table(&[(method_name(&s.method), s)])]);
+        // The table of cases shows them already, in better order.
+        let results = results_table(s).map(|table| crate::source::folded("All results", vec![table]));
+        report.section("Results", results.into_iter().collect());
+        report.section("Cost", cost_blocks(&listed, &curves, s));
     }
     source.scene_and_verdict(&mut report);
     report
@@ -109,45 +114,168 @@ fn curves(table: &Table, by_ratio: bool) -> Vec<Curve> {
     curves
 }
 
-fn headline(curves: &[Curve], by_ratio: bool) -> String {
-    let tops: Vec<_> = curves.iter().filter_map(|c| c.top().map(|t| (c, t))).collect();
-    let by_height = |a: &&(&Curve, [f64; 5]), b: &&(&Curve, [f64; 5])| a.1[1].total_cmp(&b.1[1]);
-    let (Some((quiet, low)), Some((loud, high))) = (tops.iter().min_by(by_height), tops.iter().max_by(by_height))
-    else {
+/// The lowest peak, as `cases.csv` has it, between the frequencies that were run; else the highest point of each curve.
+fn headline(curves: &[Curve], cases: &[Case], by_ratio: bool) -> String {
+    let of_case = |c: &Case| (c.name.clone(), c.ratio, c.rms);
+    let of_curve = |c: &Curve| c.top().map(|t| (c.name.clone(), t[0], t[1]));
+    let mut tops: Vec<(String, f64, f64)> = cases.iter().map(of_case).filter(|t| t.2.is_finite()).collect();
+    if tops.is_empty() || !by_ratio {
+        tops = curves.iter().filter_map(of_curve).collect();
+    }
+    let by_height = |a: &&(String, f64, f64), b: &&(String, f64, f64)| a.2.total_cmp(&b.2);
+    let (Some(quiet), Some(loud)) = (tops.iter().min_by(by_height), tops.iter().max_by(by_height)) else {
         return "No response was found in this folder.".into();
     };
-    let place = |t: &[f64; 5]| {
-        if by_ratio {
-            format!("at {} of the natural frequency", short(t[0]))
-        } else {
-            format!("at {}", spoken(t[0], "Hz"))
-        }
+    let place = if by_ratio {
+        format!("at {} of the natural frequency", short(quiet.1))
+    } else {
+        format!("at {}", spoken(quiet.1, "Hz"))
     };
     if tops.len() == 1 {
-        return format!("The rms displacement peaks at {} {}.", spoken(low[1], "m"), place(low));
+        return format!("The rms displacement peaks at {} {place}.", spoken(quiet.2, "m"));
     }
     format!(
-        "The lowest peak is that of {}: {} rms {}, {} % below that of {}.",
-        quiet.name,
-        spoken(low[1], "m"),
-        place(low),
-        short((100.0 * (1.0 - low[1] / high[1])).round()),
-        loud.name
+        "The lowest peak is that of {}: {} rms {place}, {} % below that of {}.",
+        quiet.0,
+        spoken(quiet.2, "m"),
+        short((100.0 * (1.0 - quiet.2 / loud.2)).round()),
+        loud.0
     )
 }
 
-fn peak_cards(curves: &[Curve], by_ratio: bool) -> Vec<crate::page::Card> {
-    curves
-        .iter()
-        .take(6)
-        .filter_map(|c| {
-            let top = c.top()?;
-            let (value, unit) = quantity(top[1], "m");
-            let place =
-                if by_ratio { format!("at f/f₀ = {}", short(top[0])) } else { format!("at {} Hz", short(top[0])) };
-            Some(card(&format!("Peak rms, {}", c.name), value, &unit, place, Tone::Plain))
+/// One row of `cases.csv`: the top of a curve, interpolated, and what belongs to it.
+struct Case {
+    name: String,
+    grains: f64,
+    ratio: f64,
+    rms: f64,
+    loss_factor: f64,
+    limit: f64,
+    wall: f64,
+}
+
+fn cases_of(table: &Table) -> Vec<Case> {
+    let column = |name: &str| table.numbers(name).unwrap_or_else(|| vec![f64::NAN; table.rows.len()]);
+    let texts = |name: &str| table.texts(name).unwrap_or_else(|| vec![String::new(); table.rows.len()]);
+    let (names, methods) = (texts("case"), texts("method"));
+    let several = methods.iter().any(|m| *m != methods[0]);
+    let (grains, ratio, rms) = (column("particles"), column("peak frequency ratio"), column("peak rms"));
+    let (loss_factor, limit, wall) = (column("loss factor"), column("added-mass limit"), column("wall seconds"));
+    (0..table.rows.len())
+        .map(|i| Case {
+            name: if several { format!("{}, {}", names[i], method_name(&methods[i])) } else { names[i].clone() },
+            grains: grains[i],
+            ratio: ratio[i],
+            rms: rms[i],
+            loss_factor: loss_factor[i],
+            limit: limit[i],
+            wall: wall[i],
         })
         .collect()
+}
+
+/// The peak without grains against that of the best case, or of the best case against the worst.
+fn key_cards(cases: &[Case]) -> Vec<Card> {
+    let known = || cases.iter().filter(|c| c.rms.is_finite());
+    let Some(best) = known().min_by(|a, b| a.rms.total_cmp(&b.rms)) else { return Vec::new() };
+    let peak = |label: &str, case: &Case| {
+        let (value, unit) = quantity(case.rms, "m");
+        card(label, value, &unit, format!("{}, at f/f₀ = {}", case.name, short(case.ratio)), Tone::Plain)
+    };
+    let empty = known().find(|c| c.grains == 0.0);
+    let reference = empty.or_else(|| known().max_by(|a, b| a.rms.total_cmp(&b.rms))).unwrap_or(best);
+    let mut cards = Vec::new();
+    if std::ptr::eq(reference, best) {
+        cards.push(peak("Peak rms", best));
+    } else {
+        let (label, than) = if empty.is_some() {
+            ("Peak rms without grains", "that without grains")
+        } else {
+            ("Highest peak rms", "the highest")
+        };
+        cards.push(peak(label, reference));
+        cards.push(peak("Lowest peak rms", best));
+        let note = format!(
+            "from {than} to the lowest peak: {} % less",
+            short((100.0 * (1.0 - best.rms / reference.rms)).round())
+        );
+        cards.push(card("Reduction factor", decimals(reference.rms / best.rms, 2), "", note, Tone::Plain));
+        let shift = 100.0 * (best.ratio / reference.ratio - 1.0);
+        let fixed = 100.0 * (best.limit - 1.0);
+        let note = if empty.is_some() && fixed.is_finite() {
+            format!("of the lowest peak; {} % if its grains were fixed to the host", decimals(fixed, 1))
+        } else {
+            "of the lowest peak against the highest".to_owned()
+        };
+        cards.push(card("Frequency shift", decimals(shift, 1), "%", note, Tone::Plain));
+    }
+    let damped =
+        cases.iter().filter(|c| c.loss_factor.is_finite()).max_by(|a, b| a.loss_factor.total_cmp(&b.loss_factor));
+    if let Some(case) = damped {
+        let without = empty.filter(|e| e.loss_factor.is_finite() && e.grains != case.grains);
+        let note = without.map_or_else(
+            || case.name.clone(),
+            |e| format!("{}; {} without grains", case.name, decimals(e.loss_factor, 3)),
+        );
+        cards.push(card("Best loss factor", decimals(case.loss_factor, 3), "", note, Tone::Plain));
+    }
+    cards
+}
+
+fn decimals(x: f64, places: usize) -> String {
+    format!("{x:.places$}").replace('-', "−")
+}
+
+/// The table without what stands elsewhere on the page: the method if there is one only, the computing times.
+fn told_once(table: &Table) -> Table {
+    let several = table.texts("method").is_some_and(|m| m.iter().any(|x| *x != m[0]));
+    let kept: Vec<usize> = (0..table.header.len())
+        .filter(|&i| match split_unit(&table.header[i]).0 {
+            "method" => several,
+            "wall seconds" => false,
+            _ => true,
+        })
+        .collect();
+    let mut narrow = Table::new(kept.iter().map(|&i| table.header[i].clone()));
+    for row in &table.rows {
+        narrow.push(kept.iter().map(|&i| row[i].clone()));
+    }
+    narrow
+}
+
+/// What each case took, and all of them side by side.
+fn cost_blocks(cases: &[Case], curves: &[Curve], summary: &Summary) -> Vec<Block> {
+    let mut grid = Grid::new(["case", "grains", "frequencies", "computing time [s]", "per frequency [s]"]);
+    for case in cases.iter().filter(|c| c.wall.is_finite()) {
+        let points = curves.iter().find(|c| c.name == case.name).map_or(0, |c| c.points.len());
+        grid.push(
+            Tone::Plain,
+            [
+                case.name.clone(),
+                count(case.grains as u64),
+                points.to_string(),
+                short(case.wall),
+                short(case.wall / points as f64),
+            ],
+        );
+    }
+    let spent: f64 = cases.iter().map(|c| c.wall).filter(|w| w.is_finite()).sum();
+    let mut text = format!(
+        "{} of computing on {} threads, done in {}.",
+        duration(spent),
+        summary.threads,
+        duration(summary.wall_seconds)
+    );
+    if summary.time_step > 0.0 {
+        let _ =
+            write!(text, " The time step is {} ({}).", spoken(summary.time_step, "s"), method_name(&summary.method));
+    }
+    let mut blocks = Vec::new();
+    if !grid.rows.is_empty() {
+        blocks.push(Block::Table(grid));
+    }
+    blocks.push(Block::Text(text));
+    blocks
 }
 
 fn charts(source: &mut Source, curves: &[Curve], cases: Option<&Table>, by_ratio: bool) -> Vec<Block> {
@@ -155,8 +283,13 @@ fn charts(source: &mut Source, curves: &[Curve], cases: Option<&Table>, by_ratio
     let mut rms = Figure::new("", x.clone(), Axis::new("rms displacement", "m"));
     let mut peak = Figure::new("", x, Axis::new("peak displacement", "m"));
     let mut spread = false;
-    for curve in curves {
-        let style = if curve.points.len() <= 60 { Style::LineAndPoints } else { Style::Line };
+    for (i, curve) in curves.iter().enumerate() {
+        let style = match curve.points.len() {
+            // Dashed, so that the curve below shows through.
+            _ if curves[..i].iter().any(|other| covers(curve, other)) => Style::Dashed,
+            ..=60 => Style::LineAndPoints,
+            _ => Style::Line,
+        };
         let pick = |k: usize| curve.points.iter().map(|p| (p[0], p[k])).collect::<Vec<_>>();
         let mut series = Series::line(&curve.name, pick(1)).styled(style);
         if curve.points.iter().any(|p| p[4] > p[3]) {
@@ -185,6 +318,13 @@ fn charts(source: &mut Source, curves: &[Curve], cases: Option<&Table>, by_ratio
         blocks.push(crate::source::folded("Peak displacement", vec![chart]));
     }
     blocks
+}
+
+/// Whether two curves can hardly be told apart.
+fn covers(one: &Curve, other: &Curve) -> bool {
+    let top = one.top().map_or(f64::NAN, |t| t[1]);
+    let close = |(a, b): (&[f64; 5], &[f64; 5])| a[0] == b[0] && (a[1] - b[1]).abs() < 0.02 * top;
+    one.points.len() == other.points.len() && one.points.iter().zip(&other.points).all(close)
 }
 
 /// Curve and frequency ratio of each case's added-mass limit.
@@ -216,38 +356,32 @@ fn cause_blocks(source: &mut Source, table: &Table) -> Vec<Block> {
         .filter_map(|h| Some((split_unit(h).0.to_owned(), table.numbers(h)?)))
         .filter(|(_, values)| values.iter().any(|v| *v != 0.0))
         .collect();
-    let bars = Bars { categories: cases, parts, stacked: true, horizontal: false };
+    // Long names stand beside lying bars; below standing ones they would run into each other.
+    let horizontal = cases.iter().map(|c| c.chars().count()).sum::<usize>() > 60;
+    let count = cases.len() as u32;
+    let bars = Bars { categories: cases, parts, stacked: true, horizontal };
     let mut figure = Figure::of_bars("", Axis::new("energy per cycle", "J"), bars);
-    figure.height = 400;
+    figure.height = if horizontal { 130 + 34 * count } else { 400 };
     let mut blocks = Vec::new();
     blocks.extend(source.figure("energy_by_cause", &figure, "Energy taken out of the host in a cycle, by cause."));
     blocks.push(crate::source::folded("Energy per cycle in numbers", vec![shown(table)]));
     blocks
 }
 
-/// Strips of the folder itself and of the cases inside it that kept snapshots.
-fn picture_blocks(source: &mut Source) -> Vec<Block> {
-    const MOST: usize = 4;
+/// The strip of the filmed period, or of whatever snapshots there are.
+fn picture_blocks(source: &mut Source, listed: &[Case]) -> Vec<Block> {
     let history = source.table("history.csv");
-    let mut blocks = moments::blocks(source, history.as_ref(), "");
-    let mut inside: Vec<String> = std::fs::read_dir(&source.dir)
-        .into_iter()
-        .flatten()
-        .filter_map(Result::ok)
-        .filter(|e| e.path().join("frames").is_dir())
-        .map(|e| e.file_name().to_string_lossy().into_owned())
-        .collect();
-    inside.sort();
-    for name in inside.into_iter().take(MOST) {
-        let mut case = source.inside(&name);
-        let history = case.table("history.csv");
-        let drawn = moments::blocks(&mut case, history.as_ref(), &format!("{name}_"));
-        if !drawn.is_empty() {
-            blocks.push(Block::Text(format!("Case {name}:")));
-            blocks.extend(drawn);
+    // A response films its fullest case; of equals the last.
+    let fullest = listed.iter().filter(|c| c.ratio.is_finite()).max_by(|a, b| a.grains.total_cmp(&b.grains));
+    let mut blocks = match (&history, fullest) {
+        (None, Some(case)) => {
+            let who = format!("{} at its peak,", case.name);
+            moments::filmed(source, &who, "the drive passes its middle going up")
         }
-        source.files.append(&mut case.files);
-        source.notes.extend(case.notes.into_iter().map(|n| format!("{name}: {n}")));
+        _ => Vec::new(),
+    };
+    if blocks.is_empty() {
+        blocks = moments::blocks(source, history.as_ref(), "");
     }
     blocks
 }

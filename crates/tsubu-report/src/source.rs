@@ -161,7 +161,12 @@ pub(crate) fn summary_cards(summary: &Summary) -> Vec<Card> {
             "Computed in",
             duration(summary.wall_seconds),
             "",
-            format!("{} grain-steps/s", short(summary.particle_steps_per_second)),
+            // A response counts no steps of its own.
+            if summary.particle_steps_per_second > 0.0 {
+                format!("{} grain-steps/s", short(summary.particle_steps_per_second))
+            } else {
+                format!("on {} threads", summary.threads)
+            },
             Tone::Plain,
         ),
         card("Energy residual", short(residual), "", "of the energy turned over".into(), closes),
@@ -298,6 +303,7 @@ pub(crate) fn shown(table: &Table) -> Block {
         .map(|(c, header)| {
             let largest = table.rows.iter().filter_map(|r| r[c].number()).fold(0.0_f64, |a, x| a.max(x.abs()));
             match split_unit(header) {
+                (name, Some("kg")) if largest < 0.1 => (1e3, format!("{name} [g]")),
                 (name, Some(unit @ ("m" | "J"))) => {
                     let (factor, unit) = crate::figure::prefix(unit, largest);
                     (factor, format!("{name} [{unit}]"))

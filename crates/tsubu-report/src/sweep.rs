@@ -3,6 +3,7 @@
 use tsubu_frame::{Table, csv::split_unit};
 
 use crate::figure::{Axis, Figure, Series, Style};
+use crate::moments;
 use crate::page::{Block, Report};
 use crate::source::{Source, shown, versions};
 use crate::text::duration;
@@ -24,6 +25,9 @@ pub(crate) fn build(source: &mut Source) -> Report {
     report.section("To be noted", source.note_blocks());
     report.section("Results over what varied", charts);
     report.section("Cases", if table.rows.is_empty() { Vec::new() } else { vec![shown(&table)] });
+    let pictures = picture_blocks(source, &table);
+    report.section("To be noted of the pictures", source.note_blocks());
+    report.section("Grains", pictures);
     source.scene_and_verdict(&mut report);
     report
 }
@@ -41,7 +45,9 @@ fn charts(source: &mut Source, table: &Table) -> Vec<Block> {
     let Some((along, x)) = numeric.max_by_key(|(_, v)| distinct(v)).filter(|(_, v)| distinct(v) > 1) else {
         return Vec::new();
     };
-    let results = table.header.iter().filter(|h| split_unit(h).1 == Some("SI"));
+    // What the books miss is told in the table.
+    let results =
+        table.header.iter().filter(|h| matches!(split_unit(h), (name, Some("SI")) if !name.contains("residual")));
     let mut blocks = Vec::new();
     for header in results.take(MOST_FIGURES) {
         let Some(values) = table.numbers(header) else { continue };
@@ -63,6 +69,27 @@ fn charts(source: &mut Source, table: &Table) -> Vec<Block> {
         }
         let file = format!("sweep_{}", name.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
         blocks.extend(source.figure(&file, &figure, &format!("{name} (SI units) over {along}.")));
+    }
+    blocks
+}
+
+/// Strips of the cases that kept snapshots; `cases/` numbers them as the table does.
+fn picture_blocks(source: &mut Source, table: &Table) -> Vec<Block> {
+    const MOST: usize = 6;
+    let names = table.texts("case").unwrap_or_default();
+    let mut blocks = Vec::new();
+    for (i, name) in names.iter().enumerate() {
+        let mut case = source.inside(&format!("cases/{i:04}"));
+        if blocks.len() >= 2 * MOST || !case.has("frames") {
+            continue;
+        }
+        let history = case.table("history.csv");
+        let drawn = moments::blocks(&mut case, history.as_ref(), &format!("case_{i:04}_"));
+        if let Some(strip) = drawn.into_iter().find(|b| matches!(b, Block::Drawing { .. })) {
+            blocks.extend([Block::Text(format!("Case {name}:")), strip]);
+        }
+        source.files.extend(case.files.into_iter().filter(|(file, _)| file.ends_with("strip.svg")));
+        source.notes.extend(case.notes.into_iter().map(|n| format!("{name}: {n}")));
     }
     blocks
 }

@@ -5,6 +5,12 @@ use tsubu_frame::{Claim, summary::read_json};
 use crate::page::{Block, Report, Tone};
 use crate::source::{Source, card, claims_table, versions};
 
+/// What the last column of a claim says.
+const SOURCES: &str = "A claim holds if its value lies in the accepted range. The source says where the range comes from: an \
+     author and a year, a figure of the study's paper, or a closed form. Codes such as V-05, A-7.1 or CH-A4 number the \
+     sections of the project's specification and of its list of verification cases, which follow the named source or give \
+     the closed form.";
+
 pub(crate) fn build(source: &mut Source) -> Report {
     let claims = read(source);
     let failed: Vec<&Claim> = claims.iter().filter(|c| !c.pass).collect();
@@ -40,6 +46,9 @@ pub(crate) fn build(source: &mut Source) -> Report {
     report.section("To be noted", source.note_blocks());
     if !failed.is_empty() {
         report.section("What does not hold", vec![claims_table(&failed)]);
+    }
+    if !claims.is_empty() {
+        report.section("How to read the sources", vec![Block::Text(SOURCES.into())]);
     }
     for name in &studies {
         let of: Vec<&Claim> = claims.iter().filter(|c| study(c) == *name).collect();

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use tsubu_frame::FrameWriter;
 use tsubu_report::page::{Block, Report, Tone};
 use tsubu_report::{ReportError, build, report};
 
@@ -81,8 +82,46 @@ fn a_response_names_its_lowest_peak() {
         "{}",
         report.headline
     );
-    assert_eq!(report.cards[0].label, "Peak rms, N = 0");
+    let cards: Vec<_> = report.cards.iter().map(|c| (c.label.as_str(), c.value.as_str())).collect();
+    assert_eq!(
+        cards[..5],
+        [
+            ("Peak rms without grains", "16.67"),
+            ("Lowest peak rms", "3.717"),
+            ("Reduction factor", "4.48"),
+            ("Frequency shift", "−4.0"),
+            ("Best loss factor", "0.112"),
+        ]
+    );
     assert!(titles(&report).contains(&"Energy by cause"));
+}
+
+#[test]
+fn a_response_shows_the_period_it_filmed() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::response(dir.path());
+    let mut frames = FrameWriter::create(dir.path(), false).unwrap();
+    for i in 0..9 {
+        frames.write(&fixture::frame(10.0 + f64::from(i) / (8.0 * 2.1), 30)).unwrap();
+    }
+    let html = written(dir.path());
+    self_contained(&html);
+    assert!(html.contains("N = 40 at its peak, at 2.1 Hz: one period of 0.4762 s, in eighths"));
+    for label in [">0°<", ">45°<", ">315°<"] {
+        assert!(html.contains(label), "{label}");
+    }
+    assert!(!html.contains(">360°<") && !html.contains("t = "), "each phase once");
+    assert!(dir.path().join("figures/strip.svg").exists());
+}
+
+#[test]
+fn a_number_that_says_nothing_has_no_card() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::response(dir.path());
+    let mut summary = fixture::summary("dem");
+    summary.particle_steps_per_second = 0.0;
+    summary.write(&dir.path().join("summary.json")).unwrap();
+    assert!(!written(dir.path()).contains("grain-steps"));
 }
 
 #[test]
@@ -118,6 +157,7 @@ fn a_failed_claim_cannot_be_overlooked() {
     let html = written(dir.path());
     self_contained(&html);
     assert!(html.contains("FAIL") && html.contains("V-60 peak"));
+    assert!(html.contains("number the sections of the project"), "codes in the sources are explained");
 }
 
 #[test]
