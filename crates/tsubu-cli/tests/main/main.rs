@@ -10,6 +10,8 @@ mod commands;
 mod folder;
 /// What is said when something is wrong.
 mod messages;
+/// The table of what works.
+mod readme;
 /// Every shipped scene runs and closes its books.
 mod scenes;
 /// Response, sweep, comparison, verification.
