@@ -272,7 +272,9 @@ pub(crate) fn energy_blocks(source: &mut Source, runs: &[(&str, &Summary)]) -> V
         return Vec::new();
     }
     let value = |s: &Summary, name: &str| s.energy.terms.get(name).map_or(f64::NAN, |j| j.0);
-    let moved = |name: &&str| runs.iter().any(|(_, s)| value(s, name) != 0.0);
+    // A bar too short to be seen stands in the table only.
+    let largest = names.iter().flat_map(|n| runs.iter().map(|(_, s)| value(s, n).abs())).fold(0.0, f64::max);
+    let moved = |name: &&str| runs.iter().any(|(_, s)| value(s, name).abs() > 1e-3 * largest);
     let drawn: Vec<&str> = names.iter().copied().filter(moved).collect();
     let parts = runs.iter().map(|(run, s)| ((*run).to_owned(), drawn.iter().map(|n| value(s, n)).collect())).collect();
     let bars =

@@ -22,9 +22,10 @@ pub(crate) fn build(source: &mut Source) -> Report {
     }
     let mut report = Report {
         kind: "Verification".into(),
-        title: source.title(),
+        title: "Every claim, run again".into(),
         headline: match (claims.len(), failed.as_slice()) {
             (0, _) => "No claim was checked.".into(),
+            (n, []) if studies.len() == 1 => format!("All {n} claims hold."),
             (n, []) => format!("All {n} claims hold, in {} studies.", studies.len()),
             (n, [one]) => format!("One of {n} claims does not hold: {}.", one.name),
             (n, more) => format!("{} of {n} claims do not hold.", more.len()),
