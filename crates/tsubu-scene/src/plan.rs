@@ -325,7 +325,7 @@ pub struct Contact {
     pub normal: Normal,
     /// Normal damping; its coefficient is found so that the materials' restitution comes back.
     pub damping: Damping,
-    /// Whether damping may make the normal force attractive (paper A, literally); otherwise the force is cut at zero.
+    /// Whether damping may make the normal force attractive (Komatsuzaki 2003, literally); otherwise the force is cut at zero.
     pub attraction: bool,
     /// Tangential force.
     pub tangential: Tangential,
@@ -374,7 +374,7 @@ pub enum Damping {
 pub enum Tangential {
     /// None.
     None {},
-    /// Sliding friction -mu f_n v_t / max(|v_t|, v_eps): paper A, no spring.
+    /// Sliding friction -mu f_n v_t / max(|v_t|, v_eps): Komatsuzaki 2003, no spring.
     Coulomb {
         /// v_eps [m/s].
         smoothing_speed: f64,
@@ -431,27 +431,27 @@ pub enum Integrator {
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 #[expect(clippy::struct_excessive_bools, reason = "each is an independent reading of the published rules")]
 pub struct Lattice {
-    /// Literal (paper A) or extended rules.
+    /// Literal (Komatsuzaki 2003) or extended rules.
     pub mode: LatticeMode,
     /// Time step [s].
     pub time_step: f64,
-    /// CH-A4a: gravity along the oblique directions: `projected` (half) or `unit` (full).
+    /// Gravity along the oblique directions: `projected` (half) or `unit` (full).
     pub oblique_gravity: ObliqueGravity,
-    /// CH-A4d: who changes in a ball-ball collision.
+    /// Who changes in a ball-ball collision.
     pub collision: Collision,
     /// Scatter of a rebound: straight back with probability 1/2, else the two neighbours; `false`: straight back.
     pub rebound_scatter: bool,
-    /// CH-A4b: forget the stored distance when a collision happens or a move is blocked.
+    /// Forget the stored distance when a collision happens or a move is blocked.
     pub reset_when_blocked: bool,
     /// Keep the remainder of the stored distance after a move (else set to zero).
     pub keep_remainder: bool,
-    /// resting contacts pass their impulse to the host.
+    /// Resting contacts pass their impulse to the host.
     pub resting_impulses: bool,
-    /// CH-A4h: collisions at or below this many g dt of relative speed are resting contacts [-].
+    /// Collisions at or below this many g dt of relative speed are resting contacts [-].
     pub resting_threshold: f64,
     /// Number representation of speeds.
     pub arithmetic: Arithmetic,
-    /// CH: rows of head-room added above and below the box's travel.
+    /// Rows of head-room added above and below the box's travel.
     pub head_room: usize,
 }
 
@@ -459,7 +459,7 @@ pub struct Lattice {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LatticeMode {
-    /// The nearest reading of paper A.
+    /// The nearest reading of Komatsuzaki 2003.
     Literal,
     /// With resting impulses.
     Extended,

@@ -1,4 +1,4 @@
-//! Seconds of computing per simulated period of the damper automaton on paper A's leaf spring at 6 Hz, against the number
+//! Seconds of computing per simulated period of the damper automaton on the leaf spring of Komatsuzaki 2003 at 6 Hz, against the number
 //! of balls, for both steps of Komatsuzaki (2003, fig. 12).
 //!
 //! `cargo bench -p tsubu --bench lattice`

@@ -1,4 +1,4 @@
-//! Plans of paper A for the automaton, written in code.
+//! Plans of Komatsuzaki 2003 for the automaton, written in code.
 
 use std::collections::BTreeMap;
 use tsubu::engine::{Engine, Fault};
@@ -88,7 +88,7 @@ pub fn shaken(mut plan: Plan, amplitude: f64, frequency: f64) -> Plan {
     plan
 }
 
-/// The box on paper A's leaf spring, its base shaken at f / f0 = `ratio` with amplitude `base` [m].
+/// The box on the leaf spring of Komatsuzaki 2003, its base shaken at f / f0 = `ratio` with amplitude `base` [m].
 pub fn coupled(mut plan: Plan, base: f64, ratio: f64) -> Plan {
     let natural = (123.4_f64 / 0.086).sqrt() / std::f64::consts::TAU;
     let host = Host {
