@@ -124,13 +124,12 @@ pub struct Ledger {
     /// Stocks at time 0; set by [`Ledger::open`].
     opening: Stocks,
     opening_momentum: [f64; 3],
-    opened: bool,
 }
 
 impl Ledger {
     /// Opens the books: what the system holds at time 0.
     pub fn open(stocks: Stocks, momentum: [f64; 3]) -> Self {
-        Self { opening: stocks, opening_momentum: momentum, opened: true, ..Self::default() }
+        Self { opening: stocks, opening_momentum: momentum, ..Self::default() }
     }
 
     /// Adds energy [J] to an account.
@@ -170,7 +169,6 @@ impl Ledger {
 
     /// Writes the books into a checkpoint.
     pub fn save(&self, state: &mut State) {
-        debug_assert!(self.opened, "save() before open()");
         state.put_real("ledger.flows", self.flows.to_vec());
         let mut impulses = Vec::new();
         impulses.extend(self.gravity_impulse);
@@ -206,7 +204,6 @@ impl Ledger {
                 host_kinetic: o[4],
                 host_spring: o[5],
             },
-            opened: true,
         })
     }
 }

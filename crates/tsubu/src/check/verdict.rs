@@ -7,7 +7,7 @@ use crate::ledger::Ledger;
 use crate::partner::Hosts;
 use std::fmt;
 use std::time::Instant;
-use tsubu_scene::plan::{Damping, Integrator, Method, Plan, Start};
+use tsubu_scene::plan::{Integrator, Method, Plan, Start};
 
 /// One judgement.
 #[derive(Clone, Debug, PartialEq)]
@@ -214,16 +214,11 @@ fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
 
 /// Explicit dashpots: forward Euler gains energy when dt > eta/k; all schemes need eta dt / m below 1/2.
 fn damping_stable(verdict: &mut Verdict, plan: &Plan, label: &str, pair: &crate::contact::Pair, dt: f64) {
-    if matches!(plan.contact.damping, Damping::None {}) {
+    if pair.damping == 0.0 {
         return;
     }
     let depth = pair.largest_overlap(1.0);
-    let power = match plan.contact.damping {
-        Damping::Sqrt { .. } => 0.5,
-        Damping::Quarter {} => 0.25,
-        _ => 0.0,
-    };
-    let eta = pair.damping * depth.powf(power);
+    let eta = pair.damping * depth.powf(pair.damping_exponent);
     let tangent = pair.exponent * pair.stiffness * depth.powf(pair.exponent - 1.0);
     let number = eta * dt / pair.mass;
     verdict.judge(number < 0.5, format!("{label}: dashpot number eta dt / m* = {number:.3} (limit 0.5)"), || {

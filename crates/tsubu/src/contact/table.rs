@@ -46,8 +46,10 @@ pub struct Pair {
     pub exponent: f64,
     /// k, set by the normal part [N/m^p].
     pub stiffness: f64,
-    /// Set by the damping part.
+    /// c of the damping c d^q d', set by the damping part; zero without one.
     pub damping: f64,
+    /// q, set by the damping part [-].
+    pub damping_exponent: f64,
     /// 8 G* sqrt(R*), set by Mindlin's part [N/m^1.5].
     pub shear: f64,
     /// Tangential over normal dashpot, set by Mindlin's part [-].

@@ -74,6 +74,7 @@ impl Part for Viscous {
 
     fn prepare(&self, pair: &mut Pair) {
         let beta = calibrate::coefficient(pair.restitution, pair.exponent, self.power(), self.attraction);
+        pair.damping_exponent = self.power();
         // beta = c d0^(q+1) / (m v) with d0 = (m v^2 / k)^(1/(p+1)), the scale of the overlap.
         let v = self.reference_speed;
         let scale = (pair.mass * v * v / pair.stiffness).powf(1.0 / (pair.exponent + 1.0));

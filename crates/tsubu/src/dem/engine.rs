@@ -87,7 +87,7 @@ impl DemEngine {
         let (grains, settle) = place::grains(plan, hosts).map_err(|(key, text)| refuse(key, text))?;
         let mut planes = Vec::new();
         let mut outlines = Vec::new();
-        for (wall, w) in walls.values().enumerate() {
+        for w in walls.values() {
             let carrier = Carrier::new(w, hosts);
             outlines.push((plane::outline(w), carrier.clone()));
             for (point, normal) in plane::planes(w, *dimension) {
@@ -98,7 +98,6 @@ impl DemEngine {
                     velocity: DVec3::ZERO,
                     carrier: carrier.clone(),
                     species: table.wall_species(w, hosts),
-                    wall,
                 });
             }
         }
@@ -145,25 +144,6 @@ impl DemEngine {
         self.touch_all();
         self.accelerate();
         self.last_flows = self.flows();
-    }
-
-    /// The contact table, for checks and reports.
-    pub fn table(&self) -> &Table {
-        &self.table
-    }
-
-    /// The grains, for measurements.
-    pub fn state(&self) -> &Grains {
-        &self.grains
-    }
-
-    /// Force of the grains on every wall at the last time level [N], in the order of the walls' names.
-    pub fn wall_forces(&self) -> Vec<DVec3> {
-        let mut forces = vec![DVec3::ZERO; self.outlines.len()];
-        for (plane, force) in self.planes.iter().zip(&self.forces.plane_force) {
-            forces[plane.wall] += *force;
-        }
-        forces
     }
 }
 

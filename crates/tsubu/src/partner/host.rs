@@ -69,6 +69,7 @@ impl Host {
             driven,
         };
         host.settle_acceleration(0.0);
+        host.power = host.powers(host.drive(0.0));
         host
     }
 
@@ -82,19 +83,9 @@ impl Host {
         dot(&self.seen, &self.v)
     }
 
-    /// Acceleration that the walls see [m/s^2].
-    pub fn acceleration(&self) -> f64 {
-        dot(&self.seen, &self.a)
-    }
-
     /// Force of the grains in the last step [N].
     pub fn grain_force(&self) -> f64 {
         self.grain_force
-    }
-
-    /// Number of coordinates.
-    pub fn coordinates(&self) -> usize {
-        self.n
     }
 
     /// Undamped natural frequencies [Hz], lowest first, of the structure without grains.
@@ -137,6 +128,7 @@ impl Host {
             }
         }
         self.settle_acceleration(0.0);
+        self.power = self.powers(self.drive(0.0));
     }
 
     /// Kinetic energy and spring energy at `time` [J].
@@ -161,14 +153,15 @@ impl Host {
             let matrix: Vec<f64> = self.mass.iter().zip(&self.damping).map(|(m, c)| m + 0.5 * dt * c).collect();
             self.implicit_inverse = (dt, inverse(&matrix, self.n));
         }
-        self.net_force(time, grain_force, true);
+        let drive = self.drive(time);
+        self.net_force(drive, grain_force, true);
         multiply(&self.implicit_inverse.1, &self.work[..self.n], &mut self.a);
         for i in 0..self.n {
             self.v[i] = self.v_half[i] + 0.5 * dt * self.a[i];
         }
         ledger.host_impulse += 0.5 * dt * (self.grain_force + grain_force);
         self.grain_force = grain_force;
-        self.post(time, dt, ledger);
+        self.post(drive, dt, ledger);
     }
 
     /// One Runge-Kutta 4 step from `time` under a constant force of the grains [N].
@@ -182,7 +175,7 @@ impl Host {
         self.runge_kutta_many(time, dt, grain_force, &q0, &v0);
         self.grain_force = grain_force;
         self.settle_acceleration(time + dt);
-        self.post(time + dt, dt, ledger);
+        self.post(self.drive(time + dt), dt, ledger);
     }
 
     /// The common case, without a heap or a loop in sight: Komatsuzaki's single degree of freedom. An automaton's step is
@@ -281,16 +274,21 @@ impl Host {
         self.base.as_ref().map_or((0.0, 0.0), |s| value_and_rate(s, time))
     }
 
+    fn drive(&self, time: f64) -> Drive {
+        let (y, y_rate) = self.base(time);
+        Drive { y, y_rate, applied: self.applied(time) }
+    }
+
     fn applied(&self, time: f64) -> f64 {
         self.force.as_ref().map_or(0.0, |s| value_and_rate(s, time).0)
     }
 
     /// Puts all forces on the coordinates into the first n entries of `work`; the dampers see the half-step velocities or
     /// the present ones.
-    fn net_force(&mut self, time: f64, grain_force: f64, half: bool) {
+    fn net_force(&mut self, drive: Drive, grain_force: f64, half: bool) {
         let n = self.n;
-        let (y, y_rate) = self.base(time);
-        let applied = self.applied(time) + grain_force;
+        let Drive { y, y_rate, applied } = drive;
+        let applied = applied + grain_force;
         let velocity = if half { &self.v_half } else { &self.v };
         let (force, rest) = self.work.split_at_mut(n);
         let (rates, stretches) = rest.split_at_mut(n);
@@ -308,14 +306,14 @@ impl Host {
 
     /// Acceleration from the present q, v and grain force.
     fn settle_acceleration(&mut self, time: f64) {
-        self.net_force(time, self.grain_force, false);
+        let drive = self.drive(time);
+        self.net_force(drive, self.grain_force, false);
         multiply(&self.mass_inverse, &self.work[..self.n], &mut self.a);
-        self.power = self.powers(time);
     }
 
     /// Base work, force work and damper loss per time at this time level [W].
-    fn powers(&self, time: f64) -> [f64; 3] {
-        let (y, y_rate) = self.base(time);
+    fn powers(&self, drive: Drive) -> [f64; 3] {
+        let Drive { y, y_rate, applied } = drive;
         let mut base = 0.0;
         let mut damper = 0.0;
         for i in 0..self.n {
@@ -328,12 +326,12 @@ impl Host {
             base -= (spring_force + damper_force) * self.driven[i] * y_rate;
             damper += damper_force * (self.v[i] - self.driven[i] * y_rate);
         }
-        [base, self.applied(time) * self.velocity(), damper]
+        [base, applied * self.velocity(), damper]
     }
 
     /// Posts the work of the step that ended at `time`, by the trapezoidal rule.
-    fn post(&mut self, time: f64, dt: f64, ledger: &mut Ledger) {
-        let now = self.powers(time);
+    fn post(&mut self, drive: Drive, dt: f64, ledger: &mut Ledger) {
+        let now = self.powers(drive);
         let accounts = [Account::BaseWork, Account::ForceWork, Account::HostDamping];
         for (account, (old, new)) in accounts.into_iter().zip(self.power.into_iter().zip(now)) {
             ledger.post(account, 0.5 * dt * (old + new));
@@ -370,6 +368,14 @@ fn short_sine(x: f64) -> (f64, f64) {
     let s = x * x;
     let sine = x * (1.0 - s * C[0] * (1.0 - s * C[1] * (1.0 - s * C[2])));
     (sine, 1.0 - s * C[3] * (1.0 - s * C[4] * (1.0 - s * C[5])))
+}
+
+/// What drives a structure at one time: evaluated once a time level, for the motion and for the books.
+#[derive(Clone, Copy)]
+struct Drive {
+    y: f64,
+    y_rate: f64,
+    applied: f64,
 }
 
 type Matrices = (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>);

@@ -28,15 +28,13 @@ pub struct Case {
 /// All cases, in the order they are listed and run.
 pub static CASES: &[Case] = &[
     quick("restitution", "contact", "V-05: restitution in = restitution out, every damping form", contact::restitution),
-    quick("drop-dem", "drop", "V-06, A-F8: a ball dropped in a still box, by DEM", drop::dem),
-    quick("drop-lattice", "drop", "A-F8: the same by the automaton", drop::lattice),
+    quick("drop-dem", "damper-2003", "V-06, A-F8: a ball dropped in a still box, by DEM", drop::dem),
+    quick("drop-lattice", "damper-2003", "A-F8: the same by the automaton", drop::lattice),
     quick("lump", "shaken", "V-39: an inelastic ball locks to a shaken floor", lump::locking),
     quick("impact-damper", "damper", "V-60: one ball, two impacts a cycle", impact_damper::symmetric),
     quick("loss-factor", "damper", "the empty structure's loss factor by three ways", host::loss_factor),
     quick("added-mass", "damper", "V-65, A-7.1: a bed at rest is an added mass", host::added_mass),
     quick("ring-down", "damper", "loss factor with balls, driven and ringing down", host::loss_factor_with_grains),
-    quick("figure-8-dem", "damper-2003", "A-F8: drop test by DEM", drop::dem),
-    quick("figure-8-lattice", "damper-2003", "A-F8: drop test by the automaton", drop::lattice),
     quick("figure-9", "damper-2003", "A-F9, A-F10: shaken box, landing and lift-off", damper_2003::figure_9),
     long("figure-3a", "damper-2003", "A-F3a: response by DEM, literal law", damper_2003::figure_3a),
     long("figure-3b", "damper-2003", "A-F3b: the same with more wall friction", damper_2003::figure_3b),

@@ -20,8 +20,6 @@ pub struct Plane {
     pub carrier: Carrier,
     /// Index into the contact table.
     pub species: u32,
-    /// Index of the wall it belongs to, in the order of names.
-    pub wall: usize,
 }
 
 impl Plane {

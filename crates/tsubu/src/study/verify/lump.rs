@@ -40,6 +40,7 @@ fn flights(gamma: f64, spoiler: f64) -> Result<Vec<f64>, String> {
         "#
     );
     let mut plan = bench::plan(&text)?;
+    // No constant of the law enters an inelastic flight: here the spoiler acts on gravity.
     plan.gravity[2] *= spoiler;
     let mut hosts = Hosts::new(&plan.hosts);
     let mut engine = engine::open(&plan, &hosts).map_err(|e| e.to_string())?;

@@ -48,7 +48,6 @@ pub(in crate::study::verify) fn figure_12(_spoiler: f64) -> Result<Vec<Claim>, S
     let dem = series(FIGURE_3, &[])?;
     let coarse = series(FIGURE_11, &["lattice.mode=extended"])?;
     let fine = series(FIGURE_11, &["lattice.mode=extended", "lattice.time-step=20 us"])?;
-    let literal = series(FIGURE_11, &["lattice.mode=literal"])?;
     let source = "figure 12: DEM at 2e-5 s grows with N, the automaton stays flat; times are of this machine";
     let mut claims = Vec::new();
     for (name, seconds, low, high) in [
@@ -65,21 +64,5 @@ pub(in crate::study::verify) fn figure_12(_spoiler: f64) -> Result<Vec<Claim>, S
         ));
     }
     claims.push(Claim::judge("cost: DEM over automaton, 50 balls", dem[4] / coarse[4], Some(50.0), None, source));
-    for (name, seconds) in [
-        ("DEM at 2e-5 s", &dem),
-        ("automaton at 1e-4 s", &coarse),
-        ("automaton at 2e-5 s", &fine),
-        ("literal automaton at 1e-4 s", &literal),
-    ] {
-        for (count, value) in COUNTS.iter().zip(seconds) {
-            claims.push(Claim::judge(
-                format!("cost: s per period, {name}, {count} balls"),
-                *value,
-                Some(0.0),
-                None,
-                source,
-            ));
-        }
-    }
     Ok(claims)
 }
