@@ -5,7 +5,8 @@ use tsubu_scene::plan::Signal;
 /// Value and rate of change of a signal at time `t` [s].
 ///
 /// Sine: A sin(2 pi f t + p). Sine sweep: A sin(2 pi (f0 t + (f1 - f0) t^2 / (2 T))) for 0 <= t <= T, zero afterwards.
-/// Impact: P sin(pi (t - t0) / T) for t0 <= t <= t0 + T, zero elsewhere. Table: straight lines, constant outside.
+/// Impact: P sin(pi (t - t0) / T) for t0 <= t <= t0 + T, zero elsewhere. Steady: r t. Table: straight lines, constant
+/// outside.
 pub fn value_and_rate(signal: &Signal, t: f64) -> (f64, f64) {
     use std::f64::consts::{PI, TAU};
     match signal {
@@ -30,6 +31,7 @@ pub fn value_and_rate(signal: &Signal, t: f64) -> (f64, f64) {
             let (sin, cos) = (PI * phase).sin_cos();
             (peak * sin, peak * PI / duration * cos)
         }
+        Signal::Steady { rate } => (rate * t, *rate),
         Signal::Table { time, value } => table(time, value, t),
     }
 }
@@ -59,6 +61,7 @@ mod tests {
             Signal::Sine { amplitude: 0.5, frequency: 6.0, phase: 0.3 },
             Signal::SineSweep { amplitude: 0.5, from: 2.0, to: 9.0, duration: 1.0 },
             Signal::Impact { peak: 3.0, duration: 0.4, at: 0.1 },
+            Signal::Steady { rate: -2.0 },
             Signal::Table { time: vec![0.0, 0.25, 0.6], value: vec![1.0, -1.0, 2.0] },
         ];
         for signal in &signals {

@@ -54,6 +54,7 @@ pub fn planes(wall: &Wall, dimension: u8) -> Vec<(DVec3, DVec3)> {
             }
             planes
         }
+        Shape::Cylinder { .. } | Shape::Cone { .. } | Shape::Sphere { .. } | Shape::Mesh { .. } => Vec::new(),
     }
 }
 
@@ -69,5 +70,6 @@ pub fn outline(wall: &Wall) -> Vec<DVec3> {
             let (x, z) = (DVec3::X * (0.5 * width), DVec3::Z * *height);
             vec![c - x, c + x, c + x + z, c - x + z]
         }
+        Shape::Cylinder { .. } | Shape::Cone { .. } | Shape::Sphere { .. } | Shape::Mesh { .. } => Vec::new(),
     }
 }

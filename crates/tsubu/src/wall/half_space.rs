@@ -1,0 +1,33 @@
+//! Half-spaces: what planes and boxes are made of.
+
+use super::Pose;
+use super::nearest::{Feature, Nearest};
+use glam::DVec3;
+
+/// An endless plane with grains on the side of its normal; behind it, distances are negative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSpace {
+    /// A point on the plane [m].
+    pub point: DVec3,
+    /// Unit normal, towards the grains.
+    pub normal: DVec3,
+}
+
+impl HalfSpace {
+    /// Signed distance along the normal, and the foot of the perpendicular.
+    #[inline]
+    pub(super) fn nearest(&self, centre: DVec3) -> Nearest {
+        let distance = (centre - self.point).dot(self.normal);
+        Nearest { distance, normal: self.normal, point: centre - self.normal * distance, feature: Feature::Face }
+    }
+
+    /// How much the distance of any point within `extent` of the centre of rotation may have changed [m]:
+    /// d = n . (x - origin) - h changes by (n' - n) . (x - origin) - n' . (origin' - origin).
+    pub(super) fn travel(&self, pose: &Pose, reference: &Pose, extent: f64) -> f64 {
+        let normal = pose.direction(self.normal);
+        let tilt = (normal - reference.direction(self.normal)).length();
+        let along = normal.dot(pose.origin() - reference.origin()).abs();
+        // An endless plane that does not tilt has no lever, however far the grains are.
+        if tilt > 0.0 { along + tilt * extent } else { along }
+    }
+}

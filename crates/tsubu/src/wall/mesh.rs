@@ -1,0 +1,63 @@
+//! Triangles from a file.
+
+use super::Pose;
+use super::nearest::Nearest;
+use super::topology::{Topology, weld};
+use super::tree::Tree;
+use super::triangle::Triangle;
+use glam::DVec3;
+
+/// Over the diagonal of the mesh: corners nearer than this are one. Rounding of single-precision files is 6e-8.
+const WELD: f64 = 1e-7;
+
+/// A surface of triangles, touched from both sides.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    triangles: Vec<Triangle>,
+    pub(super) topology: Topology,
+    tree: Tree,
+    /// Corners nearer than this are one [m].
+    pub(super) tolerance: f64,
+    /// Greatest distance of a corner from the centre of rotation [m].
+    radius: f64,
+}
+
+impl Mesh {
+    /// Welds common corners, drops triangles that are lines, and prepares the search; `centre` is the centre of
+    /// rotation.
+    pub fn new(corners: &[[DVec3; 3]], centre: DVec3) -> Self {
+        let all = || corners.iter().flatten();
+        let low = all().fold(DVec3::INFINITY, |low, p| low.min(*p));
+        let high = all().fold(DVec3::NEG_INFINITY, |high, p| high.max(*p));
+        let tolerance = if corners.is_empty() { 0.0 } else { WELD * low.distance(high) };
+        let (triangles, vertices) = weld(corners, tolerance);
+        let tree = Tree::new(&triangles);
+        let topology = Topology::new(&triangles, vertices, &tree, tolerance);
+        let radius = triangles.iter().flat_map(|t| t.corners).map(|p| p.distance(centre)).fold(0.0, f64::max);
+        Self { triangles, topology, tree, tolerance, radius }
+    }
+
+    /// The triangles that are left; their indices are the elements.
+    pub fn triangles(&self) -> &[Triangle] {
+        &self.triangles
+    }
+
+    /// Adds the triangles within `reach` of a point to `out`.
+    pub(super) fn near(&self, centre: DVec3, reach: f64, out: &mut Vec<u32>) {
+        self.tree.near(centre, reach, |t| {
+            if self.triangles[t as usize].nearest(centre).distance < reach {
+                out.push(t);
+            }
+        });
+        out.sort_unstable();
+    }
+
+    pub(super) fn nearest(&self, element: u32, centre: DVec3) -> Nearest {
+        self.triangles[element as usize].nearest(centre)
+    }
+
+    /// How far any point may have moved [m].
+    pub(super) fn travel(&self, pose: &Pose, reference: &Pose) -> f64 {
+        (pose.offset - reference.offset).length() + pose.turn_since(reference) * self.radius
+    }
+}

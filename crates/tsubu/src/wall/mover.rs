@@ -1,0 +1,94 @@
+//! Who moves a wall: nobody, a motion given in advance, a host, or the grains themselves.
+
+use super::{Body, Pose, Servo};
+use crate::motion::value_and_rate;
+use crate::partner::Hosts;
+use glam::{DQuat, DVec3};
+use tsubu_scene::plan::{self, Signal};
+
+/// What displaces a wall.
+#[derive(Clone, Debug)]
+pub enum Mover {
+    /// Nothing does.
+    Still,
+    /// A displacement along a direction, given in advance.
+    Motion(DVec3, Signal),
+    /// A host (index into [`Hosts::list`]), along the host's direction.
+    Host(usize, DVec3),
+    /// A constant force against the grains.
+    Servo(Servo),
+    /// The grains and gravity alone: a free body, which turns too.
+    Body(Body),
+}
+
+/// Turning about a fixed axis, given in advance.
+#[derive(Clone, Debug)]
+pub struct Turning {
+    /// Unit direction of the axis.
+    pub axis: DVec3,
+    /// Angle [rad] against time.
+    pub signal: Signal,
+}
+
+/// Energy that a servo exchanged with the outside in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Exchange {
+    /// Work of the constant force [J].
+    pub work: f64,
+    /// Lost in the damper [J].
+    pub lost: f64,
+}
+
+impl Mover {
+    pub(super) fn new(wall: &plan::Wall, hosts: &Hosts, gravity: DVec3) -> Self {
+        if let Some(index) = wall.host.as_deref().and_then(|name| hosts.index(name)) {
+            return Self::Host(index, DVec3::from_array(hosts.list[index].direction));
+        }
+        if let Some(servo) = &wall.servo {
+            return Self::Servo(Servo::new(servo));
+        }
+        if let Some(body) = &wall.body {
+            return Self::Body(Body::new(body, gravity));
+        }
+        match &wall.motion {
+            Some(motion) => Self::Motion(DVec3::from_array(motion.direction), motion.signal.clone()),
+            None => Self::Still,
+        }
+    }
+
+    /// Puts displacement and velocity (of a body also rotation and spin) into a pose; a host's, servo's and body's are
+    /// those it has now.
+    pub(super) fn place(&self, time: f64, hosts: &Hosts, pose: &mut Pose) {
+        let (direction, (value, rate)) = match self {
+            Self::Still => return,
+            Self::Motion(direction, signal) => (*direction, value_and_rate(signal, time)),
+            Self::Host(index, direction) => {
+                let host = &hosts.list[*index];
+                (*direction, (host.displacement(), host.velocity()))
+            }
+            Self::Servo(servo) => (servo.direction, (servo.displacement(), servo.velocity())),
+            Self::Body(body) => {
+                pose.offset = body.centre() - body.drawn_centre();
+                pose.velocity = body.velocity();
+                pose.rotation = body.rotation();
+                pose.spin = body.spin();
+                return;
+            }
+        };
+        pose.offset = direction * value;
+        pose.velocity = direction * rate;
+    }
+}
+
+impl Turning {
+    pub(super) fn new(rotation: &plan::Rotation) -> Self {
+        Self { axis: DVec3::from_array(rotation.axis), signal: rotation.signal.clone() }
+    }
+
+    /// Puts rotation and spin into a pose.
+    pub(super) fn place(&self, time: f64, pose: &mut Pose) {
+        let (angle, rate) = value_and_rate(&self.signal, time);
+        pose.rotation = DQuat::from_axis_angle(self.axis, angle);
+        pose.spin = self.axis * rate;
+    }
+}

@@ -1,0 +1,115 @@
+//! What a wall looks like in pictures.
+
+use super::frustum::Frustum;
+use super::shell::SphericalShell;
+use super::{Pose, Surface, plane};
+use glam::DVec3;
+use std::f64::consts::{PI, TAU};
+use tsubu_scene::plan;
+
+/// Pieces of a full circle.
+const PIECES: usize = 72;
+
+/// Lines and triangles of a wall, for pictures only.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outline {
+    /// Closed lines by their corners [m]; two corners are a straight line.
+    pub lines: Vec<Vec<DVec3>>,
+    /// Triangles [m].
+    pub triangles: Vec<[DVec3; 3]>,
+}
+
+impl Outline {
+    /// As drawn: lines in the plane, surfaces in space; boxes and planes are lines in both. Endless things are cut off:
+    /// a plane is 1 m long, a cylinder four radii about the foot of its point.
+    pub(super) fn new(wall: &plan::Wall, surface: &Surface, dimension: u8) -> Self {
+        match (surface, dimension) {
+            (Surface::HalfSpaces { .. }, _) => Self { lines: vec![plane::outline(wall)], triangles: Vec::new() },
+            (Surface::Frustum(frustum), 2) => Self { lines: section(frustum), triangles: Vec::new() },
+            (Surface::Frustum(frustum), _) => Self { lines: Vec::new(), triangles: skin(frustum) },
+            (Surface::Shell(shell), 2) => {
+                Self { lines: vec![circle(shell.centre, shell.radius)], triangles: Vec::new() }
+            }
+            (Surface::Shell(shell), _) => Self { lines: Vec::new(), triangles: globe(shell) },
+            (Surface::Mesh(mesh), _) => {
+                Self { lines: Vec::new(), triangles: mesh.triangles().iter().map(|t| t.corners).collect() }
+            }
+        }
+    }
+
+    /// Where it is now.
+    pub(super) fn placed(&self, pose: &Pose) -> Self {
+        let place = |p: DVec3| pose.to_world(p);
+        Self {
+            lines: self.lines.iter().map(|line| line.iter().copied().map(place).collect()).collect(),
+            triangles: self.triangles.iter().map(|t| t.map(place)).collect(),
+        }
+    }
+}
+
+/// A circle in the plane (x, z).
+fn circle(centre: DVec3, radius: f64) -> Vec<DVec3> {
+    let at = |k: usize| TAU * k as f64 / PIECES as f64;
+    (0..PIECES).map(|k| centre + radius * DVec3::new(at(k).cos(), 0.0, at(k).sin())).collect()
+}
+
+/// Centres of both ends of a frustum.
+fn ends(frustum: &Frustum) -> [DVec3; 2] {
+    match frustum.length {
+        Some(length) => [frustum.point, frustum.point + frustum.axis * length],
+        None => [-2.0, 2.0].map(|s| frustum.point + frustum.axis * (s * frustum.radius[0])),
+    }
+}
+
+/// Where the plane (x, z) cuts a frustum: a circle, or two straight lines.
+fn section(frustum: &Frustum) -> Vec<Vec<DVec3>> {
+    let across = frustum.axis.cross(DVec3::Y);
+    if across.length_squared() < 1e-12 {
+        return vec![circle(frustum.point, frustum.radius[0])];
+    }
+    let across = across.normalize();
+    let [start, end] = ends(frustum);
+    let [r0, r1] = frustum.radius;
+    [1.0, -1.0].map(|side| vec![start + across * (side * r0), end + across * (side * r1)]).to_vec()
+}
+
+/// The curved surface in strips from end to end.
+fn skin(frustum: &Frustum) -> Vec<[DVec3; 3]> {
+    let u = frustum.across_axis();
+    let v = frustum.axis.cross(u);
+    let [start, end] = ends(frustum);
+    let [r0, r1] = frustum.radius;
+    let around = |k: usize| {
+        let (sin, cos) = (TAU * k as f64 / PIECES as f64).sin_cos();
+        u * cos + v * sin
+    };
+    let mut triangles = Vec::new();
+    for k in 0..PIECES {
+        let (a, b) = (around(k), around(k + 1));
+        quad(&mut triangles, [start + a * r0, start + b * r0, end + b * r1, end + a * r1]);
+    }
+    triangles
+}
+
+/// A sphere by longitude and latitude.
+fn globe(shell: &SphericalShell) -> Vec<[DVec3; 3]> {
+    let at = |i: usize, j: usize| {
+        let (sin, cos) = (TAU * i as f64 / PIECES as f64).sin_cos();
+        let (sin_height, cos_height) = (TAU * j as f64 / PIECES as f64 - 0.5 * PI).sin_cos();
+        shell.centre + shell.radius * DVec3::new(cos * cos_height, sin * cos_height, sin_height)
+    };
+    let mut triangles = Vec::new();
+    for j in 0..PIECES / 2 {
+        for i in 0..PIECES {
+            quad(&mut triangles, [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
+        }
+    }
+    triangles
+}
+
+/// Two triangles; one or none where corners fall together at a tip or pole.
+fn quad(triangles: &mut Vec<[DVec3; 3]>, [a, b, c, d]: [DVec3; 4]) {
+    let halves = [[a, b, c], [a, c, d]];
+    let tiny = 1e-12 * a.distance_squared(c);
+    triangles.extend(halves.into_iter().filter(|[a, b, c]| (*b - *a).cross(*c - *a).length() > tiny));
+}

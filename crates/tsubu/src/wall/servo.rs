@@ -1,0 +1,94 @@
+//! A wall that a constant force pushes against the grains.
+//!
+//! M s'' = F - c s' + F_grains, s the displacement along the guide; velocity Verlet in step with the grains, the damper
+//! implicit, so any c is stable.
+
+use super::mover::Exchange;
+use glam::DVec3;
+use tsubu_frame::State;
+use tsubu_frame::state::MissingSection;
+use tsubu_scene::plan;
+
+/// A mass on a guide.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Servo {
+    /// Unit direction of the guide and of the force.
+    pub direction: DVec3,
+    force: f64,
+    mass: f64,
+    damping: f64,
+    displacement: f64,
+    velocity: f64,
+    velocity_half: f64,
+    acceleration: f64,
+}
+
+impl Servo {
+    /// At rest where it was drawn, without grain forces.
+    pub fn new(plan: &plan::Servo) -> Self {
+        Self {
+            direction: DVec3::from_array(plan.direction),
+            force: plan.force,
+            mass: plan.mass,
+            damping: plan.damping,
+            displacement: 0.0,
+            velocity: 0.0,
+            velocity_half: 0.0,
+            acceleration: plan.force / plan.mass,
+        }
+    }
+
+    /// Displacement s [m].
+    pub fn displacement(&self) -> f64 {
+        self.displacement
+    }
+
+    /// Velocity s' [m/s]; between `before` and `after` the one predicted for the end of the step.
+    pub fn velocity(&self) -> f64 {
+        self.velocity
+    }
+
+    /// Kinetic energy [J].
+    pub fn kinetic(&self) -> f64 {
+        0.5 * self.mass * self.velocity * self.velocity
+    }
+
+    /// Takes the force of the grains at time 0 [N].
+    pub fn start(&mut self, grain_force: DVec3) {
+        let net = self.force - self.damping * self.velocity + grain_force.dot(self.direction);
+        self.acceleration = net / self.mass;
+    }
+
+    /// First half of a step: half kick and drift; the velocity becomes a prediction.
+    pub fn before(&mut self, dt: f64) {
+        self.velocity_half = self.velocity + 0.5 * dt * self.acceleration;
+        self.displacement += dt * self.velocity_half;
+        self.velocity = self.velocity_half + 0.5 * dt * self.acceleration;
+    }
+
+    /// Second half: the grains' force [N] is known. Returns the work of the step by the trapezoidal rule.
+    pub fn after(&mut self, grain_force: DVec3, dt: f64) -> Exchange {
+        let old = self.velocity_half - 0.5 * dt * self.acceleration;
+        let net = self.force - self.damping * self.velocity_half + grain_force.dot(self.direction);
+        self.acceleration = net / (self.mass + 0.5 * dt * self.damping);
+        self.velocity = self.velocity_half + 0.5 * dt * self.acceleration;
+        Exchange {
+            work: 0.5 * dt * self.force * (old + self.velocity),
+            lost: 0.5 * dt * self.damping * (old * old + self.velocity * self.velocity),
+        }
+    }
+
+    /// Writes itself into a checkpoint.
+    pub fn save(&self, name: &str, state: &mut State) {
+        state.put_real(name, vec![self.displacement, self.velocity, self.acceleration]);
+    }
+
+    /// Takes itself back from a checkpoint.
+    pub fn load(&mut self, name: &str, state: &State) -> Result<(), MissingSection> {
+        let &[displacement, velocity, acceleration] = state.real(name)? else {
+            return Err(MissingSection { name: name.to_owned(), kind: "real" });
+        };
+        (self.displacement, self.velocity, self.acceleration) = (displacement, velocity, acceleration);
+        Ok(())
+    }
+}
