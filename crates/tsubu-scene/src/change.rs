@@ -5,7 +5,7 @@
 //! one in the file, and a misspelt path must not silently add a table.
 
 use crate::complaint::{Complaint, Place};
-use crate::keys::{self, Key, Kind};
+use crate::keys::{self, Key, Kind, Variant};
 use crate::node::{self, Entry, Node, Table, Value};
 use crate::resolve::unknown_key;
 use crate::suggest;
@@ -96,18 +96,19 @@ fn put(table: &mut Table, keys: &'static [Key], path: &str, steps: &[Step], valu
         Kind::Table(inner) => put(child(table, step)?, inner, &here, rest, value),
         Kind::Named(inner, _) => put_named(child(table, step)?, inner, &here, rest, value),
         Kind::Many(inner) => put_in_list(table, inner, step, &here, rest, value),
-        Kind::Choice(variants) => {
-            let Some(variant) = variants.iter().find(|variant| variant.name == rest[0].name) else {
-                let names = variants.iter().map(|variant| variant.name);
-                return Err(unknown_word(&rest[0], &here, names));
-            };
-            let chosen = child(table, step)?;
-            chosen.entries.retain(|entry| entry.key == variant.name);
-            if rest.len() == 1 {
-                chosen.set(Entry { key: variant.name.to_string(), place: rest[0].place.clone(), node: value });
+        Kind::Choice(variants) => put_choice(child(table, step)?, variants, &here, rest, value),
+        Kind::NamedChoice(variants, _) => {
+            let named = child(table, step)?;
+            let [step, rest @ ..] = rest else { return Ok(()) };
+            if rest.is_empty() {
+                named.set(Entry { key: step.name.clone(), place: step.place.clone(), node: value });
                 return Ok(());
             }
-            put(child(chosen, &rest[0])?, variant.keys, &join(&here, variant.name), &rest[1..], value)
+            if named.entry(&step.name).is_none() {
+                let names: Vec<&str> = named.keys().collect();
+                return Err(unknown_word(step, &here, names.into_iter()));
+            }
+            put_choice(child(named, step)?, variants, &join(&here, &step.name), rest, value)
         }
         Kind::Vary => {
             let names: Vec<&str> = rest.iter().map(|step| step.name.as_str()).collect();
@@ -117,6 +118,26 @@ fn put(table: &mut Table, keys: &'static [Key], path: &str, steps: &[Step], valu
         }
         _ => Err(Complaint::new(format!("`{here}` has no keys of its own")).at(&rest[0].place, "this leads nowhere")),
     }
+}
+
+/// The variant named first takes the place of the one that was chosen.
+fn put_choice(
+    chosen: &mut Table,
+    variants: &'static [Variant],
+    path: &str,
+    steps: &[Step],
+    value: Node,
+) -> Result<(), Complaint> {
+    let [step, rest @ ..] = steps else { return Ok(()) };
+    let Some(variant) = variants.iter().find(|variant| variant.name == step.name) else {
+        return Err(unknown_word(step, path, variants.iter().map(|variant| variant.name)));
+    };
+    chosen.entries.retain(|entry| entry.key == variant.name);
+    if rest.is_empty() {
+        chosen.set(Entry { key: variant.name.to_string(), place: step.place.clone(), node: value });
+        return Ok(());
+    }
+    put(child(chosen, step)?, variant.keys, &join(path, variant.name), rest, value)
 }
 
 fn put_named(

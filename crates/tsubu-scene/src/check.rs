@@ -5,7 +5,9 @@
 mod host;
 mod place;
 
+use crate::attach;
 use crate::complaint::Complaint;
+use crate::files::Files;
 use crate::node::Node;
 use crate::plan::{Claim, Host, MaterialPair, Particles, Signal, Wall};
 use serde::de::DeserializeOwned;
@@ -23,13 +25,16 @@ pub(crate) struct Parts<'a> {
 }
 
 /// All complaints that need more than one value.
-pub(crate) fn check(resolved: &toml::Table, root: &Node) -> Vec<Complaint> {
-    let particles = named(resolved, "particles");
-    let walls = named(resolved, "walls");
+pub(crate) fn check(resolved: &toml::Table, root: &Node, files: &Files) -> Vec<Complaint> {
+    let mut particles = named(resolved, "particles");
+    let mut walls = named(resolved, "walls");
     let hosts = named(resolved, "hosts");
     let typed = |key: &str| resolved.get(key).and_then(toml::Value::as_table).map_or(0, toml::Table::len);
     let incomplete =
         particles.len() != typed("particles") || walls.len() != typed("walls") || hosts.len() != typed("hosts");
+    let space = resolved.get("dimension").and_then(toml::Value::as_integer) == Some(3);
+    attach::grains(&mut particles, files, space);
+    attach::meshes(&mut walls, files);
     let parts = Parts { root, resolved, particles, walls, hosts, incomplete };
     let mut complaints = Vec::new();
     place::check(&parts, &mut complaints);
@@ -70,11 +75,13 @@ fn pairs(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
                     .also(&parts.root.locate(&["material-pair", &first, "between"]), "given here"),
             );
         }
-        if pair.restitution.is_none() && pair.friction.is_none() && pair.rolling_friction.is_none() {
+        let MaterialPair { between: _, restitution, friction, rolling_friction, twisting_friction, .. } = &pair;
+        let values = [restitution, friction, rolling_friction, twisting_friction, &pair.surface_energy, &pair.cohesion];
+        if values.iter().all(|value| value.is_none()) {
             complaints.push(
                 Complaint::new(format!("{title} changes nothing"))
                     .at(&place, "no value for this pair")
-                    .hint("give `restitution`, `friction` or `rolling-friction`"),
+                    .hint("give at least one of `restitution`, `friction`, `rolling-friction`, `twisting-friction`, `surface-energy`, `cohesion`"),
             );
         }
     }

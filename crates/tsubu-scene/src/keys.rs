@@ -5,11 +5,14 @@
 //! an editor without another line of code.
 
 mod contact;
+mod grains;
 mod hosts;
 mod methods;
 mod study;
+mod walls;
 mod world;
 
+pub(crate) use grains::PARTICLES;
 pub use world::SCENE;
 
 use crate::units::Dimension;
@@ -48,14 +51,22 @@ pub enum Kind {
     Vector(&'static Dimension),
     /// A list of vectors.
     Vectors(&'static Dimension),
+    /// Something that belongs to turning: in the plane a number (about y), in space a vector.
+    Turning(&'static Dimension),
     /// A list of spins: in the plane numbers (about y), in space vectors.
     Spins,
     /// A unit vector: "x", "-z", or a vector of any length but zero.
     Direction,
+    /// A direction that may be y in the plane too: an axis of turning, or of a cylinder seen from its end.
+    Axis,
     /// Gravity: a number (downward) or a vector.
     Gravity,
     /// A list of quantities.
     Quantities(&'static Dimension),
+    /// Two quantities, the first below the second.
+    Ends(&'static Dimension),
+    /// The strength of attraction; whether a force or an energy density, the cohesion part of the scene says.
+    Cohesion,
     /// A square matrix of quantities, row by row.
     Matrix(&'static Dimension),
     /// A rising list of positive numbers, or `{ from, to, step }`.
@@ -72,6 +83,8 @@ pub enum Kind {
     Many(&'static [Key]),
     /// Exactly one of several named tables.
     Choice(&'static [Variant]),
+    /// Choices under names the user chooses; the text says what one of them is.
+    NamedChoice(&'static [Variant], &'static str),
     /// Scene keys (quoted) with the lists of values they take.
     Vary,
 }
@@ -253,7 +266,8 @@ pub(crate) fn walk(visit: &mut dyn FnMut(&str, &'static [Key])) {
             match key.kind {
                 Kind::Table(keys) | Kind::Many(keys) => inner(&here, keys, visit),
                 Kind::Named(keys, _) => inner(&format!("{here}.NAME"), keys, visit),
-                Kind::Choice(variants) => {
+                Kind::Choice(variants) | Kind::NamedChoice(variants, _) => {
+                    let here = if matches!(key.kind, Kind::Choice(_)) { here } else { format!("{here}.NAME") };
                     for variant in variants {
                         inner(&format!("{here}.{}", variant.name), variant.keys, visit);
                     }

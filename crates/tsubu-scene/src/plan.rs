@@ -44,6 +44,12 @@ pub struct Plan {
     /// Walls by name.
     #[serde(default)]
     pub walls: BTreeMap<String, Wall>,
+    /// Axes along which the world repeats itself.
+    #[serde(default)]
+    pub periodic: Periodic,
+    /// Regions in which grains vanish, by name.
+    #[serde(default)]
+    pub removal: BTreeMap<String, Removal>,
     /// Vibrating structures by name.
     #[serde(default)]
     pub hosts: BTreeMap<String, Host>,
@@ -96,8 +102,14 @@ pub struct Material {
     pub restitution: f64,
     /// Coulomb friction coefficient against the same material [-].
     pub friction: f64,
-    /// Rolling friction coefficient against the same material [-].
+    /// Rolling friction coefficient against the same material [-]; for `contact.rolling.contact-width` the factor f'.
     pub rolling_friction: f64,
+    /// Twisting friction coefficient against the same material [-].
+    pub twisting_friction: f64,
+    /// Surface energy gamma of one face [J/m^2]: two like bodies part at 4 pi gamma R* (DMT), 3 pi gamma R* (JKR).
+    pub surface_energy: f64,
+    /// Attraction of the constant and of the area kinds of cohesion: force [N] or energy density [Pa], as the part says.
+    pub cohesion: f64,
     /// Density [kg/m^3]; needed where a grain group gives no mass.
     pub density: Option<f64>,
 }
@@ -114,9 +126,15 @@ pub struct MaterialPair {
     pub friction: Option<f64>,
     /// Rolling friction coefficient [-].
     pub rolling_friction: Option<f64>,
+    /// Twisting friction coefficient [-].
+    pub twisting_friction: Option<f64>,
+    /// Surface energy gamma of one face [J/m^2].
+    pub surface_energy: Option<f64>,
+    /// Cohesion, in the unit of the cohesion part.
+    pub cohesion: Option<f64>,
 }
 
-/// A group of equal spheres.
+/// A group of grains of one material.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Particles {
@@ -124,12 +142,128 @@ pub struct Particles {
     pub material: String,
     /// Number of grains; with `start.at` the number of positions.
     pub count: usize,
-    /// Diameter [m].
+    /// Diameter [m]; with a size distribution or a file, the mean.
     pub diameter: f64,
-    /// Mass of one grain [kg]: given, or from density and diameter.
+    /// Mass of a grain of that diameter [kg]: given, or from density and diameter. Others scale with their volume.
     pub mass: f64,
+    /// Sphere or disc.
+    pub shape: GrainShape,
+    /// How the diameters are distributed.
+    pub size: Size,
     /// Where they begin.
     pub start: Start,
+    /// Free, frozen in place, or moved as told.
+    pub motion: GrainMotion,
+}
+
+/// What a grain is, for its mass and its moment of inertia; contacts are those of spheres either way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum GrainShape {
+    /// Mass pi/6 rho d^3, moment of inertia 2/5 m r^2.
+    Sphere {},
+    /// Mass pi/4 rho d^2 h, moment of inertia 1/2 m r^2; only in the plane.
+    Disc {
+        /// Thickness h [m].
+        thickness: f64,
+    },
+}
+
+/// Distribution of diameters within a group.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Size {
+    /// All have the group's `diameter`.
+    Equal {},
+    /// Every diameter between two is as likely.
+    Uniform {
+        /// Smallest diameter [m].
+        smallest: f64,
+        /// Largest diameter [m].
+        largest: f64,
+    },
+    /// Normal, cut at `cut` deviations on both sides.
+    Normal {
+        /// Mean diameter [m].
+        mean: f64,
+        /// Standard deviation [m].
+        deviation: f64,
+        /// Where the tails are cut, in deviations [-].
+        cut: f64,
+    },
+    /// Log-normal: ln d is normal around ln(median), cut at `cut` deviations on both sides.
+    LogNormal {
+        /// Median diameter [m].
+        median: f64,
+        /// Standard deviation of ln d [-].
+        deviation: f64,
+        /// Where the tails are cut, in deviations [-].
+        cut: f64,
+    },
+    /// A sieve curve: share of the mass that passes each sieve, straight between sieves.
+    Sieve {
+        /// Sieve openings [m], rising.
+        diameter: Vec<f64>,
+        /// Share of the mass that passes [-], rising from 0 to 1.
+        passing: Vec<f64>,
+    },
+}
+
+/// Who moves the grains of a group.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum GrainMotion {
+    /// Forces do.
+    Free {},
+    /// Nobody: they stay where they are, of infinite mass to others.
+    Frozen {},
+    /// A displacement given in advance; they do not spin, of infinite mass to others.
+    Driven {
+        /// Unit direction.
+        direction: Vector,
+        /// Displacement [m] against time.
+        signal: Signal,
+    },
+}
+
+/// An axis-parallel box of space. In the plane the y entries are zero and not looked at.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Region {
+    /// Corner with the smallest coordinates [m].
+    pub low: Vector,
+    /// Corner with the largest coordinates [m].
+    pub high: Vector,
+}
+
+/// Axes along which the world repeats: a grain that leaves at one end comes in at the other.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Periodic {
+    /// Ends along x [m], low and high.
+    pub x: Option<[f64; 2]>,
+    /// Ends along y [m]; not in the plane.
+    pub y: Option<[f64; 2]>,
+    /// Ends along z [m].
+    pub z: Option<[f64; 2]>,
+}
+
+/// Where grains vanish. They are looked for at every search of neighbours, so a grain may go a little way in.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Removal {
+    /// Centres inside a box.
+    Inside {
+        /// The box.
+        region: Region,
+    },
+    /// Centres behind a plane.
+    Behind {
+        /// A point on the plane [m].
+        point: Vector,
+        /// Unit normal, away from where grains vanish.
+        normal: Vector,
+    },
 }
 
 /// How grains are placed.
@@ -149,6 +283,42 @@ pub enum Start {
         jitter: f64,
         /// Speed of each grain in a random direction [m/s].
         speed: f64,
+        /// Where; `None`: the inside of the box.
+        region: Option<Region>,
+    },
+    /// Anywhere in a region, without overlap.
+    Random {
+        /// Where centres may lie, less a radius; `None`: the inside of the box.
+        region: Option<Region>,
+        /// Velocity of all [m/s].
+        velocity: Vector,
+        /// Speed of each grain in a random direction, added [m/s].
+        speed: f64,
+    },
+    /// Not there at first: put into a region one after the other, where there is room, without overlap.
+    Stream {
+        /// Where.
+        region: Region,
+        /// Grains per second.
+        rate: f64,
+        /// Velocity they come with [m/s].
+        velocity: Vector,
+        /// Speed of each grain in a random direction, added [m/s].
+        speed: f64,
+        /// When the first comes [s].
+        from: f64,
+    },
+    /// Places (and, where the file has them, diameters, velocities and spins) from a file.
+    File {
+        /// Name of the file's copy in the run folder (see `Scene::companions`).
+        path: String,
+        /// Which atom type of a LAMMPS data file; `None`: all of them.
+        kind: Option<u32>,
+        /// What tells one file from another: CRC-32 of its bytes, in hex.
+        fingerprint: String,
+        /// What the file says.
+        #[serde(skip)]
+        grains: std::sync::Arc<GrainTable>,
     },
     /// Given places.
     At {
@@ -161,6 +331,19 @@ pub enum Start {
     },
 }
 
+/// Grains read from a file. Columns other than `position` may be empty: the group's values hold then.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GrainTable {
+    /// Centres [m].
+    pub position: Vec<Vector>,
+    /// Diameters [m].
+    pub diameter: Vec<f64>,
+    /// Velocities [m/s].
+    pub velocity: Vec<Vector>,
+    /// Spins [rad/s].
+    pub spin: Vec<Vector>,
+}
+
 /// A wall, still, moved, or carried by a host.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
@@ -171,8 +354,56 @@ pub struct Wall {
     pub shape: Shape,
     /// The host that carries it.
     pub host: Option<String>,
-    /// Prescribed motion; not together with `host`.
+    /// Prescribed motion; not together with `host`, `servo` or `body`.
     pub motion: Option<Motion>,
+    /// Prescribed turning, alone or together with `motion`.
+    pub rotation: Option<Rotation>,
+    /// A wall that a constant force pushes against the grains.
+    pub servo: Option<Servo>,
+    /// A free rigid body under gravity and the grains' forces.
+    pub body: Option<Body>,
+}
+
+/// Turning about a fixed axis: right-handed angle against time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Rotation {
+    /// A point on the axis [m].
+    pub centre: Vector,
+    /// Unit direction of the axis.
+    pub axis: Vector,
+    /// Angle [rad] against time.
+    pub signal: Signal,
+}
+
+/// A wall of mass M on a guide: M s'' = F - c s' + F_grains along the direction, s its displacement.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Servo {
+    /// Unit direction of the force and of the guide.
+    pub direction: Vector,
+    /// Constant force F [N]: given, or `pressure` times `area`.
+    pub force: f64,
+    /// Moving mass M [kg].
+    pub mass: f64,
+    /// Damping c [N.s/m].
+    pub damping: f64,
+}
+
+/// A free rigid body: six degrees of freedom.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Body {
+    /// Mass [kg].
+    pub mass: f64,
+    /// Principal moments of inertia about the scene's axes at time 0 [kg.m^2].
+    pub inertia: Vector,
+    /// Centre of mass at time 0 [m].
+    pub centre: Vector,
+    /// Velocity of the centre at time 0 [m/s].
+    pub velocity: Vector,
+    /// Spin at time 0 [rad/s].
+    pub spin: Vector,
 }
 
 /// Geometry of a wall.
@@ -196,6 +427,51 @@ pub enum Shape {
         point: Vector,
         /// Unit normal, towards the grains.
         normal: Vector,
+    },
+    /// The curved surface of a cylinder, open at the ends; grains may touch it from inside and outside.
+    Cylinder {
+        /// Centre of one end [m].
+        point: Vector,
+        /// Unit direction of the axis, from that end into the cylinder.
+        axis: Vector,
+        /// Radius [m].
+        radius: f64,
+        /// Length [m]; `None`: endless both ways.
+        length: Option<f64>,
+    },
+    /// The curved surface of a cone or of a piece of one, open at the ends, touched from both sides.
+    Cone {
+        /// Centre of one end [m].
+        point: Vector,
+        /// Unit direction of the axis, from that end to the other.
+        axis: Vector,
+        /// Radius at that end [m]; may be 0.
+        radius: f64,
+        /// Radius at the other end [m]; may be 0.
+        end_radius: f64,
+        /// Length along the axis [m].
+        length: f64,
+    },
+    /// A spherical shell, touched from both sides.
+    Sphere {
+        /// Centre [m].
+        centre: Vector,
+        /// Radius [m].
+        radius: f64,
+    },
+    /// Triangles from an STL or OBJ file, touched from both sides.
+    Mesh {
+        /// Name of the file's copy in the run folder (see `Scene::companions`).
+        path: String,
+        /// What tells one file from another: CRC-32 of its bytes, in hex.
+        fingerprint: String,
+        /// Factor on the file's coordinates [-], for files in millimetres 0.001.
+        scale: f64,
+        /// Displacement after scaling [m].
+        shift: Vector,
+        /// The corners of each triangle [m], scaled and shifted.
+        #[serde(skip)]
+        triangles: std::sync::Arc<Vec<[Vector; 3]>>,
     },
 }
 
@@ -241,6 +517,11 @@ pub enum Signal {
         duration: f64,
         /// Begin [s].
         at: f64,
+    },
+    /// rate t: steady translation or turning.
+    Steady {
+        /// Rate [m/s] or [rad/s] (or [N/s]).
+        rate: f64,
     },
     /// Straight lines between given points, constant outside. Read from a CSV file (`file`), kept here as numbers.
     Table {
@@ -331,6 +612,10 @@ pub struct Contact {
     pub tangential: Tangential,
     /// Rolling resistance.
     pub rolling: Rolling,
+    /// Resistance against turning about the normal.
+    pub twisting: Twisting,
+    /// Attraction.
+    pub cohesion: Cohesion,
     /// Whether grains spin.
     pub rotation: bool,
 }
@@ -366,6 +651,16 @@ pub enum Damping {
         /// Impact speed at which the restitution is the materials' [m/s].
         reference_speed: f64,
     },
+    /// rate m* d', whatever the restitution (the `mass_velocity` damping of other codes).
+    Rate {
+        /// Damping coefficient over reduced mass [1/s].
+        rate: f64,
+    },
+    /// c d', one c for all contacts, whatever the restitution (Osada 2004).
+    Dashpot {
+        /// c [N.s/m].
+        coefficient: f64,
+    },
 }
 
 /// Tangential force.
@@ -380,7 +675,31 @@ pub enum Tangential {
         smoothing_speed: f64,
     },
     /// Mindlin's spring with history, capped at mu f_n.
-    Mindlin {},
+    Mindlin {
+        /// How force and slip belong together.
+        form: MindlinForm,
+        /// Tangential over normal dashpot [-]; `None`: equal damping ratios.
+        damping: Option<f64>,
+    },
+    /// A linear spring with history and a dashpot, capped at mu f_n + c b (Cundall and Strack 1979; Osada 2004).
+    Spring {
+        /// k_t over the stiffness of `contact.normal.hooke` [-].
+        ratio: f64,
+        /// Tangential over normal dashpot [-].
+        damping: f64,
+        /// Grain-level cohesion c: the tangential force may reach mu f_n plus this [N].
+        cohesion: f64,
+    },
+}
+
+/// Which reading of Mindlin's no-slip solution is used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MindlinForm {
+    /// dF = -k_t(d) dx, F scaled down on unloading (Thornton, Cummins, Cleary 2013).
+    Incremental,
+    /// F = -k_t(d) x, x the whole slip (the form behind the curves of Chung and Ooi 2011).
+    Secant,
 }
 
 /// Rolling resistance.
@@ -394,6 +713,63 @@ pub enum Rolling {
         /// Rolling speed below which the torque fades [m/s].
         smoothing_speed: f64,
     },
+    /// Torque coefficient times the rolling, without a limit (model B of Ai 2011).
+    Viscous {
+        /// Torque over (mu_r R f_n) at a rolling speed of 1 m/s [s/m].
+        coefficient: f64,
+    },
+    /// Elastic-plastic spring-dashpot (EPSD, model C of Ai 2011): k_r = ratio k_n (mu_r R)^2, capped at mu_r R f_n.
+    Epsd {
+        /// 2.25 in space, 3 in the plane [-].
+        ratio: f64,
+        /// Damping ratio of the rolling spring [-].
+        damping_ratio: f64,
+    },
+    /// The same without a dashpot, k_r = k_t R^2 (EPSD2).
+    Epsd2 {},
+    /// Rolling spring-dashpot-slider on the rolling displacement: force k x + c v, capped at mu_r f_n, at arm R (Luding 2008).
+    Spring {
+        /// k [N/m].
+        stiffness: f64,
+        /// c [N.s/m].
+        damping: f64,
+    },
+    /// Torque f' b f_n, b the half width of contact (Osada 2004).
+    ContactWidth {
+        /// Rolling speed below which the torque fades [m/s].
+        smoothing_speed: f64,
+    },
+}
+
+/// Resistance against relative spin about the normal.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Twisting {
+    /// None.
+    None {},
+    /// Torque 2/3 mu_t a f_n against the twisting, a the contact radius, fading below a small rate.
+    Sliding {
+        /// Spin below which the torque fades [rad/s].
+        smoothing_spin: f64,
+    },
+    /// Spring k_t a^2 / 2 on the angle of twist, capped at 2/3 mu_t a f_n (Marshall 2009).
+    Spring {},
+}
+
+/// Attraction between bodies in contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Cohesion {
+    /// None.
+    None {},
+    /// Hertz less 4 pi gamma R* (Derjaguin, Muller, Toporov 1975).
+    Dmt {},
+    /// Johnson, Kendall, Roberts 1971: replaces Hertz; holds on beyond the geometric contact until pull-off.
+    Jkr {},
+    /// Energy density times the area of the overlap lens; depends on stiffness.
+    Sjkr {},
+    /// The same force in every contact.
+    Constant {},
 }
 
 /// Settings of the discrete element method.

@@ -51,7 +51,11 @@ fn section(page: &mut String, key: &'static Key, path: &str, level: usize) {
         Kind::Named(keys, about) => (format!("[{here}.NAME]"), about, keys),
         Kind::Many(keys) => (format!("[[{here}]]"), key.about, keys),
         Kind::Choice(variants) => {
-            choices(page, key, variants, &here, &hashes);
+            choices(page, key.about, variants, &here, &hashes);
+            return;
+        }
+        Kind::NamedChoice(variants, about) => {
+            choices(page, about, variants, &format!("{here}.NAME"), &hashes);
             return;
         }
         _ => return,
@@ -64,8 +68,8 @@ fn section(page: &mut String, key: &'static Key, path: &str, level: usize) {
     }
 }
 
-fn choices(page: &mut String, key: &Key, variants: &'static [Variant], here: &str, hashes: &str) {
-    let _ = writeln!(page, "{hashes} Choice `{here}`\n\n{}.\n", key.about);
+fn choices(page: &mut String, about: &str, variants: &'static [Variant], here: &str, hashes: &str) {
+    let _ = writeln!(page, "{hashes} Choice `{here}`\n\n{about}.\n");
     for variant in variants {
         let _ = writeln!(page, "- `{}`: {}", variant.name, variant.about);
     }
@@ -74,9 +78,7 @@ fn choices(page: &mut String, key: &Key, variants: &'static [Variant], here: &st
         let _ = writeln!(page, "Keys of `[{here}.{}]`:\n", variant.name);
         rows(page, variant.keys);
         for key in variant.keys {
-            if matches!(key.kind, Kind::Many(_)) {
-                section(page, key, &format!("{here}.{}", variant.name), 4);
-            }
+            section(page, key, &format!("{here}.{}", variant.name), 4);
         }
     }
 }
@@ -103,16 +105,20 @@ fn value(key: &Key) -> String {
         }
         Kind::Vector(dimension) => format!("vector [{}], or `\"origin\"`", dimension.si),
         Kind::Vectors(dimension) => format!("list of vectors [{}]", dimension.si),
+        Kind::Turning(dimension) => format!("number or vector [{}]", dimension.si),
         Kind::Spins => "list of spins [rad/s]".to_string(),
+        Kind::Axis => "direction, y allowed in the plane".to_string(),
         Kind::Direction => "direction".to_string(),
         Kind::Gravity => "acceleration or vector [m/s^2]".to_string(),
         Kind::Quantities(dimension) => format!("list [{}]", dimension.si),
+        Kind::Ends(dimension) => format!("two ends [{}]", dimension.si),
+        Kind::Cohesion => "force [N] or energy density [Pa]".to_string(),
         Kind::Matrix(dimension) => format!("square matrix [{}]", dimension.si),
         Kind::Ratios => "list, or `{ from, to, step }`".to_string(),
         Kind::Name(family) => format!("name of a {}", family.noun()),
         Kind::NamePair => "two material names".to_string(),
         Kind::Table(_) => "table".to_string(),
-        Kind::Named(..) => "named tables".to_string(),
+        Kind::Named(..) | Kind::NamedChoice(..) => "named tables".to_string(),
         Kind::Many(_) => "list of tables".to_string(),
         Kind::Choice(variants) => format!("choice of {}", suggest::list(variants.iter().map(|variant| variant.name))),
         Kind::Vary => "quoted keys with lists".to_string(),

@@ -6,6 +6,7 @@
 mod derive;
 mod table;
 mod value;
+mod vector;
 
 pub(crate) use derive::derive;
 
@@ -123,7 +124,17 @@ impl Resolver<'_> {
                 Some(named.into())
             }
             Kind::Many(keys) => self.many(key, keys, node, key_place, &here),
-            Kind::Choice(variants) => self.choice(key, variants, node, key_place, &here),
+            Kind::NamedChoice(variants, _) => {
+                let mut named = toml::Table::new();
+                for entry in &self.expect_table(key, node)?.entries {
+                    let path = join(&here, &entry.key);
+                    if let Some(value) = self.choice(&entry.key, variants, &entry.node, &entry.place, &path) {
+                        named.insert(entry.key.clone(), value);
+                    }
+                }
+                Some(named.into())
+            }
+            Kind::Choice(variants) => self.choice(key.name, variants, node, key_place, &here),
             _ => self.leaf(key, node),
         }
     }
@@ -160,7 +171,7 @@ impl Resolver<'_> {
 
     fn choice(
         &mut self,
-        key: &'static Key,
+        name: &str,
         variants: &'static [Variant],
         node: &Node,
         key_place: &Place,
@@ -169,19 +180,19 @@ impl Resolver<'_> {
         let names = || variants.iter().map(|variant| variant.name);
         let choices = format!("choices: {}", suggest::list(names()));
         let Some(typed) = node.table() else {
-            let mut complaint = Complaint::new(format!("`{}` needs one of its tables, not {}", key.name, node.kind()))
+            let mut complaint = Complaint::new(format!("`{}` needs one of its tables, not {}", name, node.kind()))
                 .at(&node.place, format!("this is {}", node.kind()));
             if let Value::Text(text) = &node.value
-                && let Some(name) = suggest::nearest(text, names())
+                && let Some(near) = suggest::nearest(text, names())
             {
-                complaint = complaint.hint(format!("write {}.{name} = {{}}", key.name));
+                complaint = complaint.hint(format!("write {name}.{near} = {{}}"));
             }
             self.complain(complaint.hint(choices));
             return None;
         };
         for entry in &typed.entries {
             if !names().any(|name| name == entry.key) {
-                let mut complaint = Complaint::new(format!("unknown choice `{}` for `{}`", entry.key, key.name))
+                let mut complaint = Complaint::new(format!("unknown choice `{}` for `{}`", entry.key, name))
                     .at(&entry.place, "not one of the choices");
                 if let Some(near) = suggest::nearest(&entry.key, names()) {
                     complaint = complaint.hint(format!("did you mean `{near}`?"));
@@ -198,7 +209,7 @@ impl Resolver<'_> {
                         Complaint::new(format!("[{here}.{}] needs a table, not {}", variant.name, entry.node.kind()))
                             .at(&entry.node.place, format!("this is {}", entry.node.kind()))
                             .hint(match variant.keys {
-                                [] => format!("write {}.{} = {{}}", key.name, variant.name),
+                                [] => format!("write {}.{} = {{}}", name, variant.name),
                                 keys => format!("its keys: {}", suggest::list(keys.iter().map(|key| key.name))),
                             }),
                     );
@@ -209,15 +220,13 @@ impl Resolver<'_> {
             }
             [] => {
                 self.complain(
-                    Complaint::new(format!("nothing is chosen for `{}`", key.name))
-                        .at(key_place, "empty")
-                        .hint(choices),
+                    Complaint::new(format!("nothing is chosen for `{}`", name)).at(key_place, "empty").hint(choices),
                 );
                 None
             }
             [first, second, ..] => {
                 self.complain(
-                    Complaint::new(format!("`{}` is chosen twice: only one of its tables can be given", key.name))
+                    Complaint::new(format!("`{}` is chosen twice: only one of its tables can be given", name))
                         .at(&second.place, "and here")
                         .also(&first.place, "chosen here")
                         .hint(format!("keep `{}` or `{}`", first.key, second.key)),

@@ -1,5 +1,6 @@
 //! The scene: what was typed, and the plan it means.
 
+use crate::attach::{self, Companion};
 use crate::change;
 use crate::check::check;
 use crate::complaint::{Complaint, Complaints, Source};
@@ -15,6 +16,7 @@ use std::path::Path;
 pub struct Scene {
     typed: Typed,
     plan: Plan,
+    companions: Vec<Companion>,
 }
 
 /// Everything the plan is made from.
@@ -65,7 +67,10 @@ impl Scene {
         let plan = work.plan(&mut files, try_varied, &typed);
         typed.files = files;
         match plan {
-            Some(plan) if work.complaints.is_empty() => Ok(Self { typed, plan }),
+            Some(mut plan) if work.complaints.is_empty() => {
+                let companions = attach::companions(&mut plan, &typed.files);
+                Ok(Self { typed, plan, companions })
+            }
             _ => Err(Complaints::new(work.sources, work.complaints)),
         }
     }
@@ -85,7 +90,14 @@ impl Scene {
         &self.typed.name
     }
 
-    /// The scene in SI numbers with every default written out; read again it gives the same plan, bit by bit.
+    /// The files that the scene reads, for the run folder: the name there, as [`Self::resolved_toml`] says it, and the
+    /// bytes. Files that become numbers of the plan (tables of signals) are not among them.
+    pub fn companions(&self) -> Vec<(String, Vec<u8>)> {
+        self.companions.iter().map(|(name, bytes)| (name.clone(), bytes.to_vec())).collect()
+    }
+
+    /// The scene in SI numbers with every default written out; read again beside its [`Self::companions`] it gives the
+    /// same plan, bit by bit.
     pub fn resolved_toml(&self) -> String {
         write::to_toml(&self.plan)
     }
@@ -121,7 +133,7 @@ impl Work {
             return None;
         }
         self.complaints.extend(resolve::derive(&mut resolved, &self.root, files, &mut self.sources));
-        self.complaints.extend(check(&resolved, &self.root));
+        self.complaints.extend(check(&resolved, &self.root, files));
         if !self.complaints.is_empty() {
             if try_varied {
                 self.check_varied_paths();
@@ -129,7 +141,11 @@ impl Work {
             return None;
         }
         let plan = match toml::Value::Table(resolved).try_into::<Plan>() {
-            Ok(plan) => plan,
+            Ok(mut plan) => {
+                attach::grains(&mut plan.particles, files, plan.dimension == 3);
+                attach::meshes(&mut plan.walls, files);
+                plan
+            }
             Err(error) => {
                 self.complaints.push(
                     Complaint::new(format!("the scene passed every check but makes no plan: {}", error.message()))

@@ -61,11 +61,9 @@ fn kind(key: &'static Key) -> Value {
         }
         Kind::Vector(dimension) => json!({ "anyOf": [{ "const": "origin" }, vector(dimension)] }),
         Kind::Vectors(dimension) => json!({ "type": "array", "items": vector(dimension) }),
-        Kind::Spins => {
-            let spin = quantity(&crate::units::SPIN, Range::ANY);
-            json!({ "type": "array", "items": { "anyOf": [spin, vector(&crate::units::SPIN)] } })
-        }
-        Kind::Direction => {
+        Kind::Turning(dimension) => turning(dimension),
+        Kind::Spins => json!({ "type": "array", "items": turning(&crate::units::SPIN) }),
+        Kind::Direction | Kind::Axis => {
             let axes = json!({ "enum": ["x", "-x", "y", "-y", "z", "-z"] });
             json!({ "anyOf": [axes, vector(&crate::units::NUMBER)] })
         }
@@ -74,6 +72,15 @@ fn kind(key: &'static Key) -> Value {
             json!({ "anyOf": [quantity(dimension, key.range), vector(dimension)] })
         }
         Kind::Quantities(dimension) => json!({ "type": "array", "items": quantity(dimension, key.range) }),
+        Kind::Ends(dimension) => {
+            let end = quantity(dimension, key.range);
+            json!({ "type": "array", "minItems": 2, "maxItems": 2, "items": end })
+        }
+        Kind::Cohesion => {
+            let [force, pressure] =
+                [&crate::units::FORCE, &crate::units::PRESSURE].map(|dimension| quantity(dimension, key.range));
+            json!({ "anyOf": [force, pressure] })
+        }
         Kind::Matrix(dimension) => {
             let row = json!({ "type": "array", "minItems": 1, "items": quantity(dimension, Range::ANY) });
             json!({ "type": "array", "minItems": 1, "items": row })
@@ -95,6 +102,7 @@ fn kind(key: &'static Key) -> Value {
         Kind::Named(keys, about) => json!({ "type": "object", "additionalProperties": table(keys, about) }),
         Kind::Many(keys) => json!({ "type": "array", "items": table(keys, key.about) }),
         Kind::Choice(variants) => choice(variants),
+        Kind::NamedChoice(variants, _) => json!({ "type": "object", "additionalProperties": choice(variants) }),
         Kind::Vary => json!({ "type": "object", "additionalProperties": { "type": "array", "minItems": 1 } }),
     }
 }
@@ -119,6 +127,10 @@ fn quantity(dimension: &Dimension, range: Range) -> Value {
 
 fn vector(dimension: &Dimension) -> Value {
     json!({ "type": "array", "minItems": 2, "maxItems": 3, "items": quantity(dimension, Range::ANY) })
+}
+
+fn turning(dimension: &Dimension) -> Value {
+    json!({ "anyOf": [quantity(dimension, Range::ANY), vector(dimension)] })
 }
 
 fn limited(mut schema: Value, range: Range) -> Value {

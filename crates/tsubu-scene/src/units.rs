@@ -49,6 +49,12 @@ dimensions! {
     DENSITY "a density" "kg/m^3" [-3, 1, 0, 0] ["kg/m^3", "g/cm^3"] ["2650 kg/m^3", "1.18 g/cm^3"] "Densities."
     ANGLE "an angle" "rad" [0, 0, 0, 1] ["deg", "rad"] ["40 deg", "0.5 rad"] "Angles."
     SPIN "an angular speed" "rad/s" [0, 0, -1, 1] ["rad/s", "deg/s", "rpm"] ["10 rad/s", "95 rpm"] "Angular speeds."
+    AREA "an area" "m^2" [2, 0, 0, 0] ["m^2", "cm^2", "mm^2"] ["4 cm^2", "1e-4 m^2"] "Areas."
+    INERTIA "a moment of inertia" "kg m^2" [2, 1, 0, 0] ["kg m^2", "g cm^2", "g mm^2"] ["2 g cm^2"] "Moments of inertia."
+    RATE "a rate" "1/s" [0, 0, -1, 0] ["1/s", "1/ms", "1/min"] ["500 1/s"] "Rates: so many in a second."
+    SLOWNESS "an inverse speed" "s/m" [-1, 0, 1, 0] ["s/m", "s/mm"] ["0.5 s/m"] "Inverse speeds."
+    LOAD_RATE "a rate of force" "N/s" [1, 1, -3, 0] ["N/s", "kN/s", "N/ms"] ["2 N/s"] "Forces that grow."
+    SURFACE_ENERGY "a surface energy" "J/m^2" [0, 1, -2, 0] ["J/m^2", "mJ/m^2"] ["50 mJ/m^2"] "Surface energies."
 }
 
 impl Dimension {

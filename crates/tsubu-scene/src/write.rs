@@ -4,7 +4,7 @@
 //! units in comments, choices without parameters on one line. Numbers are written with the fewest digits that read
 //! back to the same double.
 
-use crate::keys::{self, Key, Kind, Need};
+use crate::keys::{self, Key, Kind, Need, Variant};
 use crate::plan::Plan;
 use crate::units::Dimension;
 use std::fmt::Write as _;
@@ -36,7 +36,7 @@ fn keys_of(out: &mut String, keys: &'static [Key], table: &toml::Table, path: &s
                     let _ = writeln!(out, "{}.{variant} = {{}}", key.name);
                 }
             }
-            (Some(_), Kind::Table(_) | Kind::Named(..) | Kind::Many(_) | Kind::Vary) => {}
+            (Some(_), Kind::Table(_) | Kind::Named(..) | Kind::NamedChoice(..) | Kind::Many(_) | Kind::Vary) => {}
             (Some(value), kind) => {
                 let _ = write!(out, "{} = {}", key.name, text(value, true));
                 match unit(kind) {
@@ -52,6 +52,8 @@ fn keys_of(out: &mut String, keys: &'static [Key], table: &toml::Table, path: &s
         let Some(value) = table.get(key.name) else { continue };
         let here = join(path, key.name);
         match (key.kind, value) {
+            // Empty by default: a heading would say nothing.
+            (Kind::Table(_), Value::Table(table)) if table.is_empty() && matches!(key.need, Need::Default("{}")) => {}
             (Kind::Table(inner), Value::Table(table)) => section(out, inner, table, &here),
             (Kind::Named(inner, _), Value::Table(named)) => {
                 for (name, value) in named {
@@ -67,9 +69,12 @@ fn keys_of(out: &mut String, keys: &'static [Key], table: &toml::Table, path: &s
                 }
             }
             (Kind::Choice(variants), Value::Table(choice)) if empty_choice(value).is_none() => {
-                for variant in variants {
-                    if let Some(Value::Table(table)) = choice.get(variant.name) {
-                        section(out, variant.keys, table, &join(&here, variant.name));
+                chosen(out, variants, choice, &here);
+            }
+            (Kind::NamedChoice(variants, _), Value::Table(named)) => {
+                for (name, value) in named {
+                    if let Value::Table(choice) = value {
+                        chosen(out, variants, choice, &join(&here, name));
                     }
                 }
             }
@@ -89,6 +94,14 @@ fn section(out: &mut String, keys: &'static [Key], table: &toml::Table, path: &s
     keys_of(out, keys, table, path);
 }
 
+fn chosen(out: &mut String, variants: &'static [Variant], choice: &toml::Table, path: &str) {
+    for variant in variants {
+        if let Some(Value::Table(table)) = choice.get(variant.name) {
+            section(out, variant.keys, table, &join(path, variant.name));
+        }
+    }
+}
+
 /// The variant of a choice that has no parameters to write.
 fn empty_choice(value: &Value) -> Option<&str> {
     let (name, inner) = value.as_table()?.iter().next()?;
@@ -101,6 +114,8 @@ const fn unit(kind: Kind) -> Option<&'static str> {
         | Kind::Vector(dimension)
         | Kind::Vectors(dimension)
         | Kind::Quantities(dimension)
+        | Kind::Ends(dimension)
+        | Kind::Turning(dimension)
         | Kind::Matrix(dimension) => dimension,
         Kind::Gravity => &crate::units::ACCELERATION,
         Kind::Spins => &crate::units::SPIN,

@@ -32,7 +32,7 @@ fn a_choice_takes_the_place_of_the_one_before() {
     assert_eq!(damping("contact.damping.linear.reference-speed=3"), Damping::Linear { reference_speed: 3.0 });
     assert_eq!(damping("contact.damping={none={}}"), Damping::None {});
     let start = changed(&["particles.balls.start.rows.jitter=0"]).plan().particles["balls"].start.clone();
-    assert_eq!(start, Start::Rows { spacing: 1.05, jitter: 0.0, speed: 0.0 });
+    assert_eq!(start, Start::Rows { spacing: 1.05, jitter: 0.0, speed: 0.0, region: None });
 }
 
 #[test]

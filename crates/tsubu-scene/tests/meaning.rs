@@ -18,7 +18,7 @@ fn defaults_are_the_documented_ones() {
     assert_eq!(plan.particles["balls"].start, Start::Settled { time: 1.0 });
     assert_eq!(plan.contact.normal, Normal::Hertz {});
     assert_eq!(plan.contact.damping, Damping::Quarter {});
-    assert_eq!(plan.contact.tangential, Tangential::Mindlin {});
+    assert_eq!(plan.contact.tangential, Tangential::Mindlin { form: MindlinForm::Incremental, damping: None });
     assert_eq!(plan.contact.rolling, Rolling::None {});
     assert!(plan.contact.rotation && !plan.contact.attraction);
     assert_eq!(plan.dem.time_step, None);

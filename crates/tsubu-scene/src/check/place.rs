@@ -81,7 +81,7 @@ fn signal_at_start(signal: &Signal) -> f64 {
     match signal {
         Signal::Sine { amplitude, phase, .. } => amplitude * phase.sin(),
         Signal::Table { value, .. } => value.first().copied().unwrap_or(0.0),
-        Signal::SineSweep { .. } | Signal::Impact { .. } => 0.0,
+        Signal::SineSweep { .. } | Signal::Impact { .. } | Signal::Steady { .. } => 0.0,
     }
 }
 
@@ -205,11 +205,8 @@ fn both(first: &Grain<'_>, second: &Grain<'_>) -> String {
 
 /// Grains that fill a box need one, and it must hold them.
 fn capacity(parts: &Parts<'_>, rooms: &[Room<'_>], complaints: &mut Vec<Complaint>) {
-    let filling: Vec<(&String, &Particles)> = parts
-        .particles
-        .iter()
-        .filter(|(_, group)| group.count > 0 && !matches!(group.start, Start::At { .. }))
-        .collect();
+    let filling: Vec<(&String, &Particles)> =
+        parts.particles.iter().filter(|(_, group)| group.count > 0 && fills_a_box(&group.start)).collect();
     let room = match (filling.as_slice(), rooms) {
         ([], _) => return,
         (_, [room]) => room,
@@ -289,4 +286,8 @@ fn fits(group: &Particles, room: &Room<'_>, space: bool) -> f64 {
 fn millimetres(length: f64) -> String {
     let rounded: f64 = format!("{:.3e}", length * 1e3).parse().unwrap_or(length * 1e3);
     format!("{rounded} mm")
+}
+
+const fn fills_a_box(start: &Start) -> bool {
+    matches!(start, Start::Settled { .. } | Start::Rows { region: None, .. } | Start::Random { region: None, .. })
 }

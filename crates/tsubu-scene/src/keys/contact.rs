@@ -1,20 +1,23 @@
 //! The contact law: one choice for each part of the stack.
 
-use super::{Key, Kind, Variant};
-use crate::units::{SPEED, STIFFNESS};
+use super::{Key, Kind, Variant, Word};
+use crate::units::{DAMPING as DASHPOT, FORCE, NUMBER, RATE, SLOWNESS, SPEED, SPIN, STIFFNESS};
 
 pub(super) static CONTACT: &[Key] = &[
     Key::new("normal", Kind::Choice(NORMAL), "Elastic normal force for overlap d").default("{ hertz = {} }"),
     Key::new(
         "damping",
         Kind::Choice(DAMPING),
-        "Damping of the normal motion; its coefficient is found from the restitution",
+        "Damping of the normal motion; unless a form says otherwise, its coefficient is found from the restitution",
     )
     .default("{ quarter = {} }"),
     Key::new("attraction", Kind::Flag, "Let damping make the normal force attractive instead of cutting it at zero")
         .default("false"),
     Key::new("tangential", Kind::Choice(TANGENTIAL), "Tangential force").default("{ mindlin = {} }"),
     Key::new("rolling", Kind::Choice(ROLLING), "Rolling resistance").default("{ none = {} }"),
+    Key::new("twisting", Kind::Choice(TWISTING), "Resistance against turning about the normal")
+        .default("{ none = {} }"),
+    Key::new("cohesion", Kind::Choice(COHESION), "Attraction between bodies in contact").default("{ none = {} }"),
     Key::new("rotation", Kind::Flag, "Whether grains spin").default("true"),
 ];
 
@@ -45,27 +48,150 @@ static DAMPING: &[Variant] = &[
         about: "c d': constant restitution with Hooke; with Hertz it is met at the reference speed",
         keys: &[REFERENCE_SPEED],
     },
+    Variant {
+        name: "rate",
+        about: "rate m* d', m* the reduced mass, whatever the restitution (`mass_velocity` of other codes)",
+        keys: &[Key::new("rate", Kind::Quantity(&RATE), "Damping coefficient over reduced mass").at_least(0.0)],
+    },
+    Variant {
+        name: "dashpot",
+        about: "c d', one c for all contacts, whatever the restitution (Osada 2004)",
+        keys: &[Key::new("coefficient", Kind::Quantity(&DASHPOT), "c").at_least(0.0)],
+    },
 ];
+
+const SLIDING_FADES: Key =
+    Key::new("smoothing-speed", Kind::Quantity(&SPEED), "Sliding speed below which friction fades")
+        .default("'1 mm/s'")
+        .above(0.0);
 
 static TANGENTIAL: &[Variant] = &[
     Variant { name: "none", about: "No tangential force", keys: &[] },
     Variant {
         name: "coulomb",
         about: "Sliding friction without a spring, smoothed near zero sliding speed; heaps creep",
-        keys: &[Key::new("smoothing-speed", Kind::Quantity(&SPEED), "Sliding speed below which friction fades")
-            .default("'1 mm/s'")
-            .above(0.0)],
+        keys: &[SLIDING_FADES],
     },
-    Variant { name: "mindlin", about: "Spring with history, capped at the friction limit", keys: &[] },
+    Variant {
+        name: "mindlin",
+        about: "Spring with history, capped at the friction limit; with `normal.hertz`",
+        keys: &[
+            Key::new("form", Kind::OneOf(MINDLIN_FORM), "How force and slip belong together").default("'incremental'"),
+            Key::new(
+                "damping",
+                Kind::Quantity(&NUMBER),
+                "Tangential over normal dashpot; automatic: equal damping ratios",
+            )
+            .at_least(0.0)
+            .word("automatic"),
+        ],
+    },
+    Variant {
+        name: "spring",
+        about: "Linear spring with history and a dashpot, capped at mu f_n + c b (Cundall and Strack 1979; Osada 2004); with `normal.hooke`",
+        keys: &[
+            Key::new("ratio", Kind::Quantity(&NUMBER), "Tangential over normal stiffness")
+                .default("0.2857142857142857")
+                .above(0.0),
+            Key::new("damping", Kind::Quantity(&NUMBER), "Tangential over normal dashpot").default("0").at_least(0.0),
+            Key::new(
+                "cohesion",
+                Kind::Quantity(&FORCE),
+                "Grain-level cohesion: the tangential force may reach mu f_n plus this",
+            )
+            .default("0")
+            .at_least(0.0),
+        ],
+    },
 ];
+
+static MINDLIN_FORM: &[Word] = &[
+    Word { name: "incremental", about: "dF = -k_t(d) dx, F scaled down on unloading (Thornton, Cummins, Cleary 2013)" },
+    Word { name: "secant", about: "F = -k_t(d) x, x the whole slip (Chung and Ooi 2011)" },
+];
+
+const ROLLING_FADES: Key =
+    Key::new("smoothing-speed", Kind::Quantity(&SPEED), "Rolling speed below which the torque fades")
+        .default("'1 mm/s'")
+        .above(0.0);
 
 static ROLLING: &[Variant] = &[
     Variant { name: "none", about: "No rolling resistance", keys: &[] },
     Variant {
         name: "constant",
         about: "Torque of rolling friction times radius times normal force, against the relative rolling",
-        keys: &[Key::new("smoothing-speed", Kind::Quantity(&SPEED), "Rolling speed below which the torque fades")
-            .default("'1 mm/s'")
+        keys: &[ROLLING_FADES],
+    },
+    Variant {
+        name: "viscous",
+        about: "Torque that grows with the rolling speed, without a limit (model B of Ai 2011)",
+        keys: &[Key::new(
+            "coefficient",
+            Kind::Quantity(&SLOWNESS),
+            "Torque over (mu_r R f_n) at a rolling speed of 1 m/s",
+        )
+        .at_least(0.0)],
+    },
+    Variant {
+        name: "epsd",
+        about: "Elastic-plastic spring-dashpot k_r = ratio k_n (mu_r R)^2, capped at mu_r R f_n (model C of Ai 2011)",
+        keys: &[
+            Key::new("ratio", Kind::Quantity(&NUMBER), "Rolling stiffness over k_n (mu_r R)^2")
+                .above(0.0)
+                .derived("2.25 in space, 3 in the plane"),
+            Key::new("damping-ratio", Kind::Quantity(&NUMBER), "Damping ratio of the rolling spring")
+                .default("0.3")
+                .at_least(0.0),
+        ],
+    },
+    Variant { name: "epsd2", about: "The same without a dashpot, k_r = k_t R^2; with a tangential spring", keys: &[] },
+    Variant {
+        name: "spring",
+        about: "Spring-dashpot-slider on the rolling displacement: force k x + c v, capped at mu_r f_n, at arm R (Luding 2008)",
+        keys: &[
+            Key::new("stiffness", Kind::Quantity(&STIFFNESS), "k").above(0.0),
+            Key::new("damping", Kind::Quantity(&DASHPOT), "c").default("0").at_least(0.0),
+        ],
+    },
+    Variant {
+        name: "contact-width",
+        about: "Torque f' b f_n, b the half width of contact, f' the rolling friction (Osada 2004)",
+        keys: &[ROLLING_FADES],
+    },
+];
+
+static TWISTING: &[Variant] = &[
+    Variant { name: "none", about: "No twisting resistance", keys: &[] },
+    Variant {
+        name: "sliding",
+        about: "Torque 2/3 mu_t a f_n against the twisting, a the contact radius",
+        keys: &[Key::new("smoothing-spin", Kind::Quantity(&SPIN), "Relative spin below which the torque fades")
+            .default("'1 rad/s'")
             .above(0.0)],
     },
+    Variant {
+        name: "spring",
+        about: "Spring k_t a^2 / 2 on the angle of twist, capped at 2/3 mu_t a f_n (Marshall 2009); with a tangential spring",
+        keys: &[],
+    },
+];
+
+static COHESION: &[Variant] = &[
+    Variant { name: "none", about: "No attraction", keys: &[] },
+    Variant {
+        name: "dmt",
+        about: "Hertz less 4 pi gamma R* (Derjaguin, Muller, Toporov 1975); with `normal.hertz`",
+        keys: &[],
+    },
+    Variant {
+        name: "jkr",
+        about: "Johnson, Kendall, Roberts 1971: takes the place of Hertz and holds on until pull-off; with `normal.hertz`",
+        keys: &[],
+    },
+    Variant {
+        name: "sjkr",
+        about: "The materials' `cohesion` (an energy density) times the area of the overlap lens",
+        keys: &[],
+    },
+    Variant { name: "constant", about: "The materials' `cohesion` (a force) in every contact", keys: &[] },
 ];

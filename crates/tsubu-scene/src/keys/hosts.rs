@@ -1,7 +1,7 @@
 //! Vibrating structures and the signals that drive them.
 
 use super::{Key, Kind, Variant};
-use crate::units::{ANGLE, DAMPING, FORCE, FREQUENCY, LENGTH, MASS, NUMBER, SPEED, STIFFNESS, TIME};
+use crate::units::{ANGLE, DAMPING, FORCE, FREQUENCY, LENGTH, LOAD_RATE, MASS, NUMBER, SPEED, SPIN, STIFFNESS, TIME};
 
 pub(super) static HOST: &[Key] = &[
     Key::new("structure", Kind::Choice(STRUCTURE), "Its matrices"),
@@ -60,9 +60,9 @@ static MODE: &[Key] = &[
     Key::new("participation", Kind::Quantity(&NUMBER), "Participation of the base motion").default("1"),
 ];
 
-/// The same signals for displacements and for forces.
+/// The same signals for displacements, angles and forces.
 macro_rules! signals {
-    ($what:expr) => {
+    ($what:expr, $rate:expr) => {
         [
             Variant {
                 name: "sine",
@@ -93,6 +93,11 @@ macro_rules! signals {
                 ],
             },
             Variant {
+                name: "steady",
+                about: "rate t: steady motion, turning or loading from 0 on",
+                keys: &[Key::new("rate", Kind::Quantity($rate), "Rate")],
+            },
+            Variant {
                 name: "table",
                 about: "Straight lines between given points, constant outside",
                 keys: &[
@@ -108,6 +113,8 @@ macro_rules! signals {
 }
 
 /// Displacements against time.
-pub(super) static DISPLACEMENT: [Variant; 4] = signals!(&LENGTH);
+pub(super) static DISPLACEMENT: [Variant; 5] = signals!(&LENGTH, &SPEED);
+/// Angles against time.
+pub(super) static TURN: [Variant; 5] = signals!(&ANGLE, &SPIN);
 /// Forces against time.
-pub(super) static LOAD: [Variant; 4] = signals!(&FORCE);
+pub(super) static LOAD: [Variant; 5] = signals!(&FORCE, &LOAD_RATE);

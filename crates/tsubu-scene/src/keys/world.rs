@@ -1,7 +1,7 @@
-//! The method-neutral part of a scene: materials, grains, walls.
+//! The top of a scene, and its materials.
 
-use super::{Family, Key, Kind, Variant, Word, contact, hosts, methods, study};
-use crate::units::{DENSITY, LENGTH, MASS, NUMBER, PRESSURE, SPEED, TIME};
+use super::{Key, Kind, Word, contact, grains, hosts, methods, study, walls};
+use crate::units::{DENSITY, NUMBER, PRESSURE, SPEED, SURFACE_ENERGY, TIME};
 
 /// The keys at the top of a scene, in the order of the plan.
 pub static SCENE: &[Key] = &[
@@ -33,8 +33,21 @@ pub static SCENE: &[Key] = &[
         "Exceptions to the mixing rule (geometric mean) for two materials",
     )
     .default("[]"),
-    Key::new("particles", Kind::Named(PARTICLES, "A group of equal spheres"), "The grains").default("{}"),
-    Key::new("walls", Kind::Named(WALL, "A wall: still, moved, or carried by a host"), "The walls").default("{}"),
+    Key::new("particles", Kind::Named(grains::PARTICLES, "A group of grains of one material"), "The grains")
+        .default("{}"),
+    Key::new(
+        "walls",
+        Kind::Named(walls::WALL, "A wall: still, moved, pushed, free, or carried by a host"),
+        "The walls",
+    )
+    .default("{}"),
+    Key::new("periodic", Kind::Table(walls::PERIODIC), "Axes along which the world repeats itself").default("{}"),
+    Key::new(
+        "removal",
+        Kind::NamedChoice(walls::REMOVAL, "Where grains vanish; a grain may go a little way in before it does"),
+        "Regions in which grains vanish",
+    )
+    .default("{}"),
     Key::new(
         "hosts",
         Kind::Named(hosts::HOST, "A vibrating structure: M q'' + C (q' - y') + K (q - y) = F"),
@@ -71,9 +84,30 @@ static MATERIAL: &[Key] = &[
     Key::new("friction", Kind::Quantity(&NUMBER), "Coulomb friction coefficient against the same material")
         .default("0.5")
         .at_least(0.0),
-    Key::new("rolling-friction", Kind::Quantity(&NUMBER), "Rolling friction coefficient against the same material")
+    Key::new(
+        "rolling-friction",
+        Kind::Quantity(&NUMBER),
+        "Rolling friction coefficient against the same material; with `contact.rolling.contact-width` the factor f'",
+    )
+    .default("0")
+    .at_least(0.0),
+    Key::new("twisting-friction", Kind::Quantity(&NUMBER), "Twisting friction coefficient against the same material")
         .default("0")
         .at_least(0.0),
+    Key::new(
+        "surface-energy",
+        Kind::Quantity(&SURFACE_ENERGY),
+        "Surface energy gamma of one face, for `contact.cohesion.dmt` and `jkr`",
+    )
+    .default("0")
+    .at_least(0.0),
+    Key::new(
+        "cohesion",
+        Kind::Cohesion,
+        "Attraction to the same material: the force of `contact.cohesion.constant`, the energy density of `sjkr`",
+    )
+    .default("0")
+    .at_least(0.0),
     Key::new("density", Kind::Quantity(&DENSITY), "Density; needed where a group of grains gives no mass")
         .above(0.0)
         .optional(),
@@ -89,85 +123,13 @@ static MATERIAL_PAIR: &[Key] = &[
     Key::new("rolling-friction", Kind::Quantity(&NUMBER), "Rolling friction coefficient of the pair")
         .at_least(0.0)
         .optional(),
-];
-
-static PARTICLES: &[Key] = &[
-    Key::new("material", Kind::Name(Family::Material), "Name of the material"),
-    Key::new("count", Kind::Whole, "Number of grains; 0 leaves the box empty")
+    Key::new("twisting-friction", Kind::Quantity(&NUMBER), "Twisting friction coefficient of the pair")
         .at_least(0.0)
-        .at_most(1e8)
-        .derived("with `start.at` the number of positions, otherwise required"),
-    Key::new("diameter", Kind::Quantity(&LENGTH), "Diameter").above(0.0),
-    Key::new("mass", Kind::Quantity(&MASS), "Mass of one grain").above(0.0).derived("sphere of the material's density"),
-    Key::new("start", Kind::Choice(START), "Where the grains begin").default("{ settled = {} }"),
-];
-
-static START: &[Variant] = &[
-    Variant {
-        name: "settled",
-        about: "Dropped into the box in loose random rows and left to come to rest before time 0",
-        keys: &[Key::new("time", Kind::Quantity(&TIME), "Longest settling time").default("'1 s'").at_least(0.0)],
-    },
-    Variant {
-        name: "rows",
-        about: "Rows from the floor up",
-        keys: &[
-            Key::new("spacing", Kind::Quantity(&NUMBER), "Distance of centres over diameter")
-                .default("1.05")
-                .at_least(1.0),
-            Key::new("jitter", Kind::Quantity(&NUMBER), "Random displacement over the free gap")
-                .default("0.5")
-                .at_least(0.0)
-                .at_most(1.0),
-            Key::new("speed", Kind::Quantity(&SPEED), "Speed of each grain, in a random direction")
-                .default("0")
-                .at_least(0.0),
-        ],
-    },
-    Variant {
-        name: "at",
-        about: "Given places",
-        keys: &[
-            Key::new("position", Kind::Vectors(&LENGTH), "Centres"),
-            Key::new("velocity", Kind::Vectors(&SPEED), "Velocities, one for each position; empty: at rest")
-                .default("[]"),
-            Key::new("spin", Kind::Spins, "Spins, one for each position (in the plane a number, about y); empty: none")
-                .default("[]"),
-        ],
-    },
-];
-
-static WALL: &[Key] = &[
-    Key::new("material", Kind::Name(Family::Material), "Name of the material"),
-    Key::new("shape", Kind::Choice(SHAPE), "Its geometry"),
-    Key::new("host", Kind::Name(Family::Host), "The host that carries it").optional().rivals(&["motion"]),
-    Key::new("motion", Kind::Table(MOTION), "Prescribed motion, for example a shaker").optional().rivals(&["host"]),
-];
-
-static SHAPE: &[Variant] = &[
-    Variant {
-        name: "box",
-        about: "A closed box with the grains inside; in the plane its front and back panes are frictionless and ignored",
-        keys: &[
-            Key::new("width", Kind::Quantity(&LENGTH), "Inner size along x").above(0.0),
-            Key::new("height", Kind::Quantity(&LENGTH), "Inner size along z").above(0.0),
-            Key::new("depth", Kind::Quantity(&LENGTH), "Inner size along y")
-                .above(0.0)
-                .derived("in the plane the largest diameter, in space required"),
-            Key::new("floor-centre", Kind::Vector(&LENGTH), "Centre of the floor").default("'origin'"),
-        ],
-    },
-    Variant {
-        name: "plane",
-        about: "An endless plane",
-        keys: &[
-            Key::new("point", Kind::Vector(&LENGTH), "A point on it").default("'origin'"),
-            Key::new("normal", Kind::Direction, "Direction towards the grains").default("'z'"),
-        ],
-    },
-];
-
-static MOTION: &[Key] = &[
-    Key::new("direction", Kind::Direction, "Direction of the motion").default("'z'"),
-    Key::new("signal", Kind::Choice(&hosts::DISPLACEMENT), "Displacement against time"),
+        .optional(),
+    Key::new("surface-energy", Kind::Quantity(&SURFACE_ENERGY), "Surface energy gamma of the pair's interface")
+        .at_least(0.0)
+        .optional(),
+    Key::new("cohesion", Kind::Cohesion, "Attraction of the pair, in the unit of the cohesion part")
+        .at_least(0.0)
+        .optional(),
 ];

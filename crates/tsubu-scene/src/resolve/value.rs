@@ -1,11 +1,12 @@
 //! Single values: quantities, words, vectors, lists, names.
 
 use super::Resolver;
+use super::vector::vector_value;
 use crate::complaint::Complaint;
 use crate::keys::{Family, Key, Kind, Need, Word};
 use crate::node::{Node, Value};
 use crate::suggest;
-use crate::units::{self, ACCELERATION, Dimension, NUMBER, SPIN};
+use crate::units::{self, ACCELERATION, Dimension, FORCE, NUMBER, PRESSURE, SPIN};
 
 /// Enough for any curve; guards against `step = 1e-12`.
 const MOST_RATIOS: f64 = 10_000.0;
@@ -33,24 +34,36 @@ impl Resolver<'_> {
             Kind::Vectors(dimension) => {
                 self.list(key, node, "a list of vectors", |me, item| me.vector(key, item, dimension).map(vector_value))
             }
-            Kind::Spins => self.list(key, node, "a list of spins", |me, item| me.spin(key, item).map(vector_value)),
-            Kind::Direction => self.direction(key, node).map(vector_value),
+            Kind::Turning(dimension) => self.turning(key, node, dimension).map(vector_value),
+            Kind::Spins => {
+                self.list(key, node, "a list of spins", |me, item| me.turning(key, item, &SPIN).map(vector_value))
+            }
+            Kind::Direction => self.direction(key, node, false).map(vector_value),
+            Kind::Axis => self.direction(key, node, true).map(vector_value),
             Kind::Gravity => match node.value {
                 Value::List(_) => self.vector(key, node, &ACCELERATION).map(vector_value),
                 // Not -g: that would turn no gravity into a negative zero.
                 _ => self.ranged(key, node, &ACCELERATION).map(|g| vector_value([0.0, 0.0, 0.0 - g])),
             },
             Kind::Quantities(dimension) => self.quantities(key, node, dimension),
+            Kind::Ends(dimension) => self.ends(key, node, dimension),
+            Kind::Cohesion => self.cohesion(key, node),
             Kind::Matrix(dimension) => self.matrix(key, node, dimension),
             Kind::Ratios => self.ratios(key, node),
             Kind::Name(family) => self.name(key, family, node),
             Kind::NamePair => self.name_pair(key, node),
             Kind::Vary => self.vary(key, node),
-            Kind::Table(_) | Kind::Named(..) | Kind::Many(_) | Kind::Choice(_) => None,
+            Kind::Table(_) | Kind::Named(..) | Kind::Many(_) | Kind::Choice(_) | Kind::NamedChoice(..) => None,
         }
     }
 
-    fn wrong_kind(&mut self, key: &Key, node: &Node, needs: &str, example: Option<String>) -> Option<toml::Value> {
+    pub(super) fn wrong_kind(
+        &mut self,
+        key: &Key,
+        node: &Node,
+        needs: &str,
+        example: Option<String>,
+    ) -> Option<toml::Value> {
         let mut complaint = Complaint::new(format!("`{}` needs {needs}, not {}", key.name, node.kind()))
             .at(&node.place, format!("this is {}", node.kind()));
         if let Some(example) = example {
@@ -60,7 +73,7 @@ impl Resolver<'_> {
         None
     }
 
-    fn quantity(&mut self, key: &Key, node: &Node, dimension: &Dimension) -> Option<f64> {
+    pub(super) fn quantity(&mut self, key: &Key, node: &Node, dimension: &Dimension) -> Option<f64> {
         match &node.value {
             Value::Number(number) if number.is_finite() => Some(*number),
             Value::Whole(whole) => Some(*whole as f64),
@@ -158,6 +171,35 @@ impl Resolver<'_> {
         self.list(key, node, &needs, |me, item| me.ranged(key, item, dimension).map(toml::Value::Float))
     }
 
+    fn ends(&mut self, key: &Key, node: &Node, dimension: &Dimension) -> Option<toml::Value> {
+        let list = self.quantities(key, node, dimension)?;
+        let ends: Vec<f64> = list.as_array()?.iter().filter_map(toml::Value::as_float).collect();
+        let label = match ends.as_slice() {
+            [low, high] if low < high => return Some(list),
+            [low, high] => format!("{high} {0} is not above {low} {0}", dimension.si),
+            other => format!("this list has {} entries", other.len()),
+        };
+        self.complain(
+            Complaint::new(format!("`{}` needs two ends, the low one first", key.name))
+                .at(&node.place, label)
+                .hint(format!("for example {} = [\"0 mm\", \"20 mm\"]", key.name)),
+        );
+        None
+    }
+
+    /// Materials stand above the contact law in a scene, but what their cohesion is the law says.
+    fn cohesion(&mut self, key: &Key, node: &Node) -> Option<toml::Value> {
+        let chosen = |part| self.root.find(&["contact", "cohesion", part]).is_some();
+        let dimension = match (chosen("constant"), chosen("sjkr"), &node.value) {
+            (true, false, _) => &FORCE,
+            (false, true, _) => &PRESSURE,
+            // Nobody reads it: either will do.
+            (_, _, Value::Text(text)) if units::read(text, &PRESSURE).is_ok() => &PRESSURE,
+            _ => &FORCE,
+        };
+        self.ranged(key, node, dimension).map(toml::Value::Float)
+    }
+
     fn matrix(&mut self, key: &Key, node: &Node, dimension: &Dimension) -> Option<toml::Value> {
         let rows = self.list(key, node, "a matrix, a list of rows", |me, row| me.quantities(key, row, dimension))?;
         let sizes: Vec<usize> = rows.as_array()?.iter().filter_map(toml::Value::as_array).map(Vec::len).collect();
@@ -169,98 +211,6 @@ impl Resolver<'_> {
             return None;
         }
         Some(rows)
-    }
-
-    /// Two entries [x, z] in the plane, three in space; y is there but zero in the plane.
-    fn vector(&mut self, key: &Key, node: &Node, dimension: &Dimension) -> Option<[f64; 3]> {
-        let form = if self.dimension == Some(3) { "[x, y, z]" } else { "[x, z]" };
-        if matches!(&node.value, Value::Text(text) if text == "origin") {
-            return Some([0.0; 3]);
-        }
-        let Value::List(items) = &node.value else {
-            self.wrong_kind(key, node, &format!("a vector {form}"), None);
-            return None;
-        };
-        let entries: Vec<Option<f64>> = items.iter().map(|item| self.quantity(key, item, dimension)).collect();
-        let entries: Vec<f64> = entries.into_iter().collect::<Option<_>>()?;
-        let complaint = match (entries.as_slice(), self.dimension) {
-            (&[x, z], Some(2) | None) => return Some([x, 0.0, z]),
-            (&[x, y, z], Some(3) | None) => return Some([x, y, z]),
-            (&[x, y, z], _) if y == 0.0 => return Some([x, y, z]),
-            ([_, y, _], _) => Complaint::new(format!("`{}` leaves the plane", key.name))
-                .at(&node.place, format!("y is {y}, but the scene has dimension 2"))
-                .hint("write [x, z], or set dimension = 3"),
-            ([_, _], _) => Complaint::new(format!("`{}` needs three entries in space", key.name))
-                .at(&node.place, "two entries, but the scene has dimension 3")
-                .hint("write [x, y, z], or set dimension = 2"),
-            (other, _) => Complaint::new(format!("`{}` needs a vector {form}", key.name))
-                .at(&node.place, format!("this list has {} entries", other.len())),
-        };
-        self.complain(complaint);
-        None
-    }
-
-    fn spin(&mut self, key: &Key, node: &Node) -> Option<[f64; 3]> {
-        let Value::List(items) = &node.value else {
-            if self.dimension == Some(3) {
-                self.wrong_kind(key, node, "a vector [x, y, z] in space", Some("[0, 10, 0]".to_string()));
-                return None;
-            }
-            return self.quantity(key, node, &SPIN).map(|about_y| [0.0, about_y, 0.0]);
-        };
-        let entries: Vec<Option<f64>> = items.iter().map(|item| self.quantity(key, item, &SPIN)).collect();
-        let entries: Vec<f64> = entries.into_iter().collect::<Option<_>>()?;
-        match (entries.as_slice(), self.dimension) {
-            (&[x, y, z], Some(3) | None) => Some([x, y, z]),
-            (&[x, y, z], _) if x == 0.0 && z == 0.0 => Some([x, y, z]),
-            _ => {
-                self.complain(
-                    Complaint::new(format!("`{}` does not fit the dimension of the scene", key.name))
-                        .at(&node.place, "not a spin")
-                        .hint("in the plane a spin is a number (about y), in space a vector [x, y, z]"),
-                );
-                None
-            }
-        }
-    }
-
-    fn direction(&mut self, key: &Key, node: &Node) -> Option<[f64; 3]> {
-        if let Value::Text(text) = &node.value {
-            let (sign, axis) = match text.strip_prefix(['-', '+']) {
-                Some(axis) => (if text.starts_with('-') { -1.0 } else { 1.0 }, axis),
-                None => (1.0, text.as_str()),
-            };
-            match axis {
-                "x" => return Some([sign, 0.0, 0.0]),
-                "y" if self.dimension != Some(2) => return Some([0.0, sign, 0.0]),
-                "z" => return Some([0.0, 0.0, sign]),
-                _ => {}
-            }
-            let axes = if self.dimension == Some(2) {
-                "\"x\", \"-x\", \"z\", \"-z\""
-            } else {
-                "\"x\", \"y\", \"z\" with or without -"
-            };
-            self.complain(
-                Complaint::new(format!("`{}`: `{text}` is not a direction", key.name))
-                    .at(&node.place, "not an axis here")
-                    .hint(format!("write {axes} or a vector")),
-            );
-            return None;
-        }
-        let vector = self.vector(key, node, &NUMBER)?;
-        let largest = vector.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        if largest == 0.0 {
-            self.complain(
-                Complaint::new(format!("`{}` has no direction", key.name)).at(&node.place, "all entries are 0"),
-            );
-            return None;
-        }
-        // Scaled first, so that squares of tiny and huge entries neither vanish nor overflow.
-        let scaled = vector.map(|x| x / largest);
-        let length = scaled.iter().map(|x| x * x).sum::<f64>().sqrt();
-        // A unit vector is kept as it is: dividing once more would move its last bit on every round trip.
-        if (length * largest - 1.0).abs() < 1e-12 { Some(vector) } else { Some(scaled.map(|x| x / length)) }
     }
 
     fn ratios(&mut self, key: &Key, node: &Node) -> Option<toml::Value> {
@@ -390,8 +340,4 @@ impl Resolver<'_> {
         }
         Some(varied.into())
     }
-}
-
-fn vector_value(vector: [f64; 3]) -> toml::Value {
-    toml::Value::Array(vector.into_iter().map(toml::Value::Float).collect())
 }

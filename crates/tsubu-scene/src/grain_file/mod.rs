@@ -1,0 +1,220 @@
+//! Grains from a file: places, and where the file has them diameters, velocities and spins.
+//!
+//! Each format says what stands in which column; the rows themselves are read here, so that a bad number is the same
+//! message everywhere.
+
+mod csv;
+mod lammps;
+mod xyz;
+
+use crate::complaint::{Complaint, Place};
+use crate::lines::{Cell, Line, MOST_COMPLAINTS};
+use crate::plan::{GrainTable, Vector};
+use std::sync::Arc;
+
+/// What a file holds, and where.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct GrainFile {
+    pub grains: Arc<GrainTable>,
+    /// The line of each grain, counted from 1.
+    pub lines: Vec<u32>,
+}
+
+/// What a scene says about how the file is to be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct How {
+    /// Three dimensions, not two.
+    pub space: bool,
+    /// Which atom type of a LAMMPS data file.
+    pub kind: Option<u32>,
+}
+
+/// Reads the text of the file of that name, which is the given source of complaints.
+pub(crate) fn read(name: &str, text: &str, source: usize, how: How) -> Result<GrainFile, Vec<Complaint>> {
+    let mut rows = Rows { source, how, grains: GrainTable::default(), lines: Vec::new(), complaints: Vec::new() };
+    match ending(name).as_str() {
+        "csv" => csv::read(text, &mut rows),
+        "xyz" => xyz::read(text, &mut rows),
+        "data" => lammps::read(text, &mut rows),
+        // Refused before it was read.
+        _ => {}
+    }
+    if rows.complaints.is_empty() && rows.grains.position.is_empty() {
+        rows.complain(
+            Complaint::new("the file has no grains").at(&Place::new(source, 0..0), "no row of numbers in this file"),
+        );
+    }
+    if rows.complaints.is_empty() {
+        Ok(GrainFile { grains: Arc::new(rows.grains), lines: rows.lines })
+    } else {
+        Err(rows.complaints)
+    }
+}
+
+/// Whether a file of this name can be read; the complaint has yet to be placed.
+pub(crate) fn known(name: &str) -> Result<(), Complaint> {
+    const FORMATS: &str =
+        "`.csv` (columns x, y, z, radius), `.xyz` (extended XYZ), `.data` (LAMMPS, atom_style sphere)";
+    match ending(name).as_str() {
+        "csv" | "xyz" | "data" => Ok(()),
+        "gz" | "bz2" | "xz" | "zip" | "zst" => {
+            Err(Complaint::new(format!("`{name}` is compressed")).hint("unpack it and name what was in it"))
+        }
+        _ => Err(Complaint::new(format!("the ending of `{name}` tells no format of grains"))
+            .hint(format!("formats: {FORMATS}"))),
+    }
+}
+
+/// The ending of a file name in small letters, without the point.
+pub(crate) fn ending(name: &str) -> String {
+    name.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase()).unwrap_or_default()
+}
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Slot {
+    Skip,
+    Position(usize),
+    Diameter,
+    Velocity(usize),
+    Spin(usize),
+    Id,
+    Kind,
+}
+
+/// A column and the factor that makes its numbers SI; a radius is a diameter with the factor 2.
+#[derive(Clone, Copy, Debug)]
+struct Column {
+    slot: Slot,
+    scale: f64,
+}
+
+impl Column {
+    const fn new(slot: Slot) -> Self {
+        Self { slot, scale: 1.0 }
+    }
+
+    const fn radius() -> Self {
+        Self { slot: Slot::Diameter, scale: 2.0 }
+    }
+}
+
+/// What one line says.
+#[derive(Clone, Copy, Debug, Default)]
+struct Row {
+    position: Vector,
+    diameter: f64,
+    velocity: Vector,
+    spin: Vector,
+    id: u64,
+    kind: u64,
+}
+
+/// The grains read so far.
+struct Rows {
+    source: usize,
+    how: How,
+    grains: GrainTable,
+    lines: Vec<u32>,
+    complaints: Vec<Complaint>,
+}
+
+impl Rows {
+    fn complain(&mut self, complaint: Complaint) {
+        self.complaints.push(complaint);
+    }
+
+    /// Whether reading on would only say the same again.
+    const fn hopeless(&self) -> bool {
+        self.complaints.len() >= MOST_COMPLAINTS
+    }
+
+    /// Reads one line; `None` after a complaint.
+    fn row(&mut self, line: &Line<'_>, separator: Option<char>, columns: &[Column]) -> Option<Row> {
+        let mut row = Row::default();
+        let mut count = 0;
+        for cell in line.cells(separator) {
+            if let Some(column) = columns.get(count)
+                && let Err(complaint) = self.cell(&mut row, *column, &cell)
+            {
+                self.complain(complaint);
+                return None;
+            }
+            count += 1;
+        }
+        if count != columns.len() {
+            let label = format!("{count} cells in this line, expected {}", columns.len());
+            self.complain(Complaint::new("a row has another number of columns").at(&line.place(self.source), label));
+            return None;
+        }
+        if !self.how.space
+            && let Some(complaint) = leaves_the_plane(&row)
+        {
+            self.complain(complaint.at(&line.place(self.source), "in this line"));
+            return None;
+        }
+        Some(row)
+    }
+
+    fn cell(&self, row: &mut Row, column: Column, cell: &Cell<'_>) -> Result<(), Complaint> {
+        match column.slot {
+            Slot::Skip => return Ok(()),
+            Slot::Id | Slot::Kind => {
+                let whole = cell.text.parse().map_err(|_| {
+                    Complaint::new(format!("`{}` is not a whole number", cell.text))
+                        .at(&cell.place(self.source), "needs a whole number")
+                })?;
+                *if column.slot == Slot::Id { &mut row.id } else { &mut row.kind } = whole;
+                return Ok(());
+            }
+            _ => {}
+        }
+        let plain: f64 = cell.text.parse().map_err(|_| {
+            Complaint::new(format!("`{}` is not a number", cell.text)).at(&cell.place(self.source), "needs a number")
+        })?;
+        let number = plain * column.scale;
+        if !number.is_finite() {
+            return Err(Complaint::new(format!("`{}` is not a finite number", cell.text))
+                .at(&cell.place(self.source), "needs a number"));
+        }
+        match column.slot {
+            Slot::Position(axis) => row.position[axis] = number,
+            Slot::Velocity(axis) => row.velocity[axis] = number,
+            Slot::Spin(axis) => row.spin[axis] = number,
+            Slot::Diameter if number <= 0.0 => {
+                return Err(Complaint::new(format!("`{}` is no size of a grain", cell.text))
+                    .at(&cell.place(self.source), "needs a number above 0"));
+            }
+            Slot::Diameter => row.diameter = number,
+            Slot::Skip | Slot::Id | Slot::Kind => {}
+        }
+        Ok(())
+    }
+
+    /// Keeps a row as a grain.
+    fn keep(&mut self, row: &Row, line: &Line<'_>, columns: &[Column]) {
+        let has = |wanted: fn(Slot) -> bool| columns.iter().any(|column| wanted(column.slot));
+        self.grains.position.push(row.position);
+        self.lines.push(line.number);
+        if has(|slot| slot == Slot::Diameter) {
+            self.grains.diameter.push(row.diameter);
+        }
+        if has(|slot| matches!(slot, Slot::Velocity(_))) {
+            self.grains.velocity.push(row.velocity);
+        }
+        if has(|slot| matches!(slot, Slot::Spin(_))) {
+            self.grains.spin.push(row.spin);
+        }
+    }
+}
+
+fn leaves_the_plane(row: &Row) -> Option<Complaint> {
+    let complaint = if row.position[1] != 0.0 || row.velocity[1] != 0.0 {
+        Complaint::new("a grain leaves the plane: its y is not 0, but the scene has dimension 2")
+    } else if row.spin[0] != 0.0 || row.spin[2] != 0.0 {
+        Complaint::new("a grain spins out of the plane, but the scene has dimension 2")
+    } else {
+        return None;
+    };
+    Some(complaint.hint("the plane of a scene is x (to the right) and z (up); or set dimension = 3"))
+}

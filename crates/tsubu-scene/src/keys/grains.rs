@@ -1,0 +1,172 @@
+//! Groups of grains: what they are, how large, where they begin, who moves them.
+
+use super::{Family, Key, Kind, Variant, hosts, walls};
+use crate::units::{LENGTH, MASS, NUMBER, RATE, SPEED, TIME};
+
+pub(crate) static PARTICLES: &[Key] = &[
+    Key::new("material", Kind::Name(Family::Material), "Name of the material"),
+    Key::new("count", Kind::Whole, "Number of grains; 0 leaves the box empty")
+        .at_least(0.0)
+        .at_most(1e8)
+        .derived("with `start.at` and `start.file` the number of positions, otherwise required"),
+    Key::new("diameter", Kind::Quantity(&LENGTH), "Diameter")
+        .above(0.0)
+        .derived("the mean of `size` or of the diameters in the file, otherwise required"),
+    Key::new("mass", Kind::Quantity(&MASS), "Mass of a grain of that diameter; others scale with their volume")
+        .above(0.0)
+        .derived("sphere or disc of the material's density"),
+    Key::new("shape", Kind::Choice(SHAPE), "What a grain is, for its mass and inertia; contacts are those of spheres")
+        .default("{ sphere = {} }"),
+    Key::new("size", Kind::Choice(SIZE), "How the diameters are distributed").default("{ equal = {} }"),
+    Key::new("start", Kind::Choice(START), "Where the grains begin").default("{ settled = {} }"),
+    Key::new("motion", Kind::Choice(MOTION), "Who moves the grains").default("{ free = {} }"),
+];
+
+static SHAPE: &[Variant] = &[
+    Variant { name: "sphere", about: "Mass pi/6 rho d^3, moment of inertia 2/5 m r^2", keys: &[] },
+    Variant {
+        name: "disc",
+        about: "Mass pi/4 rho d^2 h, moment of inertia 1/2 m r^2; only in the plane",
+        keys: &[Key::new("thickness", Kind::Quantity(&LENGTH), "Thickness h along y").above(0.0)],
+    },
+];
+
+const CUT: Key = Key::new("cut", Kind::Quantity(&NUMBER), "Where the tails are cut on both sides, in deviations")
+    .default("3")
+    .above(0.0);
+
+static SIZE: &[Variant] = &[
+    Variant { name: "equal", about: "All have the group's `diameter`", keys: &[] },
+    Variant {
+        name: "uniform",
+        about: "Every diameter between two is as likely",
+        keys: &[
+            Key::new("smallest", Kind::Quantity(&LENGTH), "Smallest diameter").above(0.0),
+            Key::new("largest", Kind::Quantity(&LENGTH), "Largest diameter").above(0.0),
+        ],
+    },
+    Variant {
+        name: "normal",
+        about: "Normal distribution of diameters, its tails cut",
+        keys: &[
+            Key::new("mean", Kind::Quantity(&LENGTH), "Mean diameter").above(0.0),
+            Key::new("deviation", Kind::Quantity(&LENGTH), "Standard deviation").above(0.0),
+            CUT,
+        ],
+    },
+    Variant {
+        name: "log-normal",
+        about: "ln d is normal around ln(median), its tails cut",
+        keys: &[
+            Key::new("median", Kind::Quantity(&LENGTH), "Median diameter").above(0.0),
+            Key::new("deviation", Kind::Quantity(&NUMBER), "Standard deviation of ln d").above(0.0).at_most(3.0),
+            CUT,
+        ],
+    },
+    Variant {
+        name: "sieve",
+        about: "A sieve curve, straight between sieves",
+        keys: &[
+            Key::new("diameter", Kind::Quantities(&LENGTH), "Sieve openings, rising").above(0.0),
+            Key::new("passing", Kind::Quantities(&NUMBER), "Share of the mass that passes, rising from 0 to 1")
+                .at_least(0.0)
+                .at_most(1.0),
+        ],
+    },
+];
+
+const VELOCITY: Key = Key::new("velocity", Kind::Vector(&SPEED), "Velocity of all").default("'origin'");
+const SPEED_ADDED: Key = Key::new("speed", Kind::Quantity(&SPEED), "Speed of each grain in a random direction, added")
+    .default("0")
+    .at_least(0.0);
+
+static START: &[Variant] = &[
+    Variant {
+        name: "settled",
+        about: "Dropped into the box in loose random rows and left to come to rest before time 0",
+        keys: &[Key::new("time", Kind::Quantity(&TIME), "Longest settling time").default("'1 s'").at_least(0.0)],
+    },
+    Variant {
+        name: "rows",
+        about: "Rows from the floor up",
+        keys: &[
+            Key::new("spacing", Kind::Quantity(&NUMBER), "Distance of centres over diameter")
+                .default("1.05")
+                .at_least(1.0),
+            Key::new("jitter", Kind::Quantity(&NUMBER), "Random displacement over the free gap")
+                .default("0.5")
+                .at_least(0.0)
+                .at_most(1.0),
+            Key::new("speed", Kind::Quantity(&SPEED), "Speed of each grain, in a random direction")
+                .default("0")
+                .at_least(0.0),
+            Key::new("region", Kind::Table(walls::REGION), "Where, instead of the inside of the box").optional(),
+        ],
+    },
+    Variant {
+        name: "random",
+        about: "Anywhere in a region, without overlap",
+        keys: &[
+            Key::new(
+                "region",
+                Kind::Table(walls::REGION),
+                "Where, instead of the inside of the box; grains lie wholly in it",
+            )
+            .optional(),
+            VELOCITY,
+            SPEED_ADDED,
+        ],
+    },
+    Variant {
+        name: "stream",
+        about: "Not there at first: put into a region one after the other, where there is room",
+        keys: &[
+            Key::new("region", Kind::Table(walls::REGION), "Where; grains lie wholly in it"),
+            Key::new("rate", Kind::Quantity(&RATE), "Grains per second").above(0.0),
+            VELOCITY,
+            SPEED_ADDED,
+            Key::new("from", Kind::Quantity(&TIME), "When the first comes").default("0").at_least(0.0),
+        ],
+    },
+    Variant {
+        name: "file",
+        about: "Places, and where the file has them diameters, velocities and spins, from a file",
+        keys: &[
+            Key::new(
+                "path",
+                Kind::Text,
+                "A CSV (`.csv`), extended XYZ (`.xyz`) or LAMMPS data (`.data`) file, from the folder of the scene file",
+            ),
+            Key::new("kind", Kind::Whole, "Which atom type of a LAMMPS data file; left out: all of them")
+                .optional()
+                .at_least(1.0)
+                .at_most(1e9),
+            Key::new("fingerprint", Kind::Text, "CRC-32 of the file in hex, to tell that it is still the same file")
+                .derived("from the file"),
+        ],
+    },
+    Variant {
+        name: "at",
+        about: "Given places",
+        keys: &[
+            Key::new("position", Kind::Vectors(&LENGTH), "Centres"),
+            Key::new("velocity", Kind::Vectors(&SPEED), "Velocities, one for each position; empty: at rest")
+                .default("[]"),
+            Key::new("spin", Kind::Spins, "Spins, one for each position (in the plane a number, about y); empty: none")
+                .default("[]"),
+        ],
+    },
+];
+
+static MOTION: &[Variant] = &[
+    Variant { name: "free", about: "Forces do", keys: &[] },
+    Variant { name: "frozen", about: "Nobody: they stay where they are, of infinite mass to others", keys: &[] },
+    Variant {
+        name: "driven",
+        about: "A displacement given in advance; they do not spin, of infinite mass to others",
+        keys: &[
+            Key::new("direction", Kind::Direction, "Direction of the motion").default("'z'"),
+            Key::new("signal", Kind::Choice(&hosts::DISPLACEMENT), "Displacement against time"),
+        ],
+    },
+];

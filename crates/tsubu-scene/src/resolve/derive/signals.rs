@@ -1,0 +1,95 @@
+//! Signals given as tables: read from files, or typed.
+
+use super::{Derive, join, table, tables_in};
+use crate::complaint::{Complaint, Source};
+use crate::files;
+use crate::units::{ANGLE, Dimension, FORCE, LENGTH};
+use toml::Value;
+
+/// Where a scene has signals, and what they are.
+static PLACES: &[(&str, &[&str], &Dimension)] = &[
+    ("particles", &["motion", "driven", "signal"], &LENGTH),
+    ("walls", &["motion", "signal"], &LENGTH),
+    ("walls", &["rotation", "signal"], &ANGLE),
+    ("hosts", &["base"], &LENGTH),
+    ("hosts", &["force"], &FORCE),
+];
+
+impl Derive<'_> {
+    /// Reads the files of all table signals and checks the tables that were typed.
+    pub(super) fn signals(&mut self, resolved: &mut toml::Table) {
+        for (family, keys, dimension) in PLACES {
+            for (name, owner) in tables_in(resolved, family) {
+                let mut path = vec![*family, name.as_str()];
+                let mut table = Some(owner);
+                for key in keys.iter().copied().chain(["table"]) {
+                    path.push(key);
+                    table = table.and_then(|table| table.get_mut(key)).and_then(Value::as_table_mut);
+                }
+                let Some(table) = table else { continue };
+                match table.remove("file") {
+                    Some(Value::String(file)) => self.from_file(table, &file, dimension, &path),
+                    _ => self.typed_table(table, &path),
+                }
+            }
+        }
+    }
+
+    fn from_file(&mut self, table: &mut toml::Table, file: &str, dimension: &Dimension, path: &[&str]) {
+        let path: Vec<&str> = path.iter().copied().chain(["file"]).collect();
+        let text = match self.files.text(file) {
+            Ok(text) => text,
+            Err(reason) => {
+                self.file_is_wrong(vec![files::unreadable(file, &reason)], &path);
+                return;
+            }
+        };
+        match table::read(&text, self.sources.len(), dimension) {
+            Ok(columns) => {
+                let list = |numbers: Vec<f64>| Value::Array(numbers.into_iter().map(Value::Float).collect());
+                table.insert("time".into(), list(columns.time));
+                table.insert("value".into(), list(columns.value));
+            }
+            Err(wrong) => {
+                self.sources.push(Source { name: file.to_string(), text, numbered: true });
+                self.file_is_wrong(wrong, &path);
+            }
+        }
+    }
+
+    fn typed_table(&mut self, table: &toml::Table, path: &[&str]) {
+        let root = self.root;
+        let typed = |key: &str| root.find(&[path, &[key]].concat()).is_some();
+        if !typed("time") || !typed("value") {
+            if !typed("file") {
+                self.complain(
+                    Complaint::new(format!("[{}] has no table", path.join(".")))
+                        .at(&root.locate(path), "needs `file`, or `time` and `value`")
+                        .hint("file = \"motion.csv\"")
+                        .hint("or time = [0, 0.1, 0.2] and value = [0, 0.001, 0]"),
+                );
+            }
+            return;
+        }
+        let numbers = |key: &str| -> Option<Vec<f64>> {
+            table.get(key)?.as_array().map(|list| list.iter().filter_map(Value::as_float).collect())
+        };
+        let (Some(time), Some(value)) = (numbers("time"), numbers("value")) else { return };
+        if time.is_empty() || time.len() != value.len() {
+            self.complain(
+                Complaint::new(format!("`{}` needs as many values as times", join(&path.join("."), "value"))).at(
+                    &root.locate(&[path, &["value"]].concat()),
+                    format!("{} values for {} times", value.len(), time.len()),
+                ),
+            );
+        }
+        if let Some(index) = time.windows(2).position(|pair| pair[0] >= pair[1]) {
+            let item = (index + 1).to_string();
+            let place = root.locate(&[path, &["time", &item]].concat());
+            self.complain(
+                Complaint::new(format!("time does not rise: {} s after {} s", time[index + 1], time[index]))
+                    .at(&place, "must be later than the one before"),
+            );
+        }
+    }
+}
