@@ -2,14 +2,21 @@
 //!
 //! They work on the parts that could be read, one by one, so that a wrong wall does not hide an overlap of grains.
 
+mod contact;
+mod fill;
+mod grains;
 mod host;
+mod overlap;
 mod place;
+mod shell;
+mod walls;
+mod world;
 
 use crate::attach;
 use crate::complaint::Complaint;
 use crate::files::Files;
 use crate::node::Node;
-use crate::plan::{Claim, Host, MaterialPair, Particles, Signal, Wall};
+use crate::plan::{Claim, Host, MaterialPair, Particles, Periodic, Signal, Wall};
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 
@@ -20,6 +27,8 @@ pub(crate) struct Parts<'a> {
     particles: BTreeMap<String, Particles>,
     walls: BTreeMap<String, Wall>,
     hosts: BTreeMap<String, Host>,
+    periodic: Periodic,
+    files: &'a Files,
     /// Whether a part is missing because it is wrong; then counting what is there would mislead.
     incomplete: bool,
 }
@@ -35,9 +44,19 @@ pub(crate) fn check(resolved: &toml::Table, root: &Node, files: &Files) -> Vec<C
     let space = resolved.get("dimension").and_then(toml::Value::as_integer) == Some(3);
     attach::grains(&mut particles, files, space);
     attach::meshes(&mut walls, files);
-    let parts = Parts { root, resolved, particles, walls, hosts, incomplete };
+    let periodic = resolved.get("periodic").and_then(|ends| ends.clone().try_into().ok()).unwrap_or_default();
+    let parts = Parts { root, resolved, particles, walls, hosts, periodic, files, incomplete };
     let mut complaints = Vec::new();
-    place::check(&parts, &mut complaints);
+    let rooms = place::rooms(&parts);
+    place::check(&parts, &rooms, &mut complaints);
+    fill::regions(&parts, &rooms, &mut complaints);
+    if !parts.incomplete {
+        fill::capacity(&parts, &rooms, &mut complaints);
+    }
+    grains::check(&parts, &mut complaints);
+    walls::check(&parts, &mut complaints);
+    world::check(&parts, &mut complaints);
+    contact::check(&parts, &mut complaints);
     host::check(&parts, &mut complaints);
     pairs(&parts, &mut complaints);
     claims(&parts, &mut complaints);

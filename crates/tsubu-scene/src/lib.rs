@@ -39,6 +39,7 @@ mod complaint;
 mod files;
 mod grain_file;
 mod lines;
+mod mesh_check;
 mod mesh_file;
 mod node;
 mod reference;
@@ -49,6 +50,11 @@ mod size;
 mod suggest;
 mod templates;
 mod write;
+
+/// Meshes: what is wrong with one, or at least worth knowing.
+pub mod mesh {
+    pub use crate::mesh_check::{Diagnosis, Found, diagnose};
+}
 
 pub use complaint::Complaints;
 pub use plan::Plan;

@@ -220,13 +220,13 @@ impl Resolver<'_> {
             }
             [] => {
                 self.complain(
-                    Complaint::new(format!("nothing is chosen for `{}`", name)).at(key_place, "empty").hint(choices),
+                    Complaint::new(format!("nothing is chosen for `{name}`")).at(key_place, "empty").hint(choices),
                 );
                 None
             }
             [first, second, ..] => {
                 self.complain(
-                    Complaint::new(format!("`{}` is chosen twice: only one of its tables can be given", name))
+                    Complaint::new(format!("`{name}` is chosen twice: only one of its tables can be given"))
                         .at(&second.place, "and here")
                         .also(&first.place, "chosen here")
                         .hint(format!("keep `{}` or `{}`", first.key, second.key)),

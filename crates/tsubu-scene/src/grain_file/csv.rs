@@ -15,21 +15,20 @@ const NAMES: [&str; 13] = ["x", "y", "z", "d", "diameter", "r", "radius", "vx", 
 pub(super) fn read(text: &str, rows: &mut Rows) {
     let mut layout: Option<(Option<char>, Vec<Column>)> = None;
     for line in lines(text).filter(|line| !line.text.is_empty() && !line.text.starts_with('#')) {
-        let (separator, columns) = match &layout {
-            Some(known) => known,
-            None => {
-                let separator = line.separator();
-                let cells: Vec<Cell<'_>> = line.cells(separator).collect();
-                let named = cells.iter().any(|cell| is_name(cell.text));
-                let columns = if named { header(&line, &cells, rows) } else { bare(&line, cells.len(), rows) };
-                let Some(columns) = columns else { return };
-                layout = Some((separator, columns));
-                if named {
-                    continue;
-                }
-                let Some(known) = &layout else { return };
-                known
+        let (separator, columns) = if let Some(known) = &layout {
+            known
+        } else {
+            let separator = line.separator();
+            let cells: Vec<Cell<'_>> = line.cells(separator).collect();
+            let named = cells.iter().any(|cell| is_name(cell.text));
+            let columns = if named { header(&line, &cells, rows) } else { bare(&line, cells.len(), rows) };
+            let Some(columns) = columns else { return };
+            layout = Some((separator, columns));
+            if named {
+                continue;
             }
+            let Some(known) = &layout else { return };
+            known
         };
         if let Some(row) = rows.row(&line, *separator, columns) {
             rows.keep(&row, &line, columns);

@@ -28,14 +28,14 @@ impl Derive<'_> {
                 }
                 let Some(table) = table else { continue };
                 match table.remove("file") {
-                    Some(Value::String(file)) => self.from_file(table, &file, dimension, &path),
+                    Some(Value::String(file)) => self.filed_table(table, &file, dimension, &path),
                     _ => self.typed_table(table, &path),
                 }
             }
         }
     }
 
-    fn from_file(&mut self, table: &mut toml::Table, file: &str, dimension: &Dimension, path: &[&str]) {
+    fn filed_table(&mut self, table: &mut toml::Table, file: &str, dimension: &Dimension, path: &[&str]) {
         let path: Vec<&str> = path.iter().copied().chain(["file"]).collect();
         let text = match self.files.text(file) {
             Ok(text) => text,

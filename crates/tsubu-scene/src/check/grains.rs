@@ -1,0 +1,80 @@
+//! Groups of grains whose keys contradict each other.
+
+use super::Parts;
+use crate::complaint::Complaint;
+use crate::plan::{GrainMotion, GrainShape, Particles, Size, Start, Vector};
+
+pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
+    for (name, group) in &parts.particles {
+        let at = |keys: &[&str]| parts.root.locate(&[&["particles", name.as_str()], keys].concat());
+        if matches!(group.shape, GrainShape::Disc { .. }) && parts.space() {
+            complaints.push(
+                Complaint::new(format!("the grains `{name}` are discs, which only the plane has"))
+                    .at(&at(&["shape", "disc"]), "the scene has dimension 3")
+                    .hint("write shape.sphere = {}, or set dimension = 2"),
+            );
+        }
+        sizes_and_places(parts, name, group, complaints);
+        held(parts, name, group, complaints);
+        if let Start::Stream { from, .. } = group.start
+            && let Some(duration) = parts.resolved.get("duration").and_then(toml::Value::as_float)
+            && from >= duration
+        {
+            complaints.push(
+                Complaint::new(format!("not one grain of `{name}` comes before the end of the run"))
+                    .at(&at(&["start", "stream", "from"]), format!("{from} s"))
+                    .also(&parts.root.locate(&["duration"]), format!("the run ends at {duration} s")),
+            );
+        }
+    }
+}
+
+/// Who gives places gives sizes with them: drawn at random they would overlap.
+fn sizes_and_places(parts: &Parts<'_>, name: &str, group: &Particles, complaints: &mut Vec<Complaint>) {
+    let (start, way) = match &group.start {
+        Start::At { .. } => ("start.at", "make a group for each diameter, or put places and diameters into a file"),
+        Start::File { grains, .. } if grains.diameter.is_empty() => {
+            ("start.file", "put a column `diameter` or `radius` into the file")
+        }
+        Start::File { .. } => ("start.file", "leave `size` out: the file has diameters"),
+        _ => return,
+    };
+    if group.size != (Size::Equal {}) {
+        complaints.push(
+            Complaint::new(format!("the grains `{name}` have given places, so their sizes cannot be drawn"))
+                .at(&parts.root.locate(&["particles", name, "size"]), format!("not together with `{start}`"))
+                .hint(way),
+        );
+    }
+}
+
+/// Grains that no force moves: what a start says about moving them would be ignored.
+fn held(parts: &Parts<'_>, name: &str, group: &Particles, complaints: &mut Vec<Complaint>) {
+    let (word, motion) = match group.motion {
+        GrainMotion::Free {} => return,
+        GrainMotion::Frozen {} => ("frozen", "frozen"),
+        GrainMotion::Driven { .. } => ("driven", "driven"),
+    };
+    let moves = |vector: &Vector| vector.iter().any(|x| *x != 0.0);
+    let (path, what): (&[&str], &str) = match &group.start {
+        Start::Settled { .. } => (&["start", "settled"], "cannot fall and settle"),
+        Start::Stream { .. } => (&["start", "stream"], "cannot come in a stream"),
+        Start::Rows { speed, .. } if *speed != 0.0 => (&["start", "rows", "speed"], "have no speed of their own"),
+        Start::Random { speed, .. } if *speed != 0.0 => (&["start", "random", "speed"], "have no speed of their own"),
+        Start::Random { velocity, .. } if moves(velocity) => {
+            (&["start", "random", "velocity"], "have no velocity of their own")
+        }
+        Start::At { velocity, .. } if velocity.iter().any(moves) => {
+            (&["start", "at", "velocity"], "have no velocity of their own")
+        }
+        Start::At { spin, .. } if spin.iter().any(moves) => (&["start", "at", "spin"], "do not spin"),
+        _ => return,
+    };
+    let place = parts.root.locate(&[&["particles", name], path].concat());
+    complaints.push(
+        Complaint::new(format!("the grains `{name}` are {word}: they {what}"))
+            .at(&place, "nothing would come of it")
+            .also(&parts.root.locate(&["particles", name, "motion", motion]), format!("{word} here"))
+            .hint("start them with `rows`, `random`, `at` or `file`, at rest"),
+    );
+}
