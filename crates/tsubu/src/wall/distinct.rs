@@ -7,10 +7,12 @@
 //! 1. A touch whose point lies on a nearer triangle is none: that triangle comes closer from there on. All nearer
 //!    triangles that touch are asked, not only those accepted so far, so a plane may be cut as finely as one likes. Of
 //!    touches at a common edge or corner the first is left: convex edges and corners are met once.
-//! 2. Faces that meet at less than [`BENT`] are one bent surface (a tessellated cylinder seen from inside): the nearest
-//!    counts. Two would be twice as stiff as the surface they stand for; and as the grain rolls on, the second one's
-//!    point reaches the valley and rule 1 takes it away, with an overlap left and energy lost whenever the angle is
-//!    below sqrt(2 overlap / radius). Above [`BENT`] that would take an overlap of 3.4 % of the radius.
+//! 2. Contacts whose normals differ by less than [`BENT`] touch one bent surface (a tessellated cylinder seen from
+//!    inside, a gentle hill): the nearest counts. Two would be twice as stiff as the surface they stand for; and as the
+//!    grain rolls on, the second one's point reaches the valley between them and rule 1 takes it away, with an overlap
+//!    left and energy lost whenever the angle is below sqrt(2 overlap / radius). From [`BENT`] on that would take an
+//!    overlap of 3.4 % of the radius. The price: edges nearer to each other than a quarter of the radius are not told
+//!    apart.
 //!
 //! Two walls of a mesh box stay two contacts, as planes would give.
 
@@ -21,8 +23,6 @@ use glam::DVec3;
 
 /// Cosine of 15 degrees.
 const BENT: f64 = 0.965_925_826_289_068_3;
-/// Cosine of the angle between a contact's normal and its triangle's up to which it is the face that is touched.
-const FLAT: f64 = 1.0 - 1e-10;
 /// Share of the grain's distance within which a point lies on a triangle.
 const ON: f64 = 1e-6;
 
@@ -33,12 +33,13 @@ pub(super) fn distinct(mesh: &Mesh, pose: &Pose, touches: &mut [Touch]) -> usize
     }
     touches.sort_unstable_by(|a, b| a.nearest.distance.total_cmp(&b.nearest.distance).then(a.element.cmp(&b.element)));
     let tolerance = mesh.tolerance.max(ON * touches[0].nearest.distance);
+    touches[0].own = true;
     for i in 1..touches.len() {
         let (nearer, rest) = touches.split_at_mut(i);
         let touch = &mut rest[0];
+        let bent = |n: &Touch| n.own && n.nearest.normal.dot(touch.nearest.normal) > BENT;
         let point = pose.to_own(touch.nearest.point);
-        let own = !nearer.iter().any(|n| holds(mesh, n.element, touch, point, tolerance));
-        touch.own = own && !(flat(mesh, pose, touch) && nearer.iter().any(|n| bent(mesh, pose, n, touch)));
+        touch.own = !nearer.iter().any(bent) && !nearer.iter().any(|n| holds(mesh, n.element, touch, point, tolerance));
     }
     touches.sort_unstable_by_key(|t| (!t.own, t.element));
     touches.iter().take_while(|t| t.own).count()
@@ -57,15 +58,4 @@ fn holds(mesh: &Mesh, element: u32, touch: &Touch, point: DVec3, tolerance: f64)
         Feature::Corner(k) => theirs.contains(&ours[usize::from(k)]),
     };
     shared || mesh.triangles()[element as usize].holds(point, tolerance)
-}
-
-/// Whether the triangle is touched along its normal. The feature does not tell: a point on a seam is on an edge.
-fn flat(mesh: &Mesh, pose: &Pose, touch: &Touch) -> bool {
-    let normal = pose.own_direction(touch.nearest.normal);
-    mesh.triangles()[touch.element as usize].normal.dot(normal).abs() > FLAT
-}
-
-/// Whether an accepted touch and this one are faces of one bent surface.
-fn bent(mesh: &Mesh, pose: &Pose, accepted: &Touch, touch: &Touch) -> bool {
-    accepted.own && accepted.nearest.normal.dot(touch.nearest.normal) > BENT && flat(mesh, pose, accepted)
 }
