@@ -34,11 +34,13 @@ pub enum Account {
     LatticeRules,
     /// Lost (or gained) because an automaton treats the box as infinitely heavy within a step [J].
     HeavyBox,
+    /// Energy that grains brought which came in, less what those took that were removed [J].
+    Exchange,
 }
 
 impl Account {
     /// All accounts, in the order they are reported.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::BaseWork,
         Self::ForceWork,
         Self::WallWork,
@@ -49,6 +51,7 @@ impl Account {
         Self::Collision,
         Self::LatticeRules,
         Self::HeavyBox,
+        Self::Exchange,
     ];
 
     /// Name in summaries and figures.
@@ -64,12 +67,13 @@ impl Account {
             Self::Collision => "collision",
             Self::LatticeRules => "lattice rules",
             Self::HeavyBox => "heavy box",
+            Self::Exchange => "grains in and out",
         }
     }
 
     /// Whether the row counts energy coming in (else: lost).
     pub fn is_work(self) -> bool {
-        matches!(self, Self::BaseWork | Self::ForceWork | Self::WallWork)
+        matches!(self, Self::BaseWork | Self::ForceWork | Self::WallWork | Self::Exchange)
     }
 }
 
@@ -88,11 +92,13 @@ pub struct Stocks {
     pub host_kinetic: f64,
     /// Stored in the springs of the hosts.
     pub host_spring: f64,
+    /// Kinetic and potential energy of walls that move by themselves: servos and free bodies.
+    pub walls: f64,
 }
 
 impl Stocks {
     /// The terms with their names.
-    pub fn terms(&self) -> [(&'static str, f64); 6] {
+    pub fn terms(&self) -> [(&'static str, f64); 7] {
         [
             ("kinetic", self.kinetic),
             ("rotational", self.rotational),
@@ -100,6 +106,7 @@ impl Stocks {
             ("elastic", self.elastic),
             ("host kinetic", self.host_kinetic),
             ("host spring", self.host_spring),
+            ("walls", self.walls),
         ]
     }
 
@@ -117,6 +124,8 @@ pub struct Ledger {
     pub gravity_impulse: [f64; 3],
     /// Impulse of walls on the grains since time 0 [N.s].
     pub wall_impulse: [f64; 3],
+    /// Momentum that grains brought which came in, less what those took that were removed [N.s].
+    pub exchange_impulse: [f64; 3],
     /// Impulse that lattice rules created out of nothing [N.s].
     pub rule_impulse: [f64; 3],
     /// Impulse that hosts heard from the grains, along their directions [N.s].
@@ -164,6 +173,7 @@ impl Ledger {
     pub fn momentum_residual(&self, now: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|i| {
             now[i] - self.opening_momentum[i] - self.gravity_impulse[i] - self.wall_impulse[i] - self.rule_impulse[i]
+                - self.exchange_impulse[i]
         })
     }
 
@@ -176,6 +186,7 @@ impl Ledger {
         impulses.extend(self.rule_impulse);
         impulses.push(self.host_impulse);
         impulses.extend(self.opening_momentum);
+        impulses.extend(self.exchange_impulse);
         state.put_real("ledger.impulses", impulses);
         state.put_real("ledger.opening", self.opening.terms().map(|(_, v)| v).to_vec());
     }
@@ -186,7 +197,7 @@ impl Ledger {
         let flows = state.real("ledger.flows")?.try_into().map_err(|_| missing())?;
         let p = state.real("ledger.impulses")?;
         let o = state.real("ledger.opening")?;
-        if p.len() != 13 || o.len() != 6 {
+        if p.len() != 16 || o.len() != 7 {
             return Err(missing());
         }
         Ok(Self {
@@ -196,6 +207,7 @@ impl Ledger {
             rule_impulse: [p[6], p[7], p[8]],
             host_impulse: p[9],
             opening_momentum: [p[10], p[11], p[12]],
+            exchange_impulse: [p[13], p[14], p[15]],
             opening: Stocks {
                 kinetic: o[0],
                 rotational: o[1],
@@ -203,6 +215,7 @@ impl Ledger {
                 elastic: o[3],
                 host_kinetic: o[4],
                 host_spring: o[5],
+                walls: o[6],
             },
         })
     }

@@ -14,6 +14,10 @@ pub enum Purpose {
     Lottery = 3,
     /// Order of lattice collisions.
     Order = 4,
+    /// Diameters of grains.
+    Size = 5,
+    /// Grains that come in during a run.
+    Stream = 6,
 }
 
 const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];

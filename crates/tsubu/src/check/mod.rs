@@ -4,33 +4,89 @@ mod verdict;
 
 pub use verdict::{Line, Verdict, check, human_time, verdict};
 
-use crate::contact::Table;
+use crate::contact::{Law, Table};
+use crate::dem::sizes;
 use crate::partner::Hosts;
-use tsubu_scene::plan::{Plan, Shape, Signal, Start};
+use tsubu_scene::plan::{GrainMotion, Plan, Shape, Signal, Start};
 
 /// Time step of DEM [s]: told, or the shortest contact time at the scene's speed scale over the wanted steps per contact.
-pub fn time_step(plan: &Plan, table: &Table, hosts: &Hosts) -> f64 {
+pub fn time_step(plan: &Plan, law: &Law, table: &Table, hosts: &Hosts) -> f64 {
     plan.dem.time_step.unwrap_or_else(|| {
         let speed = speed_scale(plan, hosts);
-        let shortest = touching_pairs(plan, table).map(|(a, b)| table.pair(a, b).contact_time(speed));
-        let shortest = shortest.fold(f64::INFINITY, f64::min);
+        let bodies = bodies(plan, table, hosts);
+        let times = bodies.pairs().map(|(a, b)| table.pair(law, a.body(), b.body()).contact_time(speed));
+        let shortest = times.fold(f64::INFINITY, f64::min);
         let dt = shortest / plan.dem.steps_per_contact;
         if dt.is_finite() { dt } else { shortest_period(hosts).min(plan.duration) / 200.0 }
     })
 }
 
-/// Pairs of species that can touch: all but wall with wall, and none for groups without grains.
-pub fn touching_pairs<'a>(plan: &'a Plan, table: &'a Table) -> impl Iterator<Item = (u32, u32)> + 'a {
-    let n = table.species.len() as u32;
-    let present: Vec<bool> = plan
-        .particles
-        .values()
-        .map(|p| p.count > 0)
-        .chain(std::iter::repeat_n(true, table.species.len() - plan.particles.len()))
-        .collect();
-    (0..n).flat_map(move |a| (a..n).map(move |b| (a, b))).filter(move |&(a, b)| {
-        present[a as usize] && present[b as usize] && table.species[a as usize].radius.is_finite()
-    })
+/// A group of grains (its smallest) or the walls of one material that give way alike.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kind {
+    /// How users know it.
+    pub name: String,
+    /// The group of grains; `None` for walls.
+    pub group: Option<String>,
+    /// Number of the material in the contact table.
+    pub material: u32,
+    /// Radius [m]; infinite for walls.
+    pub radius: f64,
+    /// Mass [kg]; infinite for what forces do not move.
+    pub mass: f64,
+}
+
+impl Kind {
+    /// As [`Table::pair`] wants it.
+    pub fn body(&self) -> (u32, f64, f64) {
+        (self.material, self.radius, self.mass)
+    }
+}
+
+/// All kinds of bodies of a plan.
+#[derive(Clone, Debug, Default)]
+pub struct Bodies(Vec<Kind>);
+
+impl Bodies {
+    /// Pairs that can touch; the first is a group of grains.
+    pub fn pairs(&self) -> impl Iterator<Item = (&Kind, &Kind)> {
+        let later = |k: usize| self.0[k..].iter();
+        let all = self.0.iter().enumerate().flat_map(move |(k, a)| later(k).map(move |b| (a, b)));
+        all.filter(|(a, b)| a.group.is_some() && (a.mass.is_finite() || b.mass.is_finite()))
+    }
+}
+
+/// The kinds of bodies of a plan: groups that have grains, then walls.
+pub fn bodies(plan: &Plan, table: &Table, hosts: &Hosts) -> Bodies {
+    let mut kinds = Vec::new();
+    for (name, group) in plan.particles.iter().filter(|(_, group)| group.count > 0) {
+        let smallest = sizes::range(group).0;
+        let free = matches!(group.motion, GrainMotion::Free {});
+        kinds.push(Kind {
+            name: name.clone(),
+            group: Some(name.clone()),
+            material: table.material(&group.material),
+            radius: 0.5 * smallest,
+            mass: if free { sizes::mass(group, smallest) } else { f64::INFINITY },
+        });
+    }
+    for wall in plan.walls.values() {
+        // A wall on a light structure gives way in an impact: its mass is the one the structure shows.
+        let host = wall.host.as_deref().and_then(|name| hosts.index(name));
+        let host = host.map(|index| hosts.list[index].effective_mass());
+        let own = wall.servo.as_ref().map(|s| s.mass).or(wall.body.as_ref().map(|b| b.mass));
+        let kind = Kind {
+            name: format!("wall of {}", wall.material),
+            group: None,
+            material: table.material(&wall.material),
+            radius: f64::INFINITY,
+            mass: host.or(own).unwrap_or(f64::INFINITY),
+        };
+        if !kinds.contains(&kind) {
+            kinds.push(kind);
+        }
+    }
+    Bodies(kinds)
 }
 
 /// Shortest natural period of the hosts [s]; infinite without hosts.
@@ -63,10 +119,13 @@ pub fn speed_scale(plan: &Plan, hosts: &Hosts) -> f64 {
     for group in plan.particles.values() {
         match &group.start {
             Start::At { velocity, .. } => {
-                let squares = velocity.iter().map(|v| v.iter().map(|x| x * x).sum::<f64>());
-                speed = speed.max(squares.fold(0.0, f64::max).sqrt());
+                speed = velocity.iter().map(size).fold(speed, f64::max);
             }
             Start::Rows { speed: start, .. } => speed = speed.max(*start),
+            Start::Random { velocity, speed: start, .. } | Start::Stream { velocity, speed: start, .. } => {
+                speed = speed.max(size(velocity) + start);
+            }
+            Start::File { grains, .. } => speed = grains.velocity.iter().map(size).fold(speed, f64::max),
             Start::Settled { .. } => {}
         }
     }
@@ -85,11 +144,16 @@ pub fn speed_scale(plan: &Plan, hosts: &Hosts) -> f64 {
     if speed > 0.0 { speed } else { 1.0 }
 }
 
+fn size(v: &[f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
 /// Largest absolute value of a signal.
 fn peak(signal: &Signal) -> f64 {
     match signal {
         Signal::Sine { amplitude, .. } | Signal::SineSweep { amplitude, .. } => amplitude.abs(),
         Signal::Impact { peak, .. } => peak.abs(),
+        Signal::Steady { .. } => f64::INFINITY,
         Signal::Table { value, .. } => value.iter().map(|v| v.abs()).fold(0.0, f64::max),
     }
 }
@@ -100,6 +164,7 @@ fn fastest(signal: &Signal) -> f64 {
         Signal::Sine { amplitude, frequency, .. } => (amplitude * frequency).abs() * std::f64::consts::TAU,
         Signal::SineSweep { amplitude, from, to, .. } => amplitude.abs() * from.max(*to) * std::f64::consts::TAU,
         Signal::Impact { peak, duration, .. } => (peak / duration).abs() * std::f64::consts::PI,
+        Signal::Steady { rate } => rate.abs(),
         Signal::Table { time, value } => {
             let slopes = time.windows(2).zip(value.windows(2)).map(|(t, v)| ((v[1] - v[0]) / (t[1] - t[0])).abs());
             slopes.fold(0.0, f64::max)

@@ -1,6 +1,6 @@
 //! The verdict: is this scene resolved well enough, and what will it cost?
 
-use super::{shortest_period, speed_scale, touching_pairs};
+use super::{bodies, shortest_period, speed_scale};
 use crate::contact::{Law, Table};
 use crate::engine::{self, Engine, Fault, OpenError};
 use crate::ledger::Ledger;
@@ -102,7 +102,7 @@ fn unsettled(plan: &Plan, hosts: &Hosts, fault: &Fault) -> Result<Verdict, OpenE
     let mut plan = plan.clone();
     for group in plan.particles.values_mut() {
         if matches!(group.start, Start::Settled { .. }) {
-            group.start = Start::Rows { spacing: 1.0, jitter: 0.0, speed: 0.0 };
+            group.start = Start::Rows { spacing: 1.0, jitter: 0.0, speed: 0.0, region: None };
         }
     }
     let engine = engine::open(&plan, hosts)?;
@@ -155,17 +155,10 @@ fn step_key(plan: &Plan) -> &'static str {
 
 fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
     let law = Law::new(&plan.contact);
-    let table = Table::new(plan, &law, hosts);
-    for (a, b) in touching_pairs(plan, &table) {
-        let name = |i: u32| {
-            let wall = table.species[i as usize].radius.is_infinite();
-            plan.particles.keys().nth(i as usize).map_or_else(
-                || format!("wall of {}", table.species[i as usize].material),
-                |group| if wall { String::new() } else { group.clone() },
-            )
-        };
-        let label = format!("{} on {}", name(a), name(b));
-        let pair = table.pair(a, b);
+    let table = Table::new(plan, &law);
+    for (a, b) in bodies(plan, &table, hosts).pairs() {
+        let label = format!("{} on {}", a.name, b.name);
+        let pair = table.pair(&law, a.body(), b.body());
         let time = pair.contact_time(speed);
         let steps = time / dt;
         // Osada 2004: fewer than 10 steps a contact give abnormal rebounds.
@@ -174,8 +167,7 @@ fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
             format!("{label}: contact time {time:.3e} s at {speed:.3} m/s, {steps:.1} steps per contact (never below 10, good from 20)"),
             || format!("`dem.time-step` to {:.2e} s or less, or leave it out (20 steps per contact)", time / 20.0),
         );
-        let species = &table.species[a as usize];
-        let overlap = pair.largest_overlap(speed) / (2.0 * species.radius);
+        let overlap = pair.largest_overlap(speed) / (2.0 * a.radius);
         verdict.judge(
             overlap <= 0.01,
             format!(
@@ -185,12 +177,12 @@ fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
             || {
                 format!(
                     "stiffen: {} by {:.1}, or lower `speed-scale`",
-                    stiffness_key(plan, &species.material),
+                    stiffness_key(plan, a.group.as_deref().map_or("", |g| &plan.particles[g].material)),
                     (overlap / 0.01).powf(2.5)
                 )
             },
         );
-        damping_stable(verdict, plan, &label, pair, dt);
+        damping_stable(verdict, plan, &label, &pair, dt);
     }
     for (name, group) in &plan.particles {
         if group.count == 0 {
@@ -219,7 +211,7 @@ fn damping_stable(verdict: &mut Verdict, plan: &Plan, label: &str, pair: &crate:
     }
     let depth = pair.largest_overlap(1.0);
     let eta = pair.damping * depth.powf(pair.damping_exponent);
-    let tangent = pair.exponent * pair.stiffness * depth.powf(pair.exponent - 1.0);
+    let tangent = pair.constants.exponent * pair.stiffness * depth.powf(pair.constants.exponent - 1.0);
     let number = eta * dt / pair.mass;
     verdict.judge(number < 0.5, format!("{label}: dashpot number eta dt / m* = {number:.3} (limit 0.5)"), || {
         format!("`dem.time-step` to {:.2e} s or less", 0.4 * pair.mass / eta)

@@ -1,26 +1,28 @@
-//! A chunk: up to 256 touching pairs as plain columns, small enough to stay in the cache.
+//! A chunk: up to 128 touching pairs as plain columns, small enough to stay in the cache.
 
+use super::table::Constants;
 use glam::DVec3;
 
 /// Rows of a chunk.
-pub const ROWS: usize = 256;
+pub const ROWS: usize = 128;
 
-/// Width of the history of a contact: tangential spring force (3) and its stiffness at the last step.
-pub const HISTORY: usize = 4;
-
-/// One column. The 8 entries beyond the rows keep columns from starting a multiple of 2 KiB apart: forty of them would
-/// share two sets of the first-level cache and throw each other out (measured: 5 % of a damper run).
+/// One column. The 8 entries beyond the rows keep columns from starting a multiple of 1 KiB apart, where they would share
+/// few sets of the first-level cache and throw each other out (measured: 5 % of a damper run).
 pub type Column = [f64; ROWS + 8];
 
-/// Touching pairs. The contact table fills the coefficients, the engine the geometry, the parts the results.
+/// An empty column.
+pub const ZERO: Column = [0.0; ROWS + 8];
+
+const VECTOR: [Column; 3] = [ZERO; 3];
+
+/// Touching pairs. The engine fills geometry and constants, the parts the results.
 #[derive(Clone, Debug)]
 pub struct Chunk {
-    /// Rows in use.
+    /// Rows in use; read it with [`Chunk::rows`].
     pub len: usize,
-    /// Overlap d [m], positive.
+
+    /// Overlap d [m]; negative only under laws that reach beyond it.
     pub overlap: Column,
-    /// sqrt(d) [m^(1/2)].
-    pub root: Column,
     /// Overlap rate d' [m/s], positive when approaching.
     pub closing: Column,
     /// Unit normal from the first to the second body.
@@ -29,68 +31,97 @@ pub struct Chunk {
     pub slip: [Column; 3],
     /// Relative spin without its part along the normal [rad/s].
     pub roll: [Column; 3],
-    /// Elastic coefficient: k of Hertz [N/m^1.5] or Hooke [N/m].
-    pub stiffness: Column,
-    /// Damping coefficient of the damping part.
-    pub damping: Column,
-    /// Tangential coefficient 8 G* sqrt(R*) [N/m^1.5].
-    pub shear: Column,
-    /// Tangential over normal dashpot [-].
-    pub shear_damping: Column,
-    /// Friction coefficient [-].
-    pub friction: Column,
-    /// Rolling friction coefficient times reduced radius [m].
-    pub rolling: Column,
-    /// Reduced radius [m].
+    /// Relative spin along the normal [rad/s].
+    pub twist: Column,
+    /// Reduced radius R* = 1/(1/R1 + 1/R2) [m].
     pub radius: Column,
-    /// Reduced mass [kg].
+    /// Reduced mass m* = 1/(1/m1 + 1/m2) [kg].
     pub mass: Column,
-    /// Contact history, read and written by the parts that need one.
-    pub history: [Column; HISTORY],
-    /// Result: normal force [N], positive pushes the bodies apart.
+
+    /// Constant: reduced modulus E* [Pa].
+    pub young: Column,
+    /// Constant: reduced shear modulus G* [Pa].
+    pub shear_modulus: Column,
+    /// Constant: number of the damping part.
+    pub damping: Column,
+    /// Constant: tangential over normal dashpot [-].
+    pub shear_damping: Column,
+    /// Constant: friction coefficient [-].
+    pub friction: Column,
+    /// Constant: rolling friction coefficient [-].
+    pub rolling: Column,
+    /// Constant: twisting friction coefficient [-].
+    pub twisting: Column,
+    /// Constant: surface energy of one face [J/m^2].
+    pub surface_energy: Column,
+    /// Constant: cohesion, in the unit of its part.
+    pub cohesion: Column,
+
+    /// Contact history, one column a slot; parts know where theirs begins.
+    pub history: Vec<Column>,
+
+    /// Between parts: radius of the contact disc [m]; zero where the bodies do not hold each other.
+    pub disc: Column,
+    /// Between parts: elastic stiffness f/d [N/m], the secant of the elastic force.
+    pub secant: Column,
+    /// Between parts: tangential stiffness at this overlap [N/m].
+    pub shear: Column,
+    /// Between parts: local viscous coefficient of the normal damping [N.s/m], for tangential dashpots.
+    pub dashpot: Column,
+    /// Between parts: what cohesion adds to the normal force before friction multiplies it [N].
+    pub pull_off: Column,
+    /// Between parts: what friction multiplies [N]: normal force and pull-off, never below zero.
+    pub load: Column,
+
+    /// Result: normal force [N], positive pushes the bodies apart. Set by the normal part, changed by cohesion and damping.
     pub normal_force: Column,
     /// Result: the part of the normal force that damps [N].
     pub damping_force: Column,
-    /// Result: local viscous coefficient of the normal damping [N.s/m], for tangential dashpots.
-    pub dashpot: Column,
     /// Result: tangential force on the first body [N].
     pub tangential_force: [Column; 3],
-    /// Result: rolling torque on the first body [N.m]; the second gets the opposite.
+    /// Result: rolling and twisting torque on the first body [N.m], added to; the second gets the opposite.
     pub torque: [Column; 3],
-    /// Result: energy stored [J].
+    /// Result: energy stored [J]. Set by the normal part, added to by the others.
     pub stored: Column,
-    /// Result: power lost in normal damping [W].
+    /// Result: power lost in normal damping and in contacts that snap together or part [W], added to.
     pub lost_normal: Column,
     /// Result: power lost in sliding [W].
     pub lost_sliding: Column,
-    /// Result: power lost in rolling [W].
+    /// Result: power lost in rolling and twisting [W], added to.
     pub lost_rolling: Column,
 }
 
-impl Default for Chunk {
-    fn default() -> Self {
-        const ZERO: Column = [0.0; ROWS + 8];
-        const VECTOR: [Column; 3] = [ZERO; 3];
+impl Chunk {
+    /// An empty chunk for a law with `history` columns of history.
+    pub fn new(history: usize) -> Self {
         Self {
             len: 0,
             overlap: ZERO,
-            root: ZERO,
             closing: ZERO,
             normal: VECTOR,
             slip: VECTOR,
             roll: VECTOR,
-            stiffness: ZERO,
+            twist: ZERO,
+            radius: ZERO,
+            mass: ZERO,
+            young: ZERO,
+            shear_modulus: ZERO,
             damping: ZERO,
-            shear: ZERO,
             shear_damping: ZERO,
             friction: ZERO,
             rolling: ZERO,
-            radius: ZERO,
-            mass: ZERO,
-            history: [ZERO; HISTORY],
+            twisting: ZERO,
+            surface_energy: ZERO,
+            cohesion: ZERO,
+            history: vec![ZERO; history],
+            disc: ZERO,
+            secant: ZERO,
+            shear: ZERO,
+            dashpot: ZERO,
+            pull_off: ZERO,
+            load: ZERO,
             normal_force: ZERO,
             damping_force: ZERO,
-            dashpot: ZERO,
             tangential_force: VECTOR,
             torque: VECTOR,
             stored: ZERO,
@@ -99,30 +130,47 @@ impl Default for Chunk {
             lost_rolling: ZERO,
         }
     }
-}
 
-impl Chunk {
-    /// Sets the results of all rows to zero.
+    /// Rows in use. The bound is said again for the compiler: loops up to it index columns without checks.
+    #[inline(always)]
+    pub fn rows(&self) -> usize {
+        self.len.min(ROWS)
+    }
+
+    /// Sets to zero what several parts add to. Everything else is set, not added to, by the one part that acts on it; columns
+    /// that no part of a law sets stay zero. (Clearing them all was a fifth of the time of Hertz with Mindlin.)
     pub fn clear_results(&mut self) {
-        let n = self.len;
-        for column in [&mut self.normal_force, &mut self.damping_force, &mut self.dashpot, &mut self.stored]
-            .into_iter()
-            .chain([&mut self.lost_normal, &mut self.lost_sliding, &mut self.lost_rolling])
-            .chain(&mut self.tangential_force)
-            .chain(&mut self.torque)
-        {
+        let n = self.rows();
+        for column in [&mut self.lost_normal, &mut self.lost_rolling].into_iter().chain(&mut self.torque) {
             column[..n].fill(0.0);
         }
     }
 
+    /// Writes the constants of a pair of materials into the rows `range`.
+    pub fn set_constants(&mut self, range: std::ops::Range<usize>, c: &Constants) {
+        for (column, value) in [
+            (&mut self.young, c.young),
+            (&mut self.shear_modulus, c.shear_modulus),
+            (&mut self.damping, c.damping),
+            (&mut self.shear_damping, c.shear_damping),
+            (&mut self.friction, c.friction),
+            (&mut self.rolling, c.rolling),
+            (&mut self.twisting, c.twisting),
+            (&mut self.surface_energy, c.surface_energy),
+            (&mut self.cohesion, c.cohesion),
+        ] {
+            column[range.clone()].fill(value);
+        }
+    }
+
     /// Row `i` of a vector column.
-    #[inline]
+    #[inline(always)]
     pub fn vector(column: &[Column; 3], i: usize) -> DVec3 {
         DVec3::new(column[0][i], column[1][i], column[2][i])
     }
 
     /// Sets row `i` of a vector column.
-    #[inline]
+    #[inline(always)]
     pub fn set(column: &mut [Column; 3], i: usize, v: DVec3) {
         column[0][i] = v.x;
         column[1][i] = v.y;

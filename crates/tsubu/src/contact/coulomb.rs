@@ -2,7 +2,9 @@
 
 use super::chunk::Chunk;
 use super::part::{About, Part, Stage};
-use super::table::Pair;
+use super::root::most;
+use super::slider::TINY;
+use multiversion::multiversion;
 
 const ABOUT: About = About {
     name: "coulomb",
@@ -27,23 +29,22 @@ impl Part for Coulomb {
         Stage::Tangential
     }
 
-    fn prepare(&self, _pair: &mut Pair) {}
+    fn apply(&self, chunk: &mut Chunk, _at: usize, dt: f64) {
+        rows(chunk, dt, self.smoothing_speed);
+    }
+}
 
-    fn apply(&self, chunk: &mut Chunk, dt: f64) {
-        let [sx, sy, sz] = &chunk.slip;
-        let [fx, fy, fz] = &mut chunk.tangential_force;
-        for i in 0..chunk.len {
-            let squared = sx[i] * sx[i] + sy[i] * sy[i] + sz[i] * sz[i];
-            // An attracting normal force carries no friction; it would push the bodies along their motion.
-            let limit = chunk.friction[i] * chunk.normal_force[i].max(0.0);
-            // Friction may stop a slip within a step and never turn it: taken literally at long steps it would chatter, and
-            // chatter makes energy. The factor 2 leaves room for the several contacts of a grain. Gone as dt -> 0.
-            let turning = 2.0 * limit * dt / chunk.mass[i];
-            let factor = limit / squared.sqrt().max(self.smoothing_speed).max(turning);
-            fx[i] -= factor * sx[i];
-            fy[i] -= factor * sy[i];
-            fz[i] -= factor * sz[i];
-            chunk.lost_sliding[i] += factor * squared;
-        }
+#[multiversion(targets = "simd")]
+fn rows(chunk: &mut Chunk, dt: f64, slow: f64) {
+    for i in 0..chunk.rows() {
+        let slip = Chunk::vector(&chunk.slip, i);
+        let squared = slip.length_squared();
+        let limit = chunk.friction[i] * chunk.load[i];
+        // Friction may stop a slip within a step and never turn it: taken literally at long steps it would chatter, and chatter
+        // makes energy. The factor 2 leaves room for the several contacts of a grain. Gone as dt -> 0.
+        let turning = 2.0 * limit * dt / chunk.mass[i];
+        let factor = limit / most(most(squared.sqrt(), slow), most(turning, TINY));
+        Chunk::set(&mut chunk.tangential_force, i, slip * -factor);
+        chunk.lost_sliding[i] = factor * squared;
     }
 }

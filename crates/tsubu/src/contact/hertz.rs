@@ -2,16 +2,24 @@
 
 use super::chunk::Chunk;
 use super::part::{About, Part, Stage};
-use super::table::Pair;
+use super::root::most;
+use super::table::{Constants, Pair};
+use multiversion::multiversion;
 
 const ABOUT: About = About {
     name: "hertz",
     models: "elastic contact of smooth spheres, or of a sphere and a plane",
-    formula: "f_n = k d^(3/2), k = (4/3) E* sqrt(R*); stored (2/5) k d^(5/2)",
-    symbols: "d overlap [m], E* reduced modulus [Pa], R* reduced radius [m], k [N/m^1.5]",
+    formula: "f_n = k d^(3/2), k = (4/3) E* sqrt(R*); radius of contact a = sqrt(R* d); stored (2/5) k d^(5/2)",
+    symbols: "d overlap [m], E* reduced modulus [Pa], R* reduced radius [m], k [N/m^1.5], a [m]",
     limits: "small overlaps (d below about 1 % of the diameter), no adhesion, no plasticity",
     reference: "Hertz 1882; Komatsuzaki 2003, eqs. (3), (5), (6)",
 };
+
+/// Secant stiffness f/d [N/m] of a contact disc of radius `disc` [m]; with sqrt(R*) for the disc, k [N/m^1.5].
+#[inline(always)]
+pub(super) fn secant(young: f64, disc: f64) -> f64 {
+    4.0 / 3.0 * young * disc
+}
 
 #[derive(Debug)]
 pub(super) struct Hertz;
@@ -25,16 +33,29 @@ impl Part for Hertz {
         Stage::Normal
     }
 
-    fn prepare(&self, pair: &mut Pair) {
-        pair.exponent = 1.5;
-        pair.stiffness = 4.0 / 3.0 * pair.young * pair.radius.sqrt();
+    fn prepare(&self, constants: &mut Constants) {
+        constants.exponent = 1.5;
     }
 
-    fn apply(&self, chunk: &mut Chunk, _dt: f64) {
-        for i in 0..chunk.len {
-            let force = chunk.stiffness[i] * chunk.overlap[i] * chunk.root[i];
-            chunk.normal_force[i] += force;
-            chunk.stored[i] += 0.4 * force * chunk.overlap[i];
-        }
+    fn judge(&self, pair: &mut Pair) {
+        pair.stiffness = secant(pair.constants.young, pair.radius.sqrt());
+    }
+
+    fn apply(&self, chunk: &mut Chunk, _at: usize, _dt: f64) {
+        rows(chunk);
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn rows(chunk: &mut Chunk) {
+    for i in 0..chunk.rows() {
+        let overlap = most(chunk.overlap[i], 0.0);
+        let disc = (chunk.radius[i] * overlap).sqrt();
+        let secant = secant(chunk.young[i], disc);
+        let force = secant * overlap;
+        chunk.disc[i] = disc;
+        chunk.secant[i] = secant;
+        chunk.normal_force[i] = force;
+        chunk.stored[i] = 0.4 * force * overlap;
     }
 }

@@ -2,13 +2,15 @@
 
 use super::chunk::Chunk;
 use super::part::{About, Part, Stage};
-use super::table::Pair;
+use super::root::most;
+use super::table::{Constants, Pair};
+use multiversion::multiversion;
 
 const ABOUT: About = About {
     name: "hooke",
     models: "contact as a linear spring; its contact time does not depend on the impact speed",
-    formula: "f_n = k d; stored (1/2) k d^2; contact time pi sqrt(m*/k)",
-    symbols: "d overlap [m], k [N/m], m* reduced mass [kg]",
+    formula: "f_n = k d; radius of contact a = sqrt(R* d); stored (1/2) k d^2; contact time pi sqrt(m*/k)",
+    symbols: "d overlap [m], k [N/m], m* reduced mass [kg], R* reduced radius [m], a [m]",
     limits: "k is a choice, not a material constant",
     reference: "Cundall and Strack 1979; Osada 2004, eq. (1)",
 };
@@ -27,16 +29,27 @@ impl Part for Hooke {
         Stage::Normal
     }
 
-    fn prepare(&self, pair: &mut Pair) {
-        pair.exponent = 1.0;
+    fn prepare(&self, constants: &mut Constants) {
+        constants.exponent = 1.0;
+    }
+
+    fn judge(&self, pair: &mut Pair) {
         pair.stiffness = self.stiffness;
     }
 
-    fn apply(&self, chunk: &mut Chunk, _dt: f64) {
-        for i in 0..chunk.len {
-            let force = chunk.stiffness[i] * chunk.overlap[i];
-            chunk.normal_force[i] += force;
-            chunk.stored[i] += 0.5 * force * chunk.overlap[i];
-        }
+    fn apply(&self, chunk: &mut Chunk, _at: usize, _dt: f64) {
+        rows(chunk, self.stiffness);
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn rows(chunk: &mut Chunk, stiffness: f64) {
+    for i in 0..chunk.rows() {
+        let overlap = most(chunk.overlap[i], 0.0);
+        let force = stiffness * overlap;
+        chunk.disc[i] = (chunk.radius[i] * overlap).sqrt();
+        chunk.secant[i] = stiffness;
+        chunk.normal_force[i] = force;
+        chunk.stored[i] = 0.5 * force * overlap;
     }
 }

@@ -1,80 +1,95 @@
-//! Tangential spring with history: Mindlin, incremental and rescaled on unloading.
+//! Tangential spring with history: Mindlin.
 
 use super::chunk::Chunk;
-use super::part::{About, Needs, Part, Stage};
-use super::table::Pair;
+use super::part::{About, Part, Slot, Stage};
+use super::slider::{self, Strength, slide};
+use super::table::Constants;
 use glam::DVec3;
+use multiversion::multiversion;
+use tsubu_scene::plan::MindlinForm;
 
-const ABOUT: About = About {
+const INCREMENTAL: About = About {
     name: "mindlin",
     models: "elastic tangential contact of spheres that slides when the spring exceeds the friction cone",
-    formula: "dF = -k_t(d) v_t dt, F scaled down with k_t on unloading, |F + F_dashpot| <= mu f_n; k_t = 8 G* sqrt(R* d)",
-    symbols: "F tangential spring force [N], v_t slip velocity [m/s], G* reduced shear modulus [Pa], mu [-]",
-    limits: "no micro-slip inside the contact disc; wants `contact.normal.hertz`",
+    formula: "dF = -k_t v_t dt, F scaled down with k_t on unloading, |F + F_dashpot| <= mu f_n; k_t = 8 G* a",
+    symbols: "F spring force [N], v_t slip velocity [m/s], G* reduced shear modulus [Pa], a contact radius [m], mu [-]",
+    limits: "no micro-slip inside the contact disc; contacts that turn about their normal do not turn F",
     reference: "Mindlin and Deresiewicz 1953; Thornton, Cummins, Cleary 2013",
 };
 
+const SECANT: About = About {
+    name: "mindlin, secant",
+    models: "the same with a displacement that keeps its length when the disc of contact changes",
+    formula: "F = -k_t(d) x, x the slip since first touch, cut so that |F + F_dashpot| <= mu f_n; k_t = 8 G* a",
+    symbols: "x slip [m], d overlap [m], G* reduced shear modulus [Pa], a contact radius [m], mu [-]",
+    limits: "pressing a sheared contact makes energy out of nothing; for comparison with codes that use it",
+    reference: "the form behind the curves of Chung and Ooi 2011",
+};
+
 #[derive(Debug)]
-pub(super) struct Mindlin;
+pub(super) struct Mindlin {
+    pub form: MindlinForm,
+    /// Tangential over normal dashpot [-]; `None`: equal damping ratios.
+    pub damping: Option<f64>,
+}
 
 impl Part for Mindlin {
     fn about(&self) -> &'static About {
-        &ABOUT
+        match self.form {
+            MindlinForm::Incremental => &INCREMENTAL,
+            MindlinForm::Secant => &SECANT,
+        }
     }
 
     fn stage(&self) -> Stage {
         Stage::Tangential
     }
 
-    fn needs(&self) -> Needs {
-        Needs { history: true, roll: false }
+    fn history(&self) -> &'static [Slot] {
+        slider::SPRING
     }
 
-    fn prepare(&self, pair: &mut Pair) {
-        pair.shear = 8.0 * pair.shear_modulus * pair.radius.sqrt();
-        // Equal damping ratios: the dashpots stand as the roots of the two tangent stiffnesses.
-        pair.shear_damping = (pair.shear / (1.5 * pair.stiffness)).sqrt();
+    fn prepare(&self, constants: &mut Constants) {
+        // Equal damping ratios: the dashpots stand as the roots of the two tangent stiffnesses, 8 G* a and 2 E* a.
+        let equal = 2.0 * (constants.shear_modulus / constants.young).sqrt();
+        constants.shear_damping = self.damping.unwrap_or(equal);
     }
 
-    fn apply(&self, chunk: &mut Chunk, dt: f64) {
-        for i in 0..chunk.len {
-            let stiffness = chunk.shear[i] * chunk.root[i];
-            let normal = Chunk::vector(&chunk.normal, i);
-            let slip = Chunk::vector(&chunk.slip, i);
-            let old = DVec3::new(chunk.history[0][i], chunk.history[1][i], chunk.history[2][i]);
-            let old_stiffness = chunk.history[3][i];
-            let squared = old.length_squared();
-            let mut stored_before = 0.0;
-            let mut spring = DVec3::ZERO;
-            if squared > 0.0 {
-                stored_before = squared / (2.0 * old_stiffness);
-                // Turn the spring with the contact: into the new tangent plane, at its old length.
-                let flat = old - normal * old.dot(normal);
-                // A shrinking contact disc cannot hold the force that a larger one held.
-                let shrink = (stiffness / old_stiffness).min(1.0);
-                let remaining = flat.length_squared();
-                if remaining > 0.0 {
-                    spring = flat * (shrink * (squared / remaining).sqrt());
-                }
-            }
-            spring -= slip * (stiffness * dt);
-            let mut total = spring - slip * (chunk.dashpot[i] * chunk.shear_damping[i]);
-            let limit = chunk.friction[i] * chunk.normal_force[i].max(0.0);
-            let size = total.length_squared();
-            if size > limit * limit {
-                // Sliding: the cone holds for the whole force, the spring gives way and the dashpot is dropped.
-                total *= limit / size.sqrt();
-                spring = total;
-            }
-            let stored = spring.length_squared() / (2.0 * stiffness);
-            chunk.stored[i] += stored;
-            // Work taken from the motion and not stored is lost.
-            chunk.lost_sliding[i] += -total.dot(slip) - (stored - stored_before) / dt;
-            for (column, value) in chunk.history.iter_mut().zip([spring.x, spring.y, spring.z, stiffness]) {
-                column[i] = value;
-            }
-            let force = Chunk::vector(&chunk.tangential_force, i) + total;
-            Chunk::set(&mut chunk.tangential_force, i, force);
-        }
+    fn apply(&self, chunk: &mut Chunk, at: usize, dt: f64) {
+        let growth = match self.form {
+            MindlinForm::Incremental => 1.0,
+            MindlinForm::Secant => f64::INFINITY,
+        };
+        rows(chunk, at, dt, growth);
+    }
+
+    fn held(&self, history: &[f64]) -> f64 {
+        slider::held(history)
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn rows(chunk: &mut Chunk, at: usize, dt: f64, growth: f64) {
+    tangential(chunk, at, dt, |c, i| Strength {
+        stiffness: 8.0 * c.shear_modulus[i] * c.disc[i],
+        dashpot: c.dashpot[i] * c.shear_damping[i],
+        cap: c.friction[i] * c.load[i],
+        growth,
+    });
+}
+
+/// A step of a tangential spring in all rows.
+#[inline(always)]
+pub(super) fn tangential(chunk: &mut Chunk, at: usize, dt: f64, strength: impl Fn(&Chunk, usize) -> Strength) {
+    for i in 0..chunk.rows() {
+        let s = strength(chunk, i);
+        let Some([x, y, z, k]) = chunk.history[at..].first_chunk_mut() else { return };
+        let (normal, slip) = (Chunk::vector(&chunk.normal, i), Chunk::vector(&chunk.slip, i));
+        let slid = slide(DVec3::new(x[i], y[i], z[i]), k[i], normal, slip, s, dt);
+        (x[i], y[i], z[i], k[i]) = (slid.spring.x, slid.spring.y, slid.spring.z, s.stiffness);
+        Chunk::set(&mut chunk.tangential_force, i, slid.total);
+        chunk.shear[i] = s.stiffness;
+        chunk.stored[i] += slid.stored;
+        chunk.lost_sliding[i] = slid.lost;
     }
 }

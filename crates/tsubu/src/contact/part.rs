@@ -1,7 +1,7 @@
 //! A part: one ingredient of a contact law.
 
 use super::chunk::Chunk;
-use super::table::Pair;
+use super::table::{Constants, Pair};
 
 /// Text of a part, with fixed sections; shown to users.
 #[derive(Clone, Copy, Debug)]
@@ -25,24 +25,48 @@ pub struct About {
 pub enum Stage {
     /// Elastic normal force.
     Normal,
+    /// Attraction.
+    Cohesion,
     /// Damping of the normal motion.
     Damping,
     /// Tangential force.
     Tangential,
     /// Rolling resistance.
     Rolling,
+    /// Resistance against spin about the normal.
+    Twisting,
 }
 
 /// What a part wants from the engine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Needs {
-    /// Contact history.
-    pub history: bool,
-    /// Relative spin.
+    /// Relative rolling: fills the column `roll`.
     pub roll: bool,
+    /// Relative spin about the normal: fills the column `twist`.
+    pub twist: bool,
+}
+
+impl Needs {
+    /// Both.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self { roll: self.roll || other.roll, twist: self.twist || other.twist }
+    }
+}
+
+/// One entry of a contact's history, by what happens to it when the two bodies change places.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slot {
+    /// Stays as it is: a number that does not know which body is the first.
+    Even,
+    /// Changes its sign: a component of a force or torque on the first body.
+    Odd,
 }
 
 /// One ingredient of a contact law.
+///
+/// A part reads geometry, constants and the results of earlier stages from the chunk and adds its own. It knows nothing
+/// of grains, walls, dimensions, threads or of how its history is kept.
 pub trait Part: Send + Sync + std::fmt::Debug {
     /// Its text.
     fn about(&self) -> &'static About;
@@ -55,9 +79,28 @@ pub trait Part: Send + Sync + std::fmt::Debug {
         Needs::default()
     }
 
-    /// Writes the coefficient that this part reads for a pair of species; called once per pair, in the order of stages.
-    fn prepare(&self, pair: &mut Pair);
+    /// The columns of history that it keeps; zero at first touch.
+    fn history(&self) -> &'static [Slot] {
+        &[]
+    }
 
-    /// Acts on all rows; `dt` is the time step [s].
-    fn apply(&self, chunk: &mut Chunk, dt: f64);
+    /// How far apart [m] bodies of this pair may be and still hold each other; 0 for laws that end with the overlap.
+    /// Such a part is called for every row within reach, touching or not.
+    fn reach(&self, _pair: &Pair) -> f64 {
+        0.0
+    }
+
+    /// Finds the numbers that are the same for a pair of materials; called once per pair, in the order of stages.
+    fn prepare(&self, _constants: &mut Constants) {}
+
+    /// Writes what the verdict on the time step wants to know of a pair of bodies; called in the order of stages.
+    fn judge(&self, _pair: &mut Pair) {}
+
+    /// Acts on all rows; its history begins at column `at`; `dt` is the time step [s].
+    fn apply(&self, chunk: &mut Chunk, at: usize, dt: f64);
+
+    /// Energy [J] that a history still holds; it is lost when the contact opens. `history` begins with this part's.
+    fn held(&self, _history: &[f64]) -> f64 {
+        0.0
+    }
 }

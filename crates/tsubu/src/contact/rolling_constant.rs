@@ -2,19 +2,21 @@
 
 use super::chunk::Chunk;
 use super::part::{About, Needs, Part, Stage};
-use super::table::Pair;
+use super::slider::resist;
+use multiversion::multiversion;
 
 const ABOUT: About = About {
     name: "constant",
     models: "rolling resistance proportional to the normal force, fading below a small rolling speed",
-    formula: "M = -mu_r R* f_n w / max(|w|, v_eps / R*)",
-    symbols: "w relative spin without its normal part [rad/s], R* reduced radius [m], mu_r [-], v_eps [m/s]",
-    limits: "does not hold a slope at rest: below v_eps the grain creeps",
+    formula: "M = -mu_r R* f_n w / max(|w|, v_eps / R*, w_dt), w_dt = 5 mu_r f_n dt / (m* R*)",
+    symbols: "w relative spin without its normal part [rad/s], R* reduced radius [m], mu_r [-], v_eps [m/s], m* [kg]",
+    limits: "does not hold a slope at rest: below v_eps the grain creeps; w_dt keeps a step from turning the rolling",
     reference: "model A of Ai, Chen, Rotter, Ooi 2011",
 };
 
 #[derive(Debug)]
 pub(super) struct RollingConstant {
+    /// v_eps [m/s].
     pub smoothing_speed: f64,
 }
 
@@ -28,22 +30,15 @@ impl Part for RollingConstant {
     }
 
     fn needs(&self) -> Needs {
-        Needs { history: false, roll: true }
+        Needs { roll: true, twist: false }
     }
 
-    fn prepare(&self, _pair: &mut Pair) {}
-
-    fn apply(&self, chunk: &mut Chunk, _dt: f64) {
-        let [wx, wy, wz] = &chunk.roll;
-        let [mx, my, mz] = &mut chunk.torque;
-        for i in 0..chunk.len {
-            let squared = wx[i] * wx[i] + wy[i] * wy[i] + wz[i] * wz[i];
-            let slow = self.smoothing_speed / chunk.radius[i];
-            let factor = chunk.rolling[i] * chunk.normal_force[i].max(0.0) / squared.sqrt().max(slow);
-            mx[i] -= factor * wx[i];
-            my[i] -= factor * wy[i];
-            mz[i] -= factor * wz[i];
-            chunk.lost_rolling[i] += factor * squared;
-        }
+    fn apply(&self, chunk: &mut Chunk, _at: usize, dt: f64) {
+        rows(chunk, dt, self.smoothing_speed);
     }
+}
+
+#[multiversion(targets = "simd")]
+fn rows(chunk: &mut Chunk, dt: f64, slow: f64) {
+    resist(chunk, slow, dt, |c, i| c.rolling[i] * c.radius[i] * c.load[i]);
 }

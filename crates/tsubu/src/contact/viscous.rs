@@ -2,8 +2,11 @@
 
 use super::calibrate;
 use super::chunk::Chunk;
+use super::hertz::secant;
 use super::part::{About, Part, Stage};
-use super::table::Pair;
+use super::root::{fifth_root, least, most};
+use super::table::{Constants, Pair};
+use multiversion::multiversion;
 
 const SQRT: About = About {
     name: "sqrt",
@@ -19,7 +22,7 @@ const QUARTER: About = About {
     models: "damping of a Hertz contact with the same restitution at every impact speed",
     formula: "f = a sqrt(m* k) d^(1/4) d', a = -sqrt(5) ln e / sqrt(pi^2 + ln^2 e) when attraction is allowed",
     symbols: "d overlap [m], d' overlap rate [m/s], m* reduced mass [kg], k [N/m^1.5]",
-    limits: "with attraction cut, a is found numerically so that e comes back",
+    limits: "with attraction cut, a is found numerically so that e comes back; with Hooke e is met at 1 m/s only",
     reference: "Tsuji, Tanaka, Ishida 1992; Antypov and Elliott 2011",
 };
 
@@ -43,20 +46,42 @@ pub(super) enum Form {
 #[derive(Debug)]
 pub(super) struct Viscous {
     pub form: Form,
-    /// Whether the total normal force may pull.
+    /// Whether the elastic force is Hertz's, not Hooke's.
+    pub hertz: bool,
+    /// Whether the damping may make the total normal force pull.
     pub attraction: bool,
     /// Impact speed at which the restitution is met [m/s].
     pub reference_speed: f64,
 }
 
-impl Viscous {
-    fn power(&self) -> f64 {
-        match self.form {
-            Form::Sqrt => 0.5,
-            Form::Quarter => 0.25,
-            Form::Linear => 0.0,
-        }
-    }
+/// A coefficient c from damping number beta, m*, k and the reference speed: c = beta m v / d0^(q+1) with the overlap scale
+/// d0 = (m v^2 / k)^(1/(p+1)), see `calibrate`; below for every p and q, with the powers multiplied out.
+type Coefficient = [f64; 4];
+
+#[inline(always)]
+fn hertz_sqrt([beta, m, k, v]: Coefficient) -> f64 {
+    beta * fifth_root(k * k * k * (m * m) / v)
+}
+
+#[inline(always)]
+fn hertz_linear([beta, m, k, v]: Coefficient) -> f64 {
+    beta * fifth_root(m * m * m * (k * k) * v)
+}
+
+/// Hertz quarter and Hooke linear, which do not know the speed.
+#[inline(always)]
+fn speedless([beta, m, k, _]: Coefficient) -> f64 {
+    beta * (m * k).sqrt()
+}
+
+#[inline(always)]
+fn hooke_sqrt([beta, m, k, v]: Coefficient) -> f64 {
+    beta * ((m * k).sqrt() * k / v).sqrt()
+}
+
+#[inline(always)]
+fn hooke_quarter([beta, m, k, v]: Coefficient) -> f64 {
+    beta * (m * k * (k / m).sqrt().sqrt() / v.sqrt()).sqrt()
 }
 
 impl Part for Viscous {
@@ -72,30 +97,67 @@ impl Part for Viscous {
         Stage::Damping
     }
 
-    fn prepare(&self, pair: &mut Pair) {
-        let beta = calibrate::coefficient(pair.restitution, pair.exponent, self.power(), self.attraction);
-        pair.damping_exponent = self.power();
-        // beta = c d0^(q+1) / (m v) with d0 = (m v^2 / k)^(1/(p+1)), the scale of the overlap.
-        let v = self.reference_speed;
-        let scale = (pair.mass * v * v / pair.stiffness).powf(1.0 / (pair.exponent + 1.0));
-        pair.damping = beta * pair.mass * v / scale.powf(self.power() + 1.0);
+    fn prepare(&self, constants: &mut Constants) {
+        let q = self.exponent();
+        constants.damping = calibrate::coefficient(constants.restitution, constants.exponent, q, self.attraction);
     }
 
-    fn apply(&self, chunk: &mut Chunk, _dt: f64) {
-        let n = chunk.len;
+    fn judge(&self, pair: &mut Pair) {
+        let numbers = [pair.constants.damping, pair.mass, pair.stiffness, self.reference_speed];
+        pair.damping_exponent = self.exponent();
+        pair.damping = match (self.form, self.hertz) {
+            (Form::Sqrt, true) => hertz_sqrt(numbers),
+            (Form::Linear, true) => hertz_linear(numbers),
+            (Form::Quarter, true) | (Form::Linear, false) => speedless(numbers),
+            (Form::Sqrt, false) => hooke_sqrt(numbers),
+            (Form::Quarter, false) => hooke_quarter(numbers),
+        };
+    }
+
+    fn apply(&self, chunk: &mut Chunk, _at: usize, _dt: f64) {
+        rows(chunk, self.form, self.hertz, self.attraction, self.reference_speed);
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn rows(chunk: &mut Chunk, form: Form, hertz: bool, attraction: bool, v: f64) {
+    // Everything is told in terms of the contact disc, which laws of adhesion keep open where the overlap has ended: under
+    // Hertz, sqrt(d) is a / sqrt(R*), and the quarter's d^(1/4) stands in the secant stiffness k sqrt(d).
+    let row = |c: &Chunk, i: usize| [c.damping[i], c.mass[i], c.secant[i], v];
+    let full = |c: &Chunk, i: usize| [c.damping[i], c.mass[i], secant(c.young[i], c.radius[i].sqrt()), v];
+    let root = |c: &Chunk, i: usize| c.disc[i] / c.radius[i].sqrt();
+    match (form, hertz) {
+        (Form::Sqrt, true) => damp(chunk, attraction, |c, i| hertz_sqrt(full(c, i)) * root(c, i)),
+        (Form::Linear, true) => damp(chunk, attraction, |c, i| hertz_linear(full(c, i))),
+        (Form::Quarter, true) | (Form::Linear, false) => damp(chunk, attraction, |c, i| speedless(row(c, i))),
+        (Form::Sqrt, false) => damp(chunk, attraction, |c, i| hooke_sqrt(row(c, i)) * root(c, i)),
+        (Form::Quarter, false) => damp(chunk, attraction, |c, i| hooke_quarter(row(c, i)) * root(c, i).sqrt()),
+    }
+}
+
+impl Viscous {
+    fn exponent(&self) -> f64 {
         match self.form {
-            Form::Sqrt => (0..n).for_each(|i| chunk.dashpot[i] = chunk.damping[i] * chunk.root[i]),
-            Form::Quarter => (0..n).for_each(|i| chunk.dashpot[i] = chunk.damping[i] * chunk.root[i].sqrt()),
-            Form::Linear => chunk.dashpot[..n].copy_from_slice(&chunk.damping[..n]),
+            Form::Sqrt => 0.5,
+            Form::Quarter => 0.25,
+            Form::Linear => 0.0,
         }
-        let floor = if self.attraction { f64::NEG_INFINITY } else { 0.0 };
-        for i in 0..n {
-            let elastic = chunk.normal_force[i];
-            let total = (elastic + chunk.dashpot[i] * chunk.closing[i]).max(floor);
-            chunk.normal_force[i] = total;
-            chunk.damping_force[i] = total - elastic;
-            // What is lost is whatever the contact takes from the motion beyond what it stores.
-            chunk.lost_normal[i] = (total - elastic) * chunk.closing[i];
-        }
+    }
+}
+
+/// Adds a dashpot of the local coefficient `local` [N.s/m] to the normal force. Where `attraction` is not allowed the
+/// damping may not pull: it takes the force to zero, or leaves it where cohesion already has it below.
+#[inline(always)]
+pub(super) fn damp(chunk: &mut Chunk, attraction: bool, local: impl Fn(&Chunk, usize) -> f64) {
+    let ceiling = if attraction { f64::NEG_INFINITY } else { 0.0 };
+    for i in 0..chunk.rows() {
+        let dashpot = if chunk.disc[i] > 0.0 { local(chunk, i) } else { 0.0 };
+        let elastic = chunk.normal_force[i];
+        let total = most(elastic + dashpot * chunk.closing[i], least(elastic, ceiling));
+        chunk.dashpot[i] = dashpot;
+        chunk.normal_force[i] = total;
+        chunk.damping_force[i] = total - elastic;
+        // What is lost is whatever the contact takes from the motion beyond what it stores.
+        chunk.lost_normal[i] += (total - elastic) * chunk.closing[i];
     }
 }

@@ -1,52 +1,59 @@
 //! The DEM engine: its state, how it is built from a plan, and how it answers.
 
-use super::integrate::Halves;
+use super::integrate::Report;
 use super::place;
+use super::sizes;
+use super::sources::Sources;
 use super::step::Flows;
-use super::touch::{Forces, Touch};
+use super::touch::{Sums, Touch, WallLoad};
 use crate::check;
 use crate::contact::{Law, Table};
 use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
-use crate::find::Candidates;
+use crate::find::{Candidates, Search};
 use crate::ledger::{Ledger, Stocks};
 use crate::partner::Hosts;
 use crate::state::Grains;
-use crate::wall::{Carrier, Plane, plane};
+use crate::wall::{Mover, Wall};
 use glam::DVec3;
 use tsubu_frame::state::MissingSection;
-use tsubu_frame::{Frame, Kind, State};
-use tsubu_scene::plan::{Integrator, Normal, Plan, Tangential};
+use tsubu_frame::{Frame, State};
+use tsubu_scene::plan::{Integrator, Plan};
 
-/// Spheres under a contact law.
+/// Grains under a contact law.
 #[derive(Debug)]
 pub struct DemEngine {
     // State.
     pub(super) grains: Grains,
     pub(super) step: u64,
-    pub(super) planes: Vec<Plane>,
+    pub(super) walls: Vec<Wall>,
     pub(super) last_flows: Flows,
     pub(super) candidates: Candidates,
     pub(super) touch: Touch,
-    pub(super) forces: Forces,
+    pub(super) sums: Sums,
+    pub(super) sources: Sources,
     // What the plan says.
     pub(super) law: Law,
     pub(super) table: Table,
+    pub(super) search: Search,
     pub(super) gravity: DVec3,
     pub(super) integrator: Integrator,
     pub(super) dt: f64,
     pub(super) rotation: bool,
-    pub(super) skin: f64,
-    pub(super) reach: f64,
     pub(super) smallest_diameter: f64,
+    pub(super) largest_diameter: f64,
     pub(super) largest_overlap: f64,
     pub(super) total_mass: f64,
     /// While grains settle the walls do not follow their carriers.
     pub(super) walls_held: bool,
-    outlines: Vec<(Vec<DVec3>, Carrier)>,
     notes: Vec<Note>,
     // Scratch.
-    pub(super) halves: Halves,
+    pub(super) reports: Vec<Report>,
+    pub(super) wall_loads: Vec<WallLoad>,
     pub(super) host_forces: Vec<f64>,
+    /// Contact force on grains that forces do not move [N], and the power that driven ones give [W].
+    pub(super) fixed: (DVec3, f64),
+    /// Energy of contacts that a search has found gone [J].
+    pub(super) released: f64,
 }
 
 impl DemEngine {
@@ -63,8 +70,10 @@ impl DemEngine {
             speed_scale: _,
             materials: _,
             material_pair: _,
-            particles: _,
-            walls,
+            particles,
+            walls: _,
+            periodic: _,
+            removal: _,
             hosts: _,
             contact,
             dem,
@@ -74,77 +83,91 @@ impl DemEngine {
             output: _,
             claim: _,
         } = plan;
-        let refuse = |key: String, text: String| Refusal {
-            method: "dem",
-            notes: vec![Note { key, verdict: Verdict::Refused, text }],
+        let refuse = |(key, text): (String, String)| {
+            let notes = vec![Note { key, verdict: Verdict::Refused, text }];
+            Refusal { method: "dem", notes }
         };
-        if matches!((&contact.normal, &contact.tangential), (Normal::Hooke { .. }, Tangential::Mindlin {})) {
-            let text = "wants `contact.normal.hertz`; with `hooke` use `contact.tangential.coulomb`";
-            return Err(refuse("contact.tangential.mindlin".to_owned(), text.to_owned()).into());
-        }
         let law = Law::new(contact);
-        let table = Table::new(plan, &law, hosts);
-        let (grains, settle) = place::grains(plan, hosts).map_err(|(key, text)| refuse(key, text))?;
-        let mut planes = Vec::new();
-        let mut outlines = Vec::new();
-        for w in walls.values() {
-            let carrier = Carrier::new(w, hosts);
-            outlines.push((plane::outline(w), carrier.clone()));
-            for (point, normal) in plane::planes(w, *dimension) {
-                planes.push(Plane {
-                    point,
-                    normal,
-                    displacement: DVec3::ZERO,
-                    velocity: DVec3::ZERO,
-                    carrier: carrier.clone(),
-                    species: table.wall_species(w, hosts),
-                });
-            }
-        }
-        let smallest_diameter = grains.radius.iter().copied().fold(f64::INFINITY, f64::min) * 2.0;
-        let largest_diameter = grains.radius.iter().copied().fold(0.0, f64::max) * 2.0;
-        let skin = if grains.is_empty() { 0.0 } else { dem.skin * smallest_diameter };
+        let table = Table::new(plan, &law);
+        let (grains, settle) = place::grains(plan, &table, hosts).map_err(refuse)?;
+        let gravity = DVec3::from_array(*gravity);
+        let walls = walls(plan, &table, hosts, *dimension, gravity);
+        let sources = Sources::new(plan, &table, grains.len());
+        let diameters = grains.radius.iter().map(|r| (2.0 * r, 2.0 * r)).chain(sources.sizes());
+        let (smallest, largest) =
+            diameters.fold((f64::INFINITY, 0.0f64), |a, d| (a.0.min(d.0), a.1.max(d.1)));
+        let skin = if smallest.is_finite() { dem.skin * smallest } else { 0.0 };
+        let reach = check::bodies(plan, &table, hosts)
+            .pairs()
+            .map(|(a, b)| law.reach(&table.pair(&law, a.body(), b.body())))
+            .fold(0.0, f64::max);
+        let wall_loads = vec![WallLoad::default(); walls.len()];
+        let largest_present = particles.values().map(|p| sizes::range(p).1).fold(largest, f64::max);
         let mut engine = Self {
             step: 0,
-            planes,
+            walls,
             last_flows: Flows::default(),
             candidates: Candidates::default(),
             touch: Touch::default(),
-            forces: Forces::default(),
+            sums: Sums::default(),
+            sources,
+            dt: check::time_step(plan, &law, &table, hosts),
             law,
-            dt: check::time_step(plan, &table, hosts),
             table,
-            walls_held: false,
-            gravity: DVec3::from_array(*gravity),
+            search: Search { skin, reach, ends: place::ends(plan) },
+            gravity,
             integrator: dem.integrator,
             rotation: contact.rotation,
-            skin,
-            reach: largest_diameter + skin,
-            smallest_diameter,
+            smallest_diameter: smallest,
+            largest_diameter: largest_present,
             largest_overlap: dem.largest_overlap,
-            total_mass: grains.mass.iter().sum(),
-            outlines,
+            total_mass: grains.moved_mass(),
+            walls_held: false,
             notes: Vec::new(),
-            halves: Halves::default(),
+            reports: Vec::new(),
+            wall_loads,
             host_forces: Vec::new(),
+            fixed: Default::default(),
+            released: 0.0,
             grains,
         };
-        engine.move_walls(0.0, hosts);
         engine.start();
         if settle > 0.0 {
             engine.settle(settle).map_err(OpenError::Settling)?;
             engine.start();
+        }
+        for (wall, load) in engine.walls.iter_mut().zip(&engine.wall_loads) {
+            wall.start(load.force, load.torque);
         }
         Ok(engine)
     }
 
     /// Finds, touches and accelerates at the present time level, so that the first step has what it needs.
     fn start(&mut self) {
+        self.drive(0.0);
         self.find();
         self.touch_all();
-        self.accelerate();
+        self.finish(0.0);
+        self.sum_wall_loads();
         self.last_flows = self.flows();
     }
+}
+
+/// The walls of a plan at time 0.
+fn walls(plan: &Plan, table: &Table, hosts: &Hosts, dimension: u8, gravity: DVec3) -> Vec<Wall> {
+    let build = |(name, wall): (&String, &tsubu_scene::plan::Wall)| {
+        let mut built = Wall::new(name, wall, dimension, hosts, gravity);
+        built.material = table.material(&wall.material);
+        // A wall on a light structure gives way in an impact: its mass is the one the structure shows.
+        built.inverse_mass = match (&built.mover, &wall.servo, &wall.body) {
+            (Mover::Host(index, _), ..) => 1.0 / hosts.list[*index].effective_mass(),
+            (_, Some(servo), _) => 1.0 / servo.mass,
+            (_, _, Some(body)) => 1.0 / body.mass,
+            _ => 0.0,
+        };
+        built
+    };
+    plan.walls.iter().map(build).collect()
 }
 
 impl Engine for DemEngine {
@@ -172,7 +195,8 @@ impl Engine for DemEngine {
     }
 
     fn grain_stocks(&self) -> Stocks {
-        Stocks { elastic: self.forces.sums.stored, ..self.grains.stocks(self.gravity) }
+        let walls: f64 = self.walls.iter().map(|w| w.energy().0 + w.energy().1).sum();
+        Stocks { elastic: self.sums.stored, walls, ..self.grains.stocks(self.gravity) }
     }
 
     fn momentum(&self) -> [f64; 3] {
@@ -180,92 +204,18 @@ impl Engine for DemEngine {
     }
 
     fn contacts(&self) -> usize {
-        self.forces.sums.contacts
+        self.sums.contacts
     }
 
-    fn frame(&self, hosts: &Hosts) -> Frame {
-        let order = self.grains.by_id();
-        let vectors = |column: &[DVec3]| order.iter().map(|&i| column[i].to_array()).collect::<Vec<_>>();
-        let scalars = |column: &[f64]| order.iter().map(|&i| column[i]).collect::<Vec<_>>();
-        let mut frame = Frame { time: self.time(), step: self.step, columns: Vec::new() };
-        let ids = order.iter().map(|&i| i64::from(self.grains.id[i])).collect();
-        frame.integer(Kind::Grain, "id", "-", ids);
-        frame.vector(Kind::Grain, "position", "m", vectors(&self.grains.position));
-        frame.vector(Kind::Grain, "velocity", "m/s", vectors(&self.grains.velocity));
-        frame.vector(Kind::Grain, "spin", "rad/s", vectors(&self.grains.spin));
-        frame.scalar(Kind::Grain, "radius", "m", scalars(&self.grains.radius));
-        frame.scalar(Kind::Grain, "mass", "kg", scalars(&self.grains.mass));
-        let force: Vec<DVec3> = (0..self.grains.len())
-            .map(|i| self.grains.mass[i] * (self.grains.acceleration[i] - self.gravity))
-            .collect();
-        frame.vector(Kind::Grain, "contact force", "N", vectors(&force));
-        let contacts = self.contact_list();
-        let id = |i: usize| i64::from(self.grains.id[i]);
-        frame.integer(Kind::Contact, "first", "-", contacts.iter().map(|c| id(c.first)).collect());
-        frame.integer(Kind::Contact, "second", "-", contacts.iter().map(|c| c.second.map_or(-1, id)).collect());
-        frame.vector(Kind::Contact, "position", "m", contacts.iter().map(|c| c.position.to_array()).collect());
-        frame.vector(Kind::Contact, "force", "N", contacts.iter().map(|c| c.force.to_array()).collect());
-        frame.scalar(Kind::Contact, "overlap", "m", contacts.iter().map(|c| c.overlap).collect());
-        let mut corners = Vec::new();
-        let mut index = Vec::new();
-        for (k, (outline, carrier)) in self.outlines.iter().enumerate() {
-            let (displacement, _) = carrier.place(self.time(), hosts);
-            corners.extend(outline.iter().map(|p| (*p + displacement).to_array()));
-            index.extend(outline.iter().map(|_| k as i64));
-        }
-        frame.vector(Kind::Surface, "position", "m", corners);
-        frame.integer(Kind::Surface, "outline", "-", index);
-        frame
+    fn frame(&self, _hosts: &Hosts) -> Frame {
+        self.picture()
     }
 
     fn save(&self, state: &mut State) {
-        self.grains.save("grains", state);
-        state.put_integer("dem.step", vec![self.step as i64, self.forces.sums.contacts as i64]);
-        let mut reals = self.last_flows.powers.to_vec();
-        reals.extend(self.last_flows.wall_force.to_array());
-        reals.push(self.forces.sums.stored);
-        state.put_real("dem.flows", reals);
-        let flat = |v: &[DVec3]| v.iter().flat_map(DVec3::to_array).collect::<Vec<_>>();
-        state.put_real("dem.reference", flat(&self.candidates.reference));
-        state.put_real("dem.plane-reference", flat(&self.candidates.plane_reference));
-        let held = self.held_history();
-        state.put_integer(
-            "dem.history-pairs",
-            held.keys().flat_map(|k| [i64::from(k.0), i64::from(k.1)]).collect::<Vec<_>>(),
-        );
-        state.put_real("dem.history", held.values().flatten().copied().collect::<Vec<_>>());
+        self.write_state(state);
     }
 
     fn load(&mut self, state: &State) -> Result<(), MissingSection> {
-        let missing = |name: &str| MissingSection { name: name.to_owned(), kind: "real" };
-        self.grains = Grains::load("grains", self.grains.len(), state)?;
-        let &[step, contacts] = state.integer("dem.step")? else { return Err(missing("dem.step")) };
-        (self.step, self.forces.sums.contacts) = (step as u64, contacts as usize);
-        let flows = state.real("dem.flows")?;
-        if flows.len() != 8 {
-            return Err(missing("dem.flows"));
-        }
-        self.last_flows.powers.copy_from_slice(&flows[..4]);
-        self.last_flows.wall_force = DVec3::from_slice(&flows[4..7]);
-        self.forces.sums.stored = flows[7];
-        let vectors = |name: &str, count: usize| -> Result<Vec<DVec3>, MissingSection> {
-            let values = state.real(name)?;
-            if values.len() != 3 * count {
-                return Err(missing(name));
-            }
-            Ok(values.chunks_exact(3).map(DVec3::from_slice).collect())
-        };
-        self.candidates.reference = vectors("dem.reference", self.grains.len())?;
-        self.candidates.plane_reference = vectors("dem.plane-reference", self.planes.len())?;
-        self.candidates.list(&self.grains, &self.planes, self.skin, self.reach);
-        let pairs = state.integer("dem.history-pairs")?;
-        let values = state.real("dem.history")?;
-        let held = pairs
-            .chunks_exact(2)
-            .zip(values.chunks_exact(4))
-            .map(|(p, h)| ((p[0] as u32, p[1] as u32), [h[0], h[1], h[2], h[3]]))
-            .collect();
-        self.restore_history(&held);
-        Ok(())
+        self.read_state(state)
     }
 }

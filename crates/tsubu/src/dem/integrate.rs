@@ -1,92 +1,181 @@
-//! Time integration of grains, split around the evaluation of forces.
+//! Time integration of grains, split around the evaluation of forces. Both halves go block by block, on many threads where
+//! that is worth it.
 
+use super::touch::Block;
+use crate::find::candidates::{BLOCK, WORTH_THREADS};
 use crate::state::Grains;
 use glam::DVec3;
+use rayon::prelude::*;
 use tsubu_scene::plan::Integrator;
 
-/// Velocities half-way through a step, kept between the two halves.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Halves {
-    velocity: Vec<DVec3>,
-    spin: Vec<DVec3>,
+/// What a block reports from a half step; joined in the order of blocks.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Report {
+    /// Farthest any grain has gone from where it was at the last search, squared [m^2].
+    pub farthest: f64,
+    /// Sum of the same; not finite when a coordinate is not.
+    pub sum: f64,
+    /// Correction of the power lost in contacts [W], see [`after`].
+    pub correction: f64,
+    /// Contact force on grains that forces do not move [N].
+    pub fixed_force: DVec3,
+    /// Power that driven grains put into the others [W].
+    pub driven_power: f64,
+}
+
+impl Report {
+    fn add(&mut self, other: &Self) {
+        self.farthest = self.farthest.max(other.farthest);
+        self.sum += other.sum;
+        self.correction += other.correction;
+        self.fixed_force += other.fixed_force;
+        self.driven_power += other.driven_power;
+    }
+}
+
+/// One block's part of the columns.
+struct Slice<'a> {
+    position: &'a mut [DVec3],
+    velocity: &'a mut [DVec3],
+    acceleration: &'a mut [DVec3],
+    spin: &'a mut [DVec3],
+    spin_rate: &'a mut [DVec3],
+    inverse_mass: &'a [f64],
+    inertia: &'a [f64],
+    reference: &'a [DVec3],
+}
+
+/// Runs `work` on every block and joins the reports in their order.
+fn each(
+    grains: &mut Grains,
+    reference: &[DVec3],
+    reports: &mut Vec<Report>,
+    work: impl Fn(usize, Slice) -> Report + Sync,
+) -> Report {
+    let n = grains.len();
+    reports.resize(n.div_ceil(BLOCK), Report::default());
+    let threaded = n >= WORTH_THREADS && rayon::current_num_threads() > 1;
+    macro_rules! zipped {
+        ($chunks:ident, $chunks_mut:ident, $iter:ident) => {
+            grains
+                .position
+                .$chunks_mut(BLOCK)
+                .zip(grains.velocity.$chunks_mut(BLOCK))
+                .zip(grains.acceleration.$chunks_mut(BLOCK))
+                .zip(grains.spin.$chunks_mut(BLOCK))
+                .zip(grains.spin_rate.$chunks_mut(BLOCK))
+                .zip(grains.inverse_mass.$chunks(BLOCK))
+                .zip(grains.inertia.$chunks(BLOCK))
+                .zip(reference.$chunks(BLOCK))
+                .zip(reports.$iter())
+                .enumerate()
+                .for_each(|(block, ((((((((position, velocity), acceleration), spin), spin_rate), inverse_mass), inertia), reference), report))| {
+                    let slice =
+                        Slice { position, velocity, acceleration, spin, spin_rate, inverse_mass, inertia, reference };
+                    *report = work(block, slice);
+                })
+        };
+    }
+    if threaded {
+        zipped!(par_chunks, par_chunks_mut, par_iter_mut);
+    } else {
+        zipped!(chunks, chunks_mut, iter_mut);
+    }
+    let mut total = Report::default();
+    for report in reports.iter() {
+        total.add(report);
+    }
+    total
 }
 
 /// Before the forces: brings positions to the end of the step, and velocities there too, predicted with the old
 /// acceleration, so that forces that depend on velocity see positions and velocities of one time level.
-pub(super) fn before(grains: &mut Grains, halves: &mut Halves, integrator: Integrator, dt: f64) {
-    match integrator {
-        Integrator::VelocityVerlet => {
-            halves.velocity.resize(grains.len(), DVec3::ZERO);
-            halves.spin.resize(grains.len(), DVec3::ZERO);
-            half(&mut grains.velocity, &grains.acceleration, &mut halves.velocity, dt);
-            half(&mut grains.spin, &grains.spin_rate, &mut halves.spin, dt);
-            drift(&mut grains.position, &halves.velocity, dt);
+pub(super) fn before(
+    grains: &mut Grains,
+    reference: &[DVec3],
+    reports: &mut Vec<Report>,
+    integrator: Integrator,
+    rotation: bool,
+    dt: f64,
+) -> Report {
+    // What the velocity gets before and after the drift.
+    let (first, second) = match integrator {
+        Integrator::VelocityVerlet => (0.5 * dt, 0.5 * dt),
+        Integrator::SymplecticEuler => (dt, 0.0),
+        Integrator::ForwardEuler => (0.0, dt),
+    };
+    each(grains, reference, reports, |_, s| {
+        let mut report = Report::default();
+        for i in 0..s.position.len() {
+            let half = s.velocity[i] + s.acceleration[i] * first;
+            s.position[i] += half * dt;
+            s.velocity[i] = half + s.acceleration[i] * second;
+            let moved = s.position[i].distance_squared(s.reference[i]);
+            report.farthest = report.farthest.max(moved);
+            report.sum += moved;
         }
-        Integrator::SymplecticEuler => {
-            kick(grains, dt);
-            drift(&mut grains.position, &grains.velocity, dt);
+        if rotation {
+            for (spin, rate) in s.spin.iter_mut().zip(s.spin_rate) {
+                *spin += *rate * dt;
+            }
         }
-        Integrator::ForwardEuler => {
-            drift(&mut grains.position, &grains.velocity, dt);
-            kick(grains, dt);
-        }
-    }
+        report
+    })
 }
 
-/// After the forces: completes the velocities with the new acceleration. Returns what the losses, which were computed with
-/// the predicted velocities, must be corrected by [W].
+/// After the forces: sums what blocks hold for every grain, finds the new accelerations and completes the velocities.
 ///
+/// The report's correction is what the losses, which were computed with the predicted velocities, must be corrected by.
 /// The path that Verlet's positions trace has the velocity (x(t+dt) - x(t-dt)) / 2 dt - (dt^2/6) da/dt, which to this
 /// order is one third of the predicted and two thirds of the completed velocity; the energy that a force takes along the
 /// path is force times that. Without the correction the books of an impact at 20 steps per contact miss 0.4 % of its
 /// energy, with it 0.02 %.
 pub(super) fn after(
     grains: &mut Grains,
-    halves: &Halves,
-    integrator: Integrator,
-    dt: f64,
-    lossy: &[DVec3],
-    torque: &[DVec3],
-) -> f64 {
-    if integrator != Integrator::VelocityVerlet {
-        return 0.0;
-    }
-    let linear = finish(&mut grains.velocity, &grains.acceleration, &halves.velocity, dt, lossy);
-    let angular = finish(&mut grains.spin, &grains.spin_rate, &halves.spin, dt, torque);
-    -2.0 / 3.0 * (linear + angular)
+    blocks: &[Block],
+    lists: &[crate::find::candidates::List],
+    reference: &[DVec3],
+    reports: &mut Vec<Report>,
+    motion: &Motion,
+) -> Report {
+    let complete = if motion.integrator == Integrator::VelocityVerlet { 0.5 * motion.dt } else { 0.0 };
+    each(grains, reference, reports, |block, s| {
+        let mut report = Report::default();
+        let mut incoming = lists[block].incoming.iter().peekable();
+        let own = &blocks[block].loads;
+        for i in 0..s.position.len() {
+            let mut load = own[i];
+            while let Some(other) = incoming.next_if(|o| o.own as usize == i) {
+                load.add(&blocks[other.block as usize].loads[other.place as usize]);
+            }
+            if s.inverse_mass[i] == 0.0 {
+                report.fixed_force += load.force;
+                report.driven_power -= load.force.dot(s.velocity[i]);
+                continue;
+            }
+            let acceleration = load.force * s.inverse_mass[i] + motion.gravity;
+            let change = (acceleration - s.acceleration[i]) * complete;
+            s.acceleration[i] = acceleration;
+            s.velocity[i] += change;
+            report.correction += load.lossy.dot(change);
+            if motion.rotation {
+                let rate = load.torque * (1.0 / s.inertia[i]);
+                let change = (rate - s.spin_rate[i]) * complete;
+                s.spin_rate[i] = rate;
+                s.spin[i] += change;
+                report.correction += load.torque.dot(change);
+            }
+        }
+        report.correction *= -2.0 / 3.0;
+        report
+    })
 }
 
-/// half = v + a dt/2; v becomes the prediction half + a dt/2.
-fn half(v: &mut [DVec3], a: &[DVec3], half: &mut [DVec3], dt: f64) {
-    for ((v, a), half) in v.iter_mut().zip(a).zip(half) {
-        let kick = *a * (0.5 * dt);
-        *half = *v + kick;
-        *v = *half + kick;
-    }
-}
-
-/// Completes the velocities; returns the work that the changes take from the given forces.
-fn finish(v: &mut [DVec3], a: &[DVec3], half: &[DVec3], dt: f64, force: &[DVec3]) -> f64 {
-    let mut power = 0.0;
-    for (((v, a), half), force) in v.iter_mut().zip(a).zip(half).zip(force) {
-        let complete = *half + *a * (0.5 * dt);
-        power += force.dot(complete - *v);
-        *v = complete;
-    }
-    power
-}
-
-fn drift(position: &mut [DVec3], velocity: &[DVec3], dt: f64) {
-    for (p, v) in position.iter_mut().zip(velocity) {
-        *p += *v * dt;
-    }
-}
-
-fn kick(grains: &mut Grains, dt: f64) {
-    for (v, a) in grains.velocity.iter_mut().zip(&grains.acceleration) {
-        *v += *a * dt;
-    }
-    for (w, a) in grains.spin.iter_mut().zip(&grains.spin_rate) {
-        *w += *a * dt;
-    }
+/// How grains are moved.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motion {
+    pub integrator: Integrator,
+    pub gravity: DVec3,
+    pub rotation: bool,
+    pub dt: f64,
 }

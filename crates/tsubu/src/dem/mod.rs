@@ -1,9 +1,16 @@
-//! The discrete element method: spheres that push and rub where they overlap.
+//! The discrete element method.
 
 pub mod engine;
+mod fill;
 mod integrate;
+mod keep;
+mod memory;
+mod output;
 mod place;
+mod rows;
 mod settle;
+pub mod sizes;
+mod sources;
 mod step;
 mod touch;
 

@@ -1,132 +1,282 @@
 //! Where grains begin.
 
+use super::fill::Occupied;
+use super::sizes;
+use crate::contact::Table;
+use crate::find::grid::Ends;
 use crate::partner::Hosts;
 use crate::random::{Purpose, unit, words};
 use crate::state::{Grain, Grains};
 use crate::wall::Carrier;
 use glam::DVec3;
-use tsubu_scene::plan::{Particles, Plan, Shape, Start};
+use tsubu_scene::plan::{GrainMotion, GrainShape, Particles, Plan, Region, Shape, Start};
 
-/// The box that grains are placed in: floor centre and inner size [m].
+/// Attempts to find a free place for one grain before giving up.
+const ATTEMPTS: u64 = 2000;
+
+/// A box of space: centre of the floor and size [m].
 type Room = (DVec3, DVec3);
 
-/// All grains of a plan, in the order of groups and numbers, and whether some of them must settle first.
-/// Fails with the group's name and what is missing.
-pub(super) fn grains(plan: &Plan, hosts: &Hosts) -> Result<(Grains, f64), (String, String)> {
-    let mut grains = Grains::default();
+/// What is wrong with a group: key and text.
+type Wrong = (String, String);
+
+/// All grains of a plan that are there at time 0, in the order of groups and numbers, and how long some of them may
+/// settle first [s].
+pub(super) fn grains(plan: &Plan, table: &Table, hosts: &Hosts) -> Result<(Grains, f64), Wrong> {
+    let mut placing = Placing { plan, table, grains: Grains::default(), room: room(plan, hosts), floor: 0.0 };
     let mut settle: f64 = 0.0;
-    let room = plan.walls.values().find_map(|wall| match &wall.shape {
-        Shape::Box { width, height, depth, floor_centre } => {
-            let displacement = Carrier::new(wall, hosts).place(0.0, hosts).0;
-            Some((DVec3::from_array(*floor_centre) + displacement, DVec3::new(*width, *depth, *height)))
-        }
-        Shape::Plane { .. } => None,
-    });
-    let mut floor = 0.0;
-    for (species, (name, group)) in plan.particles.iter().enumerate() {
-        let needs_box = || {
-            let text =
-                "needs a wall with `shape.box` to be placed in; give positions with `start.at` instead".to_owned();
-            (format!("particles.{name}.start"), text)
-        };
+    for (number, (name, group)) in plan.particles.iter().enumerate() {
+        let key = |part: &str| format!("particles.{name}.start.{part}");
         match &group.start {
-            Start::At { position, velocity, spin } => {
-                for (i, p) in position.iter().enumerate() {
-                    let mut grain = still(group, species, DVec3::from_array(*p), grains.len());
-                    grain.velocity = velocity.get(i).map_or(DVec3::ZERO, |v| DVec3::from_array(*v));
-                    grain.spin = spin.get(i).map_or(DVec3::ZERO, |v| DVec3::from_array(*v));
-                    grains.push(grain);
-                }
+            Start::At { position, velocity, spin } => placing.at(group, number, position, &[], velocity, spin),
+            Start::File { grains, .. } => {
+                placing.at(group, number, &grains.position, &grains.diameter, &grains.velocity, &grains.spin);
             }
-            Start::Rows { spacing, jitter, speed } => {
-                let room = room.ok_or_else(needs_box)?;
-                floor = rows(&mut grains, plan, group, species, room, floor, *spacing, *jitter);
-                let first = grains.len() - group.count;
-                for i in first..grains.len() {
-                    let w = words(plan.seed, Purpose::Placement, grains.id[i], 1);
-                    grains.velocity[i] = direction(plan.dimension, w) * *speed;
-                }
+            Start::Rows { spacing, jitter, speed, region } => {
+                let room = placing.inside(region.as_ref()).ok_or_else(|| no_room(key("rows")))?;
+                let first = placing.grains.len();
+                placing.rows(group, number, room, *spacing, *jitter, region.is_none());
+                placing.stir(first, DVec3::ZERO, *speed);
             }
             Start::Settled { time } => {
-                let room = room.ok_or_else(needs_box)?;
-                floor = rows(&mut grains, plan, group, species, room, floor, 1.1, 0.9);
+                let room = placing.inside(None).ok_or_else(|| no_room(key("settled")))?;
+                placing.rows(group, number, room, 1.1, 0.9, true);
                 if group.count > 0 {
                     settle = settle.max(*time);
                 }
             }
+            Start::Random { region, velocity, speed } => {
+                let room = placing.inside(region.as_ref()).ok_or_else(|| no_room(key("random")))?;
+                let first = placing.grains.len();
+                placing.random(group, number, room).map_err(|text| (key("random"), text))?;
+                placing.stir(first, DVec3::from_array(*velocity), *speed);
+            }
+            Start::Stream { .. } => {}
         }
     }
-    Ok((grains, settle))
+    Ok((placing.grains, settle))
 }
 
-fn still(group: &Particles, species: usize, position: DVec3, id: usize) -> Grain {
-    let radius = 0.5 * group.diameter;
+fn no_room(key: String) -> Wrong {
+    (key, "needs a wall with `shape.box` to be placed in, or a `region`; or give positions with `start.at`".to_owned())
+}
+
+/// The box that grains are placed in.
+fn room(plan: &Plan, hosts: &Hosts) -> Option<Room> {
+    plan.walls.values().find_map(|wall| match &wall.shape {
+        Shape::Box { width, height, depth, floor_centre } => {
+            let displacement = Carrier::new(wall, hosts).place(0.0, hosts).0;
+            Some((DVec3::from_array(*floor_centre) + displacement, DVec3::new(*width, *depth, *height)))
+        }
+        _ => None,
+    })
+}
+
+/// Periodic axes of a plan.
+pub(super) fn ends(plan: &Plan) -> Ends {
+    [plan.periodic.x, plan.periodic.y, plan.periodic.z]
+}
+
+/// A grain of a group at rest.
+pub(super) fn still(group: &Particles, number: usize, material: u32, position: DVec3, diameter: f64, id: usize) -> Grain {
+    let radius = 0.5 * diameter;
+    let mass = sizes::mass(group, diameter);
+    let share = if matches!(group.shape, GrainShape::Disc { .. }) { 0.5 } else { 0.4 };
+    let free = matches!(group.motion, GrainMotion::Free {});
     Grain {
         position,
         velocity: DVec3::ZERO,
         acceleration: DVec3::ZERO,
         spin: DVec3::ZERO,
         spin_rate: DVec3::ZERO,
+        wrapped: DVec3::ZERO,
         radius,
-        mass: group.mass,
-        inertia: 0.4 * group.mass * radius * radius,
-        species: species as u32,
+        mass,
+        inverse_mass: if free { 1.0 / mass } else { 0.0 },
+        inertia: share * mass * radius * radius,
+        material,
+        group: number as u32,
         id: id as u32,
     }
 }
 
-/// Fills rows from `floor` up; returns the height reached. Narrows the spacing if the group would not fit otherwise.
-#[expect(clippy::too_many_arguments, reason = "called from one place with the group taken apart")]
-fn rows(
-    grains: &mut Grains,
-    plan: &Plan,
-    group: &Particles,
-    species: usize,
-    (centre, size): Room,
+struct Placing<'a> {
+    plan: &'a Plan,
+    table: &'a Table,
+    grains: Grains,
+    room: Option<Room>,
+    /// Height above the floor up to which rows have filled the box [m].
     floor: f64,
-    spacing: f64,
-    jitter: f64,
-) -> f64 {
-    let d = group.diameter;
-    // How far a grain may be shaken from its place, and how many places fit when the outermost are shaken towards a wall.
-    let free = |pitch: f64| 0.5 * (pitch - d) * jitter * 0.999;
-    let across =
-        |length: f64, pitch: f64| ((length - d - 2.0 * free(pitch)) / pitch + 1.0 + 1e-9).floor().max(0.0) as usize;
-    let up = |length: f64, pitch: f64| {
-        ((length - 0.5 * (pitch + d) - free(pitch)) / pitch + 1.0 + 1e-9).floor().max(0.0) as usize
-    };
-    let mut pitch = spacing * d;
-    let (mut nx, mut ny);
-    loop {
-        nx = across(size.x, pitch).max(1);
-        ny = if plan.dimension == 3 { across(size.y, pitch).max(1) } else { 1 };
-        if group.count <= nx * ny * up(size.z - floor, pitch) || pitch <= d {
-            break;
-        }
-        pitch = (0.98 * pitch).max(d);
+}
+
+impl Placing<'_> {
+    /// A region, or else the box.
+    fn inside(&self, region: Option<&Region>) -> Option<Room> {
+        let Some(Region { low, high }) = region else { return self.room };
+        let (low, high) = (DVec3::from_array(*low), DVec3::from_array(*high));
+        let middle = 0.5 * (low + high);
+        Some((DVec3::new(middle.x, middle.y, low.z), high - low))
     }
-    let free = free(pitch);
-    let offset = |n: usize, i: usize| (i as f64 - 0.5 * (n - 1) as f64) * pitch;
-    let mut top = floor;
-    for k in 0..group.count {
-        let (x, y, z) = (k % nx, k / nx % ny, k / (nx * ny));
-        let id = grains.len();
-        let w = words(plan.seed, Purpose::Placement, id as u32, 0);
-        let v = words(plan.seed, Purpose::Placement, id as u32, 2);
-        let shake = |word: u32, other: u32| (2.0 * unit(word, other) - 1.0) * free;
-        let mut p = centre + DVec3::new(offset(nx, x), offset(ny, y), floor + 0.5 * pitch + z as f64 * pitch);
-        p += DVec3::new(shake(w[0], w[1]), 0.0, shake(w[2], w[3]));
-        if plan.dimension == 3 {
-            p.y += shake(v[0], v[1]);
-        }
-        top = floor + (z + 1) as f64 * pitch;
-        grains.push(still(group, species, p, id));
+
+    fn push(&mut self, group: &Particles, number: usize, position: DVec3, diameter: f64) {
+        let material = self.table.material(&group.material);
+        self.grains.push(still(group, number, material, position, diameter, self.grains.len()));
     }
-    top
+
+    fn at(
+        &mut self,
+        group: &Particles,
+        number: usize,
+        position: &[[f64; 3]],
+        diameter: &[f64],
+        velocity: &[[f64; 3]],
+        spin: &[[f64; 3]],
+    ) {
+        for (k, p) in position.iter().enumerate() {
+            let id = self.grains.len();
+            let d = diameter.get(k).copied().unwrap_or_else(|| sizes::diameter(group, self.plan.seed, id as u32));
+            self.push(group, number, DVec3::from_array(*p), d);
+            self.grains.velocity[id] = velocity.get(k).map_or(DVec3::ZERO, |v| DVec3::from_array(*v));
+            self.grains.spin[id] = spin.get(k).map_or(DVec3::ZERO, |v| DVec3::from_array(*v));
+        }
+    }
+
+    /// Gives the grains from `first` on a common velocity, and each a speed in a random direction.
+    fn stir(&mut self, first: usize, velocity: DVec3, speed: f64) {
+        for i in first..self.grains.len() {
+            let w = words(self.plan.seed, Purpose::Placement, self.grains.id[i], 1);
+            self.grains.velocity[i] = velocity + direction(self.plan.dimension, w) * speed;
+        }
+    }
+
+    /// Fills rows from the floor up (in the box: from where the last group ended). Narrows the spacing if the group would
+    /// not fit otherwise.
+    fn rows(&mut self, group: &Particles, number: usize, (centre, size): Room, spacing: f64, jitter: f64, stack: bool) {
+        let space = self.plan.dimension == 3;
+        let floor = if stack { self.floor } else { 0.0 };
+        // Rows are as wide as the widest grain.
+        let d = sizes::range(group).1;
+        // How far a grain may be shaken from its place, and how many places fit when the outermost are shaken towards a
+        // wall.
+        let free = |pitch: f64| 0.5 * (pitch - d) * jitter * 0.999;
+        let across =
+            |length: f64, pitch: f64| ((length - d - 2.0 * free(pitch)) / pitch + 1.0 + 1e-9).floor().max(0.0) as usize;
+        let up = |length: f64, pitch: f64| {
+            ((length - 0.5 * (pitch + d) - free(pitch)) / pitch + 1.0 + 1e-9).floor().max(0.0) as usize
+        };
+        let mut pitch = spacing * d;
+        let (mut nx, mut ny);
+        loop {
+            nx = across(size.x, pitch).max(1);
+            ny = if space { across(size.y, pitch).max(1) } else { 1 };
+            if group.count <= nx * ny * up(size.z - floor, pitch) || pitch <= d {
+                break;
+            }
+            pitch = (0.98 * pitch).max(d);
+        }
+        let free = free(pitch);
+        let offset = |n: usize, i: usize| (i as f64 - 0.5 * (n - 1) as f64) * pitch;
+        let mut top = floor;
+        for k in 0..group.count {
+            let (x, y, z) = (k % nx, k / nx % ny, k / (nx * ny));
+            let id = self.grains.len() as u32;
+            let w = words(self.plan.seed, Purpose::Placement, id, 0);
+            let v = words(self.plan.seed, Purpose::Placement, id, 2);
+            let shake = |word: u32, other: u32| (2.0 * unit(word, other) - 1.0) * free;
+            let mut p = centre + DVec3::new(offset(nx, x), offset(ny, y), floor + 0.5 * pitch + z as f64 * pitch);
+            p += DVec3::new(shake(w[0], w[1]), 0.0, shake(w[2], w[3]));
+            if space {
+                p.y += shake(v[0], v[1]);
+            }
+            top = floor + (z + 1) as f64 * pitch;
+            let diameter = sizes::diameter(group, self.plan.seed, id);
+            self.push(group, number, p, diameter);
+        }
+        if stack {
+            self.floor = top;
+        }
+    }
+
+    /// Anywhere in the room without overlap, the largest first: they find room while there is most.
+    fn random(&mut self, group: &Particles, number: usize, (centre, size): Room) -> Result<(), String> {
+        let first = self.grains.len();
+        let mut ids: Vec<(u32, f64)> = (first..first + group.count)
+            .map(|id| (id as u32, sizes::diameter(group, self.plan.seed, id as u32)))
+            .collect();
+        let largest = ids.iter().map(|x| 0.5 * x.1).chain(self.grains.radius.iter().copied()).fold(0.0, f64::max);
+        let mut occupied = Occupied::new(largest);
+        for i in 0..first {
+            occupied.put(self.grains.position[i], self.grains.radius[i]);
+        }
+        ids.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        let mut places = vec![(DVec3::ZERO, 0.0); group.count];
+        for (count, (id, diameter)) in ids.into_iter().enumerate() {
+            let radius = 0.5 * diameter;
+            let free = (0..ATTEMPTS).find_map(|attempt| {
+                let p = anywhere(self.plan, (centre, size), radius, Purpose::Placement, id, 3 + attempt);
+                (self.clear_of_ends(p, &occupied, radius)).then_some(p)
+            });
+            let Some(p) = free else {
+                return Err(format!(
+                    "there is room for {count} of {} grains only; take a larger `region`, fewer grains, or `start.rows`",
+                    group.count
+                ));
+            };
+            for image in self.images(p, 2.0 * largest) {
+                occupied.put(image, radius);
+            }
+            places[id as usize - first] = (p, diameter);
+        }
+        for (p, diameter) in places {
+            self.push(group, number, p, diameter);
+        }
+        Ok(())
+    }
+
+    fn clear_of_ends(&self, p: DVec3, occupied: &Occupied, radius: f64) -> bool {
+        occupied.free(p, radius) && self.images(p, 2.0 * radius).skip(1).all(|image| occupied.free(image, radius))
+    }
+
+    /// A point and its images within `margin` outside the periodic ends.
+    fn images(&self, p: DVec3, margin: f64) -> impl Iterator<Item = DVec3> {
+        let ends = ends(self.plan);
+        let mut images = vec![p];
+        for (axis, end) in ends.iter().enumerate() {
+            let Some([low, high]) = *end else { continue };
+            for k in 0..images.len() {
+                let image = images[k];
+                for shift in [low - high, high - low] {
+                    let mut moved = image;
+                    moved[axis] += shift;
+                    if moved[axis] > low - margin && moved[axis] < high + margin {
+                        images.push(moved);
+                    }
+                }
+            }
+        }
+        images.into_iter()
+    }
+}
+
+/// A random place in a room for a sphere of some radius; across periodic ends the sphere may reach.
+pub(super) fn anywhere(plan: &Plan, (centre, size): Room, radius: f64, purpose: Purpose, id: u32, step: u64) -> DVec3 {
+    let w = words(plan.seed, purpose, id, 2 * step);
+    let v = words(plan.seed, purpose, id, 2 * step + 1);
+    let draw = [unit(w[0], w[1]), unit(w[2], w[3]), unit(v[0], v[1])];
+    let ends = ends(plan);
+    let mut p = centre + DVec3::new(0.0, 0.0, 0.5 * size.z);
+    for axis in 0..3 {
+        if axis == 1 && plan.dimension == 2 {
+            continue;
+        }
+        let margin = if ends[axis].is_some() { 0.0 } else { 2.0 * radius };
+        p[axis] += (draw[axis] - 0.5) * (size[axis] - margin).max(0.0);
+    }
+    p
 }
 
 /// A random unit vector, in the plane or in space.
-fn direction(dimension: u8, w: [u32; 4]) -> DVec3 {
+pub(super) fn direction(dimension: u8, w: [u32; 4]) -> DVec3 {
     let angle = std::f64::consts::TAU * unit(w[0], w[1]);
     if dimension == 2 {
         return DVec3::new(angle.cos(), 0.0, angle.sin());

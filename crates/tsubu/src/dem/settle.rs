@@ -4,6 +4,7 @@ use super::engine::DemEngine;
 use crate::engine::{Engine, Fault};
 use crate::ledger::Ledger;
 use crate::partner::Hosts;
+use crate::wall::Pose;
 use glam::DVec3;
 
 /// Kinetic energy over the energy of a fall by one diameter below which a bed is at rest.
@@ -12,8 +13,10 @@ const AT_REST: f64 = 1e-6;
 impl DemEngine {
     /// Lets the grains fall for at most `time` [s] with all walls still, then sets the clock back to zero.
     pub(super) fn settle(&mut self, time: f64) -> Result<(), Fault> {
-        let velocities: Vec<DVec3> =
-            self.planes.iter_mut().map(|p| std::mem::replace(&mut p.velocity, DVec3::ZERO)).collect();
+        let poses: Vec<Pose> = self.walls.iter().map(|w| w.pose).collect();
+        for wall in &mut self.walls {
+            (wall.pose.velocity, wall.pose.spin) = (DVec3::ZERO, DVec3::ZERO);
+        }
         self.walls_held = true;
         let (mut hosts, mut ledger) = (Hosts::default(), Ledger::default());
         let block = (1e-2 / self.dt).ceil() as u64;
@@ -26,8 +29,8 @@ impl DemEngine {
                 break;
             }
         }
-        for (plane, velocity) in self.planes.iter_mut().zip(velocities) {
-            plane.velocity = velocity;
+        for (wall, pose) in self.walls.iter_mut().zip(poses) {
+            wall.pose = pose;
         }
         self.walls_held = false;
         self.step = 0;

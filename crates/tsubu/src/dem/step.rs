@@ -1,41 +1,42 @@
 //! The step.
 
 use super::engine::DemEngine;
-use super::integrate;
-use super::touch::{Contact, Scene};
+use super::integrate::{self, Motion};
+use super::memory::Kept;
+use super::touch::{Contact, Scene, Touch};
 use crate::engine::{Engine, Fault};
-use crate::find::Candidates;
 use crate::ledger::{Account, Ledger};
 use crate::partner::Hosts;
-use crate::wall::Carrier;
 use glam::DVec3;
-use std::collections::BTreeMap;
+use tsubu_scene::plan::Integrator;
 
 impl DemEngine {
     /// Moves everything by one time step.
     pub(super) fn step(&mut self, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
-        integrate::before(&mut self.grains, &mut self.halves, self.integrator, self.dt);
+        let moved = integrate::before(
+            &mut self.grains,
+            &self.candidates.reference,
+            &mut self.reports,
+            self.integrator,
+            self.rotation,
+            self.dt,
+        );
         self.step += 1;
         let time = self.time();
         hosts.before(self.dt);
         self.move_walls(time, hosts);
-        if self.candidates.stale(&self.grains, &self.planes, self.skin) {
+        self.drive(time);
+        let farthest = if moved.sum.is_finite() { moved.farthest.sqrt() } else { f64::NAN };
+        if let Some(kept) = self.come_and_go(ledger) {
+            self.find_with(kept);
+        } else if self.candidates.stale(&self.grains, &self.walls, self.search.skin, farthest) {
             self.check_finite()?;
             self.find();
         }
         self.touch_all();
         self.check_overlap()?;
-        self.accelerate();
-        let correction = integrate::after(
-            &mut self.grains,
-            &self.halves,
-            self.integrator,
-            self.dt,
-            &self.forces.lossy,
-            &self.forces.torque,
-        );
-        self.forces.sums.correct(correction);
-        self.reactions(hosts);
+        self.finish(self.dt);
+        self.reactions(hosts, ledger);
         hosts.after(time, self.dt, &self.host_forces, ledger);
         self.close_books(ledger);
         Ok(())
@@ -45,92 +46,102 @@ impl DemEngine {
         if self.walls_held {
             return;
         }
-        for plane in &mut self.planes {
-            plane.follow(time, hosts);
+        for wall in &mut self.walls {
+            wall.before(self.dt);
+            wall.follow(time, hosts);
         }
     }
 
-    /// Puts the grains in the order of their cells and makes the candidate list again; contact history follows its pair.
+    /// Sorts the grains and makes the candidate list again; contact history follows its pair.
     pub(super) fn find(&mut self) {
-        let held = self.held_history();
-        if Candidates::sorts(&self.grains) {
-            let order = self.candidates.order(&self.grains, self.reach).to_vec();
-            self.grains.permute(&order);
-        }
-        self.candidates.search(&self.grains, &self.planes, self.skin, self.reach);
-        self.restore_history(&held);
+        let kept = self.kept();
+        self.find_with(kept);
     }
 
-    /// Contact history by the ids of the two bodies, with the first body's id first. Planes follow the grains.
-    pub(super) fn held_history(&self) -> BTreeMap<(u32, u32), [f64; 4]> {
-        let mut held = BTreeMap::new();
-        if self.law.needs.history {
-            let id = &self.grains.id;
-            let pairs = self.candidates.pairs.iter().map(|p| (id[p[0] as usize], id[p[1] as usize]));
-            let walls = self.candidates.walls.iter().map(|p| (id[p[0] as usize], self.grains.len() as u32 + p[1]));
-            let history = self.touch.pair_history.iter().chain(&self.touch.wall_history);
-            held.extend(pairs.chain(walls).zip(history).filter(|(_, h)| h[3] != 0.0).map(|(k, h)| (k, *h)));
-        }
-        held
+    /// The same with contacts that were remembered before grains came or went.
+    fn find_with(&mut self, kept: Vec<Kept>) {
+        self.candidates.sort(&mut self.grains, &self.search);
+        self.candidates.search(&self.grains, &self.walls, &self.search);
+        self.fit();
+        self.released += self.restore(kept);
     }
 
-    /// Gives every candidate the history it had; a pair whose bodies have changed places gets it with the sign turned.
-    pub(super) fn restore_history(&mut self, held: &BTreeMap<(u32, u32), [f64; 4]>) {
-        let id = &self.grains.id;
-        let look = |a: u32, b: u32| -> [f64; 4] {
-            if held.is_empty() {
-                return [0.0; 4];
-            }
-            held.get(&(a, b))
-                .copied()
-                .or_else(|| held.get(&(b, a)).map(|h| [-h[0], -h[1], -h[2], h[3]]))
-                .unwrap_or([0.0; 4])
-        };
-        let touch = &mut self.touch;
-        touch.pair_history.clear();
-        touch.pair_history.extend(self.candidates.pairs.iter().map(|p| look(id[p[0] as usize], id[p[1] as usize])));
-        let grains = id.len() as u32;
-        touch.wall_history.clear();
-        touch.wall_history.extend(self.candidates.walls.iter().map(|p| look(id[p[0] as usize], grains + p[1])));
-        touch.reset();
+    /// Prepares the touch phase for new candidates.
+    pub(super) fn fit(&mut self) {
+        let (scene, touch) = self.scene();
+        touch.fit(&scene);
     }
 
     pub(super) fn touch_all(&mut self) {
-        let Self { grains, planes, candidates, law, table, rotation, dt, touch, forces, .. } = self;
-        let scene = Scene { grains, planes, candidates, law, table, rotation: *rotation, dt: *dt };
-        touch.forces(&scene, forces);
+        let (scene, touch) = self.scene();
+        let mut sums = touch.forces(&scene);
+        sums.lost[1] += std::mem::take(&mut self.released) / self.dt;
+        self.sums = sums;
+    }
+
+    /// What the touch phase reads, and itself.
+    fn scene(&mut self) -> (Scene<'_>, &mut Touch) {
+        let Self { grains, walls, candidates, law, table, search, rotation, dt, touch, .. } = self;
+        let periodic = search.ends.iter().any(Option::is_some);
+        let scene =
+            Scene { grains, walls, candidates, law, table, reach: search.reach, rotation: *rotation, periodic, dt: *dt };
+        (scene, touch)
     }
 
     /// The contacts of this moment.
     pub(super) fn contact_list(&self) -> Vec<Contact> {
-        let Self { grains, planes, candidates, law, table, rotation, dt, touch, .. } = self;
-        touch.contacts(&Scene { grains, planes, candidates, law, table, rotation: *rotation, dt: *dt })
+        let Self { grains, walls, candidates, law, table, search, rotation, dt, touch, .. } = self;
+        let periodic = search.ends.iter().any(Option::is_some);
+        touch.contacts(&Scene {
+            grains,
+            walls,
+            candidates,
+            law,
+            table,
+            reach: search.reach,
+            rotation: *rotation,
+            periodic,
+            dt: *dt,
+        })
     }
 
-    /// Accelerations from contact forces and gravity.
-    pub(super) fn accelerate(&mut self) {
-        let grains = &mut self.grains;
-        for i in 0..grains.id.len() {
-            grains.acceleration[i] = self.forces.force[i] * (1.0 / grains.mass[i]) + self.gravity;
-        }
-        if self.rotation {
-            for i in 0..grains.id.len() {
-                grains.spin_rate[i] = self.forces.torque[i] * (1.0 / grains.inertia[i]);
-            }
-        }
+    /// Accelerations from contact forces and gravity; completes the velocities for a step `dt` (0: leaves them).
+    pub(super) fn finish(&mut self, dt: f64) {
+        let integrator = if dt > 0.0 { self.integrator } else { Integrator::SymplecticEuler };
+        let motion = Motion { integrator, gravity: self.gravity, rotation: self.rotation, dt };
+        let report = integrate::after(
+            &mut self.grains,
+            &self.touch.blocks,
+            &self.candidates.lists,
+            &self.candidates.reference,
+            &mut self.reports,
+            &motion,
+        );
+        self.sums.correct(report.correction);
+        self.fixed = (report.fixed_force, report.driven_power);
     }
 
-    /// Sums the forces on the planes for their hosts.
-    fn reactions(&mut self, hosts: &Hosts) {
+    /// What grains did to the walls goes to those who move them.
+    fn reactions(&mut self, hosts: &Hosts, ledger: &mut Ledger) {
+        self.sum_wall_loads();
         self.host_forces.clear();
         self.host_forces.resize(hosts.list.len(), 0.0);
-        if hosts.list.is_empty() {
+        if self.walls_held {
             return;
         }
-        for (plane, force) in self.planes.iter().zip(&self.forces.plane_force) {
-            if let Carrier::Host(index, direction) = &plane.carrier {
-                self.host_forces[*index] += force.dot(*direction);
+        for (wall, load) in self.walls.iter_mut().zip(&self.wall_loads) {
+            if let Some((index, direction)) = wall.host() {
+                self.host_forces[index] += load.force.dot(direction);
             }
+            let exchange = wall.after(load.force, load.torque, self.dt);
+            ledger.post(Account::ForceWork, exchange.work);
+            ledger.post(Account::HostDamping, exchange.lost);
+        }
+    }
+
+    pub(super) fn sum_wall_loads(&mut self) {
+        for (k, load) in self.wall_loads.iter_mut().enumerate() {
+            *load = self.touch.wall_load(k);
         }
     }
 
@@ -152,13 +163,13 @@ impl DemEngine {
     /// Powers and wall force of this time level.
     pub(super) fn flows(&self) -> Flows {
         let mut flows = Flows::default();
-        flows.powers[..3].copy_from_slice(&self.forces.sums.lost);
-        for (plane, force) in self.planes.iter().zip(&self.forces.plane_force) {
-            flows.wall_force -= *force;
-            if let Carrier::Motion(..) = plane.carrier {
-                flows.powers[3] -= force.dot(plane.velocity);
-            }
+        flows.powers[..3].copy_from_slice(&self.sums.lost);
+        for (wall, load) in self.walls.iter().zip(&self.wall_loads) {
+            flows.wall_force -= load.force;
+            flows.powers[3] -= wall.prescribed_power(load.force, load.torque);
         }
+        flows.wall_force -= self.fixed.0;
+        flows.powers[3] += self.fixed.1;
         flows
     }
 
@@ -178,21 +189,18 @@ impl DemEngine {
     }
 
     fn check_overlap(&self) -> Result<(), Fault> {
-        if self.forces.sums.deepest <= self.largest_overlap * self.smallest_diameter {
+        if self.sums.deepest <= self.largest_overlap * self.smallest_diameter {
             return Ok(());
         }
         let grains = &self.grains;
-        let pairs = self.candidates.pairs.iter().map(|p| {
-            let [i, j] = p.map(|i| i as usize);
-            let overlap = grains.radius[i] + grains.radius[j] - grains.position[i].distance(grains.position[j]);
-            (overlap / (2.0 * grains.radius[i].min(grains.radius[j])), i)
+        let ratios = self.contact_list().into_iter().map(|c| {
+            let mut radius = grains.radius[c.first];
+            if !c.wall {
+                radius = radius.min(grains.radius[c.second]);
+            }
+            (c.overlap / (2.0 * radius), c.first)
         });
-        let walls = self.candidates.walls.iter().map(|p| {
-            let i = p[0] as usize;
-            let gap = self.planes[p[1] as usize].distance(grains.position[i]);
-            ((grains.radius[i] - gap) / (2.0 * grains.radius[i]), i)
-        });
-        let (ratio, i) = pairs.chain(walls).fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a });
+        let (ratio, i) = ratios.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a });
         if ratio <= self.largest_overlap {
             return Ok(());
         }
@@ -201,7 +209,8 @@ impl DemEngine {
     }
 }
 
-/// Powers (normal damping, sliding, rolling, walls' work) [W] and force of the walls on the grains [N] at a time level.
+/// Powers (normal damping, sliding, rolling, work of walls and driven grains) [W] and force of walls and fixed grains on
+/// the others [N] at a time level.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Flows {
     pub powers: [f64; 4],

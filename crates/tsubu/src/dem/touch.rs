@@ -1,34 +1,24 @@
 //! Touch: candidates into chunks, the law on the chunks, forces back to the grains.
 //!
-//! Candidates are taken in blocks of [`ROWS`]. With one thread the forces of a block are scattered to the grains at once;
-//! with many the blocks leave their forces beside the pairs, and every grain gathers its own in the order of the pairs:
-//! the same additions in the same order, so the same bits.
+//! Every block of grains works alone: it walks its candidates, puts the touching ones into chunks, and gathers the forces
+//! in its own `loads`: first for its own grains, then for grains of other blocks. Afterwards every grain adds what other
+//! blocks hold for it, in the order of the blocks. Nothing here depends on the number of threads.
 
-use crate::contact::chunk::{HISTORY, ROWS};
-use crate::contact::{Chunk, Law, Table};
+use super::memory::{Memory, WallKey};
+use super::rows::{Rows, largest, sum};
+use crate::contact::chunk::{Chunk, ROWS};
+use crate::contact::{Law, Table};
 use crate::find::Candidates;
+use crate::find::candidates::{List, WORTH_THREADS};
+use crate::find::grid::HERE;
 use crate::state::Grains;
-use crate::wall::Plane;
+use crate::wall::{self, Wall};
 use glam::DVec3;
 use rayon::prelude::*;
+use std::sync::{Mutex, PoisonError};
 
-/// Fewer grains than this are not worth waking threads for.
-const WORTH_THREADS: usize = 2000;
-
-/// Forces of one time level, and what the contacts hold and lose.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Forces {
-    /// Contact force on every grain [N].
-    pub force: Vec<DVec3>,
-    /// Contact torque on every grain [N.m].
-    pub torque: Vec<DVec3>,
-    /// The part of the force that takes energy away: damping and friction [N].
-    pub lossy: Vec<DVec3>,
-    /// Force of the grains on every plane [N].
-    pub plane_force: Vec<DVec3>,
-    /// Sums over all contacts.
-    pub sums: Sums,
-}
+/// No contact of the last step.
+const FRESH: u32 = u32::MAX;
 
 /// Sums over contacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -37,14 +27,14 @@ pub(super) struct Sums {
     pub stored: f64,
     /// Power lost in normal damping, sliding, rolling [W].
     pub lost: [f64; 3],
-    /// Touching pairs.
+    /// Touch_ pairs.
     pub contacts: usize,
     /// Deepest overlap [m].
     pub deepest: f64,
 }
 
 impl Sums {
-    fn add(&mut self, other: &Self) {
+    pub fn add(&mut self, other: &Self) {
         self.stored += other.stored;
         for (a, b) in self.lost.iter_mut().zip(other.lost) {
             *a += b;
@@ -64,382 +54,520 @@ impl Sums {
     }
 }
 
-/// Force and torques of one touching pair.
+/// What contacts do to a grain.
 #[derive(Clone, Copy, Debug, Default)]
-struct Action {
-    force: DVec3,
-    lossy: DVec3,
-    torque: [DVec3; 2],
+pub(super) struct Load {
+    /// Force [N].
+    pub force: DVec3,
+    /// The part of the force that takes energy away: damping and friction [N].
+    pub lossy: DVec3,
+    /// Torque [N.m].
+    pub torque: DVec3,
 }
 
-/// Scratch of the touch phase, and the history of every candidate.
+impl Load {
+    #[inline(always)]
+    pub fn add(&mut self, other: &Self) {
+        self.force += other.force;
+        self.lossy += other.lossy;
+        self.torque += other.torque;
+    }
+}
+
+/// What grains do to a wall.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct WallLoad {
+    /// Force [N].
+    pub force: DVec3,
+    /// Torque about the origin of the wall's pose [N.m].
+    pub torque: DVec3,
+}
+
+impl WallLoad {
+    pub fn add(&mut self, other: &Self) {
+        self.force += other.force;
+        self.torque += other.torque;
+    }
+}
+
+/// One block's contacts and what they do.
 #[derive(Clone, Debug, Default)]
+pub(super) struct Block {
+    pub memory: Memory,
+    /// Loads on own grains, then on those of the halo.
+    pub loads: Vec<Load>,
+    pub walls: Vec<WallLoad>,
+    pub sums: Sums,
+}
+
+/// All blocks, and a chunk for every thread.
+#[derive(Debug, Default)]
 pub(super) struct Touch {
-    /// History of grain-grain candidates.
-    pub pair_history: Vec<[f64; HISTORY]>,
-    /// History of grain-plane candidates.
-    pub wall_history: Vec<[f64; HISTORY]>,
-    block: Block,
-    actions: Vec<Action>,
-    /// Per grain: its pairs, as 2 k for the first body and 2 k + 1 for the second.
-    gather_start: Vec<u32>,
-    gather: Vec<u32>,
-}
-
-/// One chunk at work: which candidate each row came from, and the lever arms.
-#[derive(Clone, Debug, Default)]
-struct Block {
-    chunk: Box<Chunk>,
-    row: Vec<u32>,
-    arm: Vec<[f64; 2]>,
+    pub blocks: Vec<Block>,
+    scratch: Vec<Mutex<Scratch>>,
 }
 
 /// What the touch phase reads.
 #[derive(Clone, Copy)]
 pub(super) struct Scene<'a> {
     pub grains: &'a Grains,
-    pub planes: &'a [Plane],
+    pub walls: &'a [Wall],
     pub candidates: &'a Candidates,
     pub law: &'a Law,
     pub table: &'a Table,
+    /// Gap at which bodies may still hold each other [m].
+    pub reach: f64,
     pub rotation: bool,
+    pub periodic: bool,
     pub dt: f64,
 }
 
+/// Memory of one thread.
+#[derive(Debug)]
+struct Scratch {
+    rows: Box<Rows>,
+    /// Contact of the last step that each row goes on from.
+    old: [u32; ROWS],
+    /// Keys of wall rows.
+    keys: Vec<WallKey>,
+    elements: Vec<u32>,
+    touching: Vec<wall::Touch>,
+    went_on: Vec<u32>,
+}
+
+impl Scratch {
+    fn new(width: usize) -> Self {
+        Self {
+            rows: Box::new(Rows::new(width)),
+            old: [FRESH; ROWS],
+            keys: Vec::with_capacity(ROWS),
+            elements: Vec::with_capacity(64),
+            touching: Vec::with_capacity(64),
+            went_on: Vec::with_capacity(64),
+        }
+    }
+}
+
 impl Touch {
-    /// Forgets the gather index; called when the candidates have changed.
-    pub fn reset(&mut self) {
-        self.gather_start.clear();
+    /// Prepares as many blocks as there are lists; called when the candidates have changed.
+    pub fn fit(&mut self, scene: &Scene) {
+        let width = scene.law.width();
+        let lists = &scene.candidates.lists;
+        self.blocks.resize_with(lists.len(), Block::default);
+        for (block, list) in self.blocks.iter_mut().zip(lists) {
+            block.loads.resize(list.own + list.halo.len(), Load::default());
+            block.walls.resize(scene.walls.len(), WallLoad::default());
+            if width > 0 {
+                for contacts in [&mut block.memory.pairs, &mut block.memory.next_pairs] {
+                    contacts.reserve(list.pairs.len(), width);
+                }
+                for contacts in [&mut block.memory.walls, &mut block.memory.next_walls] {
+                    contacts.reserve(list.walls.len(), width);
+                }
+            }
+        }
+        while self.scratch.len() < rayon::current_num_threads() {
+            self.scratch.push(Mutex::new(Scratch::new(width)));
+        }
     }
 
-    /// Evaluates all contacts.
-    pub fn forces(&mut self, scene: &Scene, forces: &mut Forces) {
-        let n = scene.grains.len();
-        forces.force.clear();
-        forces.force.resize(n, DVec3::ZERO);
-        forces.lossy.clear();
-        forces.lossy.resize(n, DVec3::ZERO);
-        forces.torque.clear();
-        forces.torque.resize(n, DVec3::ZERO);
-        forces.plane_force.clear();
-        forces.plane_force.resize(scene.planes.len(), DVec3::ZERO);
-        forces.sums = Sums::default();
-        if n >= WORTH_THREADS && rayon::current_num_threads() > 1 {
-            self.pairs_threaded(scene, forces);
+    /// Evaluates all contacts; returns their sums.
+    pub fn forces(&mut self, scene: &Scene) -> Sums {
+        let scratch = &self.scratch;
+        let work = |(block, list): (&mut Block, &List)| {
+            let mine = rayon::current_thread_index().unwrap_or(0);
+            // Nobody else has this thread's scratch, so the lock is free.
+            let mut scratch = scratch[mine].lock().unwrap_or_else(PoisonError::into_inner);
+            block.evaluate(scene, list, &mut scratch);
+        };
+        let lists = &scene.candidates.lists;
+        if scene.grains.len() >= WORTH_THREADS && rayon::current_num_threads() > 1 {
+            self.blocks.par_iter_mut().zip(lists).for_each(work);
         } else {
-            self.pairs_serial(scene, forces);
+            self.blocks.iter_mut().zip(lists).for_each(work);
         }
-        self.walls(scene, forces);
+        let mut sums = Sums::default();
+        for block in &self.blocks {
+            sums.add(&block.sums);
+        }
+        sums
     }
 
-    fn pairs_serial(&mut self, scene: &Scene, forces: &mut Forces) {
-        let pairs = &scene.candidates.pairs;
-        for (pairs, history) in pairs.chunks(ROWS).zip(self.pair_history.chunks_mut(ROWS)) {
-            let sums = self.block.pairs(scene, pairs, history);
-            forces.sums.add(&sums);
-            for r in 0..self.block.row.len() {
-                let [i, j] = pairs[self.block.row[r] as usize].map(|i| i as usize);
-                let action = self.block.action(r, scene.rotation);
-                forces.force[i] += action.force;
-                forces.force[j] -= action.force;
-                forces.lossy[i] += action.lossy;
-                forces.lossy[j] -= action.lossy;
-                if scene.rotation {
-                    forces.torque[i] += action.torque[0];
-                    forces.torque[j] += action.torque[1];
-                }
-            }
+    /// What the grains do to wall `k`.
+    pub fn wall_load(&self, k: usize) -> WallLoad {
+        let mut load = WallLoad::default();
+        for block in &self.blocks {
+            load.add(&block.walls[k]);
         }
+        load
     }
 
-    fn pairs_threaded(&mut self, scene: &Scene, forces: &mut Forces) {
-        let pairs = &scene.candidates.pairs;
-        if self.gather_start.is_empty() {
-            self.index(scene.grains.len(), pairs);
-        }
-        self.actions.resize(pairs.len(), Action::default());
-        let sums: Vec<Sums> = pairs
-            .par_chunks(ROWS)
-            .zip(self.pair_history.par_chunks_mut(ROWS))
-            .zip(self.actions.par_chunks_mut(ROWS))
-            .map_init(Block::default, |block, ((pairs, history), actions)| {
-                let sums = block.pairs(scene, pairs, history);
-                actions.fill(Action::default());
-                for r in 0..block.row.len() {
-                    actions[block.row[r] as usize] = block.action(r, scene.rotation);
-                }
-                sums
-            })
-            .collect();
-        for part in &sums {
-            forces.sums.add(part);
-        }
-        let (start, gather, actions) = (&self.gather_start, &self.gather, &self.actions);
-        let Forces { force, torque, lossy, .. } = forces;
-        force
-            .par_iter_mut()
-            .zip(torque.par_iter_mut())
-            .zip(lossy.par_iter_mut())
-            .enumerate()
-            .with_min_len(256)
-            .for_each(|(i, ((force, torque), lossy))| {
-                for &entry in &gather[start[i] as usize..start[i + 1] as usize] {
-                    let action = &actions[(entry >> 1) as usize];
-                    if entry & 1 == 0 {
-                        *force += action.force;
-                        *lossy += action.lossy;
-                    } else {
-                        *force -= action.force;
-                        *lossy -= action.lossy;
-                    }
-                    *torque += action.torque[(entry & 1) as usize];
-                }
-            });
-    }
-
-    /// Lists the pairs of every grain, in the order of the pairs.
-    fn index(&mut self, grains: usize, pairs: &[[u32; 2]]) {
-        self.gather_start.clear();
-        self.gather_start.resize(grains + 1, 0);
-        for pair in pairs {
-            for &i in pair {
-                self.gather_start[i as usize + 1] += 1;
-            }
-        }
-        for i in 0..grains {
-            self.gather_start[i + 1] += self.gather_start[i];
-        }
-        let mut next = self.gather_start.clone();
-        self.gather.resize(2 * pairs.len(), 0);
-        for (k, pair) in pairs.iter().enumerate() {
-            for (side, &i) in pair.iter().enumerate() {
-                self.gather[next[i as usize] as usize] = 2 * k as u32 + side as u32;
-                next[i as usize] += 1;
-            }
-        }
-    }
-
-    fn walls(&mut self, scene: &Scene, forces: &mut Forces) {
-        for (pairs, history) in scene.candidates.walls.chunks(ROWS).zip(self.wall_history.chunks_mut(ROWS)) {
-            let sums = self.block.walls(scene, pairs, history);
-            forces.sums.add(&sums);
-            for r in 0..self.block.row.len() {
-                let [i, k] = pairs[self.block.row[r] as usize].map(|i| i as usize);
-                let action = self.block.action(r, scene.rotation);
-                forces.force[i] += action.force;
-                forces.lossy[i] += action.lossy;
-                forces.plane_force[k] -= action.force;
-                if scene.rotation {
-                    forces.torque[i] += action.torque[0];
-                }
-            }
-        }
-    }
-}
-
-/// A touching pair, for pictures.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Contact {
-    /// Index of the first grain.
-    pub first: usize,
-    /// Index of the second grain; `None` for a wall.
-    pub second: Option<usize>,
-    /// Point of contact [m].
-    pub position: DVec3,
-    /// Force on the first grain [N].
-    pub force: DVec3,
-    /// Overlap [m].
-    pub overlap: f64,
-}
-
-impl Touch {
-    /// All contacts, evaluated anew at the present positions and velocities without touching the history.
+    /// All contacts, evaluated anew at the present positions and velocities without changing what is remembered.
     pub fn contacts(&self, scene: &Scene) -> Vec<Contact> {
         // A step of length zero leaves the tangential springs as they are.
         let scene = Scene { dt: 0.0, ..*scene };
-        let mut block = Block::default();
+        let mut scratch = Scratch::new(scene.law.width());
         let mut contacts = Vec::new();
-        let mut take = |block: &Block, pairs: &[[u32; 2]], walls: bool| {
-            for r in 0..block.row.len() {
-                let [i, j] = pairs[block.row[r] as usize].map(|i| i as usize);
-                contacts.push(Contact {
-                    first: i,
-                    second: (!walls).then_some(j),
-                    position: scene.grains.position[i] + Chunk::vector(&block.chunk.normal, r) * block.arm[r][0],
-                    force: block.action(r, false).force,
-                    overlap: block.chunk.overlap[r],
-                });
-            }
-        };
-        for (pairs, history) in scene.candidates.pairs.chunks(ROWS).zip(self.pair_history.chunks(ROWS)) {
-            block.pairs(&scene, pairs, &mut history.to_vec());
-            take(&block, pairs, false);
-        }
-        for (pairs, history) in scene.candidates.walls.chunks(ROWS).zip(self.wall_history.chunks(ROWS)) {
-            block.walls(&scene, pairs, &mut history.to_vec());
-            take(&block, pairs, true);
+        for (block, list) in self.blocks.iter().zip(&scene.candidates.lists) {
+            let mut take = |rows: &Rows, wall: bool| {
+                for r in 0..rows.chunk.rows() {
+                    let first = list.first + rows.first[r] as usize;
+                    let second = if wall { rows.second[r] } else { list.pairs[rows.origin[r] as usize].grain };
+                    contacts.push(Contact {
+                        first,
+                        second: second as usize,
+                        wall,
+                        position: scene.grains.position[first] + rows.point(r),
+                        force: Chunk::vector(&rows.force, r),
+                        normal: Chunk::vector(&rows.chunk.normal, r),
+                        overlap: rows.chunk.overlap[r],
+                    });
+                }
+            };
+            let mut memory = block.memory.clone();
+            let mut sums = Sums::default();
+            pairs(&scene, list, &mut memory, &mut scratch, &mut sums, |rows| take(rows, false));
+            walls(&scene, list, &mut memory, &mut scratch, &mut sums, |rows| take(rows, true));
         }
         contacts
     }
 }
 
+/// A touching pair, for pictures and for watches.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Contact {
+    /// Index of the first grain.
+    pub first: usize,
+    /// Index of the second grain, or number of the wall.
+    pub second: usize,
+    /// Whether the second body is a wall.
+    pub wall: bool,
+    /// Point of contact [m].
+    pub position: DVec3,
+    /// Force on the first grain [N].
+    pub force: DVec3,
+    /// Unit normal from the first to the second body.
+    pub normal: DVec3,
+    /// Overlap [m].
+    pub overlap: f64,
+}
+
 impl Block {
-    fn clear(&mut self) {
-        self.chunk.len = 0;
-        self.row.clear();
-        self.arm.clear();
-    }
-
-    /// Fills the chunk with the touching ones of the grain-grain candidates and applies the law.
-    fn pairs(&mut self, scene: &Scene, pairs: &[[u32; 2]], history: &mut [[f64; HISTORY]]) -> Sums {
-        self.clear();
-        let grains = scene.grains;
-        let mut released = 0.0;
-        for (k, pair) in pairs.iter().enumerate() {
-            let [i, j] = pair.map(|i| i as usize);
-            let between = grains.position[j] - grains.position[i];
-            let reach = grains.radius[i] + grains.radius[j];
-            let squared = between.length_squared();
-            if squared >= reach * reach {
-                released += release(scene, &mut history[k]);
-                continue;
-            }
-            let distance = squared.sqrt();
-            // Two centres in one place have no normal; any will do, the overlap limit stops the run.
-            let normal = if distance > 0.0 { between / distance } else { DVec3::Z };
-            let overlap = reach - distance;
-            let arm = [grains.radius[i] - 0.5 * overlap, grains.radius[j] - 0.5 * overlap];
-            let mut relative = grains.velocity[i] - grains.velocity[j];
-            if scene.rotation {
-                relative += (grains.spin[i] * arm[0] + grains.spin[j] * arm[1]).cross(normal);
-            }
-            self.push(scene, k, overlap, normal, relative, arm, [grains.species[i], grains.species[j]], &history[k]);
-            if scene.law.needs.roll {
-                self.roll(grains.spin[i] - grains.spin[j], normal);
-            }
+    fn evaluate(&mut self, scene: &Scene, list: &List, scratch: &mut Scratch) {
+        let Self { memory, loads, walls: wall_loads, sums } = self;
+        loads.fill(Load::default());
+        wall_loads.fill(WallLoad::default());
+        *sums = Sums::default();
+        pairs(scene, list, memory, scratch, sums, |rows| scatter(rows, loads, scene.rotation));
+        walls(scene, list, memory, scratch, sums, |rows| react(scene, list, rows, loads, wall_loads));
+        if scene.law.width() > 0 {
+            memory.turn();
         }
-        self.finish(scene, history, released)
-    }
-
-    /// The same for grain-plane candidates: a plane is a body of infinite radius and mass.
-    fn walls(&mut self, scene: &Scene, pairs: &[[u32; 2]], history: &mut [[f64; HISTORY]]) -> Sums {
-        self.clear();
-        let grains = scene.grains;
-        let mut released = 0.0;
-        for (k, pair) in pairs.iter().enumerate() {
-            let i = pair[0] as usize;
-            let plane = &scene.planes[pair[1] as usize];
-            let overlap = grains.radius[i] - plane.distance(grains.position[i]);
-            if overlap <= 0.0 {
-                released += release(scene, &mut history[k]);
-                continue;
-            }
-            let normal = -plane.normal;
-            let arm = [grains.radius[i] - 0.5 * overlap, 0.0];
-            let mut relative = grains.velocity[i] - plane.velocity;
-            if scene.rotation {
-                relative += (grains.spin[i] * arm[0]).cross(normal);
-            }
-            self.push(scene, k, overlap, normal, relative, arm, [grains.species[i], plane.species], &history[k]);
-            if scene.law.needs.roll {
-                self.roll(grains.spin[i], normal);
-            }
-        }
-        self.finish(scene, history, released)
-    }
-
-    #[inline]
-    #[expect(clippy::too_many_arguments, reason = "one row of a chunk, written in one place")]
-    fn push(
-        &mut self,
-        scene: &Scene,
-        candidate: usize,
-        overlap: f64,
-        normal: DVec3,
-        relative: DVec3,
-        arm: [f64; 2],
-        species: [u32; 2],
-        history: &[f64; HISTORY],
-    ) {
-        let chunk = &mut *self.chunk;
-        let r = chunk.len;
-        let closing = relative.dot(normal);
-        chunk.overlap[r] = overlap;
-        chunk.root[r] = overlap.sqrt();
-        chunk.closing[r] = closing;
-        Chunk::set(&mut chunk.normal, r, normal);
-        Chunk::set(&mut chunk.slip, r, relative - normal * closing);
-        let pair = scene.table.pair(species[0], species[1]);
-        chunk.stiffness[r] = pair.stiffness;
-        chunk.damping[r] = pair.damping;
-        chunk.shear[r] = pair.shear;
-        chunk.shear_damping[r] = pair.shear_damping;
-        chunk.friction[r] = pair.friction;
-        chunk.rolling[r] = pair.rolling_friction * pair.radius;
-        chunk.radius[r] = pair.radius;
-        chunk.mass[r] = pair.mass;
-        if scene.law.needs.history {
-            for (column, value) in chunk.history.iter_mut().zip(history) {
-                column[r] = *value;
-            }
-        }
-        chunk.len = r + 1;
-        self.row.push(candidate as u32);
-        self.arm.push(arm);
-    }
-
-    fn roll(&mut self, relative: DVec3, normal: DVec3) {
-        let r = self.chunk.len - 1;
-        Chunk::set(&mut self.chunk.roll, r, relative - normal * relative.dot(normal));
-    }
-
-    fn finish(&mut self, scene: &Scene, history: &mut [[f64; HISTORY]], released: f64) -> Sums {
-        scene.law.apply(&mut self.chunk, scene.dt);
-        let chunk = &*self.chunk;
-        if scene.law.needs.history {
-            for (r, &k) in self.row.iter().enumerate() {
-                for (value, column) in history[k as usize].iter_mut().zip(&chunk.history) {
-                    *value = column[r];
-                }
-            }
-        }
-        let n = chunk.len;
-        Sums {
-            stored: chunk.stored[..n].iter().sum(),
-            lost: [
-                chunk.lost_normal[..n].iter().sum(),
-                chunk.lost_sliding[..n].iter().sum::<f64>() + released / scene.dt,
-                chunk.lost_rolling[..n].iter().sum(),
-            ],
-            contacts: n,
-            deepest: chunk.overlap[..n].iter().copied().fold(0.0, f64::max),
-        }
-    }
-
-    /// Force on the first body and torques on both, of row `r`.
-    #[inline]
-    fn action(&self, r: usize, rotation: bool) -> Action {
-        let chunk = &*self.chunk;
-        let normal = Chunk::vector(&chunk.normal, r);
-        let tangential = Chunk::vector(&chunk.tangential_force, r);
-        let force = tangential - normal * chunk.normal_force[r];
-        let lossy = tangential - normal * chunk.damping_force[r];
-        if !rotation {
-            return Action { force, lossy, torque: [DVec3::ZERO; 2] };
-        }
-        let turn = normal.cross(tangential);
-        let rolling = Chunk::vector(&chunk.torque, r);
-        Action { force, lossy, torque: [turn * self.arm[r][0] + rolling, turn * self.arm[r][1] - rolling] }
     }
 }
 
-/// Empties the history of a contact that has opened; returns the energy its spring still held [J].
-#[inline]
-fn release(scene: &Scene, history: &mut [f64; HISTORY]) -> f64 {
-    if !scene.law.needs.history || history[3] == 0.0 {
-        return 0.0;
+/// Walks the grain-grain candidates of a block; `visit` sees every finished chunk.
+fn pairs(
+    scene: &Scene,
+    list: &List,
+    memory: &mut Memory,
+    scratch: &mut Scratch,
+    sums: &mut Sums,
+    mut visit: impl FnMut(&Rows),
+) {
+    let g = scene.grains;
+    let remembers = scene.law.width() > 0;
+    let mut cursor = 0;
+    let mut released = 0.0;
+    scratch.rows.chunk.len = 0;
+    for own in 0..list.own {
+        let i = list.first + own;
+        let (centre, radius) = (g.position[i], g.radius[i]);
+        let range = list.start[own] as usize..list.start[own + 1] as usize;
+        for (candidate, k) in list.pairs[range.clone()].iter().zip(range) {
+            let j = candidate.grain as usize;
+            let mut between = g.position[j] - centre;
+            if scene.periodic && candidate.image() != HERE {
+                between += scene.candidates.shifts[candidate.image() as usize];
+            }
+            let limit = radius + g.radius[j] + scene.reach;
+            if between.length_squared() >= limit * limit {
+                continue;
+            }
+            let rows = &mut *scratch.rows;
+            let r = rows.chunk.len;
+            if remembers {
+                let (old, lost) = follow(&memory.pairs.keys, &mut cursor, &(k as u32));
+                if !lost.is_empty() {
+                    released += memory.pairs.held(lost, scene.law);
+                }
+                scratch.old[r] = old;
+            }
+            rows.origin[r] = k as u32;
+            rows.first[r] = own as u32;
+            rows.second[r] = candidate.place() as u32;
+            Chunk::set(&mut rows.between, r, between);
+            rows.radius[0][r] = radius;
+            rows.radius[1][r] = g.radius[j];
+            rows.inverse_mass[r] = g.inverse_mass[i] + g.inverse_mass[j];
+            rows.material[r] = scene.table.index(g.material[i], g.material[j]);
+            Chunk::set(&mut rows.relative, r, g.velocity[i] - g.velocity[j]);
+            if scene.rotation {
+                Chunk::set(&mut rows.spin[0], r, g.spin[i]);
+                Chunk::set(&mut rows.spin[1], r, g.spin[j]);
+            }
+            rows.chunk.len = r + 1;
+            if r + 1 == ROWS {
+                rows.spheres(scene.rotation);
+                finish_pairs(scene, memory, scratch, sums, &mut visit);
+            }
+        }
     }
-    let [x, y, z, stiffness] = *history;
-    *history = [0.0; HISTORY];
-    (x * x + y * y + z * z) / (2.0 * stiffness)
+    scratch.rows.spheres(scene.rotation);
+    finish_pairs(scene, memory, scratch, sums, &mut visit);
+    if remembers {
+        released += memory.pairs.held(cursor..memory.pairs.keys.len(), scene.law);
+        sums.lost[1] += released / scene.dt;
+    }
+}
+
+/// Moves `cursor` past the keys that `pass`; returns which they were.
+fn skip<K>(keys: &[K], cursor: &mut usize, pass: impl Fn(&K) -> bool) -> std::ops::Range<usize> {
+    let begin = *cursor;
+    while *cursor < keys.len() && pass(&keys[*cursor]) {
+        *cursor += 1;
+    }
+    begin..*cursor
+}
+
+/// For every place where a grain touches a wall, which of its `old` contacts with that wall goes on there. What has rolled
+/// over a seam goes on with the history from the triangle before.
+fn match_up(
+    wall: &Wall,
+    keys: &[WallKey],
+    old: &std::ops::Range<usize>,
+    touching: &[wall::Touch],
+    went_on: &mut Vec<u32>,
+) {
+    let patch = |t: &wall::Touch| wall.key(t.element);
+    went_on.clear();
+    went_on.extend(touching.iter().map(|t| {
+        old.clone().find(|&c| keys[c].patch == patch(t)).map_or(FRESH, |c| c as u32)
+    }));
+    for t in 0..touching.len() {
+        if went_on[t] == FRESH {
+            let free = |c: &usize| !went_on.contains(&(*c as u32));
+            let before = old.clone().filter(free).find(|&c| wall.adjacent(keys[c].patch, patch(&touching[t])));
+            went_on[t] = before.map_or(FRESH, |c| c as u32);
+        }
+    }
+}
+
+/// Moves `cursor` to `key`: the contact of the last step with that key, and those before it that have opened.
+#[inline(always)]
+fn follow<K: Ord>(keys: &[K], cursor: &mut usize, key: &K) -> (u32, std::ops::Range<usize>) {
+    let begin = *cursor;
+    while *cursor < keys.len() && keys[*cursor] < *key {
+        *cursor += 1;
+    }
+    let opened = begin..*cursor;
+    if *cursor < keys.len() && keys[*cursor] == *key {
+        *cursor += 1;
+        (*cursor as u32 - 1, opened)
+    } else {
+        (FRESH, opened)
+    }
+}
+
+fn finish_pairs(
+    scene: &Scene,
+    memory: &mut Memory,
+    scratch: &mut Scratch,
+    sums: &mut Sums,
+    visit: &mut impl FnMut(&Rows),
+) {
+    let width = scene.law.width();
+    recall(&mut scratch.rows, &scratch.old, &memory.pairs.history, width);
+    apply(scene, &mut scratch.rows, sums);
+    let n = scratch.rows.chunk.rows();
+    if width > 0 {
+        memory.next_pairs.keys.extend_from_slice(&scratch.rows.origin[..n]);
+        remember(&scratch.rows, &mut memory.next_pairs.history);
+    }
+    visit(&scratch.rows);
+    scratch.rows.chunk.len = 0;
+}
+
+/// Loads the histories of the rows.
+fn recall(rows: &mut Rows, old: &[u32; ROWS], history: &[f64], width: usize) {
+    let n = rows.chunk.rows();
+    for (r, &c) in old[..n].iter().enumerate() {
+        if c == FRESH {
+            rows.chunk.history.iter_mut().for_each(|column| column[r] = 0.0);
+        } else {
+            let from = c as usize * width;
+            for (column, value) in rows.chunk.history.iter_mut().zip(&history[from..from + width]) {
+                column[r] = *value;
+            }
+        }
+    }
+}
+
+/// Stores the histories of the rows.
+fn remember(rows: &Rows, history: &mut Vec<f64>) {
+    for r in 0..rows.chunk.rows() {
+        history.extend(rows.chunk.history.iter().map(|column| column[r]));
+    }
+}
+
+/// The law on a filled chunk, and its sums.
+fn apply(scene: &Scene, rows: &mut Rows, sums: &mut Sums) {
+    rows.constants(scene.table);
+    if scene.law.needs.roll || scene.law.needs.twist {
+        rows.rolling();
+    }
+    scene.law.apply(&mut rows.chunk, scene.dt);
+    rows.actions(scene.rotation);
+    let c = &rows.chunk;
+    let n = c.rows();
+    let contacts = if scene.reach > 0.0 { c.overlap[..n].iter().filter(|d| **d > 0.0).count() } else { n };
+    sums.add(&Sums {
+        stored: sum(&c.stored, n),
+        lost: [sum(&c.lost_normal, n), sum(&c.lost_sliding, n), sum(&c.lost_rolling, n)],
+        contacts,
+        deepest: largest(&c.overlap, n),
+    });
+}
+
+/// Adds the forces of a chunk to both grains of every row.
+fn scatter(rows: &Rows, loads: &mut [Load], rotation: bool) {
+    for r in 0..rows.chunk.rows() {
+        let force = Chunk::vector(&rows.force, r);
+        let lossy = Chunk::vector(&rows.lossy, r);
+        let first = &mut loads[rows.first[r] as usize];
+        first.force += force;
+        first.lossy += lossy;
+        if rotation {
+            first.torque += Chunk::vector(&rows.turn[0], r);
+        }
+        let second = &mut loads[rows.second[r] as usize];
+        second.force -= force;
+        second.lossy -= lossy;
+        if rotation {
+            second.torque += Chunk::vector(&rows.turn[1], r);
+        }
+    }
+}
+
+/// Walks the grain-wall candidates of a block: a wall is a body of infinite radius.
+fn walls(
+    scene: &Scene,
+    list: &List,
+    memory: &mut Memory,
+    scratch: &mut Scratch,
+    sums: &mut Sums,
+    mut visit: impl FnMut(&Rows),
+) {
+    let g = scene.grains;
+    let remembers = scene.law.width() > 0;
+    let mut cursor = 0;
+    let mut released = 0.0;
+    scratch.rows.chunk.len = 0;
+    scratch.keys.clear();
+    // Candidates of one grain on one wall are looked at together: on a mesh some touch only as the edge of another.
+    for near in list.walls.chunk_by(|a, b| (a.own, a.wall) == (b.own, b.wall)) {
+        let (own, k) = (near[0].own, near[0].wall);
+        let i = list.first + own as usize;
+        let wall = &scene.walls[k as usize];
+        let Scratch { elements, touching, .. } = scratch;
+        elements.clear();
+        elements.extend(near.iter().map(|candidate| candidate.element));
+        wall.touching(elements, g.position[i], g.radius[i] + scene.reach, touching);
+        if remembers {
+            let before = WallKey { own, wall: k, patch: 0 };
+            let opened = skip(&memory.walls.keys, &mut cursor, |key| *key < before);
+            released += memory.walls.held(opened, scene.law);
+            let old = skip(&memory.walls.keys, &mut cursor, |key| (key.own, key.wall) == (own, k));
+            match_up(wall, &memory.walls.keys, &old, touching, &mut scratch.went_on);
+            let went_on = &scratch.went_on;
+            let ended = old.filter(|c| !went_on.contains(&(*c as u32)));
+            released += ended.map(|c| memory.walls.held(c..c + 1, scene.law)).sum::<f64>();
+        }
+        let mut t = 0;
+        while t < scratch.touching.len() {
+            let wall::Touch { element, nearest, .. } = scratch.touching[t];
+            let overlap = g.radius[i] - nearest.distance;
+            let rows = &mut *scratch.rows;
+            let r = rows.chunk.len;
+            scratch.keys.push(WallKey { own, wall: k, patch: wall.key(element) });
+            scratch.old[r] = if remembers { scratch.went_on[t] } else { FRESH };
+            t += 1;
+            let normal = -nearest.normal;
+            rows.origin[r] = element;
+            rows.first[r] = own;
+            rows.second[r] = k;
+            rows.chunk.overlap[r] = overlap;
+            Chunk::set(&mut rows.chunk.normal, r, normal);
+            rows.chunk.radius[r] = g.radius[i];
+            rows.chunk.mass[r] = 1.0 / (g.inverse_mass[i] + wall.inverse_mass);
+            rows.arm[0][r] = g.radius[i] - 0.5 * overlap;
+            rows.arm[1][r] = 0.0;
+            rows.material[r] = scene.table.index(g.material[i], wall.material);
+            Chunk::set(&mut rows.relative, r, g.velocity[i] - wall.velocity_at(nearest.point));
+            Chunk::set(&mut rows.spin[0], r, g.spin[i]);
+            Chunk::set(&mut rows.spin[1], r, wall.pose.spin);
+            rows.chunk.len = r + 1;
+            if r + 1 == ROWS {
+                finish_walls(scene, memory, scratch, sums, &mut visit);
+            }
+        }
+    }
+    finish_walls(scene, memory, scratch, sums, &mut visit);
+    if remembers {
+        released += memory.walls.held(cursor..memory.walls.keys.len(), scene.law);
+        sums.lost[1] += released / scene.dt;
+    }
+}
+
+fn finish_walls(
+    scene: &Scene,
+    memory: &mut Memory,
+    scratch: &mut Scratch,
+    sums: &mut Sums,
+    visit: &mut impl FnMut(&Rows),
+) {
+    let width = scene.law.width();
+    scratch.rows.motion(scene.rotation);
+    recall(&mut scratch.rows, &scratch.old, &memory.walls.history, width);
+    apply(scene, &mut scratch.rows, sums);
+    if width > 0 {
+        memory.next_walls.keys.extend_from_slice(&scratch.keys);
+        remember(&scratch.rows, &mut memory.next_walls.history);
+    }
+    visit(&scratch.rows);
+    scratch.keys.clear();
+    scratch.rows.chunk.len = 0;
+}
+
+/// Adds the forces of a chunk of wall contacts to the grains and to the walls.
+fn react(scene: &Scene, list: &List, rows: &Rows, loads: &mut [Load], walls: &mut [WallLoad]) {
+    for r in 0..rows.chunk.rows() {
+        let own = rows.first[r] as usize;
+        let force = Chunk::vector(&rows.force, r);
+        let turn = Chunk::vector(&rows.turn[0], r);
+        let load = &mut loads[own];
+        load.force += force;
+        load.lossy += Chunk::vector(&rows.lossy, r);
+        if scene.rotation {
+            load.torque += turn;
+        }
+        let k = rows.second[r] as usize;
+        let wall = &scene.walls[k];
+        let point = scene.grains.position[list.first + own] + rows.point(r);
+        let mut torque = -(point - wall.pose.origin()).cross(force);
+        if scene.rotation {
+            torque -= Chunk::vector(&rows.chunk.torque, r);
+        }
+        walls[k].add(&WallLoad { force: -force, torque });
+    }
 }

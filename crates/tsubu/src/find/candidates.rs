@@ -1,101 +1,289 @@
 //! Pairs that are near enough to touch before the list is made again.
 //!
-//! The list holds every pair whose gap is below the skin; it is good until some grain has moved half the skin. Pairs are
-//! sorted, so that the touching ones among them are met in the same order whatever else is in the list. Above `SMALL`
-//! grains a search also sorts the grains, so there the skin decides when their order changes, and with it the last bits.
+//! Grains are kept sorted in space and cut into blocks of [`BLOCK`]. Every block has its own list: pairs whose first grain
+//! is in the block, in the order of that grain, with the second grain anywhere. Blocks depend on the grains alone, never
+//! on the number of threads: whatever is added up block by block gives the same bits on any machine.
+//!
+//! The list holds every pair whose gap is below the skin; it is good until some grain has moved half the skin. Grains of
+//! very different sizes are searched on several grids, one for each factor of two in size: a small grain looks for small
+//! ones near it and for large ones farther away, never the other way round.
 
-use super::grid::Grid;
+use super::grid::{Ends, Grid, HERE, shift};
 use crate::state::Grains;
-use crate::wall::Plane;
+use crate::wall::{Pose, Wall};
 use glam::DVec3;
+use rayon::prelude::*;
+
+/// Grains of a block.
+pub const BLOCK: usize = 512;
+
+/// Fewer grains than this are not worth waking threads for.
+pub const WORTH_THREADS: usize = 2000;
 
 /// Below this many grains all pairs are looked at: a grid would cost more than it saves, and nothing needs sorting.
 const SMALL: usize = 96;
 
-/// Candidate pairs, and where the grains were when they were found.
+/// Bits of [`Candidate::place`] that hold the place; the others hold the image.
+const PLACE: u32 = (1 << 27) - 1;
+
+/// The second grain of a pair.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate {
+    /// Its index.
+    pub grain: u32,
+    place: u32,
+}
+
+impl Candidate {
+    /// Where the block gathers forces on it: its own grains first, then those of other blocks.
+    #[inline(always)]
+    pub fn place(self) -> usize {
+        (self.place & PLACE) as usize
+    }
+
+    /// Which periodic image of it is meant.
+    #[inline(always)]
+    pub fn image(self) -> u32 {
+        self.place >> 27
+    }
+}
+
+/// A wall element near a grain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct WallCandidate {
+    /// Grain, counted from the first of the block.
+    pub own: u32,
+    /// Number of the wall.
+    pub wall: u32,
+    /// Element of the wall.
+    pub element: u32,
+}
+
+/// Where another block has gathered forces on a grain of this one.
+#[derive(Clone, Copy, Debug)]
+pub struct Incoming {
+    /// Grain, counted from the first of this block.
+    pub own: u32,
+    /// The other block.
+    pub block: u32,
+    /// Place in the other block.
+    pub place: u32,
+}
+
+/// The candidates of one block.
+#[derive(Clone, Debug, Default)]
+pub struct List {
+    /// Index of its first grain.
+    pub first: usize,
+    /// Number of its grains.
+    pub own: usize,
+    /// First pair of every own grain; one more than grains.
+    pub start: Vec<u32>,
+    /// Second grains.
+    pub pairs: Vec<Candidate>,
+    /// Grains of other blocks that appear in `pairs`, rising.
+    pub halo: Vec<u32>,
+    /// Wall elements near own grains, sorted.
+    pub walls: Vec<WallCandidate>,
+    /// What other blocks hold for own grains, by grain and then in the order of the blocks.
+    pub incoming: Vec<Incoming>,
+    near: Vec<u32>,
+}
+
+/// Candidate lists of all blocks, and where everything was when they were made.
 #[derive(Clone, Debug, Default)]
 pub struct Candidates {
-    /// Grain-grain pairs (first < second), sorted.
-    pub pairs: Vec<[u32; 2]>,
-    /// Grain-plane pairs, sorted.
-    pub walls: Vec<[u32; 2]>,
+    /// One list a block.
+    pub lists: Vec<List>,
     /// Positions at the time of the search.
     pub reference: Vec<DVec3>,
-    /// Displacements of the planes at the time of the search.
-    pub plane_reference: Vec<DVec3>,
-    grid: Grid,
+    /// Poses of the walls at the time of the search.
+    pub wall_reference: Vec<Pose>,
+    /// Shift of every image [m].
+    pub shifts: Vec<DVec3>,
+    levels: Vec<Grid>,
+    level_of: Vec<u8>,
+    largest: Vec<f64>,
+    order: Grid,
+}
+
+/// How the search is made.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Search {
+    /// Gap below which a pair is a candidate, less the law's reach [m].
+    pub skin: f64,
+    /// Gap at which bodies may still hold each other [m].
+    pub reach: f64,
+    /// Periodic axes.
+    pub ends: Ends,
 }
 
 impl Candidates {
-    /// Whether the list may miss a touching pair.
-    pub fn stale(&self, grains: &Grains, planes: &[Plane], skin: f64) -> bool {
-        let mut farthest: f64 = 0.0;
-        let mut sum = 0.0;
-        for (p, r) in grains.position.iter().zip(&self.reference) {
-            let d = (*p - *r).length_squared();
-            farthest = farthest.max(d);
-            sum += d;
+    /// Whether the list may miss a touching pair, when the farthest grain has moved by `farthest` [m].
+    pub fn stale(&self, grains: &Grains, walls: &[Wall], skin: f64, farthest: f64) -> bool {
+        let moved = walls.iter().zip(&self.wall_reference).map(|(w, r)| w.travel_bound(r, f64::INFINITY)).fold(0.0, f64::max);
+        // Written so that a coordinate which is no longer a number makes the list stale.
+        self.reference.len() != grains.len() || !(2.0 * farthest <= skin && farthest + moved <= skin)
+    }
+
+    /// Puts grains back between the periodic ends and sorts them by cell. Without effect on a small run.
+    pub fn sort(&mut self, grains: &mut Grains, search: &Search) {
+        for (axis, end) in search.ends.iter().enumerate() {
+            let Some([low, high]) = *end else { continue };
+            for i in 0..grains.len() {
+                let x = grains.position[i][axis];
+                let periods = ((x - low) / (high - low)).floor();
+                if periods != 0.0 {
+                    grains.position[i][axis] = x - periods * (high - low);
+                    grains.wrapped[i][axis] += periods * (high - low);
+                }
+            }
         }
-        let farthest = farthest.sqrt();
-        let planes_moved = planes
-            .iter()
-            .zip(&self.plane_reference)
-            .map(|(plane, r)| (plane.displacement - *r).dot(plane.normal).abs())
-            .fold(0.0, f64::max);
-        // The sum catches what max() hides: a coordinate that is no longer a number.
-        self.reference.len() != grains.len()
-            || !sum.is_finite()
-            || 2.0 * farthest > skin
-            || farthest + planes_moved > skin
+        if grains.len() <= SMALL {
+            return;
+        }
+        let mean = grains.radius.iter().sum::<f64>() / grains.len() as f64;
+        self.order.fill(&grains.position, 0..grains.len() as u32, 2.0 * mean + search.skin, &search.ends);
+        grains.permute(self.order.order());
     }
 
-    /// Whether grains should be put in the order of their cells before the search.
-    pub fn sorts(grains: &Grains) -> bool {
-        grains.len() > SMALL
-    }
-
-    /// The order of cells for the present positions.
-    pub fn order(&mut self, grains: &Grains, reach: f64) -> &[u32] {
-        self.grid.fill(&grains.position, reach);
-        self.grid.order()
-    }
-
-    /// Makes the list for the present positions; `reach` is the largest diameter plus the skin.
-    pub fn search(&mut self, grains: &Grains, planes: &[Plane], skin: f64, reach: f64) {
+    /// Makes the lists for the present positions.
+    pub fn search(&mut self, grains: &Grains, walls: &[Wall], search: &Search) {
         self.reference.clone_from(&grains.position);
-        self.plane_reference = planes.iter().map(|p| p.displacement).collect();
-        self.list(grains, planes, skin, reach);
+        self.wall_reference.clear();
+        self.wall_reference.extend(walls.iter().map(|w| w.pose));
+        self.list(grains, walls, search);
     }
 
-    /// Makes the list again as it was made at the remembered positions: after a resume nothing may differ.
-    pub fn list(&mut self, grains: &Grains, planes: &[Plane], skin: f64, reach: f64) {
-        let Self { pairs, walls, reference, plane_reference, grid } = self;
-        let position = &*reference;
-        pairs.clear();
-        let mut meet = |a: u32, b: u32| {
-            let limit = grains.radius[a as usize] + grains.radius[b as usize] + skin;
-            if position[a as usize].distance_squared(position[b as usize]) < limit * limit {
-                pairs.push([a.min(b), a.max(b)]);
-            }
-        };
-        if grains.len() > SMALL {
-            grid.fill(position, reach);
-            grid.pairs(meet);
-            pairs.sort_unstable();
-        } else {
-            for a in 0..grains.len() as u32 {
-                for b in a + 1..grains.len() as u32 {
-                    meet(a, b);
+    /// Makes the lists as they were made at the remembered positions: after a resume nothing may differ. `walls` stand
+    /// where they stood then.
+    pub fn list(&mut self, grains: &Grains, walls: &[Wall], search: &Search) {
+        let n = grains.len();
+        if self.shifts.is_empty() {
+            self.shifts = (0..27).map(|image| shift(&search.ends, image)).collect();
+        }
+        let small = n <= SMALL && search.ends.iter().all(Option::is_none);
+        if !small {
+            self.fill_levels(grains, search);
+        }
+        self.lists.resize_with(n.div_ceil(BLOCK), List::default);
+        let mut lists = std::mem::take(&mut self.lists);
+        let make = |(block, list): (usize, &mut List)| {
+            list.first = block * BLOCK;
+            list.own = BLOCK.min(n - list.first);
+            list.clear();
+            for own in 0..list.own {
+                let i = list.first + own;
+                let begin = list.pairs.len();
+                if small {
+                    (i + 1..n).for_each(|j| self.meet(list, grains, search, i, j, HERE));
+                } else {
+                    self.neighbours(list, grains, search, i);
                 }
+                list.pairs[begin..].sort_unstable_by_key(|c| (c.grain, c.place));
+                list.start.push(list.pairs.len() as u32);
+                list.near_walls(walls, own as u32, self.reference[i], grains.radius[i] + search.skin + search.reach);
+            }
+            list.place();
+        };
+        if n >= WORTH_THREADS && rayon::current_num_threads() > 1 {
+            lists.par_iter_mut().enumerate().for_each(make);
+        } else {
+            lists.iter_mut().enumerate().for_each(make);
+        }
+        for block in 0..lists.len() {
+            for h in 0..lists[block].halo.len() {
+                let grain = lists[block].halo[h] as usize;
+                let place = (lists[block].own + h) as u32;
+                let incoming = Incoming { own: (grain % BLOCK) as u32, block: block as u32, place };
+                lists[grain / BLOCK].incoming.push(incoming);
             }
         }
-        walls.clear();
-        for (i, p) in position.iter().enumerate() {
-            for (k, (plane, displacement)) in planes.iter().zip(&*plane_reference).enumerate() {
-                if (*p - plane.point - *displacement).dot(plane.normal) < grains.radius[i] + skin {
-                    walls.push([i as u32, k as u32]);
+        for list in &mut lists {
+            // Stable: what several blocks hold for a grain stays in the order of the blocks.
+            list.incoming.sort_by_key(|i| i.own);
+        }
+        self.lists = lists;
+    }
+
+    /// Sorts grains into one grid for each factor of two in size.
+    fn fill_levels(&mut self, grains: &Grains, search: &Search) {
+        let smallest = grains.radius.iter().copied().fold(f64::INFINITY, f64::min);
+        self.level_of.clear();
+        // Up to a factor of two and a half in size one grid is the faster.
+        self.level_of.extend(grains.radius.iter().map(|r| (r / (1.25 * smallest)).log2().floor().max(0.0) as u8));
+        let count = self.level_of.iter().copied().max().map_or(0, |l| usize::from(l) + 1);
+        self.levels.resize_with(count, Grid::default);
+        self.largest.clear();
+        self.largest.resize(count, 0.0);
+        for (r, level) in grains.radius.iter().zip(&self.level_of) {
+            let largest = &mut self.largest[usize::from(*level)];
+            *largest = largest.max(*r);
+        }
+        for (level, grid) in self.levels.iter_mut().enumerate() {
+            let members = (0..grains.len() as u32).filter(|&i| usize::from(self.level_of[i as usize]) == level);
+            let size = 2.0 * self.largest[level] + search.skin + search.reach;
+            grid.fill(&self.reference, members, size, &search.ends);
+        }
+    }
+
+    #[inline]
+    fn neighbours(&self, list: &mut List, grains: &Grains, search: &Search, i: usize) {
+        let level = usize::from(self.level_of[i]);
+        for (higher, grid) in self.levels.iter().enumerate().skip(level) {
+            grid.around(self.reference[i], |j, image| {
+                if higher > level || j as usize > i {
+                    self.meet(list, grains, search, i, j as usize, image);
                 }
-            }
+            });
+        }
+    }
+
+    #[inline(always)]
+    fn meet(&self, list: &mut List, grains: &Grains, search: &Search, i: usize, j: usize, image: u32) {
+        let mut between = self.reference[j] - self.reference[i];
+        if image != HERE {
+            between += self.shifts[image as usize];
+        }
+        let limit = grains.radius[i] + grains.radius[j] + search.skin + search.reach;
+        // Two grains that nothing moves need not be watched.
+        if between.length_squared() < limit * limit && grains.inverse_mass[i] + grains.inverse_mass[j] > 0.0 {
+            list.pairs.push(Candidate { grain: j as u32, place: image << 27 });
+        }
+    }
+}
+
+impl List {
+    fn clear(&mut self) {
+        self.pairs.clear();
+        self.walls.clear();
+        self.halo.clear();
+        self.incoming.clear();
+        self.start.clear();
+        self.start.push(0);
+    }
+
+    fn near_walls(&mut self, walls: &[Wall], own: u32, centre: DVec3, reach: f64) {
+        for (k, wall) in walls.iter().enumerate() {
+            self.near.clear();
+            wall.near(centre, reach, &mut self.near);
+            self.walls.extend(self.near.iter().map(|&element| WallCandidate { own, wall: k as u32, element }));
+        }
+    }
+
+    /// Gives every second grain its place in the block.
+    fn place(&mut self) {
+        let inside = self.first as u32..(self.first + self.own) as u32;
+        self.halo.extend(self.pairs.iter().map(|c| c.grain).filter(|j| !inside.contains(j)));
+        self.halo.sort_unstable();
+        self.halo.dedup();
+        for c in &mut self.pairs {
+            let place = if inside.contains(&c.grain) {
+                c.grain - inside.start
+            } else {
+                self.own as u32 + self.halo.partition_point(|&h| h < c.grain) as u32
+            };
+            c.place |= place;
         }
     }
 }

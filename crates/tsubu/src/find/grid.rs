@@ -2,123 +2,145 @@
 
 use glam::DVec3;
 
-/// Grain indices sorted by cell.
+/// Ends of the periodic axes: `None` where the world goes on.
+pub type Ends = [Option<[f64; 2]>; 3];
+
+/// Cells of a super-cell along each axis. Cells are numbered super-cell by super-cell, so that grains sorted by cell lie
+/// in lumps rather than in rows: a lump of grains has few neighbours outside.
+const LUMP: usize = 4;
+
+/// The image of a grain that is not across a periodic end.
+pub const HERE: u32 = 13;
+
+/// Shift of an image: image = 9 (z + 1) + 3 (y + 1) + (x + 1) with x, y, z in -1, 0, 1 counting periods.
+pub fn shift(ends: &Ends, image: u32) -> DVec3 {
+    let times = [image % 3, image / 3 % 3, image / 9].map(|k| f64::from(k) - 1.0);
+    let period = ends.map(|e| e.map_or(0.0, |[low, high]| high - low));
+    DVec3::new(times[0] * period[0], times[1] * period[1], times[2] * period[2])
+}
+
+/// Indices sorted by cell.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
-    origin: DVec3,
-    inverse_size: f64,
+    origin: [f64; 3],
+    /// Cells per metre along each axis.
+    density: [f64; 3],
     /// Cells along x, y, z.
     extent: [usize; 3],
+    /// Super-cells along x and y.
+    lumps: [usize; 2],
+    wraps: [bool; 3],
     /// First entry of each cell in `members`; one more than cells.
     start: Vec<u32>,
     members: Vec<u32>,
     cell_of: Vec<u32>,
+    next: Vec<u32>,
 }
 
-/// Half of the 26 neighbours of a cell: with the cell itself, every pair of cells is met once.
-const FORWARD: [[i64; 3]; 13] = [
-    [1, 0, 0],
-    [-1, 1, 0],
-    [0, 1, 0],
-    [1, 1, 0],
-    [-1, -1, 1],
-    [0, -1, 1],
-    [1, -1, 1],
-    [-1, 0, 1],
-    [0, 0, 1],
-    [1, 0, 1],
-    [-1, 1, 1],
-    [0, 1, 1],
-    [1, 1, 1],
-];
-
 impl Grid {
-    /// Sorts positions into cells of at least `size` [m]; no more cells than about four a grain, however far they fly.
-    pub fn fill(&mut self, positions: &[DVec3], size: f64) {
-        let (low, high) =
-            positions.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), p| (l.min(*p), h.max(*p)));
-        let limit = (4 * positions.len()).max(64);
-        let mut size = size;
-        loop {
-            let cells = ((high - low) / size).floor();
-            self.extent = [cells.x, cells.y, cells.z].map(|c| c as usize + 1);
-            if self.extent.iter().try_fold(1usize, |a, &b| a.checked_mul(b)).is_some_and(|n| n <= limit) {
-                break;
-            }
-            size *= 1.5;
+    /// Sorts the positions of `members` into cells of at least `size` [m]; no more cells than about four a member,
+    /// however far they fly. Members keep their order within a cell.
+    pub fn fill(&mut self, positions: &[DVec3], members: impl Iterator<Item = u32> + Clone, size: f64, ends: &Ends) {
+        let (mut low, mut high, mut count) = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0usize);
+        for i in members.clone() {
+            let p = positions[i as usize];
+            (low, high, count) = (low.min(p), high.max(p), count + 1);
         }
-        self.origin = low;
-        self.inverse_size = 1.0 / size;
-        let cells = self.extent.iter().product::<usize>();
+        self.shape(low.to_array(), high.to_array(), count, size, ends);
+        let [nx, ny, nz] = self.extent.map(|n| n.div_ceil(LUMP));
+        self.lumps = [nx, ny];
+        let cells = nx * ny * nz * LUMP * LUMP * LUMP;
         self.start.clear();
         self.start.resize(cells + 1, 0);
         self.cell_of.clear();
-        for p in positions {
-            let cell = self.cell(*p);
+        for i in members.clone() {
+            let cell = self.number(self.place(positions[i as usize]));
             self.cell_of.push(cell as u32);
             self.start[cell + 1] += 1;
         }
         for i in 0..cells {
             self.start[i + 1] += self.start[i];
         }
-        self.members.resize(positions.len(), 0);
-        let mut next = self.start.clone();
-        for (i, &cell) in self.cell_of.iter().enumerate() {
-            self.members[next[cell as usize] as usize] = i as u32;
-            next[cell as usize] += 1;
+        self.members.resize(count, 0);
+        self.next.clone_from(&self.start);
+        for (i, &cell) in members.zip(&self.cell_of) {
+            let next = &mut self.next[cell as usize];
+            self.members[*next as usize] = i;
+            *next += 1;
         }
     }
 
-    /// Grain indices in the order of their cells.
+    fn shape(&mut self, low: [f64; 3], high: [f64; 3], count: usize, size: f64, ends: &Ends) {
+        let limit = (4 * count).max(64);
+        let mut size = size;
+        loop {
+            for axis in 0..3 {
+                let (from, length) = match ends[axis] {
+                    Some([low, high]) => (low, high - low),
+                    None => (low[axis], high[axis] - low[axis]),
+                };
+                let cells = (length / size).floor().max(0.0);
+                self.wraps[axis] = ends[axis].is_some();
+                // A periodic axis is cut into whole cells; elsewhere the last cell may reach beyond the last grain.
+                let whole = if self.wraps[axis] { cells.max(1.0) } else { cells + 1.0 };
+                self.extent[axis] = whole as usize;
+                self.origin[axis] = from;
+                self.density[axis] = if self.wraps[axis] { whole / length } else { 1.0 / size };
+            }
+            if self.extent.iter().try_fold(1usize, |a, &b| a.checked_mul(b)).is_some_and(|n| n <= limit) {
+                return;
+            }
+            size *= 1.26;
+        }
+    }
+
+    /// Members in the order of their cells.
     pub fn order(&self) -> &[u32] {
         &self.members
     }
 
-    /// Calls `meet(a, b)` once for every pair of grains in the same or in neighbouring cells.
-    pub fn pairs(&self, mut meet: impl FnMut(u32, u32)) {
-        let [nx, ny, nz] = self.extent;
-        for cell in 0..nx * ny * nz {
-            let members = self.cell_members(cell);
-            if members.is_empty() {
-                continue;
-            }
-            for (k, &a) in members.iter().enumerate() {
-                for &b in &members[k + 1..] {
-                    meet(a, b);
-                }
-            }
-            let at = [cell % nx, cell / nx % ny, cell / (nx * ny)];
-            for step in FORWARD {
-                let Some(other) = self.neighbour(at, step) else { continue };
-                for &b in self.cell_members(other) {
-                    for &a in members {
-                        meet(a, b);
+    /// Calls `meet(member, image)` for every member in the cell of `p` and in its neighbours; `image` is where the member
+    /// is met (see [`shift`]).
+    #[inline(always)]
+    pub fn around(&self, p: DVec3, mut meet: impl FnMut(u32, u32)) {
+        if self.members.is_empty() {
+            return;
+        }
+        let at = self.place(p);
+        let [rx, ry, rz]: [_; 3] = std::array::from_fn(|axis| self.neighbours(axis, at[axis]));
+        for (z, iz) in rz.into_iter().flatten() {
+            for (y, iy) in ry.into_iter().flatten() {
+                for (x, ix) in rx.into_iter().flatten() {
+                    let cell = self.number([x, y, z]);
+                    for &member in &self.members[self.start[cell] as usize..self.start[cell + 1] as usize] {
+                        meet(member, 9 * iz + 3 * iy + ix);
                     }
                 }
             }
         }
     }
 
-    fn neighbour(&self, at: [usize; 3], step: [i64; 3]) -> Option<usize> {
-        let mut index = 0;
-        for axis in [2, 1, 0] {
-            let place = at[axis] as i64 + step[axis];
-            if place < 0 || place >= self.extent[axis] as i64 {
-                return None;
-            }
-            index = index * self.extent[axis] + place as usize;
-        }
-        Some(index)
+    /// The cells before, at and after `k` along an axis, each with the image it is met in.
+    fn neighbours(&self, axis: usize, k: usize) -> [Option<(usize, u32)>; 3] {
+        let n = self.extent[axis];
+        let wrap = self.wraps[axis];
+        let before = if k > 0 { Some((k - 1, 1)) } else { wrap.then_some((n - 1, 0)) };
+        let after = if k + 1 < n { Some((k + 1, 1)) } else { wrap.then_some((0, 2)) };
+        [before, Some((k, 1)), after]
     }
 
-    fn cell_members(&self, cell: usize) -> &[u32] {
-        &self.members[self.start[cell] as usize..self.start[cell + 1] as usize]
+    fn place(&self, p: DVec3) -> [usize; 3] {
+        let p = p.to_array();
+        std::array::from_fn(|axis| {
+            let k = ((p[axis] - self.origin[axis]) * self.density[axis]).max(0.0) as usize;
+            k.min(self.extent[axis] - 1)
+        })
     }
 
-    fn cell(&self, p: DVec3) -> usize {
-        let q = (p - self.origin) * self.inverse_size;
-        let [x, y, z] = [q.x, q.y, q.z].map(|c| c.max(0.0) as usize);
-        let [nx, ny, nz] = self.extent;
-        (z.min(nz - 1) * ny + y.min(ny - 1)) * nx + x.min(nx - 1)
+    #[inline(always)]
+    fn number(&self, [x, y, z]: [usize; 3]) -> usize {
+        let [nx, ny] = self.lumps;
+        let lump = ((z / LUMP) * ny + y / LUMP) * nx + x / LUMP;
+        ((lump * LUMP + z % LUMP) * LUMP + y % LUMP) * LUMP + x % LUMP
     }
 }

@@ -1,6 +1,6 @@
-//! Who may touch whom.
+//! Who is near whom.
 
 pub mod candidates;
 pub mod grid;
 
-pub use candidates::Candidates;
+pub use candidates::{Candidates, Search};

@@ -78,6 +78,8 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         material_pair: _,
         particles: _,
         walls: _,
+        periodic,
+        removal,
         hosts,
         contact,
         dem: _,
@@ -96,6 +98,12 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
             "gravity",
             "the lattice has gravity along -z or none; set `gravity = [0, -9.8]`, or turn the scene",
         );
+    }
+    if *periodic != plan::Periodic::default() {
+        remarks.refuse("periodic", "the automaton's balls live in a closed box; use `method = \"dem\"`");
+    }
+    if !removal.is_empty() {
+        remarks.refuse("removal", "the automaton keeps its balls; use `method = \"dem\"`");
     }
     let casing = casing(plan, &mut remarks);
     let kind = kind(plan, &mut remarks);
@@ -146,7 +154,15 @@ fn casing<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Option<Casing<'a>> {
         return None;
     }
     let (name, wall) = plan.walls.iter().next()?;
-    let plan::Wall { material, shape, host, motion } = wall;
+    let plan::Wall { material, shape, host, motion, rotation, servo, body } = wall;
+    for (key, there) in [("rotation", rotation.is_some()), ("servo", servo.is_some()), ("body", body.is_some())] {
+        if there {
+            remarks.refuse(
+                format!("walls.{name}.{key}"),
+                "the automaton's box is moved up and down by `motion` or by a host; use `method = \"dem\"`",
+            );
+        }
+    }
     match shape {
         Shape::Box { width, height, depth: _, floor_centre } => Some(Casing {
             name,
@@ -157,9 +173,16 @@ fn casing<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Option<Casing<'a>> {
             host: host.as_deref(),
             motion: motion.as_ref(),
         }),
-        Shape::Plane { .. } => {
+        other => {
+            let kind = match other {
+                Shape::Plane { .. } => "plane",
+                Shape::Cylinder { .. } => "cylinder",
+                Shape::Cone { .. } => "cone",
+                Shape::Sphere { .. } => "sphere",
+                Shape::Box { .. } | Shape::Mesh { .. } => "mesh",
+            };
             remarks.refuse(
-                format!("walls.{name}.shape.plane"),
+                format!("walls.{name}.shape.{kind}"),
                 "the automaton's balls live in a closed box; use `shape.box`, or `method = \"dem\"`",
             );
             None
@@ -177,6 +200,9 @@ fn kind<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Option<Kind<'a>> {
         return Some(Kind { material: &wall.material, diameter: width / 10.0, mass: 0.0, count: 0 });
     };
     let mut count = first.count;
+    for (name, group) in &plan.particles {
+        refuse_group(name, group, remarks);
+    }
     for (name, group) in groups {
         for (key, value, common) in [("diameter", group.diameter, first.diameter), ("mass", group.mass, first.mass)] {
             if value != common {
@@ -199,9 +225,24 @@ fn kind<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Option<Kind<'a>> {
     Some(Kind { material: &first.material, diameter: first.diameter, mass: first.mass, count })
 }
 
+/// What a group may say that cells cannot follow.
+fn refuse_group(name: &str, group: &plan::Particles, remarks: &mut Remarks) {
+    let plan::Particles { material: _, count: _, diameter: _, mass: _, shape: _, size, start: _, motion } = group;
+    if !matches!(size, plan::Size::Equal {}) {
+        remarks.refuse(format!("particles.{name}.size"), "all balls of the automaton are equal");
+    }
+    if !matches!(motion, plan::GrainMotion::Free {}) {
+        remarks.refuse(format!("particles.{name}.motion"), "all balls of the automaton are free");
+    }
+}
+
 /// What of the contact law the automaton leaves out.
 fn remark_contact(contact: &plan::Contact, plan: &Plan, remarks: &mut Remarks) {
-    let plan::Contact { normal: _, damping: _, attraction: _, tangential, rolling, rotation } = contact;
+    let plan::Contact { normal: _, damping: _, attraction: _, tangential, rolling, twisting: _, cohesion, rotation } =
+        contact;
+    if !matches!(cohesion, plan::Cohesion::None {}) {
+        remarks.approximate("contact.cohesion", "the automaton knows no cohesion");
+    }
     if !matches!(tangential, Tangential::None {}) && plan.materials.values().any(|m| m.friction > 0.0) {
         remarks.approximate("contact.tangential", "the automaton knows no friction: balls slide freely");
     }
@@ -239,6 +280,12 @@ fn check_carrier(
                 ),
             );
         }
+    }
+    if casing.motion.is_some_and(|m| matches!(m.signal, Signal::Steady { .. })) {
+        remarks.refuse(
+            format!("walls.{name}.motion.signal.steady"),
+            "the automaton's box cannot travel for ever; use `signal.table`, or `method = \"dem\"`",
+        );
     }
     if casing.motion.is_some_and(|m| !vertical(&m.direction)) {
         remarks.refuse(
@@ -282,6 +329,8 @@ fn largest(signal: &Signal) -> f64 {
     match signal {
         Signal::Sine { amplitude, .. } | Signal::SineSweep { amplitude, .. } => amplitude.abs(),
         Signal::Impact { peak, .. } => peak.abs(),
+        // Refused where the box is looked at: no room is enough.
+        Signal::Steady { .. } => 0.0,
         Signal::Table { value, .. } => value.iter().fold(0.0, |most, v| v.abs().max(most)),
     }
 }
@@ -352,6 +401,6 @@ fn restitution(plan: &Plan, a: &str, b: &str) -> f64 {
 pub(super) fn count_of(group: &plan::Particles) -> usize {
     match &group.start {
         Start::At { position, .. } => position.len(),
-        Start::Settled { .. } | Start::Rows { .. } => group.count,
+        _ => group.count,
     }
 }

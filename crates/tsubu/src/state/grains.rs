@@ -5,7 +5,8 @@ use crate::ledger::Stocks;
 use glam::DVec3;
 
 columns! {
-    /// Spheres, one row each. In the plane the y parts of vectors, and the x and z parts of spins, are exact zeros.
+    /// Grains, one row each, kept in the order of space. In the plane the y parts of vectors, and the x and z parts of
+    /// spins, are exact zeros.
     Grains of Grain {
         /// Centre [m].
         position: DVec3,
@@ -17,14 +18,20 @@ columns! {
         spin: DVec3,
         /// Rate of spin at the last time level [rad/s^2].
         spin_rate: DVec3,
+        /// What periodic boundaries have taken from the position so far [m].
+        wrapped: DVec3,
         /// Radius [m].
         radius: f64,
         /// Mass [kg].
         mass: f64,
+        /// One over the mass that others feel [1/kg]; 0 for grains that forces do not move.
+        inverse_mass: f64,
         /// Moment of inertia [kg.m^2].
         inertia: f64,
-        /// Index into the contact table: grains of one kind share material, radius and mass.
-        species: u32,
+        /// Number of the material in the contact table.
+        material: u32,
+        /// Number of the group in the scene.
+        group: u32,
         /// Number of the grain, kept through sorting.
         id: u32,
     }
@@ -41,20 +48,29 @@ impl Grains {
         self.id.is_empty()
     }
 
-    /// Kinetic, rotational and potential energy under `gravity` [m/s^2].
+    /// Kinetic, rotational and potential energy under `gravity` [m/s^2] of the grains that forces move.
     pub fn stocks(&self, gravity: DVec3) -> Stocks {
         let mut stocks = Stocks::default();
         for i in 0..self.len() {
+            if self.inverse_mass[i] == 0.0 {
+                continue;
+            }
             stocks.kinetic += 0.5 * self.mass[i] * self.velocity[i].length_squared();
             stocks.rotational += 0.5 * self.inertia[i] * self.spin[i].length_squared();
-            stocks.potential -= self.mass[i] * gravity.dot(self.position[i]);
+            stocks.potential -= self.mass[i] * gravity.dot(self.position[i] + self.wrapped[i]);
         }
         stocks
     }
 
-    /// Total momentum [N.s].
+    /// Total momentum of the grains that forces move [N.s].
     pub fn momentum(&self) -> DVec3 {
-        (0..self.len()).map(|i| self.mass[i] * self.velocity[i]).sum()
+        let moved = (0..self.len()).filter(|&i| self.inverse_mass[i] != 0.0);
+        moved.map(|i| self.mass[i] * self.velocity[i]).sum()
+    }
+
+    /// Total mass of the grains that forces move [kg].
+    pub fn moved_mass(&self) -> f64 {
+        (0..self.len()).filter(|&i| self.inverse_mass[i] != 0.0).map(|i| self.mass[i]).sum()
     }
 
     /// Place of every grain by id.

@@ -17,6 +17,9 @@ pub fn plan(count: usize, mode: LatticeMode) -> Plan {
         restitution: 0.75,
         friction: 0.5,
         rolling_friction: 0.0,
+        twisting_friction: 0.0,
+        surface_energy: 0.0,
+        cohesion: 0.0,
         density: None,
     };
     let balls = Particles {
@@ -24,6 +27,9 @@ pub fn plan(count: usize, mode: LatticeMode) -> Plan {
         count,
         diameter: 6e-3,
         mass: 0.2e-3,
+        shape: GrainShape::Sphere {},
+        size: Size::Equal {},
+        motion: GrainMotion::Free {},
         start: Start::Settled { time: 1.0 },
     };
     let casing = Wall {
@@ -31,6 +37,9 @@ pub fn plan(count: usize, mode: LatticeMode) -> Plan {
         shape: Shape::Box { width: 60e-3, height: 96e-3, depth: 6e-3, floor_centre: [0.0; 3] },
         host: None,
         motion: None,
+        rotation: None,
+        servo: None,
+        body: None,
     };
     Plan {
         title: "damper".into(),
@@ -44,6 +53,8 @@ pub fn plan(count: usize, mode: LatticeMode) -> Plan {
         material_pair: Vec::new(),
         particles: if count > 0 { BTreeMap::from([("balls".into(), balls)]) } else { BTreeMap::new() },
         walls: BTreeMap::from([("casing".into(), casing)]),
+        periodic: Periodic::default(),
+        removal: BTreeMap::new(),
         hosts: BTreeMap::new(),
         contact: Contact {
             normal: Normal::Hertz {},
@@ -51,6 +62,8 @@ pub fn plan(count: usize, mode: LatticeMode) -> Plan {
             attraction: false,
             tangential: Tangential::Coulomb { smoothing_speed: 1e-3 },
             rolling: Rolling::None {},
+            twisting: Twisting::None {},
+            cohesion: Cohesion::None {},
             rotation: false,
         },
         dem: Dem {

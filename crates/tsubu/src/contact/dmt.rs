@@ -1,0 +1,48 @@
+//! Attraction of stiff, small spheres: Derjaguin, Muller, Toporov.
+
+use super::chunk::Chunk;
+use super::part::{About, Part, Stage};
+use multiversion::multiversion;
+use std::f64::consts::PI;
+
+const ABOUT: About = About {
+    name: "dmt",
+    models: "adhesion of stiff spheres: Hertz's contact under a constant pull; the bodies part at the end of the overlap",
+    formula: "f_n = f_Hertz - F_c, F_c = 4 pi gamma R*; friction sees f_n + 2 F_c; stored less F_c d",
+    symbols: "gamma surface energy of one face [J/m^2] (work of adhesion 2 gamma), R* reduced radius [m], d overlap [m]",
+    limits: "no attraction before touch and after parting; for R* gamma^2 / (E*^2 z^3) well below 1, z the range of the forces",
+    reference: "Derjaguin, Muller, Toporov 1975; friction as Thornton 1991",
+};
+
+/// A constant attraction [N] while the bodies touch.
+#[inline(always)]
+pub(super) fn pull(chunk: &mut Chunk, held: f64, force: impl Fn(&Chunk, usize) -> f64) {
+    for i in 0..chunk.rows() {
+        let force = if chunk.disc[i] > 0.0 { force(chunk, i) } else { 0.0 };
+        chunk.normal_force[i] -= force;
+        chunk.stored[i] -= force * chunk.overlap[i];
+        chunk.pull_off[i] = held * force;
+    }
+}
+
+#[derive(Debug)]
+pub(super) struct Dmt;
+
+impl Part for Dmt {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn stage(&self) -> Stage {
+        Stage::Cohesion
+    }
+
+    fn apply(&self, chunk: &mut Chunk, _at: usize, _dt: f64) {
+        rows(chunk);
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn rows(chunk: &mut Chunk) {
+    pull(chunk, 2.0, |c, i| 4.0 * PI * c.surface_energy[i] * c.radius[i]);
+}

@@ -1,0 +1,78 @@
+//! Rolling resistance as an elastic-plastic spring with a dashpot (EPSD), and its variant EPSD2.
+
+use super::chunk::Chunk;
+use super::part::{About, Needs, Part, Slot, Stage};
+use super::slider::{self, Strength, roll};
+use multiversion::multiversion;
+
+const EPSD: About = About {
+    name: "epsd",
+    models: "rolling resistance that holds a grain at rest: a spring on the angle of rolling that gives way at a torque",
+    formula: "dM = -k_r w dt, |M| <= mu_r R* f_n, k_r = ratio k_n (mu_r R*)^2; dashpot 2 z sqrt(I k_r), I = 7/5 m* R*^2",
+    symbols: "w relative spin without its normal part [rad/s], k_n = f/d [N/m], mu_r, z, ratio [-], R* [m], m* [kg]",
+    limits: "k_n is the secant stiffness under Hertz; I is right for a ball on a wall, a quarter of that of two equal balls",
+    reference: "model C of Ai, Chen, Rotter, Ooi 2011; Iwashita and Oda 1998",
+};
+
+const EPSD2: About = About {
+    name: "epsd2",
+    models: "the same without a dashpot, as stiff in rolling as the contact is in shear",
+    formula: "dM = -k_r w dt, |M| <= mu_r R* f_n, k_r = k_t R*^2",
+    symbols: "w relative spin without its normal part [rad/s], k_t tangential stiffness [N/m], mu_r [-], R* [m]",
+    limits: "needs a tangential law with a stiffness; nothing but friction elsewhere ends a swing within the limit",
+    reference: "Iwashita and Oda 1998; the model epsd2 of LIGGGHTS",
+};
+
+#[derive(Debug)]
+pub(super) struct Epsd {
+    /// k_r over k_n (mu_r R*)^2, and the damping ratio of the rolling spring [-]; `None`: EPSD2.
+    pub told: Option<[f64; 2]>,
+}
+
+impl Part for Epsd {
+    fn about(&self) -> &'static About {
+        if self.told.is_some() { &EPSD } else { &EPSD2 }
+    }
+
+    fn stage(&self) -> Stage {
+        Stage::Rolling
+    }
+
+    fn needs(&self) -> Needs {
+        Needs { roll: true, twist: false }
+    }
+
+    fn history(&self) -> &'static [Slot] {
+        slider::SPRING
+    }
+
+    fn apply(&self, chunk: &mut Chunk, at: usize, dt: f64) {
+        match self.told {
+            Some([ratio, damping]) => epsd(chunk, at, dt, ratio, damping),
+            None => epsd2(chunk, at, dt),
+        }
+    }
+
+    fn held(&self, history: &[f64]) -> f64 {
+        slider::held(history)
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn epsd(chunk: &mut Chunk, at: usize, dt: f64, ratio: f64, damping: f64) {
+    roll(chunk, at, dt, |c, i| {
+        let arm = c.rolling[i] * c.radius[i];
+        let stiffness = ratio * c.secant[i] * (arm * arm);
+        let inertia = 3.5 * slider::inertia(c, i);
+        let dashpot = 2.0 * damping * (inertia * stiffness).sqrt();
+        Strength { stiffness, dashpot, cap: arm * c.load[i], growth: 1.0 }
+    });
+}
+
+#[multiversion(targets = "simd")]
+fn epsd2(chunk: &mut Chunk, at: usize, dt: f64) {
+    roll(chunk, at, dt, |c, i| {
+        let stiffness = c.shear[i] * (c.radius[i] * c.radius[i]);
+        Strength { stiffness, dashpot: 0.0, cap: c.rolling[i] * c.radius[i] * c.load[i], growth: 1.0 }
+    });
+}

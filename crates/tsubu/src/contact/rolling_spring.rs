@@ -1,0 +1,63 @@
+//! Rolling resistance as spring, dashpot and slider on the rolling displacement.
+
+use super::chunk::Chunk;
+use super::part::{About, Needs, Part, Slot, Stage};
+use super::slider::{self, Strength, roll};
+use multiversion::multiversion;
+
+const ABOUT: About = About {
+    name: "spring",
+    models: "rolling resistance by a pseudo-force on the rolling displacement, which acts as a torque only",
+    formula: "F = -(k x + c v), |F| <= mu_r f_n; v = -R* (w_1 - w_2) x n, x its integral; torque on the first -R* n x F",
+    symbols: "v rolling velocity [m/s], x [m], k [N/m], c [N.s/m], mu_r [-], n normal from the first to the second body",
+    limits: "where it slides the spring stays at the limit (LAMMPS shifts it by c v, which can load it without work)",
+    reference: "Luding 2008; Wang et al. 2015; the rolling model `sds` of LAMMPS",
+};
+
+#[derive(Debug)]
+pub(super) struct RollingSpring {
+    /// k [N/m].
+    pub stiffness: f64,
+    /// c [N.s/m].
+    pub damping: f64,
+}
+
+impl Part for RollingSpring {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn stage(&self) -> Stage {
+        Stage::Rolling
+    }
+
+    fn needs(&self) -> Needs {
+        Needs { roll: true, twist: false }
+    }
+
+    fn history(&self) -> &'static [Slot] {
+        slider::SPRING
+    }
+
+    fn apply(&self, chunk: &mut Chunk, at: usize, dt: f64) {
+        rows(chunk, at, dt, self.stiffness, self.damping);
+    }
+
+    fn held(&self, history: &[f64]) -> f64 {
+        slider::held(history)
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn rows(chunk: &mut Chunk, at: usize, dt: f64, stiffness: f64, damping: f64) {
+    // As a torque on the angle of rolling: with v = -R* w x n and M = -R* n x F, F = -k x is M = -k R*^2 times the angle.
+    roll(chunk, at, dt, |c, i| {
+        let arm = c.radius[i];
+        Strength {
+            stiffness: stiffness * (arm * arm),
+            dashpot: damping * (arm * arm),
+            cap: c.rolling[i] * arm * c.load[i],
+            growth: 1.0,
+        }
+    });
+}

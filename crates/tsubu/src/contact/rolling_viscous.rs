@@ -1,0 +1,53 @@
+//! Rolling resistance in proportion to the rolling speed.
+
+use super::chunk::Chunk;
+use super::part::{About, Needs, Part, Stage};
+use super::root::least;
+use super::slider::inertia;
+use multiversion::multiversion;
+
+const ABOUT: About = About {
+    name: "viscous",
+    models: "rolling resistance that grows with the rolling speed",
+    formula: "M = -min(C mu_r R* f_n R*, I / (2 dt)) w, I = 2/5 m* R*^2",
+    symbols: "w relative spin without its normal part [rad/s], C [s/m], mu_r [-], R* reduced radius [m], m* [kg]",
+    limits: "holds no slope at rest; the second limit keeps a step from turning the rolling",
+    reference: "model B of Ai, Chen, Rotter, Ooi 2011",
+};
+
+#[derive(Debug)]
+pub(super) struct RollingViscous {
+    /// C [s/m].
+    pub coefficient: f64,
+}
+
+impl Part for RollingViscous {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn stage(&self) -> Stage {
+        Stage::Rolling
+    }
+
+    fn needs(&self) -> Needs {
+        Needs { roll: true, twist: false }
+    }
+
+    fn apply(&self, chunk: &mut Chunk, _at: usize, dt: f64) {
+        rows(chunk, dt, self.coefficient);
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn rows(chunk: &mut Chunk, dt: f64, coefficient: f64) {
+    for i in 0..chunk.rows() {
+        let roll = Chunk::vector(&chunk.roll, i);
+        let arm = chunk.radius[i];
+        let told = coefficient * chunk.rolling[i] * arm * chunk.load[i] * arm;
+        let factor = least(told, inertia(chunk, i) / (2.0 * dt));
+        let torque = Chunk::vector(&chunk.torque, i) - roll * factor;
+        Chunk::set(&mut chunk.torque, i, torque);
+        chunk.lost_rolling[i] += factor * roll.length_squared();
+    }
+}

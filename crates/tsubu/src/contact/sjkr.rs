@@ -1,0 +1,43 @@
+//! Attraction in proportion to the area of the overlap (the simplified JKR of other codes).
+
+use super::chunk::Chunk;
+use super::part::{About, Part, Stage};
+use multiversion::multiversion;
+use std::f64::consts::PI;
+
+const ABOUT: About = About {
+    name: "sjkr",
+    models: "attraction by an energy density times the area in which the undeformed spheres overlap",
+    formula: "f_n = f_elastic - C A, A = 2 pi R* d; friction sees f_n + C A; stored less C pi R* d^2",
+    symbols: "C the materials' cohesion [Pa], R* reduced radius [m], d overlap [m]",
+    limits: "no theory of adhesion: the same C binds a softer material more strongly, as d is larger; nothing at d = 0",
+    reference: "the cohesion models sjkr, sjkr2 of LIGGGHTS, for overlaps small against the radii",
+};
+
+#[derive(Debug)]
+pub(super) struct Sjkr;
+
+impl Part for Sjkr {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn stage(&self) -> Stage {
+        Stage::Cohesion
+    }
+
+    fn apply(&self, chunk: &mut Chunk, _at: usize, _dt: f64) {
+        rows(chunk);
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn rows(chunk: &mut Chunk) {
+    for i in 0..chunk.rows() {
+        // R* d is the square of the disc's radius, and zero where nothing touches.
+        let force = 2.0 * PI * chunk.cohesion[i] * (chunk.disc[i] * chunk.disc[i]);
+        chunk.normal_force[i] -= force;
+        chunk.stored[i] -= 0.5 * force * chunk.overlap[i];
+        chunk.pull_off[i] = force;
+    }
+}

@@ -1,0 +1,108 @@
+//! What parts with a limit have in common: springs that slide, and torques that may stop a motion but not turn it.
+
+use super::chunk::Chunk;
+use super::part::Slot;
+use super::root::{least, most};
+use glam::DVec3;
+
+/// Keeps divisions finite where nothing touches; squares of forces below 1e-100 N are lost in it.
+pub(super) const TINY: f64 = 1e-200;
+
+/// History of a spring in the tangent plane: what it holds (3), and the stiffness it holds it at.
+pub(super) const SPRING: &[Slot] = &[Slot::Odd, Slot::Odd, Slot::Odd, Slot::Even];
+
+/// Energy [J] in such a history.
+pub(super) fn held(history: &[f64]) -> f64 {
+    match *history {
+        [x, y, z, stiffness, ..] if stiffness > 0.0 => 0.5 * (x * x + y * y + z * z) / stiffness,
+        _ => 0.0,
+    }
+}
+
+/// Strength of a spring that slides, in force and length or in torque and angle.
+#[derive(Clone, Copy)]
+pub(super) struct Strength {
+    pub stiffness: f64,
+    pub dashpot: f64,
+    /// Where it slides.
+    pub cap: f64,
+    /// Largest factor on what the spring holds when its stiffness changes: 1 lets it only shrink (the spring is a force, and a
+    /// smaller disc of contact cannot hold what a larger one held), infinity makes the spring a displacement.
+    pub growth: f64,
+}
+
+/// A spring after a step.
+pub(super) struct Slid {
+    /// What the spring holds: force or torque on the first body.
+    pub spring: DVec3,
+    /// What acts on the first body: spring and dashpot, within the cap.
+    pub total: DVec3,
+    /// Energy the spring holds [J].
+    pub stored: f64,
+    /// Power lost [W].
+    pub lost: f64,
+}
+
+/// A step of a spring that slides at a cap, with a dashpot beside it.
+///
+/// What it held, `old` at the stiffness `was`, is turned with the contact into the tangent plane at its old length, follows
+/// the stiffness, is moved on by `rate`, and cut at the cap. The dashpot has what the spring leaves of the cap: it cannot
+/// fill the spring, and against a slide it has nothing. Work taken from the motion and not stored is lost.
+#[inline(always)]
+pub(super) fn slide(old: DVec3, was: f64, normal: DVec3, rate: DVec3, s: Strength, dt: f64) -> Slid {
+    let squared = old.length_squared();
+    let softness = 1.0 / most(was, TINY);
+    let flat = old - normal * old.dot(normal);
+    let lengthen = (squared / most(flat.length_squared(), TINY)).sqrt();
+    let trial = flat * (lengthen * least(s.stiffness * softness, s.growth)) - rate * (s.stiffness * dt);
+    let spring = trial * least(s.cap / most(trial.length_squared(), TINY).sqrt(), 1.0);
+    let both = spring - rate * s.dashpot;
+    let total = both * least(s.cap / most(both.length_squared(), TINY).sqrt(), 1.0);
+    let stored = 0.5 * spring.length_squared() / most(s.stiffness, TINY);
+    let lost = -total.dot(rate) - (stored - 0.5 * squared * softness) / dt;
+    Slid { spring, total, stored, lost }
+}
+
+/// A step of a rolling spring in all rows; `strength` says how strong it is in a row.
+#[inline(always)]
+pub(super) fn roll(chunk: &mut Chunk, at: usize, dt: f64, strength: impl Fn(&Chunk, usize) -> Strength) {
+    for i in 0..chunk.rows() {
+        let s = strength(chunk, i);
+        let Some([x, y, z, k]) = chunk.history[at..].first_chunk_mut() else { return };
+        let (normal, rate) = (Chunk::vector(&chunk.normal, i), Chunk::vector(&chunk.roll, i));
+        let slid = slide(DVec3::new(x[i], y[i], z[i]), k[i], normal, rate, s, dt);
+        (x[i], y[i], z[i], k[i]) = (slid.spring.x, slid.spring.y, slid.spring.z, s.stiffness);
+        let torque = Chunk::vector(&chunk.torque, i) + slid.total;
+        Chunk::set(&mut chunk.torque, i, torque);
+        chunk.stored[i] += slid.stored;
+        chunk.lost_rolling[i] += slid.lost;
+    }
+}
+
+/// A torque of the size `limit` against the rolling, in all rows, fading below the rolling speed `slow` [m/s].
+#[inline(always)]
+pub(super) fn resist(chunk: &mut Chunk, slow: f64, dt: f64, limit: impl Fn(&Chunk, usize) -> f64) {
+    for i in 0..chunk.rows() {
+        let limit = limit(chunk, i);
+        let roll = Chunk::vector(&chunk.roll, i);
+        let squared = roll.length_squared();
+        let slow = most(slow / chunk.radius[i], turning(chunk, i, limit, dt));
+        let factor = limit / most(most(squared.sqrt(), slow), TINY);
+        let torque = Chunk::vector(&chunk.torque, i) - roll * factor;
+        Chunk::set(&mut chunk.torque, i, torque);
+        chunk.lost_rolling[i] += factor * squared;
+    }
+}
+
+/// Rolling or twisting [rad/s] below which a torque `limit` could turn it round within a step. The inertia against relative
+/// turning of two spheres is not less than 2/5 m* R*^2; the factor 2 leaves room for the several contacts of a grain.
+#[inline(always)]
+pub(super) fn turning(chunk: &Chunk, i: usize, limit: f64, dt: f64) -> f64 {
+    2.0 * limit * dt / inertia(chunk, i)
+}
+
+/// Least inertia against relative turning, 2/5 m* R*^2 [kg.m^2].
+#[inline(always)]
+pub(super) fn inertia(chunk: &Chunk, i: usize) -> f64 {
+    0.4 * chunk.mass[i] * (chunk.radius[i] * chunk.radius[i])
+}

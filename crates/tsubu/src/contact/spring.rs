@@ -1,0 +1,63 @@
+//! Linear tangential spring with history, for Hooke's normal spring.
+
+use super::chunk::Chunk;
+use super::mindlin::tangential;
+use super::part::{About, Part, Slot, Stage};
+use super::slider::{self, Strength};
+use super::table::Constants;
+use multiversion::multiversion;
+
+const ABOUT: About = About {
+    name: "spring",
+    models: "a linear tangential spring and dashpot that slide at the friction cone, with cohesion between grains",
+    formula: "e_s = -k_t s, |e_s| <= mu f_n + c; f_t = e_s - c_t v_t within the same limit; k_t = ratio k, c_t = damping c_n",
+    symbols: "s slip [m], v_t slip velocity [m/s], k, k_t [N/m], c_n, c_t dashpots [N.s/m], mu [-], c cohesion [N]",
+    limits: "contacts that turn about their normal do not turn e_s; with Hertz k_t follows the secant stiffness f/d",
+    reference: "Cundall and Strack 1979; Osada 2004, eqs. (B2) to (B4), the dashpot dropped where it slides",
+};
+
+#[derive(Debug)]
+pub(super) struct Spring {
+    /// k_t over the elastic stiffness [-].
+    pub ratio: f64,
+    /// Tangential over normal dashpot [-].
+    pub damping: f64,
+    /// What the tangential force may reach beyond mu f_n [N].
+    pub cohesion: f64,
+}
+
+impl Part for Spring {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn stage(&self) -> Stage {
+        Stage::Tangential
+    }
+
+    fn history(&self) -> &'static [Slot] {
+        slider::SPRING
+    }
+
+    fn prepare(&self, constants: &mut Constants) {
+        constants.shear_damping = self.damping;
+    }
+
+    fn apply(&self, chunk: &mut Chunk, at: usize, dt: f64) {
+        rows(chunk, at, dt, self.ratio, self.cohesion);
+    }
+
+    fn held(&self, history: &[f64]) -> f64 {
+        slider::held(history)
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn rows(chunk: &mut Chunk, at: usize, dt: f64, ratio: f64, cohesion: f64) {
+    tangential(chunk, at, dt, |c, i| Strength {
+        stiffness: ratio * c.secant[i],
+        dashpot: c.dashpot[i] * c.shear_damping[i],
+        cap: if c.disc[i] > 0.0 { c.friction[i] * c.load[i] + cohesion } else { 0.0 },
+        growth: 1.0,
+    });
+}

@@ -1,0 +1,73 @@
+//! Resistance against spin about the normal, with a spring on the angle of twist.
+
+use super::chunk::Chunk;
+use super::part::{About, Needs, Part, Slot, Stage};
+use super::root::{least, most};
+use super::slider::TINY;
+use super::twisting_sliding::limit;
+use multiversion::multiversion;
+
+const ABOUT: About = About {
+    name: "spring",
+    models: "an elastic disc of contact that twists, and turns as a whole where its friction ends",
+    formula: "dM = -k_w w dt, k_w = k_t a^2 / 2; dashpot c_n a^2 / 2; |M| <= (2/3) mu_t a f_n",
+    symbols: "w relative spin about the normal [rad/s], a radius of the disc [m], k_t [N/m], c_n normal dashpot [N.s/m]",
+    limits: "even pressure over the disc; needs a tangential law with a stiffness",
+    reference: "Marshall 2009, eqs. (32), (33); the twisting model `marshall` of LAMMPS",
+};
+
+#[derive(Debug)]
+pub(super) struct TwistingSpring;
+
+impl Part for TwistingSpring {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn stage(&self) -> Stage {
+        Stage::Twisting
+    }
+
+    fn needs(&self) -> Needs {
+        Needs { roll: false, twist: true }
+    }
+
+    /// What the spring holds, and its stiffness. A torque about the normal from the first to the second body is the same number
+    /// when the bodies change places.
+    fn history(&self) -> &'static [Slot] {
+        &[Slot::Even, Slot::Even]
+    }
+
+    fn apply(&self, chunk: &mut Chunk, at: usize, dt: f64) {
+        rows(chunk, at, dt);
+    }
+
+    fn held(&self, history: &[f64]) -> f64 {
+        match *history {
+            [torque, stiffness, ..] if stiffness > 0.0 => 0.5 * torque * torque / stiffness,
+            _ => 0.0,
+        }
+    }
+}
+
+/// The step of `slider::slide` along one direction that never turns.
+#[multiversion(targets = "simd")]
+fn rows(chunk: &mut Chunk, at: usize, dt: f64) {
+    for i in 0..chunk.rows() {
+        let (twist, cap) = (chunk.twist[i], limit(chunk, i));
+        let half = 0.5 * (chunk.disc[i] * chunk.disc[i]);
+        let (stiffness, dashpot) = (chunk.shear[i] * half, chunk.dashpot[i] * half);
+        let Some([held, was]) = chunk.history[at..].first_chunk_mut() else { return };
+        let softness = 1.0 / most(was[i], TINY);
+        let before = 0.5 * held[i] * held[i] * softness;
+        let within = |torque: f64| most(least(torque, cap), -cap);
+        let spring = within(held[i] * least(stiffness * softness, 1.0) - twist * (stiffness * dt));
+        let total = within(spring - twist * dashpot);
+        let stored = 0.5 * spring * spring / most(stiffness, TINY);
+        (held[i], was[i]) = (spring, stiffness);
+        let torque = Chunk::vector(&chunk.torque, i) + Chunk::vector(&chunk.normal, i) * total;
+        Chunk::set(&mut chunk.torque, i, torque);
+        chunk.stored[i] += stored;
+        chunk.lost_rolling[i] += -total * twist - (stored - before) / dt;
+    }
+}

@@ -1,0 +1,108 @@
+//! Contact history over a search, and in a checkpoint: by the ids of the bodies, since indices change.
+
+use super::engine::DemEngine;
+use super::memory::{Kept, WallKey};
+use crate::find::candidates::BLOCK;
+
+impl DemEngine {
+    /// Every remembered contact, in the order of blocks.
+    pub(super) fn kept(&self) -> Vec<Kept> {
+        let width = self.law.width();
+        let id = &self.grains.id;
+        let mut kept = Vec::new();
+        if width == 0 {
+            return kept;
+        }
+        for (block, list) in self.touch.blocks.iter().zip(&self.candidates.lists) {
+            let memory = &block.memory;
+            let mut own = 0;
+            for (c, &k) in memory.pairs.keys.iter().enumerate() {
+                while list.start[own + 1] <= k {
+                    own += 1;
+                }
+                kept.push(Kept {
+                    first: id[list.first + own],
+                    second: id[list.pairs[k as usize].grain as usize],
+                    wall: false,
+                    patch: 0,
+                    history: memory.pairs.of(c, width).to_vec(),
+                });
+            }
+            for (c, key) in memory.walls.keys.iter().enumerate() {
+                kept.push(Kept {
+                    first: id[list.first + key.own as usize],
+                    second: key.wall,
+                    wall: true,
+                    patch: key.patch,
+                    history: memory.walls.of(c, width).to_vec(),
+                });
+            }
+        }
+        kept
+    }
+
+    /// Gives the new candidates the histories they had; a pair whose bodies have changed places gets its turned. What a
+    /// contact holds whose body is gone, or whose pair is no candidate any more, is returned as lost [J].
+    pub(super) fn restore(&mut self, kept: Vec<Kept>) -> f64 {
+        let width = self.law.width();
+        for block in &mut self.touch.blocks {
+            block.memory.pairs.clear();
+            block.memory.walls.clear();
+        }
+        if width == 0 {
+            return 0.0;
+        }
+        let mut index = vec![u32::MAX; self.grains.id.iter().max().map_or(0, |m| *m as usize + 1)];
+        for (i, id) in self.grains.id.iter().enumerate() {
+            index[*id as usize] = i as u32;
+        }
+        let index = |id: u32| index.get(id as usize).copied().filter(|i| *i != u32::MAX);
+        let mut lost = 0.0;
+        // Per block, which kept contact goes where.
+        let mut pairs: Vec<Vec<(u32, usize)>> = vec![Vec::new(); self.candidates.lists.len()];
+        let mut walls: Vec<Vec<(WallKey, usize)>> = vec![Vec::new(); self.candidates.lists.len()];
+        let mut kept = kept;
+        for (n, contact) in kept.iter_mut().enumerate() {
+            let place = if contact.wall {
+                index(contact.first).map(|i| {
+                    let key = WallKey { own: i % BLOCK as u32, wall: contact.second, patch: contact.patch };
+                    walls[i as usize / BLOCK].push((key, n));
+                })
+            } else {
+                index(contact.first).zip(index(contact.second)).and_then(|(i, j)| {
+                    let (block, k) = self.candidate(i, j).or_else(|| {
+                        let found = self.candidate(j, i)?;
+                        self.law.turned(&mut contact.history);
+                        Some(found)
+                    })?;
+                    pairs[block].push((k, n));
+                    Some(())
+                })
+            };
+            if place.is_none() {
+                lost += self.law.held(&contact.history);
+            }
+        }
+        for (block, (mut pairs, mut walls)) in self.touch.blocks.iter_mut().zip(pairs.into_iter().zip(walls)) {
+            pairs.sort_unstable();
+            walls.sort_unstable();
+            for (key, n) in pairs {
+                block.memory.pairs.push(key, &kept[n].history);
+            }
+            for (key, n) in walls {
+                block.memory.walls.push(key, &kept[n].history);
+            }
+        }
+        lost
+    }
+
+    /// Block and number of the candidate of grain `i` with grain `j`.
+    fn candidate(&self, i: u32, j: u32) -> Option<(usize, u32)> {
+        let block = i as usize / BLOCK;
+        let list = &self.candidates.lists[block];
+        let own = i as usize % BLOCK;
+        let range = list.start[own] as usize..list.start[own + 1] as usize;
+        let k = list.pairs[range.clone()].iter().position(|c| c.grain == j)?;
+        Some((block, (range.start + k) as u32))
+    }
+}

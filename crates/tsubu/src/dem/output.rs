@@ -1,0 +1,131 @@
+//! What the engine shows and what it saves.
+
+use super::engine::DemEngine;
+use super::memory::Kept;
+use crate::engine::Engine;
+use crate::partner::Hosts;
+use crate::state::Grains;
+use glam::DVec3;
+use tsubu_frame::state::MissingSection;
+use tsubu_frame::{Frame, Kind, State};
+
+impl DemEngine {
+    /// Grains in the order of their ids, contacts, and outlines of the walls.
+    pub(super) fn picture(&self) -> Frame {
+        let order = self.grains.by_id();
+        let vectors = |column: &[DVec3]| order.iter().map(|&i| column[i].to_array()).collect::<Vec<_>>();
+        let scalars = |column: &[f64]| order.iter().map(|&i| column[i]).collect::<Vec<_>>();
+        let mut frame = Frame { time: self.time(), step: self.step, columns: Vec::new() };
+        let whole = |column: &[u32]| order.iter().map(|&i| i64::from(column[i])).collect::<Vec<_>>();
+        frame.integer(Kind::Grain, "id", "-", whole(&self.grains.id));
+        frame.integer(Kind::Grain, "group", "-", whole(&self.grains.group));
+        frame.vector(Kind::Grain, "position", "m", vectors(&self.grains.position));
+        frame.vector(Kind::Grain, "velocity", "m/s", vectors(&self.grains.velocity));
+        frame.vector(Kind::Grain, "spin", "rad/s", vectors(&self.grains.spin));
+        frame.scalar(Kind::Grain, "radius", "m", scalars(&self.grains.radius));
+        frame.scalar(Kind::Grain, "mass", "kg", scalars(&self.grains.mass));
+        let force: Vec<DVec3> = (0..self.grains.len())
+            .map(|i| {
+                let pulled = if self.grains.inverse_mass[i] == 0.0 { DVec3::ZERO } else { self.gravity };
+                self.grains.mass[i] * (self.grains.acceleration[i] - pulled)
+            })
+            .collect();
+        frame.vector(Kind::Grain, "contact force", "N", vectors(&force));
+        let contacts = self.contact_list();
+        let id = |i: usize| i64::from(self.grains.id[i]);
+        // A wall is told as -1 less its number.
+        let second = |c: &super::touch::Contact| if c.wall { -1 - c.second as i64 } else { id(c.second) };
+        frame.integer(Kind::Contact, "first", "-", contacts.iter().map(|c| id(c.first)).collect());
+        frame.integer(Kind::Contact, "second", "-", contacts.iter().map(second).collect());
+        frame.vector(Kind::Contact, "position", "m", contacts.iter().map(|c| c.position.to_array()).collect());
+        frame.vector(Kind::Contact, "force", "N", contacts.iter().map(|c| c.force.to_array()).collect());
+        frame.vector(Kind::Contact, "normal", "-", contacts.iter().map(|c| c.normal.to_array()).collect());
+        frame.scalar(Kind::Contact, "overlap", "m", contacts.iter().map(|c| c.overlap).collect());
+        let mut corners = Vec::new();
+        let mut index = Vec::new();
+        let lines = self.walls.iter().flat_map(|wall| wall.outline().lines);
+        for (k, line) in lines.enumerate() {
+            corners.extend(line.iter().map(|p| p.to_array()));
+            index.extend(line.iter().map(|_| k as i64));
+        }
+        frame.vector(Kind::Surface, "position", "m", corners);
+        frame.integer(Kind::Surface, "outline", "-", index);
+        frame
+    }
+
+    /// Everything that the next step depends on.
+    pub(super) fn write_state(&self, state: &mut State) {
+        self.grains.save("grains", state);
+        state.put_integer(
+            "dem.step",
+            vec![self.step as i64, self.sums.contacts as i64, self.grains.len() as i64],
+        );
+        state.put_integer("dem.streams", self.sources.placed());
+        let mut reals = self.last_flows.powers.to_vec();
+        reals.extend(self.last_flows.wall_force.to_array());
+        reals.push(self.sums.stored);
+        state.put_real("dem.flows", reals);
+        let flat = |v: &[DVec3]| v.iter().flat_map(DVec3::to_array).collect::<Vec<_>>();
+        state.put_real("dem.reference", flat(&self.candidates.reference));
+        let places = self.candidates.wall_reference.iter().flat_map(crate::wall::Pose::place);
+        state.put_real("dem.wall-reference", places.collect::<Vec<_>>());
+        for wall in &self.walls {
+            wall.save(state);
+        }
+        let kept = self.kept();
+        let names = kept.iter().flat_map(|k| [k.first, k.second, u32::from(k.wall), k.patch].map(i64::from));
+        state.put_integer("dem.contacts", names.collect::<Vec<_>>());
+        state.put_real("dem.history", kept.iter().flat_map(|k| k.history.iter().copied()).collect::<Vec<_>>());
+    }
+
+    /// Takes back what [`DemEngine::write_state`] wrote.
+    pub(super) fn read_state(&mut self, state: &State) -> Result<(), MissingSection> {
+        let missing = |name: &str| MissingSection { name: name.to_owned(), kind: "real" };
+        let &[step, contacts, grains] = state.integer("dem.step")? else { return Err(missing("dem.step")) };
+        self.grains = Grains::load("grains", grains as usize, state)?;
+        self.total_mass = self.grains.moved_mass();
+        (self.step, self.sums.contacts) = (step as u64, contacts as usize);
+        self.sources.set_placed(state.integer("dem.streams")?);
+        let flows = state.real("dem.flows")?;
+        if flows.len() != 8 {
+            return Err(missing("dem.flows"));
+        }
+        self.last_flows.powers.copy_from_slice(&flows[..4]);
+        self.last_flows.wall_force = DVec3::from_slice(&flows[4..7]);
+        self.sums.stored = flows[7];
+        let reference = state.real("dem.reference")?;
+        let places = state.real("dem.wall-reference")?;
+        if reference.len() != 3 * self.grains.len() || places.len() != 7 * self.walls.len() {
+            return Err(missing("dem.reference"));
+        }
+        self.candidates.reference = reference.chunks_exact(3).map(DVec3::from_slice).collect();
+        for (wall, place) in self.walls.iter_mut().zip(places.as_chunks::<7>().0) {
+            wall.load(state)?;
+            // The lists are made with the walls where they stood then; the next step puts them where they belong.
+            wall.pose.set_place(*place);
+        }
+        self.candidates.wall_reference = self.walls.iter().map(|w| w.pose).collect();
+        self.candidates.list(&self.grains, &self.walls, &self.search);
+        self.fit();
+        let hosts = Hosts::default();
+        let time = self.time();
+        for wall in self.walls.iter_mut().filter(|w| w.host().is_none()) {
+            wall.follow(time, &hosts);
+        }
+        let width = self.law.width();
+        let names = state.integer("dem.contacts")?.as_chunks::<4>().0;
+        let history = state.real("dem.history")?;
+        if history.len() != names.len() * width {
+            return Err(missing("dem.history"));
+        }
+        let kept = names.iter().enumerate().map(|(c, name)| Kept {
+            first: name[0] as u32,
+            second: name[1] as u32,
+            wall: name[2] != 0,
+            patch: name[3] as u32,
+            history: history[c * width..(c + 1) * width].to_vec(),
+        });
+        self.restore(kept.collect());
+        Ok(())
+    }
+}

@@ -1,0 +1,209 @@
+//! From touching pairs to rows of a chunk, and from the results of the law to forces and torques.
+
+use crate::contact::chunk::{Chunk, Column, ROWS, ZERO};
+use glam::DVec3;
+
+/// One chunk at work: what the law sees, and what it need not see.
+#[derive(Clone, Debug)]
+pub(super) struct Rows {
+    pub chunk: Chunk,
+    /// Candidate (or slot) each row came from.
+    pub origin: [u32; ROWS],
+    /// Place of the first body.
+    pub first: [u32; ROWS],
+    /// Place of the second body.
+    pub second: [u32; ROWS],
+    /// Centre of the second body from that of the first [m]; the geometry pass reads it.
+    pub between: [Column; 3],
+    /// Radii [m].
+    pub radius: [Column; 2],
+    /// Sum of inverse masses [1/kg].
+    pub inverse_mass: Column,
+    /// Relative velocity of the centres [m/s].
+    pub relative: [Column; 3],
+    /// Spins [rad/s].
+    pub spin: [[Column; 3]; 2],
+    /// Lever arms [m].
+    pub arm: [Column; 2],
+    /// Result: force on the first body [N].
+    pub force: [Column; 3],
+    /// Result: the part of it that takes energy away [N].
+    pub lossy: [Column; 3],
+    /// Result: torque on both bodies [N.m].
+    pub turn: [[Column; 3]; 2],
+    /// Which pair of materials all rows of the chunk have been filled with.
+    filled: Option<u32>,
+    /// Pair of materials of each row.
+    pub material: [u32; ROWS],
+}
+
+impl Rows {
+    pub fn new(history: usize) -> Self {
+        const V: [Column; 3] = [ZERO; 3];
+        Self {
+            chunk: Chunk::new(history),
+            origin: [0; ROWS],
+            first: [0; ROWS],
+            second: [0; ROWS],
+            between: V,
+            radius: [ZERO; 2],
+            inverse_mass: ZERO,
+            relative: V,
+            spin: [V; 2],
+            arm: [ZERO; 2],
+            force: V,
+            lossy: V,
+            turn: [V; 2],
+            filled: None,
+            material: [0; ROWS],
+        }
+    }
+
+    /// Fills the constants of the materials; nothing to do where all rows are of the pair that is already there.
+    pub fn constants(&mut self, table: &crate::contact::Table) {
+        let n = self.chunk.rows();
+        let Some(&first) = self.material[..n].first() else { return };
+        if self.material[..n].iter().all(|&m| m == first) {
+            if self.filled != Some(first) {
+                self.chunk.set_constants(0..ROWS, table.constants(first));
+                self.filled = Some(first);
+            }
+            return;
+        }
+        self.filled = None;
+        for i in 0..n {
+            self.chunk.set_constants(i..i + 1, table.constants(self.material[i]));
+        }
+    }
+
+    /// Geometry of two spheres, from `between`, `radius`, `relative` and `spin` into the columns of the chunk.
+    pub fn spheres(&mut self, rotation: bool) {
+        let n = self.chunk.rows();
+        let c = &mut self.chunk;
+        let [bx, by, bz] = &self.between;
+        let [r1, r2] = &self.radius;
+        let [nx, ny, nz] = &mut c.normal;
+        for i in 0..n {
+            let squared = bx[i] * bx[i] + by[i] * by[i] + bz[i] * bz[i];
+            let distance = squared.sqrt();
+            // Two centres in one place have no normal; the overlap limit stops the run.
+            let inverse = 1.0 / distance.max(f64::MIN_POSITIVE);
+            nx[i] = bx[i] * inverse;
+            ny[i] = by[i] * inverse;
+            nz[i] = bz[i] * inverse;
+            let overlap = (r1[i] + r2[i]) - distance;
+            c.overlap[i] = overlap;
+            c.radius[i] = r1[i] * r2[i] / (r1[i] + r2[i]);
+            c.mass[i] = 1.0 / self.inverse_mass[i];
+            self.arm[0][i] = r1[i] - 0.5 * overlap;
+            self.arm[1][i] = r2[i] - 0.5 * overlap;
+        }
+        self.motion(rotation);
+    }
+
+    /// Relative motion at the point of contact, from normals, arms, `relative` and `spin`.
+    pub fn motion(&mut self, rotation: bool) {
+        let n = self.chunk.rows();
+        let c = &mut self.chunk;
+        let [nx, ny, nz] = &c.normal;
+        if rotation {
+            let [[px, py, pz], [qx, qy, qz]] = &self.spin;
+            let [vx, vy, vz] = &mut self.relative;
+            let [a, b] = &self.arm;
+            for i in 0..n {
+                let wx = px[i] * a[i] + qx[i] * b[i];
+                let wy = py[i] * a[i] + qy[i] * b[i];
+                let wz = pz[i] * a[i] + qz[i] * b[i];
+                vx[i] += wy * nz[i] - wz * ny[i];
+                vy[i] += wz * nx[i] - wx * nz[i];
+                vz[i] += wx * ny[i] - wy * nx[i];
+            }
+        }
+        let [vx, vy, vz] = &self.relative;
+        let [sx, sy, sz] = &mut c.slip;
+        for i in 0..n {
+            let closing = vx[i] * nx[i] + vy[i] * ny[i] + vz[i] * nz[i];
+            c.closing[i] = closing;
+            sx[i] = vx[i] - closing * nx[i];
+            sy[i] = vy[i] - closing * ny[i];
+            sz[i] = vz[i] - closing * nz[i];
+        }
+    }
+
+    /// Relative spin, split into rolling and twisting.
+    pub fn rolling(&mut self) {
+        let n = self.chunk.rows();
+        let c = &mut self.chunk;
+        let [[px, py, pz], [qx, qy, qz]] = &self.spin;
+        let [nx, ny, nz] = &c.normal;
+        let [rx, ry, rz] = &mut c.roll;
+        for i in 0..n {
+            let (x, y, z) = (px[i] - qx[i], py[i] - qy[i], pz[i] - qz[i]);
+            let twist = x * nx[i] + y * ny[i] + z * nz[i];
+            c.twist[i] = twist;
+            rx[i] = x - twist * nx[i];
+            ry[i] = y - twist * ny[i];
+            rz[i] = z - twist * nz[i];
+        }
+    }
+
+    /// Force on the first body and torques on both, of every row.
+    pub fn actions(&mut self, rotation: bool) {
+        let n = self.chunk.rows();
+        let c = &self.chunk;
+        for k in 0..3 {
+            let (normal, tangential) = (&c.normal[k], &c.tangential_force[k]);
+            let (force, lossy) = (&mut self.force[k], &mut self.lossy[k]);
+            for i in 0..n {
+                force[i] = tangential[i] - normal[i] * c.normal_force[i];
+                lossy[i] = tangential[i] - normal[i] * c.damping_force[i];
+            }
+        }
+        if !rotation {
+            return;
+        }
+        let [a, b] = &self.arm;
+        for k in 0..3 {
+            let (u, v) = ((k + 1) % 3, (k + 2) % 3);
+            let (nu, nv) = (&c.normal[u], &c.normal[v]);
+            let (tu, tv) = (&c.tangential_force[u], &c.tangential_force[v]);
+            let torque = &c.torque[k];
+            let [first, second] = &mut self.turn;
+            let (first, second) = (&mut first[k], &mut second[k]);
+            for i in 0..n {
+                let turn = nu[i] * tv[i] - nv[i] * tu[i];
+                first[i] = turn * a[i] + torque[i];
+                second[i] = turn * b[i] - torque[i];
+            }
+        }
+    }
+
+    /// Point of contact of row `i`, from the centre of the first body [m].
+    pub fn point(&self, i: usize) -> DVec3 {
+        Chunk::vector(&self.chunk.normal, i) * self.arm[0][i]
+    }
+}
+
+/// Sum of the first `n` entries; eight partial sums, so that additions need not wait for one another.
+pub(super) fn sum(column: &Column, n: usize) -> f64 {
+    let mut parts = [0.0; 8];
+    let (lumps, rest) = column[..n.min(ROWS)].as_chunks::<8>();
+    for lump in lumps {
+        for (part, value) in parts.iter_mut().zip(lump) {
+            *part += value;
+        }
+    }
+    parts.iter().sum::<f64>() + rest.iter().sum::<f64>()
+}
+
+/// Largest of the first `n` entries.
+pub(super) fn largest(column: &Column, n: usize) -> f64 {
+    let mut parts = [0.0f64; 8];
+    let (lumps, rest) = column[..n.min(ROWS)].as_chunks::<8>();
+    for lump in lumps {
+        for (part, value) in parts.iter_mut().zip(lump) {
+            *part = part.max(*value);
+        }
+    }
+    parts.iter().chain(rest).copied().fold(0.0, f64::max)
+}

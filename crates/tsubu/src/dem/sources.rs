@@ -1,0 +1,202 @@
+//! Grains that come, go, or move as told: streams, removal regions, driven groups.
+
+use super::engine::DemEngine;
+use super::fill::Occupied;
+use super::memory::Kept;
+use super::place::{anywhere, direction, still};
+use super::sizes;
+use crate::contact::Table;
+use crate::ledger::{Account, Ledger};
+use crate::motion::value_and_rate;
+use crate::random::{Purpose, words};
+use glam::DVec3;
+use tsubu_scene::plan::{GrainMotion, Particles, Plan, Region, Removal, Signal, Start};
+
+/// Steps between two looks at what should come or go.
+const EVERY: u64 = 50;
+
+/// Attempts to find a free place for a grain of a stream at one look; the others wait for the next.
+const ATTEMPTS: u64 = 40;
+
+/// A group that comes in one by one.
+#[derive(Clone, Debug)]
+struct Stream {
+    group: Particles,
+    number: usize,
+    material: u32,
+    first_id: u32,
+    /// How many have come.
+    placed: usize,
+}
+
+/// A group that moves as told.
+#[derive(Clone, Debug)]
+struct Driven {
+    number: u32,
+    direction: DVec3,
+    signal: Signal,
+}
+
+/// All that comes, goes, or moves as told.
+#[derive(Clone, Debug)]
+pub(super) struct Sources {
+    plan: Plan,
+    streams: Vec<Stream>,
+    removal: Vec<Removal>,
+    driven: Vec<Driven>,
+}
+
+impl Sources {
+    /// The sources of a plan; ids of the grains of streams begin at `first_id`.
+    pub fn new(plan: &Plan, table: &Table, first_id: usize) -> Self {
+        let (mut streams, mut driven) = (Vec::new(), Vec::new());
+        let mut id = first_id as u32;
+        for (number, group) in plan.particles.values().enumerate() {
+            if let Start::Stream { .. } = group.start {
+                let material = table.material(&group.material);
+                streams.push(Stream { group: group.clone(), number, material, first_id: id, placed: 0 });
+                id += group.count as u32;
+            }
+            if let GrainMotion::Driven { direction, signal } = &group.motion {
+                let direction = DVec3::from_array(*direction);
+                driven.push(Driven { number: number as u32, direction, signal: signal.clone() });
+            }
+        }
+        // Large tables of grains have done their work.
+        let plan = Plan { particles: std::collections::BTreeMap::new(), ..plan.clone() };
+        let removal = plan.removal.values().cloned().collect();
+        Self { plan, streams, removal, driven }
+    }
+
+    /// How many grains of every stream have come, for a checkpoint.
+    pub fn placed(&self) -> Vec<i64> {
+        self.streams.iter().map(|s| s.placed as i64).collect()
+    }
+
+    /// Takes back what [`Sources::placed`] gave.
+    pub fn set_placed(&mut self, placed: &[i64]) {
+        for (stream, placed) in self.streams.iter_mut().zip(placed) {
+            stream.placed = *placed as usize;
+        }
+    }
+
+    /// Largest diameter [m] of grains that may still come, and the smallest.
+    pub fn sizes(&self) -> Option<(f64, f64)> {
+        let ranges = self.streams.iter().map(|s| sizes::range(&s.group));
+        ranges.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    }
+}
+
+fn gone(removal: &Removal, p: DVec3) -> bool {
+    match removal {
+        Removal::Inside { region: Region { low, high } } => {
+            let (low, high) = (DVec3::from_array(*low), DVec3::from_array(*high));
+            // In the plane both y are zero and so is p.y.
+            p.cmpge(low).all() && p.cmple(high).all()
+        }
+        Removal::Behind { point, normal } => (p - DVec3::from_array(*point)).dot(DVec3::from_array(*normal)) < 0.0,
+    }
+}
+
+impl DemEngine {
+    /// Moves the driven groups to where they are at `time`.
+    pub(super) fn drive(&mut self, time: f64) {
+        if self.walls_held {
+            return;
+        }
+        for driven in &self.sources.driven {
+            let (now, rate) = value_and_rate(&driven.signal, time);
+            let (before, _) = value_and_rate(&driven.signal, time - self.dt);
+            for i in 0..self.grains.len() {
+                if self.grains.group[i] == driven.number {
+                    self.grains.position[i] += driven.direction * (now - before);
+                    self.grains.velocity[i] = driven.direction * rate;
+                }
+            }
+        }
+    }
+
+    /// Lets grains come and go, where it is time to look; returns the remembered contacts when something has changed.
+    pub(super) fn come_and_go(&mut self, ledger: &mut Ledger) -> Option<Vec<Kept>> {
+        let nothing = self.sources.streams.is_empty() && self.sources.removal.is_empty();
+        if nothing || !self.step.is_multiple_of(EVERY) || self.walls_held {
+            return None;
+        }
+        let grains = &self.grains;
+        let stays = |i: &u32| {
+            let i = *i as usize;
+            grains.inverse_mass[i] == 0.0 || !self.sources.removal.iter().any(|r| gone(r, grains.position[i]))
+        };
+        let order: Vec<u32> = (0..grains.len() as u32).filter(stays).collect();
+        let arrivals = self.arrivals();
+        if order.len() == self.grains.len() && arrivals.is_empty() {
+            return None;
+        }
+        let kept = self.kept();
+        let before = self.books();
+        self.grains.permute(&order);
+        for grain in arrivals {
+            self.grains.push(grain);
+        }
+        let after = self.books();
+        ledger.post(Account::Exchange, after.0 - before.0);
+        for (axis, impulse) in ledger.exchange_impulse.iter_mut().enumerate() {
+            *impulse += after.1[axis] - before.1[axis];
+        }
+        self.total_mass = self.grains.moved_mass();
+        Some(kept)
+    }
+
+    fn books(&self) -> (f64, DVec3) {
+        (self.grains.stocks(self.gravity).total(), self.grains.momentum())
+    }
+
+    /// The grains that come now.
+    fn arrivals(&mut self) -> Vec<crate::state::Grain> {
+        let mut arrivals = Vec::new();
+        let time = self.step as f64 * self.dt;
+        let dimension = self.sources.plan.dimension;
+        for stream in &mut self.sources.streams {
+            let Start::Stream { region, rate, velocity, speed, from } = &stream.group.start else { continue };
+            let due = ((time - from) * rate).max(0.0).floor() as usize;
+            let due = due.min(stream.group.count);
+            if stream.placed >= due {
+                continue;
+            }
+            let (low, high) = (DVec3::from_array(region.low), DVec3::from_array(region.high));
+            let middle = 0.5 * (low + high);
+            let room = (DVec3::new(middle.x, middle.y, low.z), high - low);
+            let largest = self.largest_diameter * 0.5;
+            let mut occupied = Occupied::new(largest);
+            let margin = DVec3::splat(2.0 * largest);
+            for (p, r) in self.grains.position.iter().zip(&self.grains.radius) {
+                if p.cmpge(low - margin).all() && p.cmple(high + margin).all() {
+                    occupied.put(*p, *r);
+                }
+            }
+            while stream.placed < due {
+                let id = stream.first_id + stream.placed as u32;
+                let diameter = sizes::diameter(&stream.group, self.sources.plan.seed, id);
+                let place = (0..ATTEMPTS).find_map(|attempt| {
+                    let p = anywhere(
+                        &self.sources.plan,
+                        room,
+                        0.5 * diameter,
+                        Purpose::Stream,
+                        id,
+                        self.step * ATTEMPTS + attempt,
+                    );
+                    occupied.free(p, 0.5 * diameter).then_some(p)
+                });
+                let Some(p) = place else { break };
+                occupied.put(p, 0.5 * diameter);
+                let mut grain = still(&stream.group, stream.number, stream.material, p, diameter, id as usize);
+                let w = words(self.sources.plan.seed, Purpose::Stream, id, 1);
+                grain.velocity = DVec3::from_array(*velocity) + direction(dimension, w) * *speed;
+                arrivals.push(grain);
+                stream.placed += 1;
+            }
+        }
+        arrivals
+    }
+}
