@@ -112,7 +112,7 @@ fn value(key: &Key) -> String {
         Kind::Gravity => "acceleration or vector [m/s^2]".to_string(),
         Kind::Quantities(dimension) => format!("list [{}]", dimension.si),
         Kind::Ends(dimension) => format!("two ends [{}]", dimension.si),
-        Kind::Cohesion => "force [N] or energy density [Pa]".to_string(),
+        Kind::Cohesion => "force [N] or energy density [J/m^3]".to_string(),
         Kind::Matrix(dimension) => format!("square matrix [{}]", dimension.si),
         Kind::Ratios => "list, or `{ from, to, step }`".to_string(),
         Kind::Name(family) => format!("name of a {}", family.noun()),

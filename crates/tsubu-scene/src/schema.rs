@@ -77,9 +77,9 @@ fn kind(key: &'static Key) -> Value {
             json!({ "type": "array", "minItems": 2, "maxItems": 2, "items": end })
         }
         Kind::Cohesion => {
-            let [force, pressure] =
-                [&crate::units::FORCE, &crate::units::PRESSURE].map(|dimension| quantity(dimension, key.range));
-            json!({ "anyOf": [force, pressure] })
+            let [force, density] =
+                [&crate::units::FORCE, &crate::units::ENERGY_DENSITY].map(|dimension| quantity(dimension, key.range));
+            json!({ "anyOf": [force, density] })
         }
         Kind::Matrix(dimension) => {
             let row = json!({ "type": "array", "minItems": 1, "items": quantity(dimension, Range::ANY) });

@@ -54,6 +54,7 @@ dimensions! {
     RATE "a rate" "1/s" [0, 0, -1, 0] ["1/s", "1/ms", "1/min"] ["500 1/s"] "Rates: so many in a second."
     SLOWNESS "an inverse speed" "s/m" [-1, 0, 1, 0] ["s/m", "s/mm"] ["0.5 s/m"] "Inverse speeds."
     LOAD_RATE "a rate of force" "N/s" [1, 1, -3, 0] ["N/s", "kN/s", "N/ms"] ["2 N/s"] "Forces that grow."
+    ENERGY_DENSITY "an energy density" "J/m^3" [-1, 1, -2, 0] ["J/m^3", "kJ/m^3", "Pa", "kPa"] ["300 kJ/m^3"] "Energy densities."
     SURFACE_ENERGY "a surface energy" "J/m^2" [0, 1, -2, 0] ["J/m^2", "mJ/m^2"] ["50 mJ/m^2"] "Surface energies."
 }
 

@@ -2,6 +2,8 @@
 
 /// `--set` and programmatic changes.
 mod changes;
+/// Grains and meshes from files.
+mod files;
 /// What scenes mean: values, defaults, choices.
 mod meaning;
 /// What a user reads when a scene is wrong; snapshots of whole messages.
@@ -10,6 +12,8 @@ mod messages;
 mod products;
 /// No text makes the reader panic.
 mod robust;
+/// Ends of the world, shapes, sizes, starts, motions, and the wider contact law.
+mod wider;
 
 use std::path::Path;
 use tsubu_scene::{Complaints, Scene};

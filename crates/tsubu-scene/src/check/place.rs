@@ -176,7 +176,8 @@ fn outside(parts: &Parts<'_>, grains: &[Grain<'_>], rooms: &[Room<'_>], complain
         };
         if let Some((axis, beyond)) = beyond_the_world(parts, grain) {
             let label = format!("{} beyond the end", millimetres(beyond));
-            let hint = "a grain must begin within the ends of [periodic]; later it may leave and come back";
+            let hint =
+                "grains begin within the ends of [periodic]; later they leave at one end and come in at the other";
             complain(format!("begins outside the periodic world along {axis}"), label, Some(hint));
         }
         // Held grains may be anywhere: glued to a floor, built into a wall.

@@ -29,7 +29,8 @@ pub(super) fn read(text: &str, rows: &mut Rows) {
         if bare.text.is_empty() {
             continue;
         }
-        if bare.text.starts_with(char::is_alphabetic) {
+        // Small letters are no section but a slip in a row.
+        if bare.text.starts_with(char::is_uppercase) {
             section = match bare.text {
                 "Atoms" => Section::Atoms,
                 "Velocities" => Section::Velocities,
@@ -109,7 +110,7 @@ pub(super) fn read(text: &str, rows: &mut Rows) {
 fn whole(rows: &mut Rows, promised: Option<(usize, Line<'_>)>, found: usize, kinds: &[u64], too_early: bool) {
     if let Some((count, line)) = promised.filter(|(count, _)| *count != found) {
         rows.complain(
-            Complaint::new(format!("the file has {found} atoms, not {count}"))
+            Complaint::new(format!("the file promises {count} atoms and has {found}"))
                 .at(&line.place(rows.source), format!("says {count}"))
                 .hint("was it cut off while it was written?"),
         );

@@ -26,7 +26,7 @@ pub(super) fn read(text: &str, rows: &mut Rows) {
     for line in all.filter(|line| !line.text.is_empty()) {
         if found == count {
             rows.complain(
-                Complaint::new(format!("the file goes on after its {count} grains"))
+                Complaint::new("the file goes on after its grains")
                     .at(&line.place(rows.source), "here begins something else")
                     .also(&first.place(rows.source), "the number of grains")
                     .hint("of a file with several frames keep the one to start from"),

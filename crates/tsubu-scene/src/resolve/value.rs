@@ -6,7 +6,7 @@ use crate::complaint::Complaint;
 use crate::keys::{Family, Key, Kind, Need, Word};
 use crate::node::{Node, Value};
 use crate::suggest;
-use crate::units::{self, ACCELERATION, Dimension, FORCE, NUMBER, PRESSURE, SPIN};
+use crate::units::{self, ACCELERATION, Dimension, ENERGY_DENSITY, FORCE, NUMBER, SPIN};
 
 /// Enough for any curve; guards against `step = 1e-12`.
 const MOST_RATIOS: f64 = 10_000.0;
@@ -172,12 +172,14 @@ impl Resolver<'_> {
     }
 
     fn ends(&mut self, key: &Key, node: &Node, dimension: &Dimension) -> Option<toml::Value> {
-        let list = self.quantities(key, node, dimension)?;
+        let list = self.list(key, node, "a list of two ends", |me, item| {
+            me.ranged(key, item, dimension).map(toml::Value::Float)
+        })?;
         let ends: Vec<f64> = list.as_array()?.iter().filter_map(toml::Value::as_float).collect();
         let label = match ends.as_slice() {
             [low, high] if low < high => return Some(list),
             [low, high] => format!("{high} {0} is not above {low} {0}", dimension.si),
-            other => format!("this list has {} entries", other.len()),
+            other => format!("entries in this list: {}", other.len()),
         };
         self.complain(
             Complaint::new(format!("`{}` needs two ends, the low one first", key.name))
@@ -192,9 +194,9 @@ impl Resolver<'_> {
         let chosen = |part| self.root.find(&["contact", "cohesion", part]).is_some();
         let dimension = match (chosen("constant"), chosen("sjkr"), &node.value) {
             (true, false, _) => &FORCE,
-            (false, true, _) => &PRESSURE,
+            (false, true, _) => &ENERGY_DENSITY,
             // Nobody reads it: either will do.
-            (_, _, Value::Text(text)) if units::read(text, &PRESSURE).is_ok() => &PRESSURE,
+            (_, _, Value::Text(text)) if units::read(text, &ENERGY_DENSITY).is_ok() => &ENERGY_DENSITY,
             _ => &FORCE,
         };
         self.ranged(key, node, dimension).map(toml::Value::Float)

@@ -4,7 +4,7 @@ use super::Resolver;
 use crate::complaint::Complaint;
 use crate::keys::Key;
 use crate::node::{Node, Value};
-use crate::units::{Dimension, NUMBER};
+use crate::units::{Dimension, NUMBER, SPIN};
 
 impl Resolver<'_> {
     /// Two entries [x, z] in the plane, three in space; y is there but zero in the plane.
@@ -40,7 +40,8 @@ impl Resolver<'_> {
     pub(super) fn turning(&mut self, key: &Key, node: &Node, dimension: &Dimension) -> Option<[f64; 3]> {
         let Value::List(items) = &node.value else {
             if self.dimension == Some(3) {
-                self.wrong_kind(key, node, "a vector [x, y, z] in space", Some("[0, 10, 0]".to_string()));
+                let example = if *dimension == SPIN { "[0, 10, 0]" } else { "[2e-5, 2e-5, 1e-5]" };
+                self.wrong_kind(key, node, "a vector [x, y, z] in space", Some(example.to_string()));
                 return None;
             }
             return self.quantity(key, node, dimension).map(|about_y| [0.0, about_y, 0.0]);

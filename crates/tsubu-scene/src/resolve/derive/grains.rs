@@ -130,10 +130,13 @@ impl Derive<'_> {
             }
             // Where size or file are wrong they may be what would have told.
             (None, None) if !typed && group.contains_key("size") && !matches!(file, File::Wrong) && !sized => {
+                let in_a_file = matches!(file, File::Read(_))
+                    .then(|| "or put a column of diameters or radii into the file".to_string());
                 self.complain(
                     Complaint::new(format!("missing key `diameter` in [particles.{name}]"))
                         .at(&self.root.locate(&["particles", name]), "needs `diameter`")
-                        .hint(explained(keys::PARTICLES, "diameter")),
+                        .hint(explained(keys::PARTICLES, "diameter"))
+                        .hints(in_a_file),
                 );
             }
             _ => {}

@@ -1,0 +1,307 @@
+//! Grains and meshes from files.
+
+use proptest::prelude::*;
+use std::fs;
+use std::sync::Arc;
+use tsubu_scene::plan::*;
+use tsubu_scene::{Complaints, Scene};
+
+const SCENE: &str = r#"duration = 1
+dimension = 3
+[materials.steel]
+young-modulus = "200 GPa"
+density = 6000
+[particles.sand]
+material = "steel"
+start.file.path = "NAME"
+"#;
+
+fn in_folder(files: &[(&str, &[u8])], text: &str) -> Result<Scene, Complaints> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (name, bytes) in files {
+        fs::write(folder.path().join(name), bytes).expect("written");
+    }
+    Scene::parse("scene.toml", text, folder.path(), &[])
+}
+
+fn with_grains(name: &str, content: &str) -> Result<Scene, Complaints> {
+    in_folder(&[(name, content.as_bytes())], &SCENE.replace("NAME", name))
+}
+
+fn grains(name: &str, content: &str) -> Arc<GrainTable> {
+    let scene = with_grains(name, content).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let Start::File { grains, .. } = &scene.plan().particles["sand"].start else { panic!("a file") };
+    Arc::clone(grains)
+}
+
+fn about(name: &str, content: &str) -> String {
+    with_grains(name, content).expect_err("the file is wrong").to_string()
+}
+
+const BARE: &str = "# 2 0.05 0.0754\n0.01,0.02,0.03,0.001\n0.04,0.05,0.06,0.002\n";
+const XYZ: &str = "2\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:id:I:1 Time=0.5\n\
+                   M0 0.01 0.02 0.03 1 2 3 0.001 0\nM0 0.04 0.05 0.06 0 0 -1 0.002 1\n";
+const DATA: &str = "LAMMPS data file\n\n2 atoms\n2 atom types\n\n0 1 xlo xhi\n\nMasses\n\n1 2\n\nAtoms # sphere\n\n\
+                    9 1 0.002 2500 0.01 0.02 0.03 0 0 -1\n4 2 0.004 2500 0.04 0.05 0.06 0 0 0\n\n\
+                    Velocities\n\n4 0 0 -1 7 8 9\n9 1 2 3 4 5 6\n";
+
+#[test]
+fn all_formats_say_the_same() {
+    let position = vec![[0.01, 0.02, 0.03], [0.04, 0.05, 0.06]];
+    let diameter = vec![0.002, 0.004];
+    let velocity = vec![[1.0, 2.0, 3.0], [0.0, 0.0, -1.0]];
+    let spin = vec![[4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
+    let bare = GrainTable { position, diameter, ..GrainTable::default() };
+    assert_eq!(*grains("a.csv", BARE), bare);
+    let moving = GrainTable { velocity, ..bare.clone() };
+    assert_eq!(*grains("a.xyz", XYZ), moving);
+    assert_eq!(*grains("a.data", DATA), GrainTable { spin, ..moving });
+    let named = "\u{feff}id; \"x [cm]\"; z; Y [mm]; D\r\n1; 1; 0.03; 20; 0.002\r\n\r\n2; 4; 0.06; 50; 0.004\r\n";
+    assert_eq!(*grains("a.CSV", named), bare);
+    let blanks = "x  y  z  radius\n 0.01 0.02 0.03 0.001\n 0.04 0.05 0.06  0.002\n";
+    assert_eq!(*grains("a.csv", blanks), bare);
+}
+
+#[test]
+fn what_follows_from_a_file() {
+    let scene = with_grains("a.csv", BARE).expect("right");
+    let sand = &scene.plan().particles["sand"];
+    assert_eq!((sand.count, sand.diameter), (2, 0.003));
+    assert_eq!((sand.smallest_diameter(), sand.largest_diameter()), (0.002, 0.004));
+    assert!((sand.mass / (6000.0 * std::f64::consts::PI / 6.0 * 27e-9) - 1.0).abs() < 1e-12);
+    let Start::File { fingerprint, kind, .. } = &sand.start else { panic!("a file") };
+    assert_eq!((fingerprint.len(), *kind), (8, None));
+    assert_eq!(scene.companions(), [("particles-sand.csv".to_string(), BARE.as_bytes().to_vec())]);
+}
+
+#[test]
+fn an_atom_type_can_be_chosen() {
+    let text = SCENE.replace("path = \"NAME\"", "path = \"a.data\"\nstart.file.kind = 2");
+    let scene = in_folder(&[("a.data", DATA.as_bytes())], &text).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let Start::File { grains, .. } = &scene.plan().particles["sand"].start else { panic!("a file") };
+    assert_eq!(
+        (grains.position.as_slice(), grains.spin.as_slice()),
+        (&[[0.04, 0.05, 0.06]][..], &[[7.0, 8.0, 9.0]][..])
+    );
+    let wrong = in_folder(&[("a.data", DATA.as_bytes())], &text.replace("= 2", "= 3")).expect_err("there is no 3");
+    insta::assert_snapshot!(wrong);
+}
+
+#[test]
+fn the_plane_takes_its_own_columns() {
+    let flat = |content: &str| {
+        let text = SCENE.replace("dimension = 3", "").replace("NAME", "a.csv");
+        in_folder(&[("a.csv", content.as_bytes())], &text)
+    };
+    let scene = flat("0.1,0.2,0.01\n").unwrap_or_else(|wrong| panic!("{wrong}"));
+    let Start::File { grains, .. } = &scene.plan().particles["sand"].start else { panic!("a file") };
+    assert_eq!((grains.position[0], grains.diameter[0]), ([0.1, 0.0, 0.2], 0.02));
+    assert!(flat("x,z,d,wy\n0,1,0.1,3\n").is_ok());
+    let wrong = [flat("0.1,0.3,0.2,0.01\n"), flat("x,z,d,wz\n0,1,0.1,3\n")];
+    insta::assert_snapshot!(wrong.map(|wrong| wrong.expect_err("leaves the plane").to_string()).join("\n\n"));
+}
+
+#[test]
+fn malformed_csv() {
+    let texts = [
+        "",
+        "# nothing\n",
+        "x,y,z\n",
+        "0.1,0.2,0.3,0.001\n0.1,0.2,nan,0.001\n0.1,0.2,0.3,-1\n0.1,0.2,0.3\n0.1,0.2,0.3,0.001,7\n0.1,zero,0.3,0.001\n,,,\n",
+        "0.1,0.2\n",
+        "x,y,diamter\n1,2,3\n",
+        "x,y,d\n1,2,3\n",
+        "x,y,z,d,r\n1,2,3,1,0.5\n",
+        "x [s],y [m],z,d [furlong]\n1,2,3,1\n",
+        "x,y,z,d\n1,2,3,1e400\n",
+        "x,y,z\n1,2,3\n",
+    ];
+    insta::assert_snapshot!(texts.map(|text| about("a.csv", text)).join("\n\n"));
+}
+
+#[test]
+fn malformed_xyz() {
+    let texts = [
+        "",
+        "two\n",
+        "1\n",
+        "2\nProperties=species:S:1:pos:R:3:radius:R:1\nA 1 2 3 1\n",
+        "1\nProperties=species:S:1:pos:R:3:radius:R:1\nA 1 2 3 1\n1\nProperties=...\nA 1 2 3 1\n",
+        "1\nProperties=species:S:1:radius:R:1\nA 1\n",
+        "1\nProperties=species:S:1:pos:R:2\nA 1 2\n",
+        "1\nProperties=species:S\nA 1 2\n",
+        "1\nProperties=species:S:many:pos:R:3\nA 1 2\n",
+        "1\nProperties=species:S:1:pos:R:3:radius:R:1\nA 1 2 3 0\n",
+    ];
+    insta::assert_snapshot!(texts.map(|text| about("a.xyz", text)).join("\n\n"));
+}
+
+#[test]
+fn malformed_data() {
+    let texts = [
+        "title\n\n2 atoms\n".to_string(),
+        DATA.replace("2 atoms", "3 atoms"),
+        DATA.replace("# sphere", "# atomic"),
+        DATA.replace("4 2 0.004", "4 2 0"),
+        DATA.replace("4 2 0.004", "9 2 0.004"),
+        DATA.replace("4 2 0.004 2500", "four 2 0.004 2500").replace("0.06 0 0 0", "0.06 0 0 0 0"),
+        DATA.replace("0.05 0.06 0 0 0", "0.05 0.06"),
+        DATA.replace("4 0 0 -1 7 8 9", "4 0 0 -1"),
+    ];
+    insta::assert_snapshot!(texts.map(|text| about("a.data", &text)).join("\n\n"));
+}
+
+#[test]
+fn files_that_cannot_be_read() {
+    let no_text = in_folder(&[("a.csv", b"x,y\n1,\xff\n")], &SCENE.replace("NAME", "a.csv")).expect_err("no text");
+    let missing = in_folder(&[], &SCENE.replace("NAME", "b.csv")).expect_err("missing");
+    let packed = in_folder(&[], &SCENE.replace("NAME", "a.csv.gz")).expect_err("packed");
+    let strange = in_folder(&[], &SCENE.replace("NAME", "a.txt")).expect_err("strange");
+    let pathless =
+        in_folder(&[], &SCENE.replace("start.file.path = \"NAME\"", "start.file = {}")).expect_err("no path");
+    let kind = SCENE.replace("path = \"NAME\"", "path = \"a.csv\"\nstart.file.kind = 2");
+    let kind = in_folder(&[("a.csv", BARE.as_bytes())], &kind).expect_err("a kind of CSV");
+    let all = [no_text, missing, packed, strange, pathless, kind];
+    insta::assert_snapshot!(all.map(|wrong| wrong.to_string()).join("\n\n"));
+}
+
+#[test]
+fn a_scene_that_contradicts_its_file() {
+    let typed = |more: &str| {
+        let text =
+            SCENE.replace("NAME", "a.csv").replace("material = \"steel\"", &format!("material = \"steel\"\n{more}"));
+        in_folder(&[("a.csv", BARE.as_bytes())], &text).expect_err("a contradiction").to_string()
+    };
+    let more = [
+        "count = 3",
+        "diameter = \"2 mm\"",
+        "size.uniform = { smallest = 0.001, largest = 0.002 }",
+        "start.file.fingerprint = \"00000000\"",
+    ];
+    insta::assert_snapshot!(more.map(typed).join("\n\n"));
+}
+
+#[test]
+fn grains_of_a_file_that_overlap_or_stand_in_a_wall() {
+    // Beds of other codes lie under load: up to 0.05 diameters is no mistake.
+    let pair = |x: f64| format!("x,y,z,d\n0,0,0.1,0.1\n{x},0,0.1,0.1\n");
+    assert!(with_grains("a.csv", &pair(0.0951)).is_ok());
+    let wall = "[walls.floor]\nmaterial = \"steel\"\nshape.plane = {}\n[walls.drum]\nmaterial = \"steel\"\n\
+                shape.cylinder.radius = 0.4\n[periodic]\ny = [-1, 1]\n";
+    let text = format!("{}{wall}", SCENE.replace("NAME", "a.csv"));
+    let low = "x,y,z,d\n0,0,0.03,0.1\n0.2,0,0.3,0.1\n0,2,0.1,0.1\n";
+    let walls = in_folder(&[("a.csv", low.as_bytes())], &text).expect_err("in the walls").to_string();
+    insta::assert_snapshot!([about("a.csv", &pair(0.09)), walls].join("\n\n"));
+}
+
+#[test]
+fn a_hundred_thousand_rows_are_a_matter_of_a_moment() {
+    let mut text = String::from("x,y,z,r\n");
+    for i in 0..100_000 {
+        let [x, y, z] = [i % 50, i / 50 % 50, i / 2500].map(|n| 0.01 * f64::from(n));
+        text += &format!("{x},{y},{z},0.005\n");
+    }
+    let begin = std::time::Instant::now();
+    assert_eq!(grains("a.csv", &text).position.len(), 100_000);
+    // Generous: other tests run at the same time.
+    assert!(begin.elapsed().as_secs_f64() < 5.0, "{:?}", begin.elapsed());
+}
+
+const MESH: &str =
+    "[walls.hopper]\nmaterial = \"steel\"\nshape.mesh = { path = \"a.obj\", scale = 0.001, shift = [0, 0, 1] }\n";
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+fn with_mesh(name: &str, content: &[u8], more: &str) -> Result<Scene, Complaints> {
+    let (head, _) = SCENE.split_once("[particles").expect("grains");
+    in_folder(&[(name, content)], &format!("{head}{}", MESH.replace("a.obj\"", &format!("{name}\"{more}"))))
+}
+
+#[test]
+fn a_mesh_is_scaled_and_shifted() {
+    let scene = with_mesh("a.obj", TRIANGLE.as_bytes(), "").unwrap_or_else(|wrong| panic!("{wrong}"));
+    let Shape::Mesh { path, triangles, .. } = &scene.plan().walls["hopper"].shape else { panic!("a mesh") };
+    assert_eq!(path, "walls-hopper.obj");
+    assert_eq!(triangles.as_slice(), [[[0.0, 0.0, 1.0], [0.001, 0.0, 1.0], [0.0, 0.001, 1.0]]]);
+    assert_eq!(scene.companions(), [("walls-hopper.obj".to_string(), TRIANGLE.as_bytes().to_vec())]);
+}
+
+#[test]
+fn meshes_that_cannot_be_used() {
+    let flat = format!("{TRIANGLE}v 2 0 0\nf 1 2 4\nf 1 1 2\n");
+    let all = [
+        with_mesh("a.obj", flat.as_bytes(), ""),
+        with_mesh("a.obj", b"v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ""),
+        with_mesh("a.obj", b"v 0 0 0\nv 1 0 0\nf 1 2 3\nf 1 2\nv 1 x 2\n", ""),
+        with_mesh("a.stl", b"\0\0\0\xff", ""),
+        with_mesh("a.stl", b"solid\nfacet\nvertex 0 0 0\n", ""),
+        with_mesh("a.ply", b"ply\n", ""),
+        with_mesh("a.obj", TRIANGLE.as_bytes(), ", fingerprint = \"12345678\""),
+    ];
+    insta::assert_snapshot!(all.map(|wrong| wrong.expect_err("a bad mesh").to_string()).join("\n\n"));
+}
+
+#[test]
+fn companions_do_not_collide() {
+    let groups = ["a b", "a_b", "A_b", "a/b", "c"];
+    let mut text = SCENE.split_once("[particles").expect("grains").0.to_string();
+    for (i, name) in groups.iter().enumerate() {
+        let file = if *name == "c" { "0.csv".to_string() } else { format!("{i}.csv") };
+        text += &format!(
+            "[particles.\"{name}\"]\nmaterial = \"steel\"\nmotion.frozen = {{}}\nstart.file.path = \"{file}\"\n"
+        );
+    }
+    let files: Vec<(String, String)> = (0..4).map(|i| (format!("{i}.csv"), format!("0,0,0,0.{}\n", i + 1))).collect();
+    let files: Vec<(&str, &[u8])> = files.iter().map(|(name, text)| (name.as_str(), text.as_bytes())).collect();
+    let scene = in_folder(&files, &text).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let names: Vec<String> = scene.companions().into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, ["particles-A_b.csv", "particles-a_b-2.csv", "particles-a_b-3.csv", "particles-a_b-4.csv"]);
+    let run = tempfile::tempdir().expect("a temporary folder");
+    for (name, bytes) in scene.companions() {
+        fs::write(run.path().join(name), bytes).expect("written");
+    }
+    let again =
+        Scene::parse("scene.toml", &scene.resolved_toml(), run.path(), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    assert_eq!(again.plan(), scene.plan());
+    assert_eq!(again.companions(), scene.companions());
+}
+
+#[test]
+fn cases_of_a_study_read_the_file_once() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fs::write(folder.path().join("a.csv"), BARE).expect("written");
+    let text = format!("{}[sweep.vary]\nseed = [1, 2]\n", SCENE.replace("NAME", "a.csv"));
+    let scene = Scene::parse("scene.toml", &text, folder.path(), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    fs::remove_file(folder.path().join("a.csv")).expect("removed");
+    let case = scene.with(&[("seed", &toml::Value::Integer(2))]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    assert_eq!(case.plan().particles, scene.plan().particles);
+    assert_eq!(case.companions(), scene.companions());
+}
+
+proptest! {
+    #[test]
+    fn no_file_makes_the_reader_panic(
+        which in 0_usize..6,
+        cut in 0_usize..300,
+        with in proptest::collection::vec(any::<u8>(), 0..40),
+        from in 0_usize..300,
+    ) {
+        let (name, text) = [
+            ("a.csv", BARE), ("a.xyz", XYZ), ("a.data", DATA), ("a.obj", TRIANGLE), ("a.stl", "facet\nvertex 1 2 3\n"), ("a.stl", ""),
+        ][which];
+        let mut bytes = text.as_bytes()[..cut.min(text.len())].to_vec();
+        bytes.extend(&with);
+        bytes.extend(&text.as_bytes()[from.min(text.len())..]);
+        let read = if which < 3 {
+            in_folder(&[(name, &bytes)], &SCENE.replace("NAME", name))
+        } else {
+            with_mesh(name, &bytes, "")
+        };
+        match read {
+            Ok(scene) => prop_assert!(!scene.resolved_toml().is_empty()),
+            Err(wrong) => {
+                prop_assert!(!wrong.to_string().is_empty());
+                let _ = wrong.render(true);
+            }
+        }
+    }
+}
