@@ -3,6 +3,7 @@
 use super::Pose;
 use super::nearest::{Feature, Nearest};
 use glam::DVec3;
+use tsubu_scene::plan::Shape;
 
 /// An endless plane with grains on the side of its normal; behind it, distances are negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,5 +30,29 @@ impl HalfSpace {
         let along = normal.dot(pose.origin() - reference.origin()).abs();
         // An endless plane that does not tilt has no lever, however far the grains are.
         if tilt > 0.0 { along + tilt * extent } else { along }
+    }
+}
+
+/// The planes of a box or plane. In the plane a box has no front and back.
+pub(super) fn planes(shape: &Shape, dimension: u8) -> Vec<HalfSpace> {
+    let plane = |point: DVec3, normal: DVec3| HalfSpace { point, normal };
+    match shape {
+        Shape::Plane { point, normal } => vec![plane(DVec3::from_array(*point), DVec3::from_array(*normal))],
+        Shape::Box { width, height, depth, floor_centre } => {
+            let c = DVec3::from_array(*floor_centre);
+            let half = DVec3::new(0.5 * width, 0.5 * depth, 0.0);
+            let mut planes = vec![
+                plane(c - DVec3::X * half.x, DVec3::X),
+                plane(c + DVec3::X * half.x, DVec3::NEG_X),
+                plane(c, DVec3::Z),
+                plane(c + DVec3::Z * *height, DVec3::NEG_Z),
+            ];
+            if dimension == 3 {
+                planes.push(plane(c - DVec3::Y * half.y, DVec3::Y));
+                planes.push(plane(c + DVec3::Y * half.y, DVec3::NEG_Y));
+            }
+            planes
+        }
+        Shape::Cylinder { .. } | Shape::Cone { .. } | Shape::Sphere { .. } | Shape::Mesh { .. } => Vec::new(),
     }
 }

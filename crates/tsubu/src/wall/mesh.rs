@@ -2,6 +2,7 @@
 
 use super::Pose;
 use super::nearest::Nearest;
+use super::section::{section, strips};
 use super::topology::{Topology, weld};
 use super::tree::Tree;
 use super::triangle::Triangle;
@@ -20,6 +21,8 @@ pub struct Mesh {
     pub(super) tolerance: f64,
     /// Greatest distance of a corner from the centre of rotation [m].
     radius: f64,
+    /// The section with the plane.
+    lines: Vec<[DVec3; 2]>,
 }
 
 impl Mesh {
@@ -34,7 +37,22 @@ impl Mesh {
         let tree = Tree::new(&triangles);
         let topology = Topology::new(&triangles, vertices, &tree, tolerance);
         let radius = triangles.iter().flat_map(|t| t.corners).map(|p| p.distance(centre)).fold(0.0, f64::max);
-        Self { triangles, topology, tree, tolerance, radius }
+        Self { triangles, topology, tree, tolerance, radius, lines: Vec::new() }
+    }
+
+    /// The section with the plane y = 0, for 2-D scenes.
+    pub fn in_plane(corners: &[[DVec3; 3]], centre: DVec3) -> Self {
+        let lines = section(corners);
+        let longest = lines.iter().map(|[a, b]| a.distance(*b)).fold(0.0, f64::max);
+        let mut mesh = Self::new(&strips(&lines, longest), centre);
+        mesh.radius = lines.iter().flatten().map(|p| p.distance(centre)).fold(0.0, f64::max);
+        mesh.lines = lines;
+        mesh
+    }
+
+    /// Pieces of line by their ends, of the section with the plane; none in space.
+    pub(super) fn lines(&self) -> Vec<Vec<DVec3>> {
+        self.lines.iter().map(|line| line.to_vec()).collect()
     }
 
     /// The triangles that are left; their indices are the elements.

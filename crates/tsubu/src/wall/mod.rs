@@ -16,8 +16,8 @@ pub mod mesh;
 pub mod mover;
 pub mod nearest;
 pub mod outline;
-pub mod plane;
 pub mod pose;
+mod section;
 pub mod servo;
 pub mod shell;
 pub mod surface;
@@ -30,7 +30,6 @@ pub use carrier::Carrier;
 pub use mover::{Exchange, Mover, Turning};
 pub use nearest::{Feature, Nearest, Touch};
 pub use outline::Outline;
-pub use plane::Plane;
 pub use pose::Pose;
 pub use servo::Servo;
 pub use surface::Surface;
@@ -59,10 +58,13 @@ pub struct Wall {
     /// Prescribed turning, on top of `mover`.
     pub turning: Option<Turning>,
     outline: Outline,
+    /// In the plane y is an exact zero, whatever rounding says.
+    in_plane: bool,
 }
 
 impl Wall {
-    /// Builds a wall at time 0. `dimension` 2: boxes have no front and back, drums no ends. `gravity` [m/s^2] pulls
+    /// Builds a wall at time 0. `dimension` 2: boxes have no front and back, drums no ends, and of meshes
+    /// the section with y = 0 counts. `gravity` [m/s^2] pulls
     /// free bodies.
     pub fn new(name: &str, plan: &plan::Wall, dimension: u8, hosts: &Hosts, gravity: DVec3) -> Self {
         let mover = Mover::new(plan, hosts, gravity);
@@ -71,11 +73,21 @@ impl Wall {
             (_, Some(rotation)) => DVec3::from_array(rotation.centre),
             _ => DVec3::ZERO,
         };
-        let surface = Surface::new(plan, dimension, centre);
-        let outline = Outline::new(plan, &surface, dimension);
+        let surface = Surface::new(&plan.shape, dimension, centre);
+        let outline = Outline::new(&plan.shape, &surface, dimension);
         let turning = plan.rotation.as_ref().map(Turning::new);
         let (name, pose) = (name.to_owned(), Pose::at_rest(centre));
-        let mut wall = Self { name, material: 0, inverse_mass: 0.0, pose, surface, mover, turning, outline };
+        let mut wall = Self {
+            name,
+            material: 0,
+            inverse_mass: 0.0,
+            pose,
+            surface,
+            mover,
+            turning,
+            outline,
+            in_plane: dimension == 2,
+        };
         wall.follow(0.0, hosts);
         wall
     }
@@ -245,6 +257,11 @@ impl Wall {
     }
 
     fn placed(&self, own: Nearest) -> Nearest {
-        Nearest { normal: self.pose.direction(own.normal), point: self.pose.to_world(own.point), ..own }
+        let mut placed =
+            Nearest { normal: self.pose.direction(own.normal), point: self.pose.to_world(own.point), ..own };
+        if self.in_plane {
+            (placed.normal.y, placed.point.y) = (0.0, 0.0);
+        }
+        placed
     }
 }

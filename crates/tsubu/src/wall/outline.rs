@@ -2,10 +2,10 @@
 
 use super::frustum::Frustum;
 use super::shell::SphericalShell;
-use super::{Pose, Surface, plane};
+use super::{Pose, Surface};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
-use tsubu_scene::plan;
+use tsubu_scene::plan::Shape;
 
 /// Pieces of a full circle.
 const PIECES: usize = 72;
@@ -22,15 +22,16 @@ pub struct Outline {
 impl Outline {
     /// As drawn: lines in the plane, surfaces in space; boxes and planes are lines in both. Endless things are cut off:
     /// a plane is 1 m long, a cylinder four radii about the foot of its point.
-    pub(super) fn new(wall: &plan::Wall, surface: &Surface, dimension: u8) -> Self {
+    pub(super) fn new(shape: &Shape, surface: &Surface, dimension: u8) -> Self {
         match (surface, dimension) {
-            (Surface::HalfSpaces { .. }, _) => Self { lines: vec![plane::outline(wall)], triangles: Vec::new() },
+            (Surface::HalfSpaces { .. }, _) => Self { lines: vec![corners(shape)], triangles: Vec::new() },
             (Surface::Frustum(frustum), 2) => Self { lines: section(frustum), triangles: Vec::new() },
             (Surface::Frustum(frustum), _) => Self { lines: Vec::new(), triangles: skin(frustum) },
             (Surface::Shell(shell), 2) => {
                 Self { lines: vec![circle(shell.centre, shell.radius)], triangles: Vec::new() }
             }
             (Surface::Shell(shell), _) => Self { lines: Vec::new(), triangles: globe(shell) },
+            (Surface::Mesh(mesh), 2) => Self { lines: mesh.lines(), triangles: Vec::new() },
             (Surface::Mesh(mesh), _) => {
                 Self { lines: Vec::new(), triangles: mesh.triangles().iter().map(|t| t.corners).collect() }
             }
@@ -44,6 +45,22 @@ impl Outline {
             lines: self.lines.iter().map(|line| line.iter().copied().map(place).collect()).collect(),
             triangles: self.triangles.iter().map(|t| t.map(place)).collect(),
         }
+    }
+}
+
+/// Corners of a box or plane in the plane (x, z).
+fn corners(shape: &Shape) -> Vec<DVec3> {
+    match shape {
+        Shape::Plane { point, normal } => {
+            let along = DVec3::from_array(*normal).cross(DVec3::Y);
+            [-0.5, 0.5].map(|s| DVec3::from_array(*point) + along * s).to_vec()
+        }
+        Shape::Box { width, height, floor_centre, .. } => {
+            let c = DVec3::from_array(*floor_centre);
+            let (x, z) = (DVec3::X * (0.5 * width), DVec3::Z * *height);
+            vec![c - x, c + x, c + x + z, c - x + z]
+        }
+        Shape::Cylinder { .. } | Shape::Cone { .. } | Shape::Sphere { .. } | Shape::Mesh { .. } => Vec::new(),
     }
 }
 

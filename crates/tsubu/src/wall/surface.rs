@@ -5,9 +5,9 @@ use super::half_space::HalfSpace;
 use super::mesh::Mesh;
 use super::nearest::Nearest;
 use super::shell::SphericalShell;
-use super::{Pose, plane};
+use super::{Pose, half_space};
 use glam::DVec3;
-use tsubu_scene::plan::{self, Shape};
+use tsubu_scene::plan::Shape;
 
 /// What a wall is made of. Elements are counted from 0.
 #[derive(Clone, Debug)]
@@ -29,13 +29,12 @@ pub enum Surface {
 
 impl Surface {
     /// From the plan; `centre` is the wall's centre of rotation [m].
-    pub(super) fn new(wall: &plan::Wall, dimension: u8, centre: DVec3) -> Self {
+    pub(super) fn new(shape: &Shape, dimension: u8, centre: DVec3) -> Self {
         let vector = DVec3::from_array;
-        match &wall.shape {
+        match shape {
             Shape::Plane { .. } | Shape::Box { .. } => {
-                let planes = plane::planes(wall, dimension);
-                let planes = planes.into_iter().map(|(point, normal)| HalfSpace { point, normal }).collect();
-                Self::HalfSpaces { planes, radius: box_radius(&wall.shape, dimension, centre) }
+                let planes = half_space::planes(shape, dimension);
+                Self::HalfSpaces { planes, radius: box_radius(shape, dimension, centre) }
             }
             Shape::Cylinder { point, axis, radius, length } => {
                 let axis = vector(*axis);
@@ -54,7 +53,7 @@ impl Surface {
             }
             Shape::Mesh { triangles, .. } => {
                 let corners: Vec<_> = triangles.iter().map(|t| t.map(vector)).collect();
-                Self::Mesh(Mesh::new(&corners, centre))
+                Self::Mesh(if dimension == 2 { Mesh::in_plane(&corners, centre) } else { Mesh::new(&corners, centre) })
             }
         }
     }

@@ -5,6 +5,7 @@ mod body;
 mod nearest;
 mod pose;
 mod seam;
+mod section;
 mod servo;
 mod smooth;
 mod travel;
