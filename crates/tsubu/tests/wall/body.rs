@@ -2,9 +2,10 @@
 
 use glam::{DQuat, DVec3};
 use std::f64::consts::PI;
-use tsubu::wall::Body;
+use tsubu::partner::Hosts;
+use tsubu::wall::{Body, Exchange, Wall};
 use tsubu_frame::State;
-use tsubu_scene::plan;
+use tsubu_scene::plan::{self, Shape};
 
 const INERTIA: DVec3 = DVec3::new(1.0, 2.0, 3.5);
 
@@ -172,4 +173,38 @@ fn resumes_with_the_same_bits() {
     go(&mut through, 50);
     go(&mut resumed, 50);
     assert_eq!(through, resumed);
+}
+
+/// A wall that is a body goes where the body goes, and its material has the body's velocity.
+#[test]
+fn wall_follows_its_body() {
+    let shape = Shape::Sphere { centre: [0.1, 0.2, 0.3], radius: 0.5 };
+    let mut plan = super::plan_wall(shape);
+    plan.body = Some(plan::Body {
+        mass: 2.0,
+        inertia: INERTIA.to_array(),
+        centre: [0.1, 0.2, 0.3],
+        velocity: [1.0, 0.0, 0.5],
+        spin: [0.5, 2.0, -1.0],
+    });
+    let hosts = Hosts::default();
+    let mut wall = Wall::new("stone", &plan, 3, &hosts, DVec3::NEG_Z);
+    let opening = wall.energy();
+    let (point, dt) = (DVec3::new(0.4, 0.2, 0.7), 1e-4);
+    let mut before = point;
+    for step in 0..2000 {
+        let expected = wall.velocity_at(before);
+        wall.before(dt);
+        wall.follow(0.0, &hosts);
+        let now = wall.pose.to_world(point);
+        let halfway = 0.5 * (expected + wall.velocity_at(now));
+        assert!((now - before).distance(halfway * dt) < 1e-10, "{step}");
+        assert_eq!(wall.after(DVec3::ZERO, DVec3::ZERO, dt), Exchange::default());
+        before = now;
+    }
+    let energy = wall.energy();
+    assert!((energy.0 + energy.1 - opening.0 - opening.1).abs() < 1e-7 * opening.0);
+    // Fallen g t^2 / 2 = 0.02 m from 0.5 m/s upwards for 0.2 s.
+    assert!((wall.pose.offset - DVec3::new(0.2, 0.0, 0.1 - 0.02)).length() < 1e-12);
+    assert!((wall.nearest(0, wall.pose.origin() + DVec3::X).distance - 0.5).abs() < 1e-12);
 }

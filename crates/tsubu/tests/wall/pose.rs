@@ -90,3 +90,29 @@ fn pose_as_numbers() {
     pose.set_place(place);
     assert_eq!(pose, wall.pose);
 }
+
+/// What is drawn is what is touched: corners of outlines lie on the surface, wherever the wall has gone.
+#[test]
+fn outlines_lie_on_the_surface() {
+    let axis = [0.0, 0.6, 0.8];
+    let shapes = [
+        Shape::Box { width: 2.0, height: 1.5, depth: 1.0, floor_centre: [0.1, 0.0, -0.7] },
+        Shape::Cylinder { point: [0.3, 0.0, 0.2], axis, radius: 0.4, length: Some(1.3) },
+        Shape::Cylinder { point: [0.3, 0.0, 0.2], axis, radius: 0.4, length: None },
+        Shape::Cone { point: [0.3, 0.0, 0.2], axis, radius: 0.4, end_radius: 0.0, length: 0.8 },
+        Shape::Sphere { centre: [0.2, 0.2, 0.2], radius: 0.6 },
+        mesh(&hollow()),
+    ];
+    for shape in shapes {
+        let mut wall = moving(shape);
+        wall.follow(0.37, &Hosts::default());
+        let outline = wall.outline();
+        let corners: Vec<DVec3> =
+            outline.lines.iter().flatten().chain(outline.triangles.iter().flatten()).copied().collect();
+        assert!(corners.len() >= 4);
+        for corner in corners {
+            let distances = (0..wall.elements() as u32).map(|e| wall.nearest(e, corner).distance.abs());
+            assert!(distances.fold(f64::INFINITY, f64::min) < 1e-12);
+        }
+    }
+}
