@@ -87,8 +87,10 @@ impl GrainShape {
 impl GrainTable {
     /// Mean of the diameters [m]; `None` where the file has none.
     pub fn mean_diameter(&self) -> Option<f64> {
-        let sum: f64 = self.diameter.iter().sum();
-        (!self.diameter.is_empty()).then(|| sum / self.diameter.len() as f64)
+        // The mean of the differences: of a million equal grains the mean is theirs, to the last digit.
+        let first = *self.diameter.first()?;
+        let more: f64 = self.diameter.iter().map(|diameter| diameter - first).sum();
+        Some(first + more / self.diameter.len() as f64)
     }
 }
 
@@ -120,6 +122,13 @@ mod tests {
             let mean = sieve.mean(&shape).expect("a mean");
             assert!((mean - moment / number).abs() < 1e-8, "{mean} is not {}", moment / number);
         }
+    }
+
+    #[test]
+    fn equal_grains_have_their_diameter() {
+        let grains = GrainTable { diameter: vec![0.009; 1_000_003], ..GrainTable::default() };
+        assert_eq!(grains.mean_diameter(), Some(0.009));
+        assert_eq!(GrainTable::default().mean_diameter(), None);
     }
 
     #[test]

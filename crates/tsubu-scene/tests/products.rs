@@ -93,7 +93,7 @@ source = "theory"
 "#;
 
 /// Nearly every key that only makes sense in space, or that the other one had no room for.
-const IN_SPACE: &str = r#"
+pub const IN_SPACE: &str = r#"
 title = "in space"
 dimension = 3
 duration = 1

@@ -1,5 +1,6 @@
 //! Whatever is fed to the reader, it answers with a scene or with complaints that can be printed.
 
+use crate::products::IN_SPACE;
 use crate::{GOOD, read};
 use proptest::prelude::*;
 use tsubu_scene::TEMPLATES;
@@ -110,11 +111,19 @@ proptest! {
     }
 
     #[test]
-    fn a_value_swapped_for_any_other(line in 0_usize..60, value in prop_oneof![
+    fn a_wide_scene_cut_short_or_damaged(from in 0_usize..4000, length in 0_usize..40, with in "(?s).{0,6}") {
+        let start = cut(IN_SPACE, from);
+        let end = cut(IN_SPACE, start + length).max(start);
+        survive(&format!("{}{with}{}", &IN_SPACE[..start], &IN_SPACE[end..]), &[]);
+    }
+
+    #[test]
+    fn a_value_swapped_for_any_other(wide in any::<bool>(), line in 0_usize..100, value in prop_oneof![
         Just("nan"), Just("inf"), Just("-1"), Just("0"), Just("1e308"), Just("9223372036854775807"), Just("\"\""), Just("[]"), Just("{}"),
         Just("true"), Just("[[1, 2], [1]]"), Just("1979-05-27"), Just("\"1e400 m\""), Just("{ x = { y = [] } }"),
     ]) {
-        let text: Vec<String> = GOOD.lines().enumerate().map(|(index, typed)| match typed.split_once(" = ") {
+        let text = if wide { IN_SPACE } else { GOOD };
+        let text: Vec<String> = text.lines().enumerate().map(|(index, typed)| match typed.split_once(" = ") {
             Some((key, _)) if index == line => format!("{key} = {value}"),
             _ => typed.to_string(),
         }).collect();
