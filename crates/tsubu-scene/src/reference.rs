@@ -21,6 +21,17 @@ are built with products (`N s/m` or `N.s/m`), quotients and powers (`m/s^2`). Te
 **Choices** are made by the name of a table: `[contact.normal.hertz]`, or `normal.hertz = {}` inside `[contact]`. Only one of
 the tables of a choice can be given.
 
+**Files** are named from the folder of the scene file. The run folder gets copies of those with grains and meshes, so that its
+`scene.toml` runs again. Grains come from CSV, extended XYZ and LAMMPS data files, all in SI units unless a header says otherwise:
+
+- `.csv` with a header: `x`, `y`, `z`, then what there is of `d` (or `diameter`) or `r` (or `radius`), `vx`, `vy`, `vz`, `wx`, `wy`,
+  `wz`, in any order, with units as in `x [mm]`; other columns are passed over. Without a header: x, y, z and perhaps the
+  radius; in the plane x, z and perhaps the radius. Lines that begin with `#` are passed over.
+- `.xyz`: one frame, `Properties` with `pos` and what there is of `radius` (or `diameter`), `velo` and `omega`.
+- `.data`: atom_style sphere, the sections `Atoms` and `Velocities`; densities are the materials'.
+
+In the plane every y must be 0. Meshes come from `.stl` (text or binary) and `.obj` files.
+
 NAME stands for a name of your own. A value can be changed from the command line without touching the file:
 `--set particles.balls.count=30`, `--set contact.damping.quarter={}`.
 
@@ -77,6 +88,9 @@ fn choices(page: &mut String, about: &str, variants: &'static [Variant], here: &
     for variant in variants.iter().filter(|variant| !variant.keys.is_empty()) {
         let _ = writeln!(page, "Keys of `[{here}.{}]`:\n", variant.name);
         rows(page, variant.keys);
+    }
+    // Below all of them: a heading would cut the list of variants in two.
+    for variant in variants {
         for key in variant.keys {
             section(page, key, &format!("{here}.{}", variant.name), 4);
         }
@@ -110,6 +124,7 @@ fn value(key: &Key) -> String {
         Kind::Axis => "direction, y allowed in the plane".to_string(),
         Kind::Direction => "direction".to_string(),
         Kind::Gravity => "acceleration or vector [m/s^2]".to_string(),
+        Kind::Quantities(dimension) if dimension.si.is_empty() => "list of numbers".to_string(),
         Kind::Quantities(dimension) => format!("list [{}]", dimension.si),
         Kind::Ends(dimension) => format!("two ends [{}]", dimension.si),
         Kind::Cohesion => "force [N] or energy density [J/m^3]".to_string(),
@@ -129,12 +144,17 @@ fn default(key: &Key) -> String {
     match key.need {
         Need::Required => "required".to_string(),
         Need::Optional => "not there".to_string(),
-        Need::Default("{}") if matches!(key.kind, Kind::Table(_)) => "all its defaults".to_string(),
+        Need::Default("{}") if has_defaults(key) => "all its defaults".to_string(),
         Need::Default("{}" | "[]" | "''") => "empty".to_string(),
         Need::Default(text) => format!("`{}`", text.replace('\'', "\"")),
         Need::Word(word) => format!("`\"{word}\"`"),
         Need::Derived(text) => text.to_string(),
     }
+}
+
+/// A table of keys that need not be there has nothing to fill in.
+fn has_defaults(key: &Key) -> bool {
+    matches!(key.kind, Kind::Table(keys) if keys.iter().any(|key| !matches!(key.need, Need::Optional)))
 }
 
 /// The length, not a length.

@@ -1,6 +1,7 @@
 //! Grains and meshes from files.
 
 use proptest::prelude::*;
+use std::fmt::Write as _;
 use std::fs;
 use std::sync::Arc;
 use tsubu_scene::plan::*;
@@ -199,7 +200,7 @@ fn a_hundred_thousand_rows_are_a_matter_of_a_moment() {
     let mut text = String::from("x,y,z,r\n");
     for i in 0..100_000 {
         let [x, y, z] = [i % 50, i / 50 % 50, i / 2500].map(|n| 0.01 * f64::from(n));
-        text += &format!("{x},{y},{z},0.005\n");
+        let _ = writeln!(text, "{x},{y},{z},0.005");
     }
     let begin = std::time::Instant::now();
     assert_eq!(grains("a.csv", &text).position.len(), 100_000);
@@ -246,7 +247,8 @@ fn companions_do_not_collide() {
     let mut text = SCENE.split_once("[particles").expect("grains").0.to_string();
     for (i, name) in groups.iter().enumerate() {
         let file = if *name == "c" { "0.csv".to_string() } else { format!("{i}.csv") };
-        text += &format!(
+        let _ = write!(
+            text,
             "[particles.\"{name}\"]\nmaterial = \"steel\"\nmotion.frozen = {{}}\nstart.file.path = \"{file}\"\n"
         );
     }

@@ -178,6 +178,7 @@ fn regions_that_cannot_be() {
         start("stream.rate = 10".to_string()),
         start("random = {}".to_string()),
         boxed(format!("random.{good}")),
+        start(format!("random.{}", region("[-0.1, -0.1, -0.01]", "[0.1, 0.1, 0.2]"))),
         start(format!("random.{good}")) + "[periodic]\nx = [-0.05, 0.05]\n",
         with("[removal.out]\ninside.region = { low = [0, 0, 1], high = [1, 1, 1] }"),
     ];
@@ -227,11 +228,9 @@ fn grains_vanish_where_they_are_told_to() {
         with("[removal]\nlow = 3"),
         with("[removal.low.behind]\nregion = 1"),
     ];
-    let mut messages = all(&texts);
-    for set in ["removal.high.behind={}", "removal.low.beyond={}"] {
-        messages += &format!("\n\n{}", complaint(&with("[removal.low.behind]"), &[set]));
-    }
-    insta::assert_snapshot!(messages);
+    let changed = ["removal.high.behind={}", "removal.low.beyond={}"]
+        .map(|change| complaint(&with("[removal.low.behind]"), &[change]));
+    insta::assert_snapshot!([all(&texts), changed.join("\n\n")].join("\n\n"));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::Parts;
 use super::place::{Room, axes, millimetres};
 use crate::complaint::{Complaint, Place};
-use crate::plan::{Particles, Region, Start, Vector};
+use crate::plan::{Particles, Region, Shape, Start, Vector};
 
 /// Share of space or of the plane that equal grains thrown together can fill, and a little more.
 const DENSEST: [f64; 2] = [0.64, 0.85];
@@ -57,6 +57,21 @@ fn reaches_out(parts: &Parts<'_>, rooms: &[Room<'_>], region: &Region, name: &st
             Complaint::new(format!("the region of `{name}` reaches beyond the periodic world along {axis}"))
                 .at(place, format!("must lie within the ends of periodic.{axis}")),
         );
+    }
+    for (wall_name, wall) in &parts.walls {
+        // A moved plane is wherever its motion says; only still ones can be judged here.
+        let still = wall.motion.is_none() && wall.host.is_none() && wall.rotation.is_none();
+        let (true, Shape::Plane { point, normal }) = (still, &wall.shape) else { continue };
+        let deepest = [0, 1, 2].map(|i| if normal[i] > 0.0 { region.low[i] } else { region.high[i] });
+        let depth: f64 = (0..3).map(|i| (point[i] - deepest[i]) * normal[i]).sum();
+        let size: f64 = (0..3).map(|i| (region.high[i] - region.low[i]) * normal[i].abs()).sum();
+        if depth > 1e-9 * size {
+            return Some(
+                Complaint::new(format!("the region of `{name}` reaches behind the plane `{wall_name}`"))
+                    .at(place, format!("reaches {} into it", millimetres(depth)))
+                    .also(&parts.root.locate(&["walls", wall_name, "shape"]), "the plane"),
+            );
+        }
     }
     for room in rooms {
         let meets = axes(parts.space()).iter().all(|(axis, ..)| {

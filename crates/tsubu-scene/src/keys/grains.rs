@@ -75,7 +75,7 @@ static SIZE: &[Variant] = &[
     },
 ];
 
-const VELOCITY: Key = Key::new("velocity", Kind::Vector(&SPEED), "Velocity of all").default("'origin'");
+const VELOCITY: Key = Key::new("velocity", Kind::Vector(&SPEED), "Velocity of all").default("[0, 0, 0]");
 const SPEED_ADDED: Key = Key::new("speed", Kind::Quantity(&SPEED), "Speed of each grain in a random direction, added")
     .default("0")
     .at_least(0.0);
@@ -160,10 +160,14 @@ static START: &[Variant] = &[
 
 static MOTION: &[Variant] = &[
     Variant { name: "free", about: "Forces do", keys: &[] },
-    Variant { name: "frozen", about: "Nobody: they stay where they are, of infinite mass to others", keys: &[] },
+    Variant {
+        name: "frozen",
+        about: "Nobody: they stay where they are, of infinite mass to others; velocities in a file are passed over",
+        keys: &[],
+    },
     Variant {
         name: "driven",
-        about: "A displacement given in advance; they do not spin, of infinite mass to others",
+        about: "A displacement given in advance; they do not spin, of infinite mass to others; velocities in a file are passed over",
         keys: &[
             Key::new("direction", Kind::Direction, "Direction of the motion").default("'z'"),
             Key::new("signal", Kind::Choice(&hosts::DISPLACEMENT), "Displacement against time"),

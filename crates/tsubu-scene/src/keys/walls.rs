@@ -128,7 +128,7 @@ static BODY: &[Key] = &[
         "Principal moments of inertia, about the scene's axes at time 0: in the plane one number (about y), in space three",
     ),
     Key::new("centre", Kind::Vector(&LENGTH), "Centre of mass at time 0"),
-    Key::new("velocity", Kind::Vector(&SPEED), "Velocity of the centre at time 0").default("'origin'"),
+    Key::new("velocity", Kind::Vector(&SPEED), "Velocity of the centre at time 0").default("[0, 0, 0]"),
     Key::new("spin", Kind::Turning(&SPIN), "Spin at time 0: in the plane a number (about y), in space a vector")
         .default("[0, 0, 0]"),
 ];
