@@ -1,6 +1,6 @@
 //! Rolling resistance as an elastic-plastic spring with a dashpot (EPSD), and its variant EPSD2.
 
-use super::chunk::Chunk;
+use super::chunk::{Chunk, Column};
 use super::part::{About, Needs, Part, Slot, Stage};
 use super::slider::{self, Strength, roll};
 use multiversion::multiversion;
@@ -47,10 +47,10 @@ impl Part for Epsd {
     }
 
     fn apply(&self, chunk: &mut Chunk, at: usize, dt: f64) {
-        match self.told {
-            Some([ratio, damping]) => epsd(chunk, at, dt, ratio, damping),
-            None => epsd2(chunk, at, dt),
-        }
+        chunk.with_history(at, |chunk, held| match self.told {
+            Some([ratio, damping]) => epsd(chunk, held, dt, ratio, damping),
+            None => epsd2(chunk, held, dt),
+        });
     }
 
     fn held(&self, history: &[f64]) -> f64 {
@@ -59,8 +59,8 @@ impl Part for Epsd {
 }
 
 #[multiversion(targets = "simd")]
-fn epsd(chunk: &mut Chunk, at: usize, dt: f64, ratio: f64, damping: f64) {
-    roll(chunk, at, dt, |c, i| {
+fn epsd(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, ratio: f64, damping: f64) {
+    roll(chunk, held, dt, |c, i| {
         let arm = c.rolling[i] * c.radius[i];
         let stiffness = ratio * c.secant[i] * (arm * arm);
         let inertia = 3.5 * slider::inertia(c, i);
@@ -70,8 +70,8 @@ fn epsd(chunk: &mut Chunk, at: usize, dt: f64, ratio: f64, damping: f64) {
 }
 
 #[multiversion(targets = "simd")]
-fn epsd2(chunk: &mut Chunk, at: usize, dt: f64) {
-    roll(chunk, at, dt, |c, i| {
+fn epsd2(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64) {
+    roll(chunk, held, dt, |c, i| {
         let stiffness = c.shear[i] * (c.radius[i] * c.radius[i]);
         Strength { stiffness, dashpot: 0.0, cap: c.rolling[i] * c.radius[i] * c.load[i], growth: 1.0 }
     });

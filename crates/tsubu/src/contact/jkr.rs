@@ -6,7 +6,7 @@
 //!
 //! dU/dd = f, U = 0 without contact. The force is least at x^3 = 3, -3 pi gamma R at d = -3^(1/3) a0^2/R: there the bodies part.
 
-use super::chunk::Chunk;
+use super::chunk::{Chunk, Column};
 use super::hertz::secant;
 use super::part::{About, Part, Slot, Stage};
 use super::root::{cube_root, most};
@@ -71,7 +71,7 @@ impl Part for Jkr {
     }
 
     fn apply(&self, chunk: &mut Chunk, at: usize, dt: f64) {
-        rows(chunk, at, dt);
+        chunk.with_history(at, |chunk, history| rows(chunk, history, dt));
     }
 
     fn held(&self, history: &[f64]) -> f64 {
@@ -80,14 +80,13 @@ impl Part for Jkr {
 }
 
 #[multiversion(targets = "simd")]
-fn rows(chunk: &mut Chunk, at: usize, dt: f64) {
+fn rows(chunk: &mut Chunk, [held, energy]: &mut [Column; 2], dt: f64) {
     for i in 0..chunk.rows() {
         let (radius, young, surface_energy) = (chunk.radius[i], chunk.young[i], chunk.surface_energy[i]);
         let a0 = scale(surface_energy, radius, young);
         let pull = PI * surface_energy * radius;
         let length = a0 * a0 / radius;
         let depth = chunk.overlap[i] / length;
-        let Some([held, energy]) = chunk.history[at..].first_chunk_mut() else { return };
         let (held_before, energy_before) = (held[i], energy[i]);
         let reach = if held_before > 0.0 { -LIMIT } else { 0.0 };
         let holds = depth >= reach && pull > 0.0;

@@ -1,6 +1,6 @@
 //! Tangential spring with history: Mindlin.
 
-use super::chunk::Chunk;
+use super::chunk::{Chunk, Column};
 use super::part::{About, Part, Slot, Stage};
 use super::slider::{self, Strength, slide};
 use super::table::Constants;
@@ -60,7 +60,7 @@ impl Part for Mindlin {
             MindlinForm::Incremental => 1.0,
             MindlinForm::Secant => f64::INFINITY,
         };
-        rows(chunk, at, dt, growth);
+        chunk.with_history(at, |chunk, held| rows(chunk, held, dt, growth));
     }
 
     fn held(&self, history: &[f64]) -> f64 {
@@ -69,8 +69,8 @@ impl Part for Mindlin {
 }
 
 #[multiversion(targets = "simd")]
-fn rows(chunk: &mut Chunk, at: usize, dt: f64, growth: f64) {
-    tangential(chunk, at, dt, |c, i| Strength {
+fn rows(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, growth: f64) {
+    tangential(chunk, held, dt, |c, i| Strength {
         stiffness: 8.0 * c.shear_modulus[i] * c.disc[i],
         dashpot: c.dashpot[i] * c.shear_damping[i],
         cap: c.friction[i] * c.load[i],
@@ -80,13 +80,18 @@ fn rows(chunk: &mut Chunk, at: usize, dt: f64, growth: f64) {
 
 /// A step of a tangential spring in all rows.
 #[inline(always)]
-pub(super) fn tangential(chunk: &mut Chunk, at: usize, dt: f64, strength: impl Fn(&Chunk, usize) -> Strength) {
+pub(super) fn tangential(
+    chunk: &mut Chunk,
+    [x, y, z, c]: &mut [Column; 4],
+    dt: f64,
+    strength: impl Fn(&Chunk, usize) -> Strength,
+) {
+    let times = [dt, 1.0 / dt];
     for i in 0..chunk.rows() {
         let s = strength(chunk, i);
-        let Some([x, y, z, k]) = chunk.history[at..].first_chunk_mut() else { return };
         let (normal, slip) = (Chunk::vector(&chunk.normal, i), Chunk::vector(&chunk.slip, i));
-        let slid = slide(DVec3::new(x[i], y[i], z[i]), k[i], normal, slip, s, dt);
-        (x[i], y[i], z[i], k[i]) = (slid.spring.x, slid.spring.y, slid.spring.z, s.stiffness);
+        let slid = slide((DVec3::new(x[i], y[i], z[i]), c[i]), normal, slip, s, times);
+        (x[i], y[i], z[i], c[i]) = (slid.spring.x, slid.spring.y, slid.spring.z, slid.compliance);
         Chunk::set(&mut chunk.tangential_force, i, slid.total);
         chunk.shear[i] = s.stiffness;
         chunk.stored[i] += slid.stored;

@@ -1,6 +1,6 @@
 //! Rolling resistance as spring, dashpot and slider on the rolling displacement.
 
-use super::chunk::Chunk;
+use super::chunk::{Chunk, Column};
 use super::part::{About, Needs, Part, Slot, Stage};
 use super::slider::{self, Strength, roll};
 use multiversion::multiversion;
@@ -40,7 +40,7 @@ impl Part for RollingSpring {
     }
 
     fn apply(&self, chunk: &mut Chunk, at: usize, dt: f64) {
-        rows(chunk, at, dt, self.stiffness, self.damping);
+        chunk.with_history(at, |chunk, held| rows(chunk, held, dt, self.stiffness, self.damping));
     }
 
     fn held(&self, history: &[f64]) -> f64 {
@@ -49,9 +49,9 @@ impl Part for RollingSpring {
 }
 
 #[multiversion(targets = "simd")]
-fn rows(chunk: &mut Chunk, at: usize, dt: f64, stiffness: f64, damping: f64) {
+fn rows(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, stiffness: f64, damping: f64) {
     // As a torque on the angle of rolling: with v = -R* w x n and M = -R* n x F, F = -k x is M = -k R*^2 times the angle.
-    roll(chunk, at, dt, |c, i| {
+    roll(chunk, held, dt, |c, i| {
         let arm = c.radius[i];
         Strength {
             stiffness: stiffness * (arm * arm),

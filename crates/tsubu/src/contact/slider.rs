@@ -1,6 +1,6 @@
 //! What parts with a limit have in common: springs that slide, and torques that may stop a motion but not turn it.
 
-use super::chunk::Chunk;
+use super::chunk::{Chunk, Column};
 use super::part::Slot;
 use super::root::{least, most};
 use glam::DVec3;
@@ -8,13 +8,13 @@ use glam::DVec3;
 /// Keeps divisions finite where nothing touches; squares of forces below 1e-100 N are lost in it.
 pub(super) const TINY: f64 = 1e-200;
 
-/// History of a spring in the tangent plane: what it holds (3), and the stiffness it holds it at.
+/// History of a spring in the tangent plane: what it holds (3), and one over the stiffness it holds it at.
 pub(super) const SPRING: &[Slot] = &[Slot::Odd, Slot::Odd, Slot::Odd, Slot::Even];
 
 /// Energy [J] in such a history.
 pub(super) fn held(history: &[f64]) -> f64 {
     match *history {
-        [x, y, z, stiffness, ..] if stiffness > 0.0 => 0.5 * (x * x + y * y + z * z) / stiffness,
+        [x, y, z, compliance, ..] => 0.5 * (x * x + y * y + z * z) * compliance,
         _ => 0.0,
     }
 }
@@ -35,6 +35,8 @@ pub(super) struct Strength {
 pub(super) struct Slid {
     /// What the spring holds: force or torque on the first body.
     pub spring: DVec3,
+    /// One over the stiffness it holds it at.
+    pub compliance: f64,
     /// What acts on the first body: spring and dashpot, within the cap.
     pub total: DVec3,
     /// Energy the spring holds [J].
@@ -45,33 +47,46 @@ pub(super) struct Slid {
 
 /// A step of a spring that slides at a cap, with a dashpot beside it.
 ///
-/// What it held, `old` at the stiffness `was`, is turned with the contact into the tangent plane at its old length, follows
-/// the stiffness, is moved on by `rate`, and cut at the cap. The dashpot has what the spring leaves of the cap: it cannot
-/// fill the spring, and against a slide it has nothing. Work taken from the motion and not stored is lost.
+/// What it held, `old` at one over the stiffness `was`, is turned with the contact into the tangent plane at its old length,
+/// follows the stiffness, is moved on by `rate`, and cut at the cap. The dashpot has what the spring leaves of the cap: it
+/// cannot fill the spring, and against a slide it has nothing. Work taken from the motion and not stored is lost.
+///
+/// `dt` is the time step and `rates` one over it. The time is that of the divisions and roots.
 #[inline(always)]
-pub(super) fn slide(old: DVec3, was: f64, normal: DVec3, rate: DVec3, s: Strength, dt: f64) -> Slid {
+pub(super) fn slide((old, was): (DVec3, f64), normal: DVec3, rate: DVec3, s: Strength, [dt, rates]: [f64; 2]) -> Slid {
     let squared = old.length_squared();
-    let softness = 1.0 / most(was, TINY);
     let flat = old - normal * old.dot(normal);
     let lengthen = (squared / most(flat.length_squared(), TINY)).sqrt();
-    let trial = flat * (lengthen * least(s.stiffness * softness, s.growth)) - rate * (s.stiffness * dt);
+    let trial = flat * (lengthen * least(s.stiffness * was, s.growth)) - rate * (s.stiffness * dt);
     let spring = trial * least(s.cap / most(trial.length_squared(), TINY).sqrt(), 1.0);
     let both = spring - rate * s.dashpot;
     let total = both * least(s.cap / most(both.length_squared(), TINY).sqrt(), 1.0);
-    let stored = 0.5 * spring.length_squared() / most(s.stiffness, TINY);
-    let lost = -total.dot(rate) - (stored - 0.5 * squared * softness) / dt;
-    Slid { spring, total, stored, lost }
+    let compliance = inverse(s.stiffness);
+    let stored = 0.5 * spring.length_squared() * compliance;
+    let lost = -total.dot(rate) - (stored - 0.5 * squared * was) * rates;
+    Slid { spring, compliance, total, stored, lost }
+}
+
+/// One over a stiffness, and zero where there is none.
+#[inline(always)]
+pub(super) fn inverse(stiffness: f64) -> f64 {
+    if stiffness > 0.0 { 1.0 / stiffness } else { 0.0 }
 }
 
 /// A step of a rolling spring in all rows; `strength` says how strong it is in a row.
 #[inline(always)]
-pub(super) fn roll(chunk: &mut Chunk, at: usize, dt: f64, strength: impl Fn(&Chunk, usize) -> Strength) {
+pub(super) fn roll(
+    chunk: &mut Chunk,
+    [x, y, z, c]: &mut [Column; 4],
+    dt: f64,
+    strength: impl Fn(&Chunk, usize) -> Strength,
+) {
+    let times = [dt, 1.0 / dt];
     for i in 0..chunk.rows() {
         let s = strength(chunk, i);
-        let Some([x, y, z, k]) = chunk.history[at..].first_chunk_mut() else { return };
         let (normal, rate) = (Chunk::vector(&chunk.normal, i), Chunk::vector(&chunk.roll, i));
-        let slid = slide(DVec3::new(x[i], y[i], z[i]), k[i], normal, rate, s, dt);
-        (x[i], y[i], z[i], k[i]) = (slid.spring.x, slid.spring.y, slid.spring.z, s.stiffness);
+        let slid = slide((DVec3::new(x[i], y[i], z[i]), c[i]), normal, rate, s, times);
+        (x[i], y[i], z[i], c[i]) = (slid.spring.x, slid.spring.y, slid.spring.z, slid.compliance);
         let torque = Chunk::vector(&chunk.torque, i) + slid.total;
         Chunk::set(&mut chunk.torque, i, torque);
         chunk.stored[i] += slid.stored;

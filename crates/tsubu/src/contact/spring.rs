@@ -1,6 +1,6 @@
 //! Linear tangential spring with history, for Hooke's normal spring.
 
-use super::chunk::Chunk;
+use super::chunk::{Chunk, Column};
 use super::mindlin::tangential;
 use super::part::{About, Part, Slot, Stage};
 use super::slider::{self, Strength};
@@ -44,7 +44,7 @@ impl Part for Spring {
     }
 
     fn apply(&self, chunk: &mut Chunk, at: usize, dt: f64) {
-        rows(chunk, at, dt, self.ratio, self.cohesion);
+        chunk.with_history(at, |chunk, held| rows(chunk, held, dt, self.ratio, self.cohesion));
     }
 
     fn held(&self, history: &[f64]) -> f64 {
@@ -53,8 +53,8 @@ impl Part for Spring {
 }
 
 #[multiversion(targets = "simd")]
-fn rows(chunk: &mut Chunk, at: usize, dt: f64, ratio: f64, cohesion: f64) {
-    tangential(chunk, at, dt, |c, i| Strength {
+fn rows(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, ratio: f64, cohesion: f64) {
+    tangential(chunk, held, dt, |c, i| Strength {
         stiffness: ratio * c.secant[i],
         dashpot: c.dashpot[i] * c.shear_damping[i],
         cap: if c.disc[i] > 0.0 { c.friction[i] * c.load[i] + cohesion } else { 0.0 },

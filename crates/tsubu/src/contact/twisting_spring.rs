@@ -1,9 +1,9 @@
 //! Resistance against spin about the normal, with a spring on the angle of twist.
 
-use super::chunk::Chunk;
+use super::chunk::{Chunk, Column};
 use super::part::{About, Needs, Part, Slot, Stage};
 use super::root::{least, most};
-use super::slider::TINY;
+use super::slider::inverse;
 use super::twisting_sliding::limit;
 use multiversion::multiversion;
 
@@ -32,19 +32,19 @@ impl Part for TwistingSpring {
         Needs { roll: false, twist: true }
     }
 
-    /// What the spring holds, and its stiffness. A torque about the normal from the first to the second body is the same number
+    /// What the spring holds, and one over its stiffness. A torque about the normal from the first to the second body is the same number
     /// when the bodies change places.
     fn history(&self) -> &'static [Slot] {
         &[Slot::Even, Slot::Even]
     }
 
     fn apply(&self, chunk: &mut Chunk, at: usize, dt: f64) {
-        rows(chunk, at, dt);
+        chunk.with_history(at, |chunk, history| rows(chunk, history, dt));
     }
 
     fn held(&self, history: &[f64]) -> f64 {
         match *history {
-            [torque, stiffness, ..] if stiffness > 0.0 => 0.5 * torque * torque / stiffness,
+            [torque, compliance, ..] => 0.5 * torque * torque * compliance,
             _ => 0.0,
         }
     }
@@ -52,22 +52,22 @@ impl Part for TwistingSpring {
 
 /// The step of `slider::slide` along one direction that never turns.
 #[multiversion(targets = "simd")]
-fn rows(chunk: &mut Chunk, at: usize, dt: f64) {
+fn rows(chunk: &mut Chunk, [held, was]: &mut [Column; 2], dt: f64) {
+    let rates = 1.0 / dt;
     for i in 0..chunk.rows() {
         let (twist, cap) = (chunk.twist[i], limit(chunk, i));
         let half = 0.5 * (chunk.disc[i] * chunk.disc[i]);
         let (stiffness, dashpot) = (chunk.shear[i] * half, chunk.dashpot[i] * half);
-        let Some([held, was]) = chunk.history[at..].first_chunk_mut() else { return };
-        let softness = 1.0 / most(was[i], TINY);
-        let before = 0.5 * held[i] * held[i] * softness;
+        let before = 0.5 * held[i] * held[i] * was[i];
         let within = |torque: f64| most(least(torque, cap), -cap);
-        let spring = within(held[i] * least(stiffness * softness, 1.0) - twist * (stiffness * dt));
+        let spring = within(held[i] * least(stiffness * was[i], 1.0) - twist * (stiffness * dt));
         let total = within(spring - twist * dashpot);
-        let stored = 0.5 * spring * spring / most(stiffness, TINY);
-        (held[i], was[i]) = (spring, stiffness);
+        let compliance = inverse(stiffness);
+        let stored = 0.5 * spring * spring * compliance;
+        (held[i], was[i]) = (spring, compliance);
         let torque = Chunk::vector(&chunk.torque, i) + Chunk::vector(&chunk.normal, i) * total;
         Chunk::set(&mut chunk.torque, i, torque);
         chunk.stored[i] += stored;
-        chunk.lost_rolling[i] += -total * twist - (stored - before) / dt;
+        chunk.lost_rolling[i] += -total * twist - (stored - before) * rates;
     }
 }
