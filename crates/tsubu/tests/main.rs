@@ -6,3 +6,4 @@ mod dem;
 mod host;
 mod lattice;
 mod verify;
+mod wall;

@@ -22,7 +22,7 @@ impl DemEngine {
                 }
                 kept.push(Kept {
                     first: id[list.first + own],
-                    second: id[list.pairs[k as usize].grain as usize],
+                    second: id[list.grain(list.pairs[k as usize])],
                     wall: false,
                     patch: 0,
                     history: memory.pairs.of(c, width).to_vec(),
@@ -102,7 +102,7 @@ impl DemEngine {
         let list = &self.candidates.lists[block];
         let own = i as usize % BLOCK;
         let range = list.start[own] as usize..list.start[own + 1] as usize;
-        let k = list.pairs[range.clone()].iter().position(|c| c.grain == j)?;
+        let k = list.pairs[range.clone()].iter().position(|&place| list.grain(place) == j as usize)?;
         Some((block, (range.start + k) as u32))
     }
 }

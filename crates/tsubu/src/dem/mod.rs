@@ -9,6 +9,7 @@ mod output;
 mod place;
 mod rows;
 mod settle;
+mod sieve;
 pub mod sizes;
 mod sources;
 mod step;

@@ -1,14 +1,17 @@
 //! From touching pairs to rows of a chunk, and from the results of the law to forces and torques.
 
+use super::sieve::{Hit, Spheres};
+use crate::contact::Table;
 use crate::contact::chunk::{Chunk, Column, ROWS, ZERO};
+use crate::find::candidates::List;
+use crate::state::Grains;
 use glam::DVec3;
+use multiversion::multiversion;
 
 /// One chunk at work: what the law sees, and what it need not see.
 #[derive(Clone, Debug)]
 pub(super) struct Rows {
     pub chunk: Chunk,
-    /// Candidate (or slot) each row came from.
-    pub origin: [u32; ROWS],
     /// Place of the first body.
     pub first: [u32; ROWS],
     /// Place of the second body.
@@ -42,7 +45,6 @@ impl Rows {
         const V: [Column; 3] = [ZERO; 3];
         Self {
             chunk: Chunk::new(history),
-            origin: [0; ROWS],
             first: [0; ROWS],
             second: [0; ROWS],
             between: V,
@@ -59,8 +61,40 @@ impl Rows {
         }
     }
 
+    /// Takes pairs of touching grains: what the geometry pass reads.
+    pub fn gather(
+        &mut self,
+        hits: &[Hit],
+        list: &List,
+        spheres: &Spheres,
+        grains: &Grains,
+        table: &Table,
+        rotation: bool,
+    ) {
+        self.chunk.len = hits.len();
+        for (r, hit) in hits.iter().enumerate().take(ROWS) {
+            let place = list.pairs[hit.candidate as usize];
+            let (a, b) = (spheres.at(hit.own), spheres.at(place));
+            let (i, j) = (list.first + hit.own as usize, list.grain(place));
+            self.first[r] = hit.own;
+            self.second[r] = place;
+            for k in 0..3 {
+                self.between[k][r] = b[k] - a[k];
+            }
+            self.radius[0][r] = a[3];
+            self.radius[1][r] = b[3];
+            self.inverse_mass[r] = grains.inverse_mass[i] + grains.inverse_mass[j];
+            self.material[r] = table.index(grains.material[i], grains.material[j]);
+            Chunk::set(&mut self.relative, r, grains.velocity[i] - grains.velocity[j]);
+            if rotation {
+                Chunk::set(&mut self.spin[0], r, grains.spin[i]);
+                Chunk::set(&mut self.spin[1], r, grains.spin[j]);
+            }
+        }
+    }
+
     /// Fills the constants of the materials; nothing to do where all rows are of the pair that is already there.
-    pub fn constants(&mut self, table: &crate::contact::Table) {
+    pub fn constants(&mut self, table: &Table) {
         let n = self.chunk.rows();
         let Some(&first) = self.material[..n].first() else { return };
         if self.material[..n].iter().all(|&m| m == first) {
@@ -78,109 +112,145 @@ impl Rows {
 
     /// Geometry of two spheres, from `between`, `radius`, `relative` and `spin` into the columns of the chunk.
     pub fn spheres(&mut self, rotation: bool) {
-        let n = self.chunk.rows();
-        let c = &mut self.chunk;
-        let [bx, by, bz] = &self.between;
-        let [r1, r2] = &self.radius;
-        let [nx, ny, nz] = &mut c.normal;
-        for i in 0..n {
-            let squared = bx[i] * bx[i] + by[i] * by[i] + bz[i] * bz[i];
-            let distance = squared.sqrt();
-            // Two centres in one place have no normal; the overlap limit stops the run.
-            let inverse = 1.0 / distance.max(f64::MIN_POSITIVE);
-            nx[i] = bx[i] * inverse;
-            ny[i] = by[i] * inverse;
-            nz[i] = bz[i] * inverse;
-            let overlap = (r1[i] + r2[i]) - distance;
-            c.overlap[i] = overlap;
-            c.radius[i] = r1[i] * r2[i] / (r1[i] + r2[i]);
-            c.mass[i] = 1.0 / self.inverse_mass[i];
-            self.arm[0][i] = r1[i] - 0.5 * overlap;
-            self.arm[1][i] = r2[i] - 0.5 * overlap;
-        }
+        spheres(self);
         self.motion(rotation);
     }
 
     /// Relative motion at the point of contact, from normals, arms, `relative` and `spin`.
     pub fn motion(&mut self, rotation: bool) {
-        let n = self.chunk.rows();
-        let c = &mut self.chunk;
-        let [nx, ny, nz] = &c.normal;
         if rotation {
-            let [[px, py, pz], [qx, qy, qz]] = &self.spin;
-            let [vx, vy, vz] = &mut self.relative;
-            let [a, b] = &self.arm;
-            for i in 0..n {
-                let wx = px[i] * a[i] + qx[i] * b[i];
-                let wy = py[i] * a[i] + qy[i] * b[i];
-                let wz = pz[i] * a[i] + qz[i] * b[i];
-                vx[i] += wy * nz[i] - wz * ny[i];
-                vy[i] += wz * nx[i] - wx * nz[i];
-                vz[i] += wx * ny[i] - wy * nx[i];
-            }
+            surface_velocity(self);
         }
-        let [vx, vy, vz] = &self.relative;
-        let [sx, sy, sz] = &mut c.slip;
-        for i in 0..n {
-            let closing = vx[i] * nx[i] + vy[i] * ny[i] + vz[i] * nz[i];
-            c.closing[i] = closing;
-            sx[i] = vx[i] - closing * nx[i];
-            sy[i] = vy[i] - closing * ny[i];
-            sz[i] = vz[i] - closing * nz[i];
-        }
+        split_velocity(self);
     }
 
     /// Relative spin, split into rolling and twisting.
     pub fn rolling(&mut self) {
-        let n = self.chunk.rows();
-        let c = &mut self.chunk;
-        let [[px, py, pz], [qx, qy, qz]] = &self.spin;
-        let [nx, ny, nz] = &c.normal;
-        let [rx, ry, rz] = &mut c.roll;
-        for i in 0..n {
-            let (x, y, z) = (px[i] - qx[i], py[i] - qy[i], pz[i] - qz[i]);
-            let twist = x * nx[i] + y * ny[i] + z * nz[i];
-            c.twist[i] = twist;
-            rx[i] = x - twist * nx[i];
-            ry[i] = y - twist * ny[i];
-            rz[i] = z - twist * nz[i];
-        }
+        split_spin(self);
     }
 
     /// Force on the first body and torques on both, of every row.
     pub fn actions(&mut self, rotation: bool) {
-        let n = self.chunk.rows();
-        let c = &self.chunk;
-        for k in 0..3 {
-            let (normal, tangential) = (&c.normal[k], &c.tangential_force[k]);
-            let (force, lossy) = (&mut self.force[k], &mut self.lossy[k]);
-            for i in 0..n {
-                force[i] = tangential[i] - normal[i] * c.normal_force[i];
-                lossy[i] = tangential[i] - normal[i] * c.damping_force[i];
-            }
-        }
-        if !rotation {
-            return;
-        }
-        let [a, b] = &self.arm;
-        for k in 0..3 {
-            let (u, v) = ((k + 1) % 3, (k + 2) % 3);
-            let (nu, nv) = (&c.normal[u], &c.normal[v]);
-            let (tu, tv) = (&c.tangential_force[u], &c.tangential_force[v]);
-            let torque = &c.torque[k];
-            let [first, second] = &mut self.turn;
-            let (first, second) = (&mut first[k], &mut second[k]);
-            for i in 0..n {
-                let turn = nu[i] * tv[i] - nv[i] * tu[i];
-                first[i] = turn * a[i] + torque[i];
-                second[i] = turn * b[i] - torque[i];
-            }
+        forces(self);
+        if rotation {
+            torques(self);
         }
     }
 
     /// Point of contact of row `i`, from the centre of the first body [m].
     pub fn point(&self, i: usize) -> DVec3 {
         Chunk::vector(&self.chunk.normal, i) * self.arm[0][i]
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn spheres(rows: &mut Rows) {
+    let n = rows.chunk.rows();
+    let c = &mut rows.chunk;
+    let [bx, by, bz] = &rows.between;
+    let [r1, r2] = &rows.radius;
+    let [nx, ny, nz] = &mut c.normal;
+    for i in 0..n {
+        let squared = bx[i] * bx[i] + by[i] * by[i] + bz[i] * bz[i];
+        let distance = squared.sqrt();
+        // Two centres in one place have no normal; the overlap limit stops the run.
+        let inverse = 1.0 / (distance + f64::MIN_POSITIVE);
+        nx[i] = bx[i] * inverse;
+        ny[i] = by[i] * inverse;
+        nz[i] = bz[i] * inverse;
+        let sum = r1[i] + r2[i];
+        let overlap = sum - distance;
+        c.overlap[i] = overlap;
+        c.radius[i] = r1[i] * r2[i] / sum;
+        c.mass[i] = 1.0 / rows.inverse_mass[i];
+        rows.arm[0][i] = r1[i] - 0.5 * overlap;
+        rows.arm[1][i] = r2[i] - 0.5 * overlap;
+    }
+}
+
+/// Adds what spin gives to the relative velocity at the point of contact: (w1 a1 + w2 a2) x n.
+#[multiversion(targets = "simd")]
+fn surface_velocity(rows: &mut Rows) {
+    let n = rows.chunk.rows();
+    let [nx, ny, nz] = &rows.chunk.normal;
+    let [[px, py, pz], [qx, qy, qz]] = &rows.spin;
+    let [vx, vy, vz] = &mut rows.relative;
+    let [a, b] = &rows.arm;
+    for i in 0..n {
+        let wx = px[i] * a[i] + qx[i] * b[i];
+        let wy = py[i] * a[i] + qy[i] * b[i];
+        let wz = pz[i] * a[i] + qz[i] * b[i];
+        vx[i] += wy * nz[i] - wz * ny[i];
+        vy[i] += wz * nx[i] - wx * nz[i];
+        vz[i] += wx * ny[i] - wy * nx[i];
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn split_velocity(rows: &mut Rows) {
+    let n = rows.chunk.rows();
+    let c = &mut rows.chunk;
+    let [nx, ny, nz] = &c.normal;
+    let [vx, vy, vz] = &rows.relative;
+    let [sx, sy, sz] = &mut c.slip;
+    for i in 0..n {
+        let closing = vx[i] * nx[i] + vy[i] * ny[i] + vz[i] * nz[i];
+        c.closing[i] = closing;
+        sx[i] = vx[i] - closing * nx[i];
+        sy[i] = vy[i] - closing * ny[i];
+        sz[i] = vz[i] - closing * nz[i];
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn split_spin(rows: &mut Rows) {
+    let n = rows.chunk.rows();
+    let c = &mut rows.chunk;
+    let [[px, py, pz], [qx, qy, qz]] = &rows.spin;
+    let [nx, ny, nz] = &c.normal;
+    let [rx, ry, rz] = &mut c.roll;
+    for i in 0..n {
+        let (x, y, z) = (px[i] - qx[i], py[i] - qy[i], pz[i] - qz[i]);
+        let twist = x * nx[i] + y * ny[i] + z * nz[i];
+        c.twist[i] = twist;
+        rx[i] = x - twist * nx[i];
+        ry[i] = y - twist * ny[i];
+        rz[i] = z - twist * nz[i];
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn forces(rows: &mut Rows) {
+    let c = &rows.chunk;
+    let n = c.rows();
+    for k in 0..3 {
+        let (normal, tangential) = (&c.normal[k], &c.tangential_force[k]);
+        let (force, lossy) = (&mut rows.force[k], &mut rows.lossy[k]);
+        for i in 0..n {
+            force[i] = tangential[i] - normal[i] * c.normal_force[i];
+            lossy[i] = tangential[i] - normal[i] * c.damping_force[i];
+        }
+    }
+}
+
+/// n x f_t at each arm, and the torques that the law has given.
+#[multiversion(targets = "simd")]
+fn torques(rows: &mut Rows) {
+    let c = &rows.chunk;
+    let n = c.rows();
+    let [a, b] = &rows.arm;
+    for k in 0..3 {
+        let (u, v) = ((k + 1) % 3, (k + 2) % 3);
+        let (nu, nv) = (&c.normal[u], &c.normal[v]);
+        let (tu, tv) = (&c.tangential_force[u], &c.tangential_force[v]);
+        let torque = &c.torque[k];
+        let [first, second] = &mut rows.turn;
+        let (first, second) = (&mut first[k], &mut second[k]);
+        for i in 0..n {
+            let turn = nu[i] * tv[i] - nv[i] * tu[i];
+            first[i] = turn * a[i] + torque[i];
+            second[i] = turn * b[i] - torque[i];
+        }
     }
 }
 

@@ -82,16 +82,14 @@ impl DemEngine {
     /// What the touch phase reads, and itself.
     fn scene(&mut self) -> (Scene<'_>, &mut Touch) {
         let Self { grains, walls, candidates, law, table, search, rotation, dt, touch, .. } = self;
-        let periodic = search.ends.iter().any(Option::is_some);
         let scene =
-            Scene { grains, walls, candidates, law, table, reach: search.reach, rotation: *rotation, periodic, dt: *dt };
+            Scene { grains, walls, candidates, law, table, reach: search.reach, rotation: *rotation, dt: *dt };
         (scene, touch)
     }
 
     /// The contacts of this moment.
     pub(super) fn contact_list(&self) -> Vec<Contact> {
         let Self { grains, walls, candidates, law, table, search, rotation, dt, touch, .. } = self;
-        let periodic = search.ends.iter().any(Option::is_some);
         touch.contacts(&Scene {
             grains,
             walls,
@@ -100,7 +98,6 @@ impl DemEngine {
             table,
             reach: search.reach,
             rotation: *rotation,
-            periodic,
             dt: *dt,
         })
     }

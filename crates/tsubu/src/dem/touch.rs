@@ -6,11 +6,11 @@
 
 use super::memory::{Memory, WallKey};
 use super::rows::{Rows, largest, sum};
+use super::sieve::{Hits, Spheres};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::contact::{Law, Table};
 use crate::find::Candidates;
 use crate::find::candidates::{List, WORTH_THREADS};
-use crate::find::grid::HERE;
 use crate::state::Grains;
 use crate::wall::{self, Wall};
 use glam::DVec3;
@@ -118,7 +118,6 @@ pub(super) struct Scene<'a> {
     /// Gap at which bodies may still hold each other [m].
     pub reach: f64,
     pub rotation: bool,
-    pub periodic: bool,
     pub dt: f64,
 }
 
@@ -130,6 +129,8 @@ struct Scratch {
     old: [u32; ROWS],
     /// Keys of wall rows.
     keys: Vec<WallKey>,
+    spheres: Spheres,
+    hits: Hits,
     elements: Vec<u32>,
     touching: Vec<wall::Touch>,
     went_on: Vec<u32>,
@@ -141,6 +142,8 @@ impl Scratch {
             rows: Box::new(Rows::new(width)),
             old: [FRESH; ROWS],
             keys: Vec::with_capacity(ROWS),
+            spheres: Spheres::default(),
+            hits: Hits::default(),
             elements: Vec::with_capacity(64),
             touching: Vec::with_capacity(64),
             went_on: Vec::with_capacity(64),
@@ -212,10 +215,10 @@ impl Touch {
             let mut take = |rows: &Rows, wall: bool| {
                 for r in 0..rows.chunk.rows() {
                     let first = list.first + rows.first[r] as usize;
-                    let second = if wall { rows.second[r] } else { list.pairs[rows.origin[r] as usize].grain };
+                    let second = if wall { rows.second[r] as usize } else { list.grain(rows.second[r]) };
                     contacts.push(Contact {
                         first,
-                        second: second as usize,
+                        second,
                         wall,
                         position: scene.grains.position[first] + rows.point(r),
                         force: Chunk::vector(&rows.force, r),
@@ -275,57 +278,35 @@ fn pairs(
     sums: &mut Sums,
     mut visit: impl FnMut(&Rows),
 ) {
-    let g = scene.grains;
-    let remembers = scene.law.width() > 0;
+    let width = scene.law.width();
+    let Scratch { spheres, hits, rows, old, .. } = scratch;
+    spheres.place(scene.grains, list, &scene.candidates.shifts);
+    hits.sieve(list, spheres, scene.reach);
     let mut cursor = 0;
     let mut released = 0.0;
-    scratch.rows.chunk.len = 0;
-    for own in 0..list.own {
-        let i = list.first + own;
-        let (centre, radius) = (g.position[i], g.radius[i]);
-        let range = list.start[own] as usize..list.start[own + 1] as usize;
-        for (candidate, k) in list.pairs[range.clone()].iter().zip(range) {
-            let j = candidate.grain as usize;
-            let mut between = g.position[j] - centre;
-            if scene.periodic && candidate.image() != HERE {
-                between += scene.candidates.shifts[candidate.image() as usize];
-            }
-            let limit = radius + g.radius[j] + scene.reach;
-            if between.length_squared() >= limit * limit {
-                continue;
-            }
-            let rows = &mut *scratch.rows;
-            let r = rows.chunk.len;
-            if remembers {
-                let (old, lost) = follow(&memory.pairs.keys, &mut cursor, &(k as u32));
-                if !lost.is_empty() {
-                    released += memory.pairs.held(lost, scene.law);
+    for hits in hits.found().chunks(ROWS) {
+        rows.gather(hits, list, spheres, scene.grains, scene.table, scene.rotation);
+        rows.spheres(scene.rotation);
+        if width > 0 {
+            for (hit, old) in hits.iter().zip(&mut *old) {
+                let opened = skip(&memory.pairs.keys, &mut cursor, |k| *k < hit.candidate);
+                if !opened.is_empty() {
+                    released += memory.pairs.held(opened, scene.law);
                 }
-                scratch.old[r] = old;
+                let goes_on = memory.pairs.keys.get(cursor) == Some(&hit.candidate);
+                *old = if goes_on { cursor as u32 } else { FRESH };
+                cursor += usize::from(goes_on);
             }
-            rows.origin[r] = k as u32;
-            rows.first[r] = own as u32;
-            rows.second[r] = candidate.place() as u32;
-            Chunk::set(&mut rows.between, r, between);
-            rows.radius[0][r] = radius;
-            rows.radius[1][r] = g.radius[j];
-            rows.inverse_mass[r] = g.inverse_mass[i] + g.inverse_mass[j];
-            rows.material[r] = scene.table.index(g.material[i], g.material[j]);
-            Chunk::set(&mut rows.relative, r, g.velocity[i] - g.velocity[j]);
-            if scene.rotation {
-                Chunk::set(&mut rows.spin[0], r, g.spin[i]);
-                Chunk::set(&mut rows.spin[1], r, g.spin[j]);
-            }
-            rows.chunk.len = r + 1;
-            if r + 1 == ROWS {
-                rows.spheres(scene.rotation);
-                finish_pairs(scene, memory, scratch, sums, &mut visit);
-            }
+            recall(rows, old, &memory.pairs.history, width);
         }
+        apply(scene, rows, sums);
+        if width > 0 {
+            memory.next_pairs.keys.extend(hits.iter().map(|hit| hit.candidate));
+            remember(rows, &mut memory.next_pairs.history);
+        }
+        visit(rows);
     }
-    scratch.rows.spheres(scene.rotation);
-    finish_pairs(scene, memory, scratch, sums, &mut visit);
-    if remembers {
+    if width > 0 {
         released += memory.pairs.held(cursor..memory.pairs.keys.len(), scene.law);
         sums.lost[1] += released / scene.dt;
     }
@@ -361,41 +342,6 @@ fn match_up(
             went_on[t] = before.map_or(FRESH, |c| c as u32);
         }
     }
-}
-
-/// Moves `cursor` to `key`: the contact of the last step with that key, and those before it that have opened.
-#[inline(always)]
-fn follow<K: Ord>(keys: &[K], cursor: &mut usize, key: &K) -> (u32, std::ops::Range<usize>) {
-    let begin = *cursor;
-    while *cursor < keys.len() && keys[*cursor] < *key {
-        *cursor += 1;
-    }
-    let opened = begin..*cursor;
-    if *cursor < keys.len() && keys[*cursor] == *key {
-        *cursor += 1;
-        (*cursor as u32 - 1, opened)
-    } else {
-        (FRESH, opened)
-    }
-}
-
-fn finish_pairs(
-    scene: &Scene,
-    memory: &mut Memory,
-    scratch: &mut Scratch,
-    sums: &mut Sums,
-    visit: &mut impl FnMut(&Rows),
-) {
-    let width = scene.law.width();
-    recall(&mut scratch.rows, &scratch.old, &memory.pairs.history, width);
-    apply(scene, &mut scratch.rows, sums);
-    let n = scratch.rows.chunk.rows();
-    if width > 0 {
-        memory.next_pairs.keys.extend_from_slice(&scratch.rows.origin[..n]);
-        remember(&scratch.rows, &mut memory.next_pairs.history);
-    }
-    visit(&scratch.rows);
-    scratch.rows.chunk.len = 0;
 }
 
 /// Loads the histories of the rows.
@@ -503,7 +449,6 @@ fn walls(
             scratch.old[r] = if remembers { scratch.went_on[t] } else { FRESH };
             t += 1;
             let normal = -nearest.normal;
-            rows.origin[r] = element;
             rows.first[r] = own;
             rows.second[r] = k;
             rows.chunk.overlap[r] = overlap;

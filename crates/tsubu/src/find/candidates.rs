@@ -23,29 +23,13 @@ pub const WORTH_THREADS: usize = 2000;
 /// Below this many grains all pairs are looked at: a grid would cost more than it saves, and nothing needs sorting.
 const SMALL: usize = 96;
 
-/// Bits of [`Candidate::place`] that hold the place; the others hold the image.
-const PLACE: u32 = (1 << 27) - 1;
-
-/// The second grain of a pair.
-#[derive(Clone, Copy, Debug)]
-pub struct Candidate {
-    /// Its index.
+/// A grain as one of its periodic images.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Image {
+    /// Index of the grain.
     pub grain: u32,
-    place: u32,
-}
-
-impl Candidate {
-    /// Where the block gathers forces on it: its own grains first, then those of other blocks.
-    #[inline(always)]
-    pub fn place(self) -> usize {
-        (self.place & PLACE) as usize
-    }
-
-    /// Which periodic image of it is meant.
-    #[inline(always)]
-    pub fn image(self) -> u32 {
-        self.place >> 27
-    }
+    /// Which image of it; see [`shift`].
+    pub image: u32,
 }
 
 /// A wall element near a grain.
@@ -79,15 +63,16 @@ pub struct List {
     pub own: usize,
     /// First pair of every own grain; one more than grains.
     pub start: Vec<u32>,
-    /// Second grains.
-    pub pairs: Vec<Candidate>,
-    /// Grains of other blocks that appear in `pairs`, rising.
-    pub halo: Vec<u32>,
+    /// Places of the second grains: own grains first, then the halo.
+    pub pairs: Vec<u32>,
+    /// What appears in `pairs` besides own grains: grains of other blocks, and images across a periodic end; rising.
+    pub halo: Vec<Image>,
     /// Wall elements near own grains, sorted.
     pub walls: Vec<WallCandidate>,
     /// What other blocks hold for own grains, by grain and then in the order of the blocks.
     pub incoming: Vec<Incoming>,
     near: Vec<u32>,
+    met: Vec<Image>,
 }
 
 /// Candidate lists of all blocks, and where everything was when they were made.
@@ -174,14 +159,14 @@ impl Candidates {
             list.clear();
             for own in 0..list.own {
                 let i = list.first + own;
-                let begin = list.pairs.len();
+                let begin = list.met.len();
                 if small {
                     (i + 1..n).for_each(|j| self.meet(list, grains, search, i, j, HERE));
                 } else {
                     self.neighbours(list, grains, search, i);
                 }
-                list.pairs[begin..].sort_unstable_by_key(|c| (c.grain, c.place));
-                list.start.push(list.pairs.len() as u32);
+                list.met[begin..].sort_unstable();
+                list.start.push(list.met.len() as u32);
                 list.near_walls(walls, own as u32, self.reference[i], grains.radius[i] + search.skin + search.reach);
             }
             list.place();
@@ -193,7 +178,7 @@ impl Candidates {
         }
         for block in 0..lists.len() {
             for h in 0..lists[block].halo.len() {
-                let grain = lists[block].halo[h] as usize;
+                let grain = lists[block].halo[h].grain as usize;
                 let place = (lists[block].own + h) as u32;
                 let incoming = Incoming { own: (grain % BLOCK) as u32, block: block as u32, place };
                 lists[grain / BLOCK].incoming.push(incoming);
@@ -248,7 +233,7 @@ impl Candidates {
         let limit = grains.radius[i] + grains.radius[j] + search.skin + search.reach;
         // Two grains that nothing moves need not be watched.
         if between.length_squared() < limit * limit && grains.inverse_mass[i] + grains.inverse_mass[j] > 0.0 {
-            list.pairs.push(Candidate { grain: j as u32, place: image << 27 });
+            list.met.push(Image { grain: j as u32, image });
         }
     }
 }
@@ -256,6 +241,7 @@ impl Candidates {
 impl List {
     fn clear(&mut self) {
         self.pairs.clear();
+        self.met.clear();
         self.walls.clear();
         self.halo.clear();
         self.incoming.clear();
@@ -274,16 +260,24 @@ impl List {
     /// Gives every second grain its place in the block.
     fn place(&mut self) {
         let inside = self.first as u32..(self.first + self.own) as u32;
-        self.halo.extend(self.pairs.iter().map(|c| c.grain).filter(|j| !inside.contains(j)));
+        let own = |c: &Image| c.image == HERE && inside.contains(&c.grain);
+        self.halo.extend(self.met.iter().filter(|c| !own(c)));
         self.halo.sort_unstable();
         self.halo.dedup();
-        for c in &mut self.pairs {
-            let place = if inside.contains(&c.grain) {
+        let place = |c: &Image| {
+            if own(c) {
                 c.grain - inside.start
             } else {
-                self.own as u32 + self.halo.partition_point(|&h| h < c.grain) as u32
-            };
-            c.place |= place;
-        }
+                self.own as u32 + self.halo.partition_point(|h| h < c) as u32
+            }
+        };
+        self.pairs.extend(self.met.iter().map(place));
+    }
+
+    /// The grain at a place.
+    #[inline(always)]
+    pub fn grain(&self, place: u32) -> usize {
+        let place = place as usize;
+        if place < self.own { self.first + place } else { self.halo[place - self.own].grain as usize }
     }
 }
