@@ -2,7 +2,9 @@
 //! that is worth it.
 
 use super::touch::Block;
+use crate::find::Candidates;
 use crate::find::candidates::{BLOCK, WORTH_THREADS};
+use crate::find::drift::Drift;
 use crate::state::Grains;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -11,10 +13,8 @@ use tsubu_scene::plan::Integrator;
 /// What a block reports from a half step; joined in the order of blocks.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Report {
-    /// Farthest any grain has gone from where it was at the last search, squared [m^2].
-    pub farthest: f64,
-    /// Sum of the same; not finite when a coordinate is not.
-    pub sum: f64,
+    /// What the block has done since the last search.
+    pub drift: Drift,
     /// Correction of the power lost in contacts [W], see [`after`].
     pub correction: f64,
     /// Contact force on grains that forces do not move [N].
@@ -25,8 +25,6 @@ pub(super) struct Report {
 
 impl Report {
     fn add(&mut self, other: &Self) {
-        self.farthest = self.farthest.max(other.farthest);
-        self.sum += other.sum;
         self.correction += other.correction;
         self.fixed_force += other.fixed_force;
         self.driven_power += other.driven_power;
@@ -92,35 +90,45 @@ fn each(
 /// acceleration, so that forces that depend on velocity see positions and velocities of one time level.
 pub(super) fn before(
     grains: &mut Grains,
-    reference: &[DVec3],
+    candidates: &mut Candidates,
     reports: &mut Vec<Report>,
-    integrator: Integrator,
-    rotation: bool,
-    dt: f64,
-) -> Report {
+    motion: &Motion,
+) {
     // What the velocity gets before and after the drift.
-    let (first, second) = match integrator {
+    let dt = motion.dt;
+    let (first, second) = match motion.integrator {
         Integrator::VelocityVerlet => (0.5 * dt, 0.5 * dt),
         Integrator::SymplecticEuler => (dt, 0.0),
         Integrator::ForwardEuler => (0.0, dt),
     };
-    each(grains, reference, reports, |_, s| {
-        let mut report = Report::default();
+    let Candidates { reference, drifts, .. } = candidates;
+    let drifts = &drifts.of;
+    each(grains, reference, reports, |block, s| {
+        let mut drift = drifts[block];
+        drift.offset += drift.velocity * dt;
+        let (mut farthest, mut sum, mut total) = (0.0f64, 0.0, DVec3::ZERO);
         for i in 0..s.position.len() {
             let half = s.velocity[i] + s.acceleration[i] * first;
             s.position[i] += half * dt;
             s.velocity[i] = half + s.acceleration[i] * second;
-            let moved = s.position[i].distance_squared(s.reference[i]);
-            report.farthest = report.farthest.max(moved);
-            report.sum += moved;
+            total += half;
+            let away = (s.position[i] - s.reference[i] - drift.offset).length_squared();
+            farthest = if away > farthest { away } else { farthest };
+            sum += away;
         }
-        if rotation {
+        if motion.rotation {
             for (spin, rate) in s.spin.iter_mut().zip(s.spin_rate) {
                 *spin += *rate * dt;
             }
         }
-        report
-    })
+        drift.velocity = total / s.position.len() as f64;
+        // The sum catches what a maximum hides: a coordinate that is no longer a number.
+        drift.farthest = if sum.is_finite() { farthest.sqrt() } else { f64::NAN };
+        Report { drift, ..Report::default() }
+    });
+    for (drift, report) in candidates.drifts.of.iter_mut().zip(reports) {
+        *drift = report.drift;
+    }
 }
 
 /// After the forces: sums what blocks hold for every grain, finds the new accelerations and completes the velocities.
@@ -133,15 +141,14 @@ pub(super) fn before(
 pub(super) fn after(
     grains: &mut Grains,
     blocks: &[Block],
-    lists: &[crate::find::candidates::List],
-    reference: &[DVec3],
+    candidates: &Candidates,
     reports: &mut Vec<Report>,
     motion: &Motion,
 ) -> Report {
     let complete = if motion.integrator == Integrator::VelocityVerlet { 0.5 * motion.dt } else { 0.0 };
-    each(grains, reference, reports, |block, s| {
+    each(grains, &candidates.reference, reports, |block, s| {
         let mut report = Report::default();
-        let mut incoming = lists[block].incoming.iter().peekable();
+        let mut incoming = candidates.lists[block].incoming.iter().peekable();
         let own = &blocks[block].loads;
         for i in 0..s.position.len() {
             let mut load = own[i];

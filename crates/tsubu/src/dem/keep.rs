@@ -46,8 +46,7 @@ impl DemEngine {
     pub(super) fn restore(&mut self, kept: Vec<Kept>) -> f64 {
         let width = self.law.width();
         for block in &mut self.touch.blocks {
-            block.memory.pairs.clear();
-            block.memory.walls.clear();
+            block.memory.clear(width);
         }
         if width == 0 {
             return 0.0;

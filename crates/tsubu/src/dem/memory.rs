@@ -5,15 +5,20 @@
 //! that a step reads one and writes the other.
 
 use crate::contact::Law;
+use crate::contact::chunk::{Column, ROWS};
+use multiversion::multiversion;
 
 /// Contacts with their histories, in order of their keys.
 #[derive(Clone, Debug)]
 pub(super) struct Contacts<K> {
     /// What contact it is.
     pub keys: Vec<K>,
-    /// `width` numbers a contact.
-    pub history: Vec<f64>,
+    /// `width` numbers a contact, after as many zeros: the history of a fresh contact.
+    history: Vec<f64>,
 }
+
+/// Where the history of a fresh contact lies.
+pub(super) const FRESH: u32 = 0;
 
 impl<K> Default for Contacts<K> {
     fn default() -> Self {
@@ -22,14 +27,17 @@ impl<K> Default for Contacts<K> {
 }
 
 impl<K> Contacts<K> {
-    pub fn clear(&mut self) {
+    /// Forgets all; from now on there are `width` numbers a contact.
+    pub fn clear(&mut self, width: usize) {
         self.keys.clear();
         self.history.clear();
+        self.history.resize(width, 0.0);
     }
 
+    /// Makes room, so that a step need not.
     pub fn reserve(&mut self, contacts: usize, width: usize) {
         self.keys.reserve(contacts.saturating_sub(self.keys.len()));
-        self.history.reserve((contacts * width).saturating_sub(self.history.len()));
+        self.history.reserve(((contacts + 1) * width).saturating_sub(self.history.len()));
     }
 
     pub fn push(&mut self, key: K, history: &[f64]) {
@@ -37,14 +45,52 @@ impl<K> Contacts<K> {
         self.history.extend_from_slice(history);
     }
 
+    /// Where the history of contact `c` lies.
+    #[inline(always)]
+    pub fn place(c: usize) -> u32 {
+        c as u32 + 1
+    }
+
     /// History of contact `c`.
     pub fn of(&self, c: usize, width: usize) -> &[f64] {
-        &self.history[c * width..(c + 1) * width]
+        &self.history[(c + 1) * width..(c + 2) * width]
     }
 
     /// Energy [J] that the histories of the contacts `range` hold.
     pub fn held(&self, range: std::ops::Range<usize>, law: &Law) -> f64 {
         range.map(|c| law.held(self.of(c, law.width()))).sum()
+    }
+
+    /// Copies the histories at `places` into the rows of a chunk.
+    pub fn recall(&self, places: &[u32], columns: &mut [Column]) {
+        recall(&self.history, places, columns);
+    }
+
+    /// Adds the histories of the first `rows` rows of a chunk; their keys come apart.
+    pub fn remember(&mut self, rows: usize, columns: &[Column]) {
+        let begin = self.history.len();
+        self.history.resize(begin + rows * columns.len(), 0.0);
+        remember(&mut self.history[begin..], rows, columns);
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn recall(history: &[f64], places: &[u32], columns: &mut [Column]) {
+    let width = columns.len();
+    for (c, column) in columns.iter_mut().enumerate() {
+        for (value, &place) in column.iter_mut().zip(places) {
+            *value = history[place as usize * width + c];
+        }
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn remember(history: &mut [f64], rows: usize, columns: &[Column]) {
+    let width = columns.len();
+    for (c, column) in columns.iter().enumerate() {
+        for (r, value) in column[..rows.min(ROWS)].iter().enumerate() {
+            history[r * width + c] = *value;
+        }
     }
 }
 
@@ -71,11 +117,21 @@ pub(super) struct Memory {
 
 impl Memory {
     /// What this step has written becomes what the next one reads.
-    pub fn turn(&mut self) {
+    pub fn turn(&mut self, width: usize) {
         std::mem::swap(&mut self.pairs, &mut self.next_pairs);
         std::mem::swap(&mut self.walls, &mut self.next_walls);
-        self.next_pairs.clear();
-        self.next_walls.clear();
+        self.next_pairs.clear(width);
+        self.next_walls.clear(width);
+    }
+
+    /// Forgets all.
+    pub fn clear(&mut self, width: usize) {
+        for pairs in [&mut self.pairs, &mut self.next_pairs] {
+            pairs.clear(width);
+        }
+        for walls in [&mut self.walls, &mut self.next_walls] {
+            walls.clear(width);
+        }
     }
 }
 

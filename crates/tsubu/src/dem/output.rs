@@ -69,6 +69,9 @@ impl DemEngine {
         state.put_real("dem.reference", flat(&self.candidates.reference));
         let places = self.candidates.wall_reference.iter().flat_map(crate::wall::Pose::place);
         state.put_real("dem.wall-reference", places.collect::<Vec<_>>());
+        let drifts = self.candidates.drifts.of.iter();
+        let drifts = drifts.flat_map(|d| d.offset.to_array().into_iter().chain(d.velocity.to_array()));
+        state.put_real("dem.drifts", drifts.collect::<Vec<_>>());
         for wall in &self.walls {
             wall.save(state);
         }
@@ -106,6 +109,11 @@ impl DemEngine {
         }
         self.candidates.wall_reference = self.walls.iter().map(|w| w.pose).collect();
         self.candidates.list(&self.grains, &self.walls, &self.search);
+        let drifts = state.real("dem.drifts")?.as_chunks::<6>().0;
+        for (drift, d) in self.candidates.drifts.of.iter_mut().zip(drifts) {
+            drift.offset = DVec3::from_slice(&d[..3]);
+            drift.velocity = DVec3::from_slice(&d[3..]);
+        }
         self.fit();
         let hosts = Hosts::default();
         let time = self.time();

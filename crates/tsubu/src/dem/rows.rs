@@ -4,7 +4,6 @@ use super::sieve::{Hit, Spheres};
 use crate::contact::Table;
 use crate::contact::chunk::{Chunk, Column, ROWS, ZERO};
 use crate::find::candidates::List;
-use crate::state::Grains;
 use glam::DVec3;
 use multiversion::multiversion;
 
@@ -62,35 +61,8 @@ impl Rows {
     }
 
     /// Takes pairs of touching grains: what the geometry pass reads.
-    pub fn gather(
-        &mut self,
-        hits: &[Hit],
-        list: &List,
-        spheres: &Spheres,
-        grains: &Grains,
-        table: &Table,
-        rotation: bool,
-    ) {
-        self.chunk.len = hits.len();
-        for (r, hit) in hits.iter().enumerate().take(ROWS) {
-            let place = list.pairs[hit.candidate as usize];
-            let (a, b) = (spheres.at(hit.own), spheres.at(place));
-            let (i, j) = (list.first + hit.own as usize, list.grain(place));
-            self.first[r] = hit.own;
-            self.second[r] = place;
-            for k in 0..3 {
-                self.between[k][r] = b[k] - a[k];
-            }
-            self.radius[0][r] = a[3];
-            self.radius[1][r] = b[3];
-            self.inverse_mass[r] = grains.inverse_mass[i] + grains.inverse_mass[j];
-            self.material[r] = table.index(grains.material[i], grains.material[j]);
-            Chunk::set(&mut self.relative, r, grains.velocity[i] - grains.velocity[j]);
-            if rotation {
-                Chunk::set(&mut self.spin[0], r, grains.spin[i]);
-                Chunk::set(&mut self.spin[1], r, grains.spin[j]);
-            }
-        }
+    pub fn gather(&mut self, hits: &[Hit], list: &List, spheres: &Spheres, table: &Table, rotation: bool) {
+        gather(self, hits, &list.pairs, spheres, table, rotation);
     }
 
     /// Fills the constants of the materials; nothing to do where all rows are of the pair that is already there.
@@ -140,6 +112,34 @@ impl Rows {
     /// Point of contact of row `i`, from the centre of the first body [m].
     pub fn point(&self, i: usize) -> DVec3 {
         Chunk::vector(&self.chunk.normal, i) * self.arm[0][i]
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn gather(rows: &mut Rows, hits: &[Hit], pairs: &[u32], spheres: &Spheres, table: &Table, rotation: bool) {
+    rows.chunk.len = hits.len().min(ROWS);
+    for (r, hit) in hits.iter().enumerate().take(ROWS) {
+        let place = pairs[hit.candidate as usize];
+        rows.first[r] = hit.own;
+        rows.second[r] = place;
+        let (a, b) = (spheres.at(hit.own), spheres.at(place));
+        for k in 0..3 {
+            rows.between[k][r] = b[k] - a[k];
+        }
+        rows.radius[0][r] = a[3];
+        rows.radius[1][r] = b[3];
+        let (a, b) = (spheres.motion(hit.own), spheres.motion(place));
+        for k in 0..3 {
+            rows.relative[k][r] = a.velocity[k] - b.velocity[k];
+        }
+        rows.inverse_mass[r] = a.inverse_mass + b.inverse_mass;
+        rows.material[r] = table.index(a.material, b.material);
+        if rotation {
+            for k in 0..3 {
+                rows.spin[0][k][r] = a.spin[k];
+                rows.spin[1][k][r] = b.spin[k];
+            }
+        }
     }
 }
 
@@ -254,26 +254,28 @@ fn torques(rows: &mut Rows) {
     }
 }
 
-/// Sum of the first `n` entries; eight partial sums, so that additions need not wait for one another.
-pub(super) fn sum(column: &Column, n: usize) -> f64 {
-    let mut parts = [0.0; 8];
-    let (lumps, rest) = column[..n.min(ROWS)].as_chunks::<8>();
+/// Sums of the stored energy and of the three losses over all rows, and the deepest overlap.
+///
+/// Eight partial sums each, so that additions need not wait for one another.
+#[multiversion(targets = "simd")]
+pub(super) fn sums(c: &Chunk) -> ([f64; 4], f64) {
+    let n = c.rows();
+    let mut deepest = [0.0f64; 8];
+    let (lumps, rest) = c.overlap[..n].as_chunks::<8>();
     for lump in lumps {
-        for (part, value) in parts.iter_mut().zip(lump) {
-            *part += value;
+        for (part, value) in deepest.iter_mut().zip(lump) {
+            *part = if *value > *part { *value } else { *part };
         }
     }
-    parts.iter().sum::<f64>() + rest.iter().sum::<f64>()
-}
-
-/// Largest of the first `n` entries.
-pub(super) fn largest(column: &Column, n: usize) -> f64 {
-    let mut parts = [0.0f64; 8];
-    let (lumps, rest) = column[..n.min(ROWS)].as_chunks::<8>();
-    for lump in lumps {
-        for (part, value) in parts.iter_mut().zip(lump) {
-            *part = part.max(*value);
+    let sums = [&c.stored, &c.lost_normal, &c.lost_sliding, &c.lost_rolling].map(|column| {
+        let mut parts = [0.0; 8];
+        let (lumps, rest) = column[..n].as_chunks::<8>();
+        for lump in lumps {
+            for (part, value) in parts.iter_mut().zip(lump) {
+                *part += value;
+            }
         }
-    }
-    parts.iter().chain(rest).copied().fold(0.0, f64::max)
+        parts.iter().sum::<f64>() + rest.iter().sum::<f64>()
+    });
+    (sums, deepest.iter().chain(rest).copied().fold(0.0, f64::max))
 }

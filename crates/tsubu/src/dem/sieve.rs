@@ -10,30 +10,64 @@ use crate::state::Grains;
 use glam::DVec3;
 use multiversion::multiversion;
 
-/// Centre and radius of every grain that a block sees, by place [m].
+/// How a grain moves, in one line of the cache.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Motion {
+    /// Velocity [m/s].
+    pub velocity: [f64; 3],
+    /// One over the mass [1/kg].
+    pub inverse_mass: f64,
+    /// Spin [rad/s].
+    pub spin: [f64; 3],
+    /// Number of the material.
+    pub material: u32,
+}
+
+/// Every grain that a block sees, by place.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Spheres(Vec<[f64; 4]>);
+pub(super) struct Spheres {
+    /// Centre and radius [m].
+    places: Vec<[f64; 4]>,
+    motions: Vec<Motion>,
+}
 
 impl Spheres {
     /// Takes the grains of a block.
     pub fn place(&mut self, grains: &Grains, list: &List, shifts: &[DVec3]) {
-        let own = list.first..list.first + list.own;
-        self.0.clear();
-        let (positions, radii) = (&grains.position[own.clone()], &grains.radius[own]);
-        self.0.extend(positions.iter().zip(radii).map(|(p, r)| [p.x, p.y, p.z, *r]));
-        self.0.extend(list.halo.iter().map(|h| {
-            let mut p = grains.position[h.grain as usize];
-            if h.image != HERE {
-                p += shifts[h.image as usize];
-            }
-            [p.x, p.y, p.z, grains.radius[h.grain as usize]]
-        }));
+        self.places.clear();
+        self.motions.clear();
+        for i in list.first..list.first + list.own {
+            self.push(grains, i, DVec3::ZERO);
+        }
+        for h in &list.halo {
+            let shift = if h.image == HERE { DVec3::ZERO } else { shifts[h.image as usize] };
+            self.push(grains, h.grain as usize, shift);
+        }
     }
 
-    /// The sphere at a place.
+    #[inline(always)]
+    fn push(&mut self, grains: &Grains, i: usize, shift: DVec3) {
+        let p = grains.position[i] + shift;
+        self.places.push([p.x, p.y, p.z, grains.radius[i]]);
+        self.motions.push(Motion {
+            velocity: grains.velocity[i].to_array(),
+            inverse_mass: grains.inverse_mass[i],
+            spin: grains.spin[i].to_array(),
+            material: grains.material[i],
+        });
+    }
+
+    /// Centre and radius at a place [m].
     #[inline(always)]
     pub fn at(&self, place: u32) -> [f64; 4] {
-        self.0[place as usize]
+        self.places[place as usize]
+    }
+
+    /// Motion at a place.
+    #[inline(always)]
+    pub fn motion(&self, place: u32) -> &Motion {
+        &self.motions[place as usize]
     }
 }
 
@@ -59,7 +93,7 @@ impl Hits {
         if self.room.len() < list.pairs.len() + 1 {
             self.room.resize(list.pairs.len() + 1, Hit::default());
         }
-        self.count = sieve(&list.start, &list.pairs, &spheres.0, reach, &mut self.room);
+        self.count = sieve(&list.start, &list.pairs, &spheres.places, reach, &mut self.room);
     }
 
     /// What was found.

@@ -13,23 +13,16 @@ use tsubu_scene::plan::Integrator;
 impl DemEngine {
     /// Moves everything by one time step.
     pub(super) fn step(&mut self, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
-        let moved = integrate::before(
-            &mut self.grains,
-            &self.candidates.reference,
-            &mut self.reports,
-            self.integrator,
-            self.rotation,
-            self.dt,
-        );
+        let motion = self.motion(self.dt);
+        integrate::before(&mut self.grains, &mut self.candidates, &mut self.reports, &motion);
         self.step += 1;
         let time = self.time();
         hosts.before(self.dt);
         self.move_walls(time, hosts);
         self.drive(time);
-        let farthest = if moved.sum.is_finite() { moved.farthest.sqrt() } else { f64::NAN };
         if let Some(kept) = self.come_and_go(ledger) {
             self.find_with(kept);
-        } else if self.candidates.stale(&self.grains, &self.walls, self.search.skin, farthest) {
+        } else if self.candidates.stale(&self.grains, &self.walls, self.search.skin) {
             self.check_finite()?;
             self.find();
         }
@@ -104,18 +97,16 @@ impl DemEngine {
 
     /// Accelerations from contact forces and gravity; completes the velocities for a step `dt` (0: leaves them).
     pub(super) fn finish(&mut self, dt: f64) {
-        let integrator = if dt > 0.0 { self.integrator } else { Integrator::SymplecticEuler };
-        let motion = Motion { integrator, gravity: self.gravity, rotation: self.rotation, dt };
-        let report = integrate::after(
-            &mut self.grains,
-            &self.touch.blocks,
-            &self.candidates.lists,
-            &self.candidates.reference,
-            &mut self.reports,
-            &motion,
-        );
+        let motion = self.motion(dt);
+        let report =
+            integrate::after(&mut self.grains, &self.touch.blocks, &self.candidates, &mut self.reports, &motion);
         self.sums.correct(report.correction);
         self.fixed = (report.fixed_force, report.driven_power);
+    }
+
+    fn motion(&self, dt: f64) -> Motion {
+        let integrator = if dt > 0.0 { self.integrator } else { Integrator::SymplecticEuler };
+        Motion { integrator, gravity: self.gravity, rotation: self.rotation, dt }
     }
 
     /// What grains did to the walls goes to those who move them.

@@ -4,8 +4,8 @@
 //! in its own `loads`: first for its own grains, then for grains of other blocks. Afterwards every grain adds what other
 //! blocks hold for it, in the order of the blocks. Nothing here depends on the number of threads.
 
-use super::memory::{Memory, WallKey};
-use super::rows::{Rows, largest, sum};
+use super::memory::{Contacts, FRESH, Memory, WallKey};
+use super::rows::{self, Rows};
 use super::sieve::{Hits, Spheres};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::contact::{Law, Table};
@@ -16,9 +16,6 @@ use crate::wall::{self, Wall};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
-
-/// No contact of the last step.
-const FRESH: u32 = u32::MAX;
 
 /// Sums over contacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -264,7 +261,7 @@ impl Block {
         pairs(scene, list, memory, scratch, sums, |rows| scatter(rows, loads, scene.rotation));
         walls(scene, list, memory, scratch, sums, |rows| react(scene, list, rows, loads, wall_loads));
         if scene.law.width() > 0 {
-            memory.turn();
+            memory.turn(scene.law.width());
         }
     }
 }
@@ -285,7 +282,7 @@ fn pairs(
     let mut cursor = 0;
     let mut released = 0.0;
     for hits in hits.found().chunks(ROWS) {
-        rows.gather(hits, list, spheres, scene.grains, scene.table, scene.rotation);
+        rows.gather(hits, list, spheres, scene.table, scene.rotation);
         rows.spheres(scene.rotation);
         if width > 0 {
             for (hit, old) in hits.iter().zip(&mut *old) {
@@ -294,15 +291,15 @@ fn pairs(
                     released += memory.pairs.held(opened, scene.law);
                 }
                 let goes_on = memory.pairs.keys.get(cursor) == Some(&hit.candidate);
-                *old = if goes_on { cursor as u32 } else { FRESH };
+                *old = if goes_on { Contacts::<u32>::place(cursor) } else { FRESH };
                 cursor += usize::from(goes_on);
             }
-            recall(rows, old, &memory.pairs.history, width);
+            memory.pairs.recall(&old[..hits.len()], &mut rows.chunk.history);
         }
         apply(scene, rows, sums);
         if width > 0 {
             memory.next_pairs.keys.extend(hits.iter().map(|hit| hit.candidate));
-            remember(rows, &mut memory.next_pairs.history);
+            memory.next_pairs.remember(hits.len(), &rows.chunk.history);
         }
         visit(rows);
     }
@@ -333,37 +330,26 @@ fn match_up(
     let patch = |t: &wall::Touch| wall.key(t.element);
     went_on.clear();
     went_on.extend(touching.iter().map(|t| {
-        old.clone().find(|&c| keys[c].patch == patch(t)).map_or(FRESH, |c| c as u32)
+        old.clone().find(|&c| keys[c].patch == patch(t)).map_or(FRESH, place)
     }));
+    for t in 1..touching.len() {
+        // Two contacts of one patch share a name; the one history goes on once.
+        if went_on[..t].contains(&went_on[t]) {
+            went_on[t] = FRESH;
+        }
+    }
     for t in 0..touching.len() {
         if went_on[t] == FRESH {
-            let free = |c: &usize| !went_on.contains(&(*c as u32));
+            let free = |c: &usize| !went_on.contains(&place(*c));
             let before = old.clone().filter(free).find(|&c| wall.adjacent(keys[c].patch, patch(&touching[t])));
-            went_on[t] = before.map_or(FRESH, |c| c as u32);
+            went_on[t] = before.map_or(FRESH, place);
         }
     }
 }
 
-/// Loads the histories of the rows.
-fn recall(rows: &mut Rows, old: &[u32; ROWS], history: &[f64], width: usize) {
-    let n = rows.chunk.rows();
-    for (r, &c) in old[..n].iter().enumerate() {
-        if c == FRESH {
-            rows.chunk.history.iter_mut().for_each(|column| column[r] = 0.0);
-        } else {
-            let from = c as usize * width;
-            for (column, value) in rows.chunk.history.iter_mut().zip(&history[from..from + width]) {
-                column[r] = *value;
-            }
-        }
-    }
-}
-
-/// Stores the histories of the rows.
-fn remember(rows: &Rows, history: &mut Vec<f64>) {
-    for r in 0..rows.chunk.rows() {
-        history.extend(rows.chunk.history.iter().map(|column| column[r]));
-    }
+/// Where the history of contact `c` with a wall lies.
+fn place(c: usize) -> u32 {
+    Contacts::<WallKey>::place(c)
 }
 
 /// The law on a filled chunk, and its sums.
@@ -377,12 +363,8 @@ fn apply(scene: &Scene, rows: &mut Rows, sums: &mut Sums) {
     let c = &rows.chunk;
     let n = c.rows();
     let contacts = if scene.reach > 0.0 { c.overlap[..n].iter().filter(|d| **d > 0.0).count() } else { n };
-    sums.add(&Sums {
-        stored: sum(&c.stored, n),
-        lost: [sum(&c.lost_normal, n), sum(&c.lost_sliding, n), sum(&c.lost_rolling, n)],
-        contacts,
-        deepest: largest(&c.overlap, n),
-    });
+    let ([stored, lost @ ..], deepest) = rows::sums(c);
+    sums.add(&Sums { stored, lost, contacts, deepest });
 }
 
 /// Adds the forces of a chunk to both grains of every row.
@@ -436,7 +418,7 @@ fn walls(
             let old = skip(&memory.walls.keys, &mut cursor, |key| (key.own, key.wall) == (own, k));
             match_up(wall, &memory.walls.keys, &old, touching, &mut scratch.went_on);
             let went_on = &scratch.went_on;
-            let ended = old.filter(|c| !went_on.contains(&(*c as u32)));
+            let ended = old.filter(|c| !went_on.contains(&place(*c)));
             released += ended.map(|c| memory.walls.held(c..c + 1, scene.law)).sum::<f64>();
         }
         let mut t = 0;
@@ -458,7 +440,7 @@ fn walls(
             rows.arm[0][r] = g.radius[i] - 0.5 * overlap;
             rows.arm[1][r] = 0.0;
             rows.material[r] = scene.table.index(g.material[i], wall.material);
-            Chunk::set(&mut rows.relative, r, g.velocity[i] - wall.velocity_at(nearest.point));
+            Chunk::set(&mut rows.relative, r, g.velocity[i] - wall.velocity_at(g.position[i] + normal * rows.arm[0][r]));
             Chunk::set(&mut rows.spin[0], r, g.spin[i]);
             Chunk::set(&mut rows.spin[1], r, wall.pose.spin);
             rows.chunk.len = r + 1;
@@ -482,12 +464,15 @@ fn finish_walls(
     visit: &mut impl FnMut(&Rows),
 ) {
     let width = scene.law.width();
+    let n = scratch.rows.chunk.rows();
     scratch.rows.motion(scene.rotation);
-    recall(&mut scratch.rows, &scratch.old, &memory.walls.history, width);
+    if width > 0 {
+        memory.walls.recall(&scratch.old[..n], &mut scratch.rows.chunk.history);
+    }
     apply(scene, &mut scratch.rows, sums);
     if width > 0 {
         memory.next_walls.keys.extend_from_slice(&scratch.keys);
-        remember(&scratch.rows, &mut memory.next_walls.history);
+        memory.next_walls.remember(n, &scratch.rows.chunk.history);
     }
     visit(&scratch.rows);
     scratch.keys.clear();

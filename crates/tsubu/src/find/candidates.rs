@@ -4,10 +4,11 @@
 //! is in the block, in the order of that grain, with the second grain anywhere. Blocks depend on the grains alone, never
 //! on the number of threads: whatever is added up block by block gives the same bits on any machine.
 //!
-//! The list holds every pair whose gap is below the skin; it is good until some grain has moved half the skin. Grains of
+//! The list holds every pair whose gap is below the skin; how long it is good is told by [`drift`](super::drift). Grains of
 //! very different sizes are searched on several grids, one for each factor of two in size: a small grain looks for small
 //! ones near it and for large ones farther away, never the other way round.
 
+use super::drift::Drifts;
 use super::grid::{Ends, Grid, HERE, shift};
 use crate::state::Grains;
 use crate::wall::{Pose, Wall};
@@ -84,6 +85,8 @@ pub struct Candidates {
     pub reference: Vec<DVec3>,
     /// Poses of the walls at the time of the search.
     pub wall_reference: Vec<Pose>,
+    /// What every block has done since.
+    pub drifts: Drifts,
     /// Shift of every image [m].
     pub shifts: Vec<DVec3>,
     levels: Vec<Grid>,
@@ -104,11 +107,10 @@ pub struct Search {
 }
 
 impl Candidates {
-    /// Whether the list may miss a touching pair, when the farthest grain has moved by `farthest` [m].
-    pub fn stale(&self, grains: &Grains, walls: &[Wall], skin: f64, farthest: f64) -> bool {
-        let moved = walls.iter().zip(&self.wall_reference).map(|(w, r)| w.travel_bound(r, f64::INFINITY)).fold(0.0, f64::max);
-        // Written so that a coordinate which is no longer a number makes the list stale.
-        self.reference.len() != grains.len() || !(2.0 * farthest <= skin && farthest + moved <= skin)
+    /// Whether the list may miss a touching pair.
+    pub fn stale(&self, grains: &Grains, walls: &[Wall], skin: f64) -> bool {
+        let moved = walls.iter().zip(&self.wall_reference).map(|(w, r)| w.travel_bound(r, f64::INFINITY));
+        self.reference.len() != grains.len() || self.drifts.stale(skin, moved.fold(0.0, f64::max))
     }
 
     /// Puts grains back between the periodic ends and sorts them by cell. Without effect on a small run.
@@ -189,6 +191,7 @@ impl Candidates {
             list.incoming.sort_by_key(|i| i.own);
         }
         self.lists = lists;
+        self.drifts.reset(&self.lists, &self.reference, grains, walls, search.skin, &search.ends);
     }
 
     /// Sorts grains into one grid for each factor of two in size.

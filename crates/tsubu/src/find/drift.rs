@@ -1,0 +1,119 @@
+//! How long a candidate list is good, for grains that move together.
+//!
+//! What makes a list miss a pair is that two grains have come nearer to *each other* by more than the skin; how far they
+//! have gone together does not matter. So every block has a drift, a displacement that its grains have roughly in common,
+//! and only what a grain deviates from it counts:
+//!
+//! |u_i - u_j| <= |u_i - D_b| + |D_b - D_c| + |u_j - D_c| <= skin
+//!
+//! holds for any drifts D; good ones make it hold for longer. Asked of all blocks that lie near each other; blocks farther
+//! apart than a margin must only have kept that distance. In a chute 26 degrees steep the lists of this kind are made five
+//! times less often than those that count from where each grain was.
+
+use super::candidates::List;
+use super::grid::Ends;
+use crate::state::Grains;
+use crate::wall::Wall;
+use glam::DVec3;
+
+/// Distance, in skins, from which on blocks are not compared one by one.
+const MARGIN: f64 = 8.0;
+
+/// What a block has done since the last search.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drift {
+    /// Displacement that its grains have roughly in common [m].
+    pub offset: DVec3,
+    /// Mean velocity at the last step [m/s].
+    pub velocity: DVec3,
+    /// Farthest that a grain deviates from the drift [m]; not a number when a coordinate is not.
+    pub farthest: f64,
+}
+
+/// Which blocks lie near each other and near walls, and what each has done.
+#[derive(Clone, Debug, Default)]
+pub struct Drifts {
+    /// One a block.
+    pub of: Vec<Drift>,
+    near: Vec<[u32; 2]>,
+    near_walls: Vec<bool>,
+}
+
+/// A box around the grains of a block.
+#[derive(Clone, Copy, Debug)]
+struct Bounds {
+    centre: DVec3,
+    half: DVec3,
+}
+
+impl Drifts {
+    /// Begins anew after a search; mean velocities are kept as the first guess of the drift.
+    pub fn reset(&mut self, lists: &[List], reference: &[DVec3], grains: &Grains, walls: &[Wall], skin: f64, ends: &Ends) {
+        let margin = MARGIN * skin;
+        let bounds: Vec<Bounds> =
+            lists.iter().map(|list| bounds(list, reference, &grains.radius)).collect();
+        self.near.clear();
+        for (b, one) in bounds.iter().enumerate() {
+            for (c, other) in bounds.iter().enumerate().skip(b + 1) {
+                if gap(one, other, ends) <= margin {
+                    self.near.push([b as u32, c as u32]);
+                }
+            }
+        }
+        let mut found = Vec::new();
+        self.near_walls.clear();
+        self.near_walls.extend(bounds.iter().map(|b| {
+            walls.iter().any(|wall| {
+                found.clear();
+                wall.near(b.centre, b.half.length() + margin, &mut found);
+                !found.is_empty()
+            })
+        }));
+        self.of.clear();
+        self.of.extend(lists.iter().map(|list| {
+            let velocity = grains.velocity[list.first..list.first + list.own].iter().sum::<DVec3>() / list.own as f64;
+            Drift { offset: DVec3::ZERO, velocity, farthest: 0.0 }
+        }));
+    }
+
+    /// Whether a pair may have come nearer than the list allows; `moved`: how far any wall has [m].
+    pub fn stale(&self, skin: f64, moved: f64) -> bool {
+        let far = 0.5 * MARGIN * skin;
+        let mean = self.of.iter().map(|d| d.offset).sum::<DVec3>() / self.of.len().max(1) as f64;
+        // Written so that what is not a number counts as stale.
+        let within = self.of.iter().zip(&self.near_walls).all(|(d, near_wall)| {
+            let away = d.offset.length() + d.farthest + moved;
+            2.0 * d.farthest <= skin
+                && (d.offset - mean).length() + d.farthest <= far
+                && away <= if *near_wall { skin } else { far }
+        });
+        let between = self.near.iter().all(|&[b, c]| {
+            let (b, c) = (&self.of[b as usize], &self.of[c as usize]);
+            b.farthest + c.farthest + (b.offset - c.offset).length() <= skin
+        });
+        !(within && between)
+    }
+}
+
+fn bounds(list: &List, reference: &[DVec3], radius: &[f64]) -> Bounds {
+    let own = list.first..list.first + list.own;
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for (p, r) in reference[own.clone()].iter().zip(&radius[own]) {
+        low = low.min(*p - *r);
+        high = high.max(*p + *r);
+    }
+    Bounds { centre: 0.5 * (low + high), half: 0.5 * (high - low) }
+}
+
+/// Smallest distance between two boxes, across periodic ends too [m].
+fn gap(a: &Bounds, b: &Bounds, ends: &Ends) -> f64 {
+    let mut squared = 0.0;
+    for (axis, end) in ends.iter().enumerate() {
+        let mut apart = (a.centre[axis] - b.centre[axis]).abs();
+        if let Some([low, high]) = end {
+            apart = apart.min(high - low - apart);
+        }
+        squared += (apart - a.half[axis] - b.half[axis]).max(0.0).powi(2);
+    }
+    squared.sqrt()
+}
