@@ -35,27 +35,26 @@ pub(super) struct Spheres {
 impl Spheres {
     /// Takes the grains of a block.
     pub fn place(&mut self, grains: &Grains, list: &List, shifts: &[DVec3]) {
-        self.places.clear();
-        self.motions.clear();
-        for i in list.first..list.first + list.own {
-            self.push(grains, i, DVec3::ZERO);
-        }
-        for h in &list.halo {
-            let shift = if h.image == HERE { DVec3::ZERO } else { shifts[h.image as usize] };
-            self.push(grains, h.grain as usize, shift);
-        }
-    }
-
-    #[inline(always)]
-    fn push(&mut self, grains: &Grains, i: usize, shift: DVec3) {
-        let p = grains.position[i] + shift;
-        self.places.push([p.x, p.y, p.z, grains.radius[i]]);
-        self.motions.push(Motion {
+        let own = list.first..list.first + list.own;
+        let (p, r) = (&grains.position, &grains.radius);
+        let motion = |i: usize| Motion {
             velocity: grains.velocity[i].to_array(),
             inverse_mass: grains.inverse_mass[i],
             spin: grains.spin[i].to_array(),
             material: grains.material[i],
-        });
+        };
+        self.places.clear();
+        self.places.extend(p[own.clone()].iter().zip(&r[own.clone()]).map(|(p, r)| [p.x, p.y, p.z, *r]));
+        self.places.extend(list.halo.iter().map(|h| {
+            let mut p = p[h.grain as usize];
+            if h.image != HERE {
+                p += shifts[h.image as usize];
+            }
+            [p.x, p.y, p.z, r[h.grain as usize]]
+        }));
+        self.motions.clear();
+        self.motions.extend(own.map(motion));
+        self.motions.extend(list.halo.iter().map(|h| motion(h.grain as usize)));
     }
 
     /// Centre and radius at a place [m].
