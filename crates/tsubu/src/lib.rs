@@ -15,6 +15,7 @@ pub mod motion;
 pub mod partner;
 pub mod random;
 pub mod run;
+pub(crate) mod scene_files;
 pub mod state;
 pub mod study;
 pub mod wall;

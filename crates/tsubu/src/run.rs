@@ -4,6 +4,7 @@ use crate::check;
 use crate::engine::{self, Engine, Fault, OpenError};
 use crate::ledger::{Account, Ledger};
 use crate::partner::Hosts;
+use crate::scene_files;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -81,7 +82,7 @@ pub fn run(scene: &Scene, folder: &Path, existing: Existing, watcher: &Watcher) 
         let history = History::resume(&folder.file("history.csv"), &header, time)?;
         (history, FrameWriter::resume(folder.path(), plan.output.xyz, time)?)
     } else {
-        folder.write("scene.toml", resolved.as_bytes())?;
+        scene_files::write(&folder, scene)?;
         let verdict = check::verdict(plan, &run.hosts, &*run.engine);
         folder.write("check.txt", verdict.to_string().as_bytes())?;
         (History::create(&folder.file("history.csv"), &header)?, FrameWriter::create(folder.path(), plan.output.xyz)?)

@@ -6,6 +6,7 @@
 mod bits;
 /// Lists, schema, completion, help: commands that run nothing.
 mod commands;
+mod companions;
 /// What a run folder holds.
 mod folder;
 /// What is said when something is wrong.

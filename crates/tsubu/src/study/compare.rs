@@ -1,6 +1,7 @@
 //! One scene by several methods: what differs, and what each cost.
 
 use crate::run::{self, RunError, Watcher};
+use crate::scene_files;
 use std::path::Path;
 use tsubu_frame::{Cell, Existing, FileError, ResultValue, RunFolder, Status, Summary, Table, summary::write_json};
 use tsubu_scene::plan::Method;
@@ -58,7 +59,7 @@ pub fn compare(
         }
         summaries.push(summary);
     }
-    folder.write("scene.toml", scene.resolved_toml().as_bytes())?;
+    scene_files::write(&folder, scene)?;
     table(methods, &summaries).write(&folder.file("compare.csv"))?;
     let names: Vec<&str> = methods.iter().map(|m| m.name()).collect();
     write_json(

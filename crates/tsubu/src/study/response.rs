@@ -14,6 +14,7 @@ pub use tasks::{Point, measure};
 use super::cases::{Case, cases};
 use crate::engine::OpenError;
 use crate::run::{RunError, Watcher, scene_hash};
+use crate::scene_files;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -62,7 +63,7 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
     let keys = task.missing(earlier.as_ref());
     let beds = task.settle(&keys)?;
     // Only now, so that a scene that a method refuses leaves nothing behind.
-    let (folder, mut points) = open_folder(folder, earlier, &resolved, overwrite)?;
+    let (folder, mut points) = open_folder(folder, earlier, scene, overwrite)?;
     let journal = Mutex::new(journal(&folder)?);
     let record = |key: &Key, point: &Point| -> Result<(), ResponseError> {
         if let Ok(mut file) = journal.lock() {
@@ -231,7 +232,7 @@ fn earlier(path: &Path, resolved: &str, overwrite: bool) -> Result<Option<Done>,
 fn open_folder(
     path: &Path,
     earlier: Option<Done>,
-    resolved: &str,
+    scene: &Scene,
     overwrite: bool,
 ) -> Result<(RunFolder, Done), FileError> {
     if let Some(done) = earlier {
@@ -239,8 +240,8 @@ fn open_folder(
     }
     let existing = if overwrite { Existing::Overwrite } else { Existing::Refuse };
     let folder = RunFolder::create(path, existing)?;
-    folder.write("scene.toml", resolved.as_bytes())?;
-    folder.write("progress.jsonl", format!("{}\n", mark(resolved)).as_bytes())?;
+    scene_files::write(&folder, scene)?;
+    folder.write("progress.jsonl", format!("{}\n", mark(&scene.resolved_toml())).as_bytes())?;
     Ok((folder, Done::new()))
 }
 

@@ -4,6 +4,7 @@ use super::cases::{Case, cases};
 use crate::engine;
 use crate::partner::Hosts;
 use crate::run::{self, RunError, Watcher};
+use crate::scene_files;
 use rayon::prelude::*;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -45,7 +46,7 @@ pub fn sweep(scene: &Scene, folder: &Path, watcher: &Watcher) -> Result<Vec<Summ
     }
     let existing = if folder.join("cases").is_dir() { Existing::Resume } else { Existing::Refuse };
     let folder = RunFolder::create(folder, existing)?;
-    folder.write("scene.toml", scene.resolved_toml().as_bytes())?;
+    scene_files::write(&folder, scene)?;
     let finished = AtomicUsize::new(0);
     let summaries: Vec<Option<Summary>> = list
         .par_iter()
