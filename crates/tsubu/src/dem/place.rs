@@ -222,7 +222,7 @@ impl Placing<'_> {
                     group.count
                 ));
             };
-            for image in self.images(p, 2.0 * largest) {
+            for image in images(&ends(self.plan), p, 2.0 * largest) {
                 occupied.put(image, radius);
             }
             places[id as usize - first] = (p, diameter);
@@ -234,28 +234,27 @@ impl Placing<'_> {
     }
 
     fn clear_of_ends(&self, p: DVec3, occupied: &Occupied, radius: f64) -> bool {
-        occupied.free(p, radius) && self.images(p, 2.0 * radius).skip(1).all(|image| occupied.free(image, radius))
+        occupied.free(p, radius) && images(&ends(self.plan), p, 2.0 * radius).skip(1).all(|image| occupied.free(image, radius))
     }
+}
 
-    /// A point and its images within `margin` outside the periodic ends.
-    fn images(&self, p: DVec3, margin: f64) -> impl Iterator<Item = DVec3> {
-        let ends = ends(self.plan);
-        let mut images = vec![p];
-        for (axis, end) in ends.iter().enumerate() {
-            let Some([low, high]) = *end else { continue };
-            for k in 0..images.len() {
-                let image = images[k];
-                for shift in [low - high, high - low] {
-                    let mut moved = image;
-                    moved[axis] += shift;
-                    if moved[axis] > low - margin && moved[axis] < high + margin {
-                        images.push(moved);
-                    }
+/// A point and its images within `margin` outside the periodic ends.
+pub(super) fn images(ends: &Ends, p: DVec3, margin: f64) -> impl Iterator<Item = DVec3> {
+    let mut images = vec![p];
+    for (axis, end) in ends.iter().enumerate() {
+        let Some([low, high]) = *end else { continue };
+        for k in 0..images.len() {
+            let image = images[k];
+            for shift in [low - high, high - low] {
+                let mut moved = image;
+                moved[axis] += shift;
+                if moved[axis] > low - margin && moved[axis] < high + margin {
+                    images.push(moved);
                 }
             }
         }
-        images.into_iter()
     }
+    images.into_iter()
 }
 
 /// A random place in a room for a sphere of some radius; across periodic ends the sphere may reach.

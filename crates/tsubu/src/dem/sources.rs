@@ -3,7 +3,7 @@
 use super::engine::DemEngine;
 use super::fill::Occupied;
 use super::memory::Kept;
-use super::place::{anywhere, direction, still};
+use super::place::{anywhere, direction, images, still};
 use super::sizes;
 use crate::contact::Table;
 use crate::ledger::{Account, Ledger};
@@ -171,9 +171,12 @@ impl DemEngine {
             let largest = self.largest_diameter * 0.5;
             let mut occupied = Occupied::new(largest);
             let margin = DVec3::splat(2.0 * largest);
+            let ends = &self.search.ends;
             for (p, r) in self.grains.position.iter().zip(&self.grains.radius) {
-                if p.cmpge(low - margin).all() && p.cmple(high + margin).all() {
-                    occupied.put(*p, *r);
+                for p in images(ends, *p, 2.0 * largest) {
+                    if p.cmpge(low - margin).all() && p.cmple(high + margin).all() {
+                        occupied.put(p, *r);
+                    }
                 }
             }
             while stream.placed < due {
@@ -191,7 +194,9 @@ impl DemEngine {
                     occupied.free(p, 0.5 * diameter).then_some(p)
                 });
                 let Some(p) = place else { break };
-                occupied.put(p, 0.5 * diameter);
+                for image in images(ends, p, 2.0 * largest) {
+                    occupied.put(image, 0.5 * diameter);
+                }
                 let mut grain = still(&stream.group, stream.number, stream.material, p, diameter, id as usize);
                 let w = words(self.sources.plan.seed, Purpose::Stream, id, 1);
                 grain.velocity = DVec3::from_array(*velocity) + direction(dimension, w) * *speed;
