@@ -1,7 +1,7 @@
 //! DEM by its outcome.
 
 mod books;
-
+mod place;
 mod plane;
 mod same_bits;
 
