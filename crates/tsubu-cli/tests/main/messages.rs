@@ -166,3 +166,21 @@ fn a_full_disk() {
     assert!(files.iter().all(|file| !is(file, "tmp")), "half-written: {files:?}");
     assert!(unmounted.success());
 }
+
+#[test]
+fn a_mesh_with_holes_and_flipped_triangles_is_described() {
+    let scene = "dimension = 3\nduration = \"1 ms\"\n\
+        [materials.steel]\nyoung-modulus = \"10 MPa\"\ndensity = \"7800 kg/m^3\"\n\
+        [particles.ball]\nmaterial = \"steel\"\ndiameter = \"6 mm\"\nstart.at = { position = [[0.5, 0.5, 0.5]] }\n\
+        [walls.crate]\nmaterial = \"steel\"\nshape.mesh = { path = \"crate.obj\" }\n";
+    // A cube without one half of its lid, with one triangle turned and one twice.
+    let cube = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n\
+        f 1 3 4\nf 1 4 2\nf 5 6 8\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 8 4\nf 2 8 6\nf 3 7 8\n";
+    let desk = Desk::with(scene);
+    fs::write(desk.path("crate.obj"), cube).unwrap();
+    let shown = desk.shown("check balls.toml");
+    let told: Vec<&str> = shown.lines().skip_while(|line| !line.contains("`crate`")).collect();
+    let told =
+        told.into_iter().filter(|line| line.contains("`crate`") || line.contains("mesh file")).collect::<Vec<_>>();
+    assert_snapshot!(told.join("\n"));
+}

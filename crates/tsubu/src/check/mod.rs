@@ -1,5 +1,6 @@
 //! The verdict on a scene before it runs.
 
+mod mesh;
 mod verdict;
 
 pub use verdict::{Line, Verdict, check, human_time, verdict};

@@ -1,6 +1,6 @@
 //! The verdict: is this scene resolved well enough, and what will it cost?
 
-use super::{bodies, shortest_period, speed_scale};
+use super::{bodies, mesh, shortest_period, speed_scale};
 use crate::contact::{Law, Table};
 use crate::engine::{self, Engine, Fault, OpenError};
 use crate::ledger::Ledger;
@@ -33,7 +33,7 @@ impl Verdict {
         self.lines.iter().any(|l| !l.good)
     }
 
-    fn say(&mut self, text: String) {
+    pub(super) fn say(&mut self, text: String) {
         self.lines.push(Line { good: true, text, advice: String::new() });
     }
 
@@ -44,7 +44,7 @@ impl Verdict {
         self.judge(false, format!("{what}: {reason}"), || "what the warnings above name".to_owned());
     }
 
-    fn judge(&mut self, good: bool, text: String, advice: impl FnOnce() -> String) {
+    pub(super) fn judge(&mut self, good: bool, text: String, advice: impl FnOnce() -> String) {
         let advice = if good { String::new() } else { advice() };
         self.lines.push(Line { good, text, advice });
     }
@@ -123,6 +123,7 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         Method::Dem => dem(&mut verdict, plan, hosts, dt, speed),
         Method::Lattice => lattice(&mut verdict, plan, dt, speed),
     }
+    mesh::meshes(&mut verdict, plan);
     let period = shortest_period(hosts);
     if period.is_finite() {
         let steps = period / dt;

@@ -2,6 +2,7 @@
 
 use super::integrate::Report;
 use super::place;
+use super::room;
 use super::sizes;
 use super::sources::Sources;
 use super::step::Flows;
@@ -89,9 +90,9 @@ impl DemEngine {
         };
         let law = Law::new(contact);
         let table = Table::new(plan, &law);
-        let (grains, settle) = place::grains(plan, &table, hosts).map_err(refuse)?;
         let gravity = DVec3::from_array(*gravity);
         let walls = walls(plan, &table, hosts, *dimension, gravity);
+        let (grains, settle) = place::grains(plan, &table, hosts, &walls).map_err(refuse)?;
         let sources = Sources::new(plan, &table, grains.len());
         let diameters = grains.radius.iter().map(|r| (2.0 * r, 2.0 * r)).chain(sources.sizes());
         let (smallest, largest) =
@@ -114,7 +115,7 @@ impl DemEngine {
             dt: check::time_step(plan, &law, &table, hosts),
             law,
             table,
-            search: Search { skin, reach, ends: place::ends(plan) },
+            search: Search { skin, reach, ends: room::ends(plan) },
             gravity,
             integrator: dem.integrator,
             rotation: contact.rotation,

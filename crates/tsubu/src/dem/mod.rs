@@ -7,6 +7,7 @@ mod keep;
 mod memory;
 mod output;
 mod place;
+mod room;
 mod rows;
 mod settle;
 mod sieve;

@@ -56,10 +56,7 @@ impl DemEngine {
     /// Everything that the next step depends on.
     pub(super) fn write_state(&self, state: &mut State) {
         self.grains.save("grains", state);
-        state.put_integer(
-            "dem.step",
-            vec![self.step as i64, self.sums.contacts as i64, self.grains.len() as i64],
-        );
+        state.put_integer("dem.step", vec![self.step as i64, self.sums.contacts as i64, self.grains.len() as i64]);
         state.put_integer("dem.streams", self.sources.placed());
         let mut reals = self.last_flows.powers.to_vec();
         reals.extend(self.last_flows.wall_force.to_array());

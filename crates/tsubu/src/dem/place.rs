@@ -1,31 +1,31 @@
 //! Where grains begin.
 
 use super::fill::Occupied;
+use super::room::{Clearance, Room, ends, images};
 use super::sizes;
 use crate::contact::Table;
-use crate::find::grid::Ends;
 use crate::partner::Hosts;
 use crate::random::{Purpose, unit, words};
 use crate::state::{Grain, Grains};
-use crate::wall::Carrier;
+use crate::wall::{Carrier, Wall};
 use glam::DVec3;
 use tsubu_scene::plan::{GrainMotion, GrainShape, Particles, Plan, Region, Shape, Start};
 
 /// Attempts to find a free place for one grain before giving up.
 const ATTEMPTS: u64 = 2000;
 
-/// A box of space: centre of the floor and size [m].
-type Room = (DVec3, DVec3);
-
 /// What is wrong with a group: key and text.
 type Wrong = (String, String);
 
 /// All grains of a plan that are there at time 0, in the order of groups and numbers, and how long some of them may
-/// settle first [s].
-pub(super) fn grains(plan: &Plan, table: &Table, hosts: &Hosts) -> Result<(Grains, f64), Wrong> {
-    let mut placing = Placing { plan, table, grains: Grains::default(), room: room(plan, hosts), floor: 0.0 };
+/// settle first [s]. Those at random places come last: they look for room among all others.
+pub(super) fn grains(plan: &Plan, table: &Table, hosts: &Hosts, walls: &[Wall]) -> Result<(Grains, f64), Wrong> {
+    let mut placing = Placing { plan, table, walls, grains: Grains::default(), room: room(plan, hosts), floor: 0.0 };
     let mut settle: f64 = 0.0;
-    for (number, (name, group)) in plan.particles.iter().enumerate() {
+    let random = |group: &Particles| matches!(group.start, Start::Random { .. });
+    let groups = || plan.particles.iter().enumerate();
+    let ordered = groups().filter(|(_, g)| !random(g.1)).chain(groups().filter(|(_, g)| random(g.1)));
+    for (number, (name, group)) in ordered {
         let key = |part: &str| format!("particles.{name}.start.{part}");
         match &group.start {
             Start::At { position, velocity, spin } => placing.at(group, number, position, &[], velocity, spin),
@@ -66,19 +66,22 @@ fn room(plan: &Plan, hosts: &Hosts) -> Option<Room> {
     plan.walls.values().find_map(|wall| match &wall.shape {
         Shape::Box { width, height, depth, floor_centre } => {
             let displacement = Carrier::new(wall, hosts).place(0.0, hosts).0;
-            Some((DVec3::from_array(*floor_centre) + displacement, DVec3::new(*width, *depth, *height)))
+            let centre = DVec3::from_array(*floor_centre) + displacement;
+            Some(Room { centre, size: DVec3::new(*width, *depth, *height) })
         }
         _ => None,
     })
 }
 
-/// Periodic axes of a plan.
-pub(super) fn ends(plan: &Plan) -> Ends {
-    [plan.periodic.x, plan.periodic.y, plan.periodic.z]
-}
-
 /// A grain of a group at rest.
-pub(super) fn still(group: &Particles, number: usize, material: u32, position: DVec3, diameter: f64, id: usize) -> Grain {
+pub(super) fn still(
+    group: &Particles,
+    number: usize,
+    material: u32,
+    position: DVec3,
+    diameter: f64,
+    id: usize,
+) -> Grain {
     let radius = 0.5 * diameter;
     let mass = sizes::mass(group, diameter);
     let share = if matches!(group.shape, GrainShape::Disc { .. }) { 0.5 } else { 0.4 };
@@ -103,6 +106,7 @@ pub(super) fn still(group: &Particles, number: usize, material: u32, position: D
 struct Placing<'a> {
     plan: &'a Plan,
     table: &'a Table,
+    walls: &'a [Wall],
     grains: Grains,
     room: Option<Room>,
     /// Height above the floor up to which rows have filled the box [m].
@@ -112,10 +116,7 @@ struct Placing<'a> {
 impl Placing<'_> {
     /// A region, or else the box.
     fn inside(&self, region: Option<&Region>) -> Option<Room> {
-        let Some(Region { low, high }) = region else { return self.room };
-        let (low, high) = (DVec3::from_array(*low), DVec3::from_array(*high));
-        let middle = 0.5 * (low + high);
-        Some((DVec3::new(middle.x, middle.y, low.z), high - low))
+        region.map(Room::of).or(self.room)
     }
 
     fn push(&mut self, group: &Particles, number: usize, position: DVec3, diameter: f64) {
@@ -132,10 +133,15 @@ impl Placing<'_> {
         velocity: &[[f64; 3]],
         spin: &[[f64; 3]],
     ) {
+        let free = matches!(group.motion, GrainMotion::Free {});
         for (k, p) in position.iter().enumerate() {
             let id = self.grains.len();
             let d = diameter.get(k).copied().unwrap_or_else(|| sizes::diameter(group, self.plan.seed, id as u32));
             self.push(group, number, DVec3::from_array(*p), d);
+            // A file may be the snapshot of a run; what is held or driven moves as its scene says.
+            if !free {
+                continue;
+            }
             self.grains.velocity[id] = velocity.get(k).map_or(DVec3::ZERO, |v| DVec3::from_array(*v));
             self.grains.spin[id] = spin.get(k).map_or(DVec3::ZERO, |v| DVec3::from_array(*v));
         }
@@ -151,7 +157,15 @@ impl Placing<'_> {
 
     /// Fills rows from the floor up (in the box: from where the last group ended). Narrows the spacing if the group would
     /// not fit otherwise.
-    fn rows(&mut self, group: &Particles, number: usize, (centre, size): Room, spacing: f64, jitter: f64, stack: bool) {
+    fn rows(
+        &mut self,
+        group: &Particles,
+        number: usize,
+        Room { centre, size }: Room,
+        spacing: f64,
+        jitter: f64,
+        stack: bool,
+    ) {
         let space = self.plan.dimension == 3;
         let floor = if stack { self.floor } else { 0.0 };
         // Rows are as wide as the widest grain.
@@ -198,7 +212,7 @@ impl Placing<'_> {
     }
 
     /// Anywhere in the room without overlap, the largest first: they find room while there is most.
-    fn random(&mut self, group: &Particles, number: usize, (centre, size): Room) -> Result<(), String> {
+    fn random(&mut self, group: &Particles, number: usize, room: Room) -> Result<(), String> {
         let first = self.grains.len();
         let mut ids: Vec<(u32, f64)> = (first..first + group.count)
             .map(|id| (id as u32, sizes::diameter(group, self.plan.seed, id as u32)))
@@ -208,13 +222,17 @@ impl Placing<'_> {
         for i in 0..first {
             occupied.put(self.grains.position[i], self.grains.radius[i]);
         }
+        let ends = ends(self.plan);
+        let mut clearance = Clearance::new(self.walls, &room, self.plan.dimension);
         ids.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
         let mut places = vec![(DVec3::ZERO, 0.0); group.count];
         for (count, (id, diameter)) in ids.into_iter().enumerate() {
             let radius = 0.5 * diameter;
             let free = (0..ATTEMPTS).find_map(|attempt| {
-                let p = anywhere(self.plan, (centre, size), radius, Purpose::Placement, id, 3 + attempt);
-                (self.clear_of_ends(p, &occupied, radius)).then_some(p)
+                let p = room.anywhere(self.plan, radius, Purpose::Placement, id, 3 + attempt);
+                let free = clearance.free(p, radius)
+                    && images(&ends, p, 2.0 * radius).all(|image| occupied.free(image, radius));
+                free.then_some(p)
             });
             let Some(p) = free else {
                 return Err(format!(
@@ -222,7 +240,7 @@ impl Placing<'_> {
                     group.count
                 ));
             };
-            for image in images(&ends(self.plan), p, 2.0 * largest) {
+            for image in images(&ends, p, 2.0 * largest) {
                 occupied.put(image, radius);
             }
             places[id as usize - first] = (p, diameter);
@@ -232,46 +250,6 @@ impl Placing<'_> {
         }
         Ok(())
     }
-
-    fn clear_of_ends(&self, p: DVec3, occupied: &Occupied, radius: f64) -> bool {
-        occupied.free(p, radius) && images(&ends(self.plan), p, 2.0 * radius).skip(1).all(|image| occupied.free(image, radius))
-    }
-}
-
-/// A point and its images within `margin` outside the periodic ends.
-pub(super) fn images(ends: &Ends, p: DVec3, margin: f64) -> impl Iterator<Item = DVec3> {
-    let mut images = vec![p];
-    for (axis, end) in ends.iter().enumerate() {
-        let Some([low, high]) = *end else { continue };
-        for k in 0..images.len() {
-            let image = images[k];
-            for shift in [low - high, high - low] {
-                let mut moved = image;
-                moved[axis] += shift;
-                if moved[axis] > low - margin && moved[axis] < high + margin {
-                    images.push(moved);
-                }
-            }
-        }
-    }
-    images.into_iter()
-}
-
-/// A random place in a room for a sphere of some radius; across periodic ends the sphere may reach.
-pub(super) fn anywhere(plan: &Plan, (centre, size): Room, radius: f64, purpose: Purpose, id: u32, step: u64) -> DVec3 {
-    let w = words(plan.seed, purpose, id, 2 * step);
-    let v = words(plan.seed, purpose, id, 2 * step + 1);
-    let draw = [unit(w[0], w[1]), unit(w[2], w[3]), unit(v[0], v[1])];
-    let ends = ends(plan);
-    let mut p = centre + DVec3::new(0.0, 0.0, 0.5 * size.z);
-    for axis in 0..3 {
-        if axis == 1 && plan.dimension == 2 {
-            continue;
-        }
-        let margin = if ends[axis].is_some() { 0.0 } else { 2.0 * radius };
-        p[axis] += (draw[axis] - 0.5) * (size[axis] - margin).max(0.0);
-    }
-    p
 }
 
 /// A random unit vector, in the plane or in space.

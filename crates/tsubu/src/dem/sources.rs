@@ -3,7 +3,8 @@
 use super::engine::DemEngine;
 use super::fill::Occupied;
 use super::memory::Kept;
-use super::place::{anywhere, direction, images, still};
+use super::place::{direction, still};
+use super::room::{Clearance, Room, ends, images};
 use super::sizes;
 use crate::contact::Table;
 use crate::ledger::{Account, Ledger};
@@ -157,7 +158,7 @@ impl DemEngine {
     fn arrivals(&mut self) -> Vec<crate::state::Grain> {
         let mut arrivals = Vec::new();
         let time = self.step as f64 * self.dt;
-        let dimension = self.sources.plan.dimension;
+        let (dimension, ends) = (self.sources.plan.dimension, ends(&self.sources.plan));
         for stream in &mut self.sources.streams {
             let Start::Stream { region, rate, velocity, speed, from } = &stream.group.start else { continue };
             let due = ((time - from) * rate).max(0.0).floor() as usize;
@@ -166,36 +167,30 @@ impl DemEngine {
                 continue;
             }
             let (low, high) = (DVec3::from_array(region.low), DVec3::from_array(region.high));
-            let middle = 0.5 * (low + high);
-            let room = (DVec3::new(middle.x, middle.y, low.z), high - low);
+            let room = Room::of(region);
+            let mut clearance = Clearance::new(&self.walls, &room, dimension);
             let largest = self.largest_diameter * 0.5;
             let mut occupied = Occupied::new(largest);
             let margin = DVec3::splat(2.0 * largest);
-            let ends = &self.search.ends;
             for (p, r) in self.grains.position.iter().zip(&self.grains.radius) {
-                for p in images(ends, *p, 2.0 * largest) {
-                    if p.cmpge(low - margin).all() && p.cmple(high + margin).all() {
-                        occupied.put(p, *r);
+                for image in images(&ends, *p, 2.0 * largest) {
+                    if image.cmpge(low - margin).all() && image.cmple(high + margin).all() {
+                        occupied.put(image, *r);
                     }
                 }
             }
             while stream.placed < due {
                 let id = stream.first_id + stream.placed as u32;
                 let diameter = sizes::diameter(&stream.group, self.sources.plan.seed, id);
+                let radius = 0.5 * diameter;
                 let place = (0..ATTEMPTS).find_map(|attempt| {
-                    let p = anywhere(
-                        &self.sources.plan,
-                        room,
-                        0.5 * diameter,
-                        Purpose::Stream,
-                        id,
-                        self.step * ATTEMPTS + attempt,
-                    );
-                    occupied.free(p, 0.5 * diameter).then_some(p)
+                    let step = self.step * ATTEMPTS + attempt;
+                    let p = room.anywhere(&self.sources.plan, radius, Purpose::Stream, id, step);
+                    (occupied.free(p, radius) && clearance.free(p, radius)).then_some(p)
                 });
                 let Some(p) = place else { break };
-                for image in images(ends, p, 2.0 * largest) {
-                    occupied.put(image, 0.5 * diameter);
+                for image in images(&ends, p, 2.0 * largest) {
+                    occupied.put(image, radius);
                 }
                 let mut grain = still(&stream.group, stream.number, stream.material, p, diameter, id as usize);
                 let w = words(self.sources.plan.seed, Purpose::Stream, id, 1);

@@ -89,6 +89,19 @@ impl Frustum {
             && side(centre, foot, start) * side(centre, foot, end) < 0.0
     }
 
+    /// Whether a point lies within; `None` before and behind the open ends.
+    pub(super) fn encloses(&self, point: DVec3) -> Option<bool> {
+        let from_end = point - self.point;
+        let s = from_end.dot(self.axis);
+        let [r0, r1] = self.radius;
+        let radius = match self.length {
+            None => r0,
+            Some(length) if (0.0..=length).contains(&s) => r0 + (r1 - r0) * s / length,
+            Some(_) => return None,
+        };
+        Some((from_end - self.axis * s).length() < radius)
+    }
+
     /// A direction across the axis.
     pub(super) fn across_axis(&self) -> DVec3 {
         let across = self.axis.cross(DVec3::Y);

@@ -110,6 +110,12 @@ impl Wall {
         self.surface.near(self.pose.to_own(centre), reach, out);
     }
 
+    /// Whether a point lies within a drum, cone or shell; `None` beyond open ends, and for walls without an inside.
+    /// A mesh may be anything, so it has none.
+    pub fn encloses(&self, point: DVec3) -> Option<bool> {
+        self.surface.encloses(self.pose.to_own(point))
+    }
+
     /// The nearest point of an element to a point, both in the world.
     #[inline]
     pub fn nearest(&self, element: u32, centre: DVec3) -> Nearest {

@@ -2,7 +2,7 @@
 
 mod books;
 mod everything;
-
+mod place;
 mod plane;
 mod same_bits;
 

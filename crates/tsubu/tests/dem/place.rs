@@ -1,0 +1,113 @@
+//! Grains find room among walls of every shape and among grains that are there.
+
+use super::open_text;
+use tsubu::engine::Engine;
+use tsubu_frame::{Frame, Kind, Values};
+
+const MATERIAL: &str = "
+dimension = 3
+duration = \"0.1 s\"
+[materials.glass]
+young-modulus = \"10 MPa\"
+density = \"2500 kg/m^3\"
+";
+
+const DRUM: &str = r#"
+[walls.drum]
+material = "glass"
+shape.cylinder = { point = [0, -0.05, 0], axis = [0, 1, 0], radius = 0.05, length = 0.1 }
+"#;
+
+/// A room that reaches over the corners of the drum.
+const ROOM: &str = "region = { low = [-0.05, -0.05, -0.05], high = [0.05, 0.05, 0.05] }";
+
+fn vectors(frame: &Frame, name: &str) -> Vec<[f64; 3]> {
+    match &frame.column(Kind::Grain, name).unwrap().values {
+        Values::Vector(v) => v.clone(),
+        _ => panic!("{name} is no vector"),
+    }
+}
+
+fn positions(engine: &dyn Engine) -> Vec<[f64; 3]> {
+    vectors(&engine.frame(&tsubu::partner::Hosts::default()), "position")
+}
+
+fn from_axis(p: &[f64; 3]) -> f64 {
+    p[0].hypot(p[2])
+}
+
+#[test]
+fn random_grains_stay_within_a_drum() {
+    let grains = format!(
+        "[particles.beads]\nmaterial = \"glass\"\ncount = 400\ndiameter = \"6 mm\"\nstart.random = {{ {ROOM} }}\n"
+    );
+    let (engine, ..) = open_text(&format!("{MATERIAL}{grains}{DRUM}"), &[]);
+    assert_eq!(engine.grains(), 400);
+    assert_eq!(engine.contacts(), 0);
+    let places = positions(&*engine);
+    assert!(places.iter().all(|p| from_axis(p) < 0.047), "some are outside the drum or in its wall");
+    // Without the drum some would be in the corners: the room alone does not keep them in.
+    let (free, ..) = open_text(&format!("{MATERIAL}{grains}"), &[]);
+    assert!(positions(&*free).iter().any(|p| from_axis(p) > 0.05));
+}
+
+#[test]
+fn an_obstacle_in_a_room_is_gone_round() {
+    let scene = format!(
+        "{MATERIAL}[particles.beads]\nmaterial = \"glass\"\ncount = 400\ndiameter = \"6 mm\"\nstart.random = {{ {ROOM} }}\n\
+         [walls.ball]\nmaterial = \"glass\"\nshape.sphere = {{ centre = [0, 0, 0], radius = 0.02 }}\n"
+    );
+    let (engine, ..) = open_text(&scene, &[]);
+    let away = |p: &[f64; 3]| p.iter().map(|x| x * x).sum::<f64>().sqrt();
+    assert!(positions(&*engine).iter().all(|p| away(p) > 0.023));
+}
+
+#[test]
+fn a_stream_keeps_clear_of_a_mesh() {
+    let folder = tempfile::tempdir().unwrap();
+    // A tilted sheet across the middle of the region.
+    let sheet = "v -0.06 -0.06 -0.02\nv 0.06 -0.06 0.02\nv 0.06 0.06 0.02\nv -0.06 0.06 -0.02\nf 1 2 3\nf 1 3 4\n";
+    std::fs::write(folder.path().join("sheet.obj"), sheet).unwrap();
+    let scene = format!(
+        "gravity = [0, 0, 0]\n{MATERIAL}[particles.beads]\nmaterial = \"glass\"\ncount = 300\ndiameter = \"6 mm\"\n\
+         start.stream = {{ {ROOM}, rate = 100000 }}\n\
+         [walls.sheet]\nmaterial = \"glass\"\nshape.mesh = {{ path = \"sheet.obj\" }}\n"
+    );
+    let scene = tsubu_scene::Scene::parse("test", &scene, folder.path(), &[]).unwrap_or_else(|c| panic!("{c}"));
+    let mut hosts = tsubu::partner::Hosts::default();
+    let mut engine = tsubu::engine::open(scene.plan(), &hosts).unwrap();
+    let mut ledger = tsubu::ledger::Ledger::open(tsubu::engine::stocks(&*engine, &hosts), engine.momentum());
+    while engine.grains() < 300 {
+        engine.advance(50, &mut hosts, &mut ledger).unwrap();
+        assert_eq!(engine.contacts(), 0, "a grain came into the sheet");
+    }
+    let normal = [-0.04 / (0.04f64.hypot(0.12)), 0.12 / (0.04f64.hypot(0.12))];
+    let height = |p: &[f64; 3]| (p[0] * normal[0] + p[2] * normal[1]).abs();
+    assert!(positions(&*engine).iter().all(|p| height(p) > 0.003 - 1e-12));
+}
+
+#[test]
+fn random_grains_find_room_among_frozen_ones_of_any_name() {
+    let scene = format!(
+        "{MATERIAL}[particles.a-loose]\nmaterial = \"glass\"\ncount = 500\ndiameter = \"6 mm\"\nstart.random = {{ {ROOM} }}\n\
+         [particles.z-rough]\nmaterial = \"glass\"\ncount = 400\ndiameter = \"5 mm\"\nmotion.frozen = {{}}\n\
+         start.rows = {{ region = {{ low = [-0.05, -0.05, -0.05], high = [0.05, 0.05, 0] }} }}\n"
+    );
+    let (engine, ..) = open_text(&scene, &[]);
+    assert_eq!((engine.grains(), engine.contacts()), (900, 0));
+}
+
+#[test]
+fn speeds_in_a_file_are_for_free_grains() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("bed.csv"), "x,y,z,diameter,vx\n0,0,0,0.006,1\n0.01,0,0,0.006,2\n").unwrap();
+    for (motion, speed) in [("free = {}", 2.0), ("frozen = {}", 0.0)] {
+        let scene = format!(
+            "{MATERIAL}[particles.bed]\nmaterial = \"glass\"\nmotion.{motion}\nstart.file = {{ path = \"bed.csv\" }}\n"
+        );
+        let scene = tsubu_scene::Scene::parse("test", &scene, folder.path(), &[]).unwrap_or_else(|c| panic!("{c}"));
+        let hosts = tsubu::partner::Hosts::default();
+        let engine = tsubu::engine::open(scene.plan(), &hosts).unwrap();
+        assert_eq!(vectors(&engine.frame(&hosts), "velocity")[1][0], speed, "{motion}");
+    }
+}
