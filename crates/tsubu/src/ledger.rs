@@ -172,7 +172,11 @@ impl Ledger {
     /// Momentum that the books cannot explain [N.s].
     pub fn momentum_residual(&self, now: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|i| {
-            now[i] - self.opening_momentum[i] - self.gravity_impulse[i] - self.wall_impulse[i] - self.rule_impulse[i]
+            now[i]
+                - self.opening_momentum[i]
+                - self.gravity_impulse[i]
+                - self.wall_impulse[i]
+                - self.rule_impulse[i]
                 - self.exchange_impulse[i]
         })
     }

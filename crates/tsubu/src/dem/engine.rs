@@ -47,6 +47,8 @@ pub struct DemEngine {
     /// While grains settle the walls do not follow their carriers.
     pub(super) walls_held: bool,
     notes: Vec<Note>,
+    /// Whether the grains have begun the next step already; never between two calls of `advance`.
+    pub(super) begun: bool,
     // Scratch.
     pub(super) reports: Vec<Report>,
     pub(super) wall_loads: Vec<WallLoad>,
@@ -95,8 +97,7 @@ impl DemEngine {
         let (grains, settle) = place::grains(plan, &table, hosts, &walls).map_err(refuse)?;
         let sources = Sources::new(plan, &table, grains.len());
         let diameters = grains.radius.iter().map(|r| (2.0 * r, 2.0 * r)).chain(sources.sizes());
-        let (smallest, largest) =
-            diameters.fold((f64::INFINITY, 0.0f64), |a, d| (a.0.min(d.0), a.1.max(d.1)));
+        let (smallest, largest) = diameters.fold((f64::INFINITY, 0.0f64), |a, d| (a.0.min(d.0), a.1.max(d.1)));
         let skin = if smallest.is_finite() { dem.skin * smallest } else { 0.0 };
         let reach = check::bodies(plan, &table, hosts)
             .pairs()
@@ -125,6 +126,7 @@ impl DemEngine {
             total_mass: grains.moved_mass(),
             walls_held: false,
             notes: Vec::new(),
+            begun: false,
             reports: Vec::new(),
             wall_loads,
             host_forces: Vec::new(),
@@ -148,7 +150,7 @@ impl DemEngine {
         self.drive(0.0);
         self.find();
         self.touch_all();
-        self.finish(0.0);
+        self.finish(0.0, false);
         self.sum_wall_loads();
         self.last_flows = self.flows();
     }
@@ -189,8 +191,8 @@ impl Engine for DemEngine {
     }
 
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
-        for _ in 0..steps {
-            self.step(hosts, ledger)?;
+        for step in 0..steps {
+            self.step(hosts, ledger, step + 1 < steps)?;
         }
         Ok(())
     }

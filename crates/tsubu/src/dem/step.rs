@@ -11,10 +11,13 @@ use glam::DVec3;
 use tsubu_scene::plan::Integrator;
 
 impl DemEngine {
-    /// Moves everything by one time step.
-    pub(super) fn step(&mut self, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
-        let motion = self.motion(self.dt);
-        integrate::before(&mut self.grains, &mut self.candidates, &mut self.reports, &motion);
+    /// Moves everything by one time step. With `go_on` the grains have begun the next step when it ends: the first half of
+    /// that step is done together with the second half of this one.
+    pub(super) fn step(&mut self, hosts: &mut Hosts, ledger: &mut Ledger, go_on: bool) -> Result<(), Fault> {
+        if !std::mem::replace(&mut self.begun, go_on) {
+            let motion = self.motion(self.dt);
+            integrate::before(&mut self.grains, &mut self.candidates, &mut self.reports, &motion);
+        }
         self.step += 1;
         let time = self.time();
         hosts.before(self.dt);
@@ -28,7 +31,7 @@ impl DemEngine {
         }
         self.touch_all();
         self.check_overlap()?;
-        self.finish(self.dt);
+        self.finish(self.dt, go_on);
         self.reactions(hosts, ledger);
         hosts.after(time, self.dt, &self.host_forces, ledger);
         self.close_books(ledger);
@@ -75,8 +78,7 @@ impl DemEngine {
     /// What the touch phase reads, and itself.
     fn scene(&mut self) -> (Scene<'_>, &mut Touch) {
         let Self { grains, walls, candidates, law, table, search, rotation, dt, touch, .. } = self;
-        let scene =
-            Scene { grains, walls, candidates, law, table, reach: search.reach, rotation: *rotation, dt: *dt };
+        let scene = Scene { grains, walls, candidates, law, table, reach: search.reach, rotation: *rotation, dt: *dt };
         (scene, touch)
     }
 
@@ -96,10 +98,16 @@ impl DemEngine {
     }
 
     /// Accelerations from contact forces and gravity; completes the velocities for a step `dt` (0: leaves them).
-    pub(super) fn finish(&mut self, dt: f64) {
+    pub(super) fn finish(&mut self, dt: f64, go_on: bool) {
         let motion = self.motion(dt);
-        let report =
-            integrate::after(&mut self.grains, &self.touch.blocks, &self.candidates, &mut self.reports, &motion);
+        let report = integrate::after(
+            &mut self.grains,
+            &self.touch.blocks,
+            &mut self.candidates,
+            &mut self.reports,
+            &motion,
+            go_on,
+        );
         self.sums.correct(report.correction);
         self.fixed = (report.fixed_force, report.driven_power);
     }

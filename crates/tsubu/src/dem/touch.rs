@@ -329,9 +329,7 @@ fn match_up(
 ) {
     let patch = |t: &wall::Touch| wall.key(t.element);
     went_on.clear();
-    went_on.extend(touching.iter().map(|t| {
-        old.clone().find(|&c| keys[c].patch == patch(t)).map_or(FRESH, place)
-    }));
+    went_on.extend(touching.iter().map(|t| old.clone().find(|&c| keys[c].patch == patch(t)).map_or(FRESH, place)));
     for t in 1..touching.len() {
         // Two contacts of one patch share a name; the one history goes on once.
         if went_on[..t].contains(&went_on[t]) {
@@ -440,7 +438,11 @@ fn walls(
             rows.arm[0][r] = g.radius[i] - 0.5 * overlap;
             rows.arm[1][r] = 0.0;
             rows.material[r] = scene.table.index(g.material[i], wall.material);
-            Chunk::set(&mut rows.relative, r, g.velocity[i] - wall.velocity_at(g.position[i] + normal * rows.arm[0][r]));
+            Chunk::set(
+                &mut rows.relative,
+                r,
+                g.velocity[i] - wall.velocity_at(g.position[i] + normal * rows.arm[0][r]),
+            );
             Chunk::set(&mut rows.spin[0], r, g.spin[i]);
             Chunk::set(&mut rows.spin[1], r, wall.pose.spin);
             rows.chunk.len = r + 1;

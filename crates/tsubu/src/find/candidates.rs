@@ -9,7 +9,7 @@
 //! ones near it and for large ones farther away, never the other way round.
 
 use super::drift::Drifts;
-use super::grid::{Ends, Grid, HERE, shift};
+use super::grid::{Ends, Grid, HERE, Numbering, shift};
 use crate::state::Grains;
 use crate::wall::{Pose, Wall};
 use glam::DVec3;
@@ -130,7 +130,9 @@ impl Candidates {
             return;
         }
         let mean = grains.radius.iter().sum::<f64>() / grains.len() as f64;
-        self.order.fill(&grains.position, 0..grains.len() as u32, 2.0 * mean + search.skin, &search.ends);
+        self.order.numbering = Numbering::Lumps;
+        let size = 2.0 * mean + search.skin;
+        self.order.fill(&grains.position, &grains.radius, 0..grains.len() as u32, size, &search.ends);
         grains.permute(self.order.order());
     }
 
@@ -163,7 +165,7 @@ impl Candidates {
                 let i = list.first + own;
                 let begin = list.met.len();
                 if small {
-                    (i + 1..n).for_each(|j| self.meet(list, grains, search, i, j, HERE));
+                    self.later(list, grains, search, i);
                 } else {
                     self.neighbours(list, grains, search, i);
                 }
@@ -211,32 +213,33 @@ impl Candidates {
         for (level, grid) in self.levels.iter_mut().enumerate() {
             let members = (0..grains.len() as u32).filter(|&i| usize::from(self.level_of[i as usize]) == level);
             let size = 2.0 * self.largest[level] + search.skin + search.reach;
-            grid.fill(&self.reference, members, size, &search.ends);
+            grid.fill(&self.reference, &grains.radius, members, size, &search.ends);
         }
     }
 
     #[inline]
     fn neighbours(&self, list: &mut List, grains: &Grains, search: &Search, i: usize) {
         let level = usize::from(self.level_of[i]);
+        let reach = grains.radius[i] + search.skin + search.reach;
+        let moves = grains.inverse_mass[i] > 0.0;
         for (higher, grid) in self.levels.iter().enumerate().skip(level) {
-            grid.around(self.reference[i], |j, image| {
-                if higher > level || j as usize > i {
-                    self.meet(list, grains, search, i, j as usize, image);
+            grid.near(self.reference[i], reach, &self.shifts, |j, image| {
+                // Two grains that nothing moves need not be watched.
+                if (higher > level || j as usize > i) && (moves || grains.inverse_mass[j as usize] > 0.0) {
+                    list.met.push(Image { grain: j, image });
                 }
             });
         }
     }
 
-    #[inline(always)]
-    fn meet(&self, list: &mut List, grains: &Grains, search: &Search, i: usize, j: usize, image: u32) {
-        let mut between = self.reference[j] - self.reference[i];
-        if image != HERE {
-            between += self.shifts[image as usize];
-        }
-        let limit = grains.radius[i] + grains.radius[j] + search.skin + search.reach;
-        // Two grains that nothing moves need not be watched.
-        if between.length_squared() < limit * limit && grains.inverse_mass[i] + grains.inverse_mass[j] > 0.0 {
-            list.met.push(Image { grain: j as u32, image });
+    /// The same for few grains, without a grid.
+    fn later(&self, list: &mut List, grains: &Grains, search: &Search, i: usize) {
+        for j in i + 1..grains.len() {
+            let limit = grains.radius[i] + grains.radius[j] + search.skin + search.reach;
+            let near = self.reference[i].distance_squared(self.reference[j]) < limit * limit;
+            if near && grains.inverse_mass[i] + grains.inverse_mass[j] > 0.0 {
+                list.met.push(Image { grain: j as u32, image: HERE });
+            }
         }
     }
 }
@@ -268,11 +271,7 @@ impl List {
         self.halo.sort_unstable();
         self.halo.dedup();
         let place = |c: &Image| {
-            if own(c) {
-                c.grain - inside.start
-            } else {
-                self.own as u32 + self.halo.partition_point(|h| h < c) as u32
-            }
+            if own(c) { c.grain - inside.start } else { self.own as u32 + self.halo.partition_point(|h| h < c) as u32 }
         };
         self.pairs.extend(self.met.iter().map(place));
     }

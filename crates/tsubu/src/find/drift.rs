@@ -48,10 +48,17 @@ struct Bounds {
 
 impl Drifts {
     /// Begins anew after a search; mean velocities are kept as the first guess of the drift.
-    pub fn reset(&mut self, lists: &[List], reference: &[DVec3], grains: &Grains, walls: &[Wall], skin: f64, ends: &Ends) {
+    pub fn reset(
+        &mut self,
+        lists: &[List],
+        reference: &[DVec3],
+        grains: &Grains,
+        walls: &[Wall],
+        skin: f64,
+        ends: &Ends,
+    ) {
         let margin = MARGIN * skin;
-        let bounds: Vec<Bounds> =
-            lists.iter().map(|list| bounds(list, reference, &grains.radius)).collect();
+        let bounds: Vec<Bounds> = lists.iter().map(|list| bounds(list, reference, &grains.radius)).collect();
         self.near.clear();
         for (b, one) in bounds.iter().enumerate() {
             for (c, other) in bounds.iter().enumerate().skip(b + 1) {

@@ -19,9 +19,21 @@ pub fn shift(ends: &Ends, image: u32) -> DVec3 {
     DVec3::new(times[0] * period[0], times[1] * period[1], times[2] * period[2])
 }
 
+/// How cells are numbered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Numbering {
+    /// Along x, then y, then z: neighbours along x lie side by side, good for searching.
+    #[default]
+    Rows,
+    /// Super-cell by super-cell, good for sorting.
+    Lumps,
+}
+
 /// Indices sorted by cell.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
+    /// How its cells are numbered.
+    pub numbering: Numbering,
     origin: [f64; 3],
     /// Cells per metre along each axis.
     density: [f64; 3],
@@ -33,23 +45,35 @@ pub struct Grid {
     /// First entry of each cell in `members`; one more than cells.
     start: Vec<u32>,
     members: Vec<u32>,
+    /// Centre and radius of every member, side by side [m].
+    spheres: Vec<[f64; 4]>,
     cell_of: Vec<u32>,
     next: Vec<u32>,
 }
 
 impl Grid {
-    /// Sorts the positions of `members` into cells of at least `size` [m]; no more cells than about four a member,
-    /// however far they fly. Members keep their order within a cell.
-    pub fn fill(&mut self, positions: &[DVec3], members: impl Iterator<Item = u32> + Clone, size: f64, ends: &Ends) {
+    /// Sorts the spheres of `members` into cells of at least `size` [m]; no more cells than about four a member, however
+    /// far they fly. Members keep their order within a cell.
+    pub fn fill(
+        &mut self,
+        positions: &[DVec3],
+        radii: &[f64],
+        members: impl Iterator<Item = u32> + Clone,
+        size: f64,
+        ends: &Ends,
+    ) {
         let (mut low, mut high, mut count) = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0usize);
         for i in members.clone() {
             let p = positions[i as usize];
             (low, high, count) = (low.min(p), high.max(p), count + 1);
         }
         self.shape(low.to_array(), high.to_array(), count, size, ends);
-        let [nx, ny, nz] = self.extent.map(|n| n.div_ceil(LUMP));
-        self.lumps = [nx, ny];
-        let cells = nx * ny * nz * LUMP * LUMP * LUMP;
+        let [nx, ny, nz] = match self.numbering {
+            Numbering::Rows => self.extent,
+            Numbering::Lumps => self.extent.map(|n| n.div_ceil(LUMP) * LUMP),
+        };
+        self.lumps = [nx / LUMP, ny / LUMP];
+        let cells = nx * ny * nz;
         self.start.clear();
         self.start.resize(cells + 1, 0);
         self.cell_of.clear();
@@ -62,10 +86,13 @@ impl Grid {
             self.start[i + 1] += self.start[i];
         }
         self.members.resize(count, 0);
+        self.spheres.resize(count, [0.0; 4]);
         self.next.clone_from(&self.start);
         for (i, &cell) in members.zip(&self.cell_of) {
             let next = &mut self.next[cell as usize];
+            let p = positions[i as usize];
             self.members[*next as usize] = i;
+            self.spheres[*next as usize] = [p.x, p.y, p.z, radii[i as usize]];
             *next += 1;
         }
     }
@@ -99,34 +126,47 @@ impl Grid {
         &self.members
     }
 
-    /// Calls `meet(member, image)` for every member in the cell of `p` and in its neighbours; `image` is where the member
-    /// is met (see [`shift`]).
+    /// Calls `meet(member, image)` for every member whose surface is nearer to a point than `reach` [m], which must not be
+    /// above the cells' size less the member's radius. `image` is where the member is met, shifted by `shifts[image]`.
     #[inline(always)]
-    pub fn around(&self, p: DVec3, mut meet: impl FnMut(u32, u32)) {
+    pub fn near(&self, p: DVec3, reach: f64, shifts: &[DVec3], mut meet: impl FnMut(u32, u32)) {
         if self.members.is_empty() {
             return;
         }
         let at = self.place(p);
-        let [rx, ry, rz]: [_; 3] = std::array::from_fn(|axis| self.neighbours(axis, at[axis]));
-        for (z, iz) in rz.into_iter().flatten() {
-            for (y, iy) in ry.into_iter().flatten() {
-                for (x, ix) in rx.into_iter().flatten() {
-                    let cell = self.number([x, y, z]);
-                    for &member in &self.members[self.start[cell] as usize..self.start[cell + 1] as usize] {
-                        meet(member, 9 * iz + 3 * iy + ix);
+        let [rx, ry, rz]: [_; 3] = std::array::from_fn(|axis| self.runs(axis, at[axis]));
+        for (zs, iz) in rz.into_iter().flatten() {
+            for z in zs[0]..=zs[1] {
+                for (ys, iy) in ry.into_iter().flatten() {
+                    for y in ys[0]..=ys[1] {
+                        for (xs, ix) in rx.into_iter().flatten() {
+                            let image = 9 * iz + 3 * iy + ix;
+                            let p = if image == HERE { p } else { p - shifts[image as usize] };
+                            // Neighbours along x lie side by side.
+                            let first = self.start[self.number([xs[0], y, z])] as usize;
+                            let last = self.start[self.number([xs[1], y, z]) + 1] as usize;
+                            for (sphere, &member) in self.spheres[first..last].iter().zip(&self.members[first..last]) {
+                                let (dx, dy, dz) = (sphere[0] - p.x, sphere[1] - p.y, sphere[2] - p.z);
+                                let limit = sphere[3] + reach;
+                                if dx * dx + dy * dy + dz * dz < limit * limit {
+                                    meet(member, image);
+                                }
+                            }
+                        }
                     }
                 }
             }
         }
     }
 
-    /// The cells before, at and after `k` along an axis, each with the image it is met in.
-    fn neighbours(&self, axis: usize, k: usize) -> [Option<(usize, u32)>; 3] {
+    /// The cells before, at and after `k` along an axis, in runs, each with the image it is met in.
+    fn runs(&self, axis: usize, k: usize) -> [Option<([usize; 2], u32)>; 3] {
         let n = self.extent[axis];
         let wrap = self.wraps[axis];
-        let before = if k > 0 { Some((k - 1, 1)) } else { wrap.then_some((n - 1, 0)) };
-        let after = if k + 1 < n { Some((k + 1, 1)) } else { wrap.then_some((0, 2)) };
-        [before, Some((k, 1)), after]
+        let here = [k.saturating_sub(1), (k + 1).min(n - 1)];
+        let before = (wrap && k == 0).then_some(([n - 1, n - 1], 0));
+        let after = (wrap && k + 1 == n).then_some(([0, 0], 2));
+        [before, Some((here, 1)), after]
     }
 
     fn place(&self, p: DVec3) -> [usize; 3] {
@@ -139,6 +179,9 @@ impl Grid {
 
     #[inline(always)]
     fn number(&self, [x, y, z]: [usize; 3]) -> usize {
+        if self.numbering == Numbering::Rows {
+            return (z * self.extent[1] + y) * self.extent[0] + x;
+        }
         let [nx, ny] = self.lumps;
         let lump = ((z / LUMP) * ny + y / LUMP) * nx + x / LUMP;
         ((lump * LUMP + z % LUMP) * LUMP + y % LUMP) * LUMP + x % LUMP

@@ -84,10 +84,9 @@ pub(super) fn place(plan: &Plan, geometry: &Geometry, scale: &Scale, remarks: &m
                     "filled row by row from the floor, the columns of the last row at random, instead of dropped",
                 );
             }
-            Start::Random { .. } | Start::Stream { .. } | Start::File { .. } => remarks.refuse(
-                key,
-                "the automaton fills its box by `settled`, `rows` or `at`; use `method = \"dem\"`",
-            ),
+            Start::Random { .. } | Start::Stream { .. } | Start::File { .. } => {
+                remarks.refuse(key, "the automaton fills its box by `settled`, `rows` or `at`; use `method = \"dem\"`")
+            }
             Start::Rows { region: Some(_), .. } => {
                 remarks.refuse(format!("{key}.rows.region"), "the automaton fills its box from the floor up");
             }
