@@ -4,7 +4,9 @@ use super::chunk::Chunk;
 use super::part::{Needs, Part, Slot, Stage};
 use super::root::most;
 use super::table::{Constants, Pair};
-use super::{cohesion_constant, contact_width, coulomb, dashpot, dmt, epsd, hertz, hooke, jkr, mindlin, rolling_constant};
+use super::{
+    cohesion_constant, contact_width, coulomb, dashpot, dmt, epsd, hertz, hooke, jkr, mindlin, rolling_constant,
+};
 use super::{rolling_spring, rolling_viscous, sjkr, spring, twisting_sliding, twisting_spring, viscous};
 use multiversion::multiversion;
 use tsubu_scene::plan::{Cohesion, Contact, Damping, Normal, Rolling, Tangential, Twisting};

@@ -121,7 +121,8 @@ impl Table {
 }
 
 fn combine((a, m): (&String, &Material), (b, n): (&String, &Material), special: &[MaterialPair]) -> Constants {
-    let found = special.iter().find(|p| (&p.between[0], &p.between[1]) == (a, b) || (&p.between[0], &p.between[1]) == (b, a));
+    let found =
+        special.iter().find(|p| (&p.between[0], &p.between[1]) == (a, b) || (&p.between[0], &p.between[1]) == (b, a));
     let mix = |told: Option<f64>, x: f64, y: f64| told.unwrap_or_else(|| (x * y).sqrt());
     let plane_modulus = |m: &Material| m.young_modulus / (1.0 - m.poisson_ratio * m.poisson_ratio);
     let shear = |m: &Material| m.young_modulus / (2.0 * (1.0 + m.poisson_ratio) * (2.0 - m.poisson_ratio));
