@@ -2,8 +2,8 @@
 
 use super::chunk::Chunk;
 use super::part::{About, Part, Stage};
+use super::root::{least, most};
 use super::table::Pair;
-use super::viscous::damp;
 use multiversion::multiversion;
 
 const RATE: About = About {
@@ -75,4 +75,21 @@ impl Part for Told {
 #[multiversion(targets = "simd")]
 fn rows(chunk: &mut Chunk, dashpot: Dashpot, attraction: bool) {
     damp(chunk, attraction, |c, i| dashpot.coefficient(c.mass[i]));
+}
+
+/// Adds a dashpot of the local coefficient `local` [N.s/m] to the normal force. Where `attraction` is not allowed the
+/// damping may not pull: it takes the force to zero, or leaves it where cohesion already has it below.
+#[inline(always)]
+pub(super) fn damp(chunk: &mut Chunk, attraction: bool, local: impl Fn(&Chunk, usize) -> f64) {
+    let ceiling = if attraction { f64::NEG_INFINITY } else { 0.0 };
+    for i in 0..chunk.rows() {
+        let dashpot = if chunk.disc[i] > 0.0 { local(chunk, i) } else { 0.0 };
+        let elastic = chunk.normal_force[i];
+        let total = most(elastic + dashpot * chunk.closing[i], least(elastic, ceiling));
+        chunk.dashpot[i] = dashpot;
+        chunk.normal_force[i] = total;
+        chunk.damping_force[i] = total - elastic;
+        // What is lost is whatever the contact takes from the motion beyond what it stores.
+        chunk.lost_normal[i] += (total - elastic) * chunk.closing[i];
+    }
 }

@@ -21,7 +21,7 @@ pub(super) fn most(a: f64, b: f64) -> f64 {
 pub(super) fn cube_root(x: f64) -> f64 {
     // A third of 2^32, and what a third of the exponent's bias lacks, less what centres the error of the guess.
     let y = guess(x, 0x5555_5555, 0x2A9F_7800);
-    let halley = |y: f64| y + y * (x - y * y * y) / (2.0 * (y * y * y) + x);
+    let halley = |y: f64| y + y * ((x - y * y * y) / (2.0 * (y * y * y) + x));
     halley(halley(halley(y)))
 }
 
@@ -31,7 +31,7 @@ pub(super) fn fifth_root(x: f64) -> f64 {
     let y = guess(x, 0x3333_3333, 0x3325_CE66);
     let halley = |y: f64| {
         let power = (y * y) * (y * y) * y;
-        y + y * (x - power) / (3.0 * power + 2.0 * x)
+        y + y * ((x - power) / (3.0 * power + 2.0 * x))
     };
     halley(halley(halley(y)))
 }

@@ -2,9 +2,10 @@
 
 use super::calibrate;
 use super::chunk::Chunk;
+use super::dashpot::damp;
 use super::hertz::secant;
 use super::part::{About, Part, Stage};
-use super::root::{fifth_root, least, most};
+use super::root::fifth_root;
 use super::table::{Constants, Pair};
 use multiversion::multiversion;
 
@@ -142,22 +143,5 @@ impl Viscous {
             Form::Quarter => 0.25,
             Form::Linear => 0.0,
         }
-    }
-}
-
-/// Adds a dashpot of the local coefficient `local` [N.s/m] to the normal force. Where `attraction` is not allowed the
-/// damping may not pull: it takes the force to zero, or leaves it where cohesion already has it below.
-#[inline(always)]
-pub(super) fn damp(chunk: &mut Chunk, attraction: bool, local: impl Fn(&Chunk, usize) -> f64) {
-    let ceiling = if attraction { f64::NEG_INFINITY } else { 0.0 };
-    for i in 0..chunk.rows() {
-        let dashpot = if chunk.disc[i] > 0.0 { local(chunk, i) } else { 0.0 };
-        let elastic = chunk.normal_force[i];
-        let total = most(elastic + dashpot * chunk.closing[i], least(elastic, ceiling));
-        chunk.dashpot[i] = dashpot;
-        chunk.normal_force[i] = total;
-        chunk.damping_force[i] = total - elastic;
-        // What is lost is whatever the contact takes from the motion beyond what it stores.
-        chunk.lost_normal[i] += (total - elastic) * chunk.closing[i];
     }
 }
