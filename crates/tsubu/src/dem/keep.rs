@@ -1,15 +1,15 @@
 //! Contact history over a search, and in a checkpoint: by the ids of the bodies, since indices change.
 
 use super::engine::DemEngine;
-use super::memory::{Kept, WallKey};
+use super::memory::{Kept, Name, WallKey};
 use crate::find::candidates::BLOCK;
 
 impl DemEngine {
     /// Every remembered contact, in the order of blocks.
-    pub(super) fn kept(&self) -> Vec<Kept> {
+    pub(super) fn kept(&self) -> Kept {
         let width = self.law.width();
         let id = &self.grains.id;
-        let mut kept = Vec::new();
+        let mut kept = Kept::default();
         if width == 0 {
             return kept;
         }
@@ -20,22 +20,14 @@ impl DemEngine {
                 while list.start[own + 1] <= k {
                     own += 1;
                 }
-                kept.push(Kept {
-                    first: id[list.first + own],
-                    second: id[list.grain(list.pairs[k as usize])],
-                    wall: false,
-                    patch: 0,
-                    history: memory.pairs.of(c, width).to_vec(),
-                });
+                let (first, second) = (id[list.first + own], id[list.grain(list.pairs[k as usize])]);
+                kept.names.push(Name { first, second, wall: false, patch: 0 });
+                kept.history.extend_from_slice(memory.pairs.of(c, width));
             }
             for (c, key) in memory.walls.keys.iter().enumerate() {
-                kept.push(Kept {
-                    first: id[list.first + key.own as usize],
-                    second: key.wall,
-                    wall: true,
-                    patch: key.patch,
-                    history: memory.walls.of(c, width).to_vec(),
-                });
+                let first = id[list.first + key.own as usize];
+                kept.names.push(Name { first, second: key.wall, wall: true, patch: key.patch });
+                kept.history.extend_from_slice(memory.walls.of(c, width));
             }
         }
         kept
@@ -43,7 +35,7 @@ impl DemEngine {
 
     /// Gives the new candidates the histories they had; a pair whose bodies have changed places gets its turned. What a
     /// contact holds whose body is gone, or whose pair is no candidate any more, is returned as lost [J].
-    pub(super) fn restore(&mut self, kept: Vec<Kept>) -> f64 {
+    pub(super) fn restore(&mut self, mut kept: Kept) -> f64 {
         let width = self.law.width();
         for block in &mut self.touch.blocks {
             block.memory.clear(width);
@@ -60,8 +52,8 @@ impl DemEngine {
         // Per block, which kept contact goes where.
         let mut pairs: Vec<Vec<(u32, usize)>> = vec![Vec::new(); self.candidates.lists.len()];
         let mut walls: Vec<Vec<(WallKey, usize)>> = vec![Vec::new(); self.candidates.lists.len()];
-        let mut kept = kept;
-        for (n, contact) in kept.iter_mut().enumerate() {
+        let Kept { names, history } = &mut kept;
+        for (n, (contact, history)) in names.iter().zip(history.chunks_exact_mut(width)).enumerate() {
             let place = if contact.wall {
                 index(contact.first).map(|i| {
                     let key = WallKey { own: i % BLOCK as u32, wall: contact.second, patch: contact.patch };
@@ -71,7 +63,7 @@ impl DemEngine {
                 index(contact.first).zip(index(contact.second)).and_then(|(i, j)| {
                     let (block, k) = self.candidate(i, j).or_else(|| {
                         let found = self.candidate(j, i)?;
-                        self.law.turned(&mut contact.history);
+                        self.law.turned(history);
                         Some(found)
                     })?;
                     pairs[block].push((k, n));
@@ -79,17 +71,17 @@ impl DemEngine {
                 })
             };
             if place.is_none() {
-                lost += self.law.held(&contact.history);
+                lost += self.law.held(history);
             }
         }
         for (block, (mut pairs, mut walls)) in self.touch.blocks.iter_mut().zip(pairs.into_iter().zip(walls)) {
             pairs.sort_unstable();
             walls.sort_unstable();
             for (key, n) in pairs {
-                block.memory.pairs.push(key, &kept[n].history);
+                block.memory.pairs.push(key, &kept.history[n * width..(n + 1) * width]);
             }
             for (key, n) in walls {
-                block.memory.walls.push(key, &kept[n].history);
+                block.memory.walls.push(key, &kept.history[n * width..(n + 1) * width]);
             }
         }
         lost

@@ -46,7 +46,7 @@ impl<K> Contacts<K> {
     }
 
     /// Where the history of contact `c` lies.
-    #[inline(always)]
+    #[inline]
     pub fn place(c: usize) -> u32 {
         c as u32 + 1
     }
@@ -135,13 +135,20 @@ impl Memory {
     }
 }
 
-/// One remembered contact by the ids of its bodies, as it is kept over a search and in a checkpoint. For a wall the second
-/// number is the wall, and `patch` tells the place on it.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Kept {
+/// A remembered contact by the ids of its bodies. For a wall the second number is the wall, and `patch` tells the place
+/// on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Name {
     pub first: u32,
     pub second: u32,
     pub wall: bool,
     pub patch: u32,
+}
+
+/// Remembered contacts as they are kept over a search and in a checkpoint: by name, for indices change.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Kept {
+    pub names: Vec<Name>,
+    /// As many numbers a contact as the law has columns of history.
     pub history: Vec<f64>,
 }

@@ -1,7 +1,7 @@
 //! What the engine shows and what it saves.
 
 use super::engine::DemEngine;
-use super::memory::Kept;
+use super::memory::{Kept, Name};
 use crate::engine::Engine;
 use crate::partner::Hosts;
 use crate::state::Grains;
@@ -45,7 +45,7 @@ impl DemEngine {
         let mut index = Vec::new();
         let lines = self.walls.iter().flat_map(|wall| wall.outline().lines);
         for (k, line) in lines.enumerate() {
-            corners.extend(line.iter().map(|p| p.to_array()));
+            corners.extend(line.iter().map(DVec3::to_array));
             index.extend(line.iter().map(|_| k as i64));
         }
         frame.vector(Kind::Surface, "position", "m", corners);
@@ -73,9 +73,9 @@ impl DemEngine {
             wall.save(state);
         }
         let kept = self.kept();
-        let names = kept.iter().flat_map(|k| [k.first, k.second, u32::from(k.wall), k.patch].map(i64::from));
+        let names = kept.names.iter().flat_map(|k| [k.first, k.second, u32::from(k.wall), k.patch].map(i64::from));
         state.put_integer("dem.contacts", names.collect::<Vec<_>>());
-        state.put_real("dem.history", kept.iter().flat_map(|k| k.history.iter().copied()).collect::<Vec<_>>());
+        state.put_real("dem.history", kept.history);
     }
 
     /// Takes back what [`DemEngine::write_state`] wrote.
@@ -123,14 +123,8 @@ impl DemEngine {
         if history.len() != names.len() * width {
             return Err(missing("dem.history"));
         }
-        let kept = names.iter().enumerate().map(|(c, name)| Kept {
-            first: name[0] as u32,
-            second: name[1] as u32,
-            wall: name[2] != 0,
-            patch: name[3] as u32,
-            history: history[c * width..(c + 1) * width].to_vec(),
-        });
-        self.restore(kept.collect());
+        let name = |n: &[i64; 4]| Name { first: n[0] as u32, second: n[1] as u32, wall: n[2] != 0, patch: n[3] as u32 };
+        self.restore(Kept { names: names.iter().map(name).collect(), history: history.to_vec() });
         Ok(())
     }
 }

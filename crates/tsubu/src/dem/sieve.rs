@@ -58,13 +58,13 @@ impl Spheres {
     }
 
     /// Centre and radius at a place [m].
-    #[inline(always)]
+    #[inline]
     pub fn at(&self, place: u32) -> [f64; 4] {
         self.places[place as usize]
     }
 
     /// Motion at a place.
-    #[inline(always)]
+    #[inline]
     pub fn motion(&self, place: u32) -> &Motion {
         &self.motions[place as usize]
     }

@@ -120,7 +120,7 @@ impl DemEngine {
     }
 
     /// Lets grains come and go, where it is time to look; returns the remembered contacts when something has changed.
-    pub(super) fn come_and_go(&mut self, ledger: &mut Ledger) -> Option<Vec<Kept>> {
+    pub(super) fn come_and_go(&mut self, ledger: &mut Ledger) -> Option<Kept> {
         let nothing = self.sources.streams.is_empty() && self.sources.removal.is_empty();
         if nothing || !self.step.is_multiple_of(EVERY) || self.walls_held {
             return None;

@@ -55,7 +55,7 @@ impl DemEngine {
     }
 
     /// The same with contacts that were remembered before grains came or went.
-    fn find_with(&mut self, kept: Vec<Kept>) {
+    fn find_with(&mut self, kept: Kept) {
         self.candidates.sort(&mut self.grains, &self.search);
         self.candidates.search(&self.grains, &self.walls, &self.search);
         self.fit();

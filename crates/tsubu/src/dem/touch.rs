@@ -63,7 +63,7 @@ pub(super) struct Load {
 }
 
 impl Load {
-    #[inline(always)]
+    #[inline]
     pub fn add(&mut self, other: &Self) {
         self.force += other.force;
         self.lossy += other.lossy;

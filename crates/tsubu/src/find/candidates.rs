@@ -277,7 +277,7 @@ impl List {
     }
 
     /// The grain at a place.
-    #[inline(always)]
+    #[inline]
     pub fn grain(&self, place: u32) -> usize {
         let place = place as usize;
         if place < self.own { self.first + place } else { self.halo[place - self.own].grain as usize }

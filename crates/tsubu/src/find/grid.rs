@@ -128,7 +128,7 @@ impl Grid {
 
     /// Calls `meet(member, image)` for every member whose surface is nearer to a point than `reach` [m], which must not be
     /// above the cells' size less the member's radius. `image` is where the member is met, shifted by `shifts[image]`.
-    #[inline(always)]
+    #[inline]
     pub fn near(&self, p: DVec3, reach: f64, shifts: &[DVec3], mut meet: impl FnMut(u32, u32)) {
         if self.members.is_empty() {
             return;
@@ -177,7 +177,7 @@ impl Grid {
         })
     }
 
-    #[inline(always)]
+    #[inline]
     fn number(&self, [x, y, z]: [usize; 3]) -> usize {
         if self.numbering == Numbering::Rows {
             return (z * self.extent[1] + y) * self.extent[0] + x;

@@ -85,7 +85,7 @@ pub(super) fn place(plan: &Plan, geometry: &Geometry, scale: &Scale, remarks: &m
                 );
             }
             Start::Random { .. } | Start::Stream { .. } | Start::File { .. } => {
-                remarks.refuse(key, "the automaton fills its box by `settled`, `rows` or `at`; use `method = \"dem\"`")
+                remarks.refuse(key, "the automaton fills its box by `settled`, `rows` or `at`; use `method = \"dem\"`");
             }
             Start::Rows { region: Some(_), .. } => {
                 remarks.refuse(format!("{key}.rows.region"), "the automaton fills its box from the floor up");

@@ -54,9 +54,15 @@ macro_rules! columns {
             /// Adds a row.
             pub fn push(&mut self, row: $row) { $(self.$column.push(row.$column);)+ }
 
-            /// Puts row `order[i]` at place i.
+            /// Puts row `order[i]` at place i; rows that are not in the order are dropped. Columns side by side on many
+            /// threads.
             pub fn permute(&mut self, order: &[u32]) {
-                $(self.$column = order.iter().map(|&i| self.$column[i as usize]).collect();)+
+                rayon::scope(|scope| {
+                    $({
+                        let column = &mut self.$column;
+                        scope.spawn(move |_| *column = order.iter().map(|&i| column[i as usize]).collect());
+                    })+
+                });
             }
 
             /// Writes every column under `prefix`.

@@ -99,7 +99,10 @@ fn paddle(folder: &std::path::Path) {
     for [a, b, c, d] in faces {
         for triangle in [[a, b, c], [a, c, d]] {
             text += "facet normal 0 0 0\nouter loop\n";
-            triangle.into_iter().for_each(|k| text += &format!("{}\n", corner(k)));
+            for k in triangle {
+                text.push_str(&corner(k));
+                text.push('\n');
+            }
             text += "endloop\nendfacet\n";
         }
     }

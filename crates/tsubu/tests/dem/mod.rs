@@ -5,6 +5,7 @@ mod everything;
 mod place;
 mod plane;
 mod same_bits;
+mod seams;
 
 use tsubu::engine::{self, Engine};
 use tsubu::ledger::Ledger;
