@@ -24,6 +24,9 @@ pub const WORTH_THREADS: usize = 2000;
 /// Below this many grains all pairs are looked at: a grid would cost more than it saves, and nothing needs sorting.
 const SMALL: usize = 96;
 
+/// Up to this ratio of sizes one grid is faster than two.
+const ONE_LEVEL: f64 = 2.5;
+
 /// A grain as one of its periodic images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Image {
@@ -198,10 +201,14 @@ impl Candidates {
 
     /// Sorts grains into one grid for each factor of two in size.
     fn fill_levels(&mut self, grains: &Grains, search: &Search) {
-        let smallest = grains.radius.iter().copied().fold(f64::INFINITY, f64::min);
+        let ends = grains.radius.iter().fold((f64::INFINITY, 0.0f64), |(l, h), &r| (l.min(r), h.max(r)));
         self.level_of.clear();
-        // Up to a factor of two and a half in size one grid is the faster.
-        self.level_of.extend(grains.radius.iter().map(|r| (r / (1.25 * smallest)).log2().floor().max(0.0) as u8));
+        if ends.1 < ONE_LEVEL * ends.0 {
+            self.level_of.resize(grains.len(), 0);
+        } else {
+            let level = |r: &f64| (r / (0.5 * ONE_LEVEL * ends.0)).log2().floor().max(0.0) as u8;
+            self.level_of.extend(grains.radius.iter().map(level));
+        }
         let count = self.level_of.iter().copied().max().map_or(0, |l| usize::from(l) + 1);
         self.levels.resize_with(count, Grid::default);
         self.largest.clear();
