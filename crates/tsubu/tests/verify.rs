@@ -2,11 +2,31 @@
 
 use tsubu::study::verify::{CASES, chosen};
 
+/// Cases of single contacts against closed forms.
+const SINGLE_CONTACTS: &[&str] = &[
+    "chung-ooi-normal",
+    "chung-ooi-restitution",
+    "chung-ooi-oblique",
+    "chung-ooi-sliding",
+    "chung-ooi-no-slip",
+    "chung-ooi-spin",
+    "restitution-shapes",
+    "damping-published",
+    "tangential-spring",
+    "three-spheres",
+    "stacked",
+    "pull-off",
+    "slide-to-roll",
+    "incline",
+    "spin-down",
+    "rolling-models",
+];
+
 /// The quick cases that take a few seconds pass.
 #[test]
 fn quick_cases_pass() {
-    for name in ["restitution", "drop-dem", "drop-lattice", "lump", "figure-9"] {
-        for case in chosen(&[name.to_owned()], false).unwrap() {
+    for name in ["restitution", "drop-dem", "drop-lattice", "lump", "figure-9"].iter().chain(SINGLE_CONTACTS) {
+        for case in chosen(&[(*name).to_owned()], false).unwrap() {
             for claim in case.claims().unwrap() {
                 assert!(
                     claim.pass,
@@ -21,11 +41,28 @@ fn quick_cases_pass() {
 /// With the constants of the law changed by 5 % the study's claims fail.
 #[test]
 fn claims_can_fail() {
-    for name in ["restitution", "drop-dem", "drop-lattice"] {
-        let case = CASES.iter().find(|c| c.name == name).unwrap();
+    for name in ["restitution", "drop-dem", "drop-lattice"].iter().chain(SINGLE_CONTACTS) {
+        let case = CASES.iter().find(|c| c.name == *name).unwrap();
         let claims = (case.run)(0.95).unwrap();
         assert!(claims.iter().any(|c| !c.pass), "{name}: nothing noticed a law wrong by 5 %");
     }
+}
+
+/// Of the claims about single contacts most are refused when the law is wrong by 5 %; what is left holds for any constants:
+/// energy, rest, symmetry, and rates on which these constants have no say.
+#[test]
+fn most_claims_about_single_contacts_fail() {
+    let mut weak = Vec::new();
+    for name in SINGLE_CONTACTS {
+        let case = CASES.iter().find(|c| c.name == *name).unwrap();
+        let claims = (case.run)(0.95).unwrap();
+        let failed = claims.iter().filter(|c| !c.pass).count();
+        println!("{name}: {failed} of {}", claims.len());
+        if 3 * failed < claims.len() {
+            weak.push(format!("{name}: {failed} of {}", claims.len()));
+        }
+    }
+    assert!(weak.is_empty(), "{weak:?}");
 }
 
 /// Names and studies do not clash, so that a name means one thing.

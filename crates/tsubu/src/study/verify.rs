@@ -1,12 +1,19 @@
 //! Verification: every claim re-run by one command.
 
 mod bench;
+mod chung_ooi_2011;
+mod cohesion;
 mod contact;
 mod damper_2003;
 mod drop;
+mod held;
 mod host;
 mod impact_damper;
 mod lump;
+mod rolling;
+mod shapes;
+mod stack;
+mod throw;
 
 use tsubu_frame::Claim;
 
@@ -28,6 +35,32 @@ pub struct Case {
 /// All cases, in the order they are listed and run.
 pub static CASES: &[Case] = &[
     quick("restitution", "contact", "V-05: restitution in = restitution out, every damping form", contact::restitution),
+    quick(
+        "chung-ooi-normal",
+        "chung-ooi-2011",
+        "V-02 to V-04: force, overlap and time of Hertz",
+        chung_ooi_2011::elastic,
+    ),
+    quick("chung-ooi-restitution", "chung-ooi-2011", "V-04: restitution in = out", chung_ooi_2011::restitution),
+    quick("chung-ooi-oblique", "chung-ooi-2011", "V-10: oblique impacts, Kharaz 2001", chung_ooi_2011::kharaz),
+    quick("chung-ooi-sliding", "chung-ooi-2011", "V-11: gross sliding", chung_ooi_2011::gross_sliding),
+    quick("chung-ooi-no-slip", "chung-ooi-2011", "V-13: spins that do not slip", chung_ooi_2011::no_slip),
+    quick("chung-ooi-spin", "chung-ooi-2011", "V-12, V-14: spinning spheres", chung_ooi_2011::spinning),
+    quick(
+        "restitution-shapes",
+        "contact",
+        "V-05: restitution at grains, plane, cylinder, triangle",
+        shapes::restitution,
+    ),
+    quick("damping-published", "contact", "V-05: damping without attraction, as published", shapes::thornton),
+    quick("tangential-spring", "contact", "V-15: tangential restitution without slip", held::no_slip),
+    quick("three-spheres", "contact", "V-16: a small sphere held by friction, any size ratio", held::three_spheres),
+    quick("stacked", "contact", "V-07: two spheres pressed between planes", stack::stacked),
+    quick("pull-off", "contact", "V-08: pull-off forces of DMT and JKR", cohesion::pull_off),
+    quick("slide-to-roll", "rolling", "V-20: a sliding grain comes to roll", rolling::slide_to_roll),
+    quick("incline", "rolling", "V-21: rolling and sliding down a slope", rolling::incline),
+    quick("spin-down", "rolling", "V-22, V-24: torques of rolling resistance", rolling::spin_down),
+    quick("rolling-models", "rolling", "V-23: stops and stays", rolling::models),
     quick("drop-dem", "damper-2003", "V-06, A-F8: a ball dropped in a still box, by DEM", drop::dem),
     quick("drop-lattice", "damper-2003", "A-F8: the same by the automaton", drop::lattice),
     quick("lump", "shaken", "V-39: an inelastic ball locks to a shaken floor", lump::locking),
