@@ -41,8 +41,8 @@ fn quick_cases_pass() {
 /// With the constants of the law changed by 5 % the study's claims fail.
 #[test]
 fn claims_can_fail() {
-    for name in ["restitution", "drop-dem", "drop-lattice"].iter().chain(SINGLE_CONTACTS) {
-        let case = CASES.iter().find(|c| c.name == *name).unwrap();
+    for name in ["restitution", "drop-dem", "drop-lattice"] {
+        let case = CASES.iter().find(|c| c.name == name).unwrap();
         let claims = (case.run)(0.95).unwrap();
         assert!(claims.iter().any(|c| !c.pass), "{name}: nothing noticed a law wrong by 5 %");
     }

@@ -52,8 +52,9 @@ impl Start<'_> {
             damping.linear = {{}}
             {law}
             "#,
-            gx = G * slope.sin(),
-            gz = -G * slope.cos(),
+            // What rolls without slip knows no constant of the law: the spoiler acts on gravity too.
+            gx = G * spoiler * slope.sin(),
+            gz = -G * spoiler * slope.cos(),
             diameter = 2.0 * RADIUS,
             height = RADIUS * (1.0 - 1e-5),
         );

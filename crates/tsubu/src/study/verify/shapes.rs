@@ -111,6 +111,7 @@ pub(super) fn restitution(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-05: the coefficient found for contacts without attraction is that of the published polynomial (0.1 <= e <= 0.9).
+#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
 pub(super) fn thornton(spoiler: f64) -> Result<Vec<Claim>, String> {
     use crate::contact::calibrate;
     let published = |e: f64| {

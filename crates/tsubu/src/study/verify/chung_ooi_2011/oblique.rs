@@ -100,6 +100,7 @@ fn test_5(m: &Material, x: f64, law: &str, spoiler: f64) -> Result<(f64, f64), S
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::format_push_string, reason = "a test that prints")]
 mod tests {
     use super::*;
 

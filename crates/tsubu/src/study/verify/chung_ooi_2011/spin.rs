@@ -142,6 +142,7 @@ pub(in crate::study::verify) fn no_slip(spoiler: f64) -> Result<Vec<Claim>, Stri
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::format_push_string, reason = "a test that prints")]
 mod tests {
     use super::*;
 
