@@ -5,6 +5,7 @@ mod architecture;
 mod bench;
 mod check;
 mod generate;
+mod race;
 mod shell;
 mod smoke;
 mod test;
@@ -20,6 +21,8 @@ cargo xtask CHORE
   gen [--check]       write the generated pages, or only say which are out of date
   smoke               run every scene for a moment
   bench [ARGUMENT]... the benchmarks; arguments go to cargo bench
+  race --peers DIR --lammps LMP [--runs 5] [--out NAME]
+                      the race against LAMMPS; fails where a promise is not kept (Linux, about a quarter of an hour)
 ";
 
 fn main() -> ExitCode {
@@ -33,6 +36,7 @@ fn main() -> ExitCode {
         ["gen", "--check"] => generate::check(),
         ["smoke"] => smoke::smoke(),
         ["bench", rest @ ..] => bench::bench(rest),
+        ["race", rest @ ..] => race::race(rest),
         [] | ["help" | "--help" | "-h"] => {
             print!("{HELP}");
             Ok(())
