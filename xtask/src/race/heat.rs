@@ -1,7 +1,7 @@
 //! One run of one racer: started, watched, understood.
 
 use super::course::{Course, Racer};
-use super::machine::{Load, QUIET, quiet};
+use super::machine::{Load, quiet};
 use super::stable::{Stable, typed};
 use std::fs::{self, File};
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -59,7 +59,7 @@ pub fn run(
         let load = Load::now()?;
         let (output, watched) = watch(stable, command).map_err(|e| format!("`{told}`: {e}"))?;
         let (others, host) = load.others()?;
-        if others > QUIET && !busy_ok && repeated + 1 < ATTEMPTS {
+        if load.disturbed(others) && !busy_ok && repeated + 1 < ATTEMPTS {
             repeated += 1;
             continue;
         }

@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 pub const QUIET: f64 = 0.1;
 /// Ticks of `/proc` in a second: the same in every Linux of today.
 const TICKS: f64 = 100.0;
+/// CPU time by which the counters of processes and of cores may disagree [s].
+const RESOLUTION: f64 = 3.0 / TICKS;
 const SAMPLE: Duration = Duration::from_millis(300);
 const PATIENCE: Duration = Duration::from_mins(2);
 
@@ -27,6 +29,11 @@ impl Load {
         let (busy, stolen) = all(&read("/proc/stat")?).ok_or("/proc/stat is not understood")?;
         let own = own(&read("/proc/self/stat")?).ok_or("/proc/self/stat is not understood")?;
         Ok(Self { at: Instant::now(), busy, stolen, own })
+    }
+
+    /// Whether others that used so many cores since have disturbed what ran.
+    pub fn disturbed(&self, others: f64) -> bool {
+        others > QUIET + RESOLUTION / self.at.elapsed().as_secs_f64()
     }
 
     /// Cores that others have used since: processes of this machine, and its host.
