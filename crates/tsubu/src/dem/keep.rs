@@ -22,12 +22,12 @@ impl DemEngine {
                 }
                 let (first, second) = (id[list.first + own], id[list.grain(list.pairs[k as usize])]);
                 kept.names.push(Name { first, second, wall: false, patch: 0 });
-                kept.history.extend_from_slice(memory.pairs.of(c, width));
+                kept.history.extend(memory.pairs.of(c));
             }
             for (c, key) in memory.walls.keys.iter().enumerate() {
                 let first = id[list.first + key.own as usize];
                 kept.names.push(Name { first, second: key.wall, wall: true, patch: key.patch });
-                kept.history.extend_from_slice(memory.walls.of(c, width));
+                kept.history.extend(memory.walls.of(c));
             }
         }
         kept

@@ -5,24 +5,26 @@
 //! that a step reads one and writes the other.
 
 use crate::contact::Law;
-use crate::contact::chunk::{Column, ROWS};
-use multiversion::multiversion;
+use crate::contact::chunk::Column;
 
 /// Contacts with their histories, in order of their keys.
 #[derive(Clone, Debug)]
 pub(super) struct Contacts<K> {
     /// What contact it is.
     pub keys: Vec<K>,
-    /// `width` numbers a contact, after as many zeros: the history of a fresh contact.
-    history: Vec<f64>,
+    /// Columns as in a chunk, one number a contact; the first is zero, the history of a fresh contact.
+    columns: Vec<Vec<f64>>,
 }
+
+/// Most columns of history that a law may have: springs of 4 in tangential and rolling, 2 in twisting and cohesion are 12.
+pub(super) const MOST: usize = 32;
 
 /// Where the history of a fresh contact lies.
 pub(super) const FRESH: u32 = 0;
 
 impl<K> Default for Contacts<K> {
     fn default() -> Self {
-        Self { keys: Vec::new(), history: Vec::new() }
+        Self { keys: Vec::new(), columns: Vec::new() }
     }
 }
 
@@ -30,19 +32,26 @@ impl<K> Contacts<K> {
     /// Forgets all; from now on there are `width` numbers a contact.
     pub fn clear(&mut self, width: usize) {
         self.keys.clear();
-        self.history.clear();
-        self.history.resize(width, 0.0);
+        self.columns.resize_with(width, Vec::new);
+        for column in &mut self.columns {
+            column.clear();
+            column.push(0.0);
+        }
     }
 
     /// Makes room, so that a step need not.
-    pub fn reserve(&mut self, contacts: usize, width: usize) {
+    pub fn reserve(&mut self, contacts: usize) {
         self.keys.reserve(contacts.saturating_sub(self.keys.len()));
-        self.history.reserve(((contacts + 1) * width).saturating_sub(self.history.len()));
+        for column in &mut self.columns {
+            column.reserve((contacts + 1).saturating_sub(column.len()));
+        }
     }
 
     pub fn push(&mut self, key: K, history: &[f64]) {
         self.keys.push(key);
-        self.history.extend_from_slice(history);
+        for (column, value) in self.columns.iter_mut().zip(history) {
+            column.push(*value);
+        }
     }
 
     /// Where the history of contact `c` lies.
@@ -52,44 +61,44 @@ impl<K> Contacts<K> {
     }
 
     /// History of contact `c`.
-    pub fn of(&self, c: usize, width: usize) -> &[f64] {
-        &self.history[(c + 1) * width..(c + 2) * width]
+    pub fn of(&self, c: usize) -> impl Iterator<Item = f64> {
+        self.columns.iter().map(move |column| column[c + 1])
     }
 
     /// Energy [J] that the histories of the contacts `range` hold.
     pub fn held(&self, range: std::ops::Range<usize>, law: &Law) -> f64 {
-        range.map(|c| law.held(self.of(c, law.width()))).sum()
+        let mut history = [0.0; MOST];
+        range
+            .map(|c| {
+                for (entry, value) in history.iter_mut().zip(self.of(c)) {
+                    *entry = value;
+                }
+                law.held(&history[..law.width()])
+            })
+            .sum()
     }
 
-    /// Copies the histories at `places` into the rows of a chunk.
+    /// Copies the histories at `places` into the rows of a chunk. Where contacts go on as they were their places follow
+    /// one another, and columns are copied whole.
     pub fn recall(&self, places: &[u32], columns: &mut [Column]) {
-        recall(&self.history, places, columns);
+        let Some(&first) = places.first() else { return };
+        let first = first as usize;
+        let follow = places.windows(2).all(|pair| pair[1] == pair[0] + 1);
+        for (to, from) in columns.iter_mut().zip(&self.columns) {
+            if follow {
+                to[..places.len()].copy_from_slice(&from[first..first + places.len()]);
+            } else {
+                for (value, &place) in to.iter_mut().zip(places) {
+                    *value = from[place as usize];
+                }
+            }
+        }
     }
 
     /// Adds the histories of the first `rows` rows of a chunk; their keys come apart.
     pub fn remember(&mut self, rows: usize, columns: &[Column]) {
-        let begin = self.history.len();
-        self.history.resize(begin + rows * columns.len(), 0.0);
-        remember(&mut self.history[begin..], rows, columns);
-    }
-}
-
-#[multiversion(targets = "simd")]
-fn recall(history: &[f64], places: &[u32], columns: &mut [Column]) {
-    let width = columns.len();
-    for (c, column) in columns.iter_mut().enumerate() {
-        for (value, &place) in column.iter_mut().zip(places) {
-            *value = history[place as usize * width + c];
-        }
-    }
-}
-
-#[multiversion(targets = "simd")]
-fn remember(history: &mut [f64], rows: usize, columns: &[Column]) {
-    let width = columns.len();
-    for (c, column) in columns.iter().enumerate() {
-        for (r, value) in column[..rows.min(ROWS)].iter().enumerate() {
-            history[r * width + c] = *value;
+        for (to, from) in self.columns.iter_mut().zip(columns) {
+            to.extend_from_slice(&from[..rows]);
         }
     }
 }

@@ -159,10 +159,10 @@ impl Touch {
             block.walls.resize(scene.walls.len(), WallLoad::default());
             if width > 0 {
                 for contacts in [&mut block.memory.pairs, &mut block.memory.next_pairs] {
-                    contacts.reserve(list.pairs.len(), width);
+                    contacts.reserve(list.pairs.len());
                 }
                 for contacts in [&mut block.memory.walls, &mut block.memory.next_walls] {
-                    contacts.reserve(list.walls.len(), width);
+                    contacts.reserve(list.walls.len());
                 }
             }
         }
