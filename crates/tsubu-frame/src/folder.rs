@@ -21,6 +21,7 @@ const OURS: &[&str] = &[
     "compare.json",
     "verify.json",
     "check.txt",
+    "bench.json",
     "report.html",
     "frames",
     "figures",

@@ -9,7 +9,8 @@ pub enum Kind {
     Contact,
     /// One row a lattice cell.
     Cell,
-    /// One row a vertex of a wall outline; consecutive rows of equal `outline` index form a closed line.
+    /// One row a vertex of a wall; consecutive rows of equal `outline` index form a closed line, or a polygon where
+    /// the column `face` is not 0.
     Surface,
     /// One row in all.
     Global,
@@ -22,6 +23,8 @@ pub enum Values {
     Scalar(Vec<f64>),
     /// 3-vectors.
     Vector(Vec<[f64; 3]>),
+    /// Unit quaternions: the real part, then x, y, z.
+    Quaternion(Vec<[f64; 4]>),
     /// Whole numbers: ids, indices.
     Integer(Vec<i64>),
 }
@@ -32,6 +35,7 @@ impl Values {
         match self {
             Self::Scalar(v) => v.len(),
             Self::Vector(v) => v.len(),
+            Self::Quaternion(v) => v.len(),
             Self::Integer(v) => v.len(),
         }
     }
@@ -90,6 +94,41 @@ impl Frame {
     /// Adds a column of 3-vectors.
     pub fn vector(&mut self, kind: Kind, name: &'static str, unit: &'static str, values: Vec<[f64; 3]>) {
         self.columns.push(Column { name, unit, kind, values: Values::Vector(values) });
+    }
+
+    /// Adds a column of orientations.
+    pub fn quaternion(&mut self, kind: Kind, name: &'static str, values: Vec<[f64; 4]>) {
+        self.columns.push(Column { name, unit: "-", kind, values: Values::Quaternion(values) });
+    }
+
+    /// The real numbers of a column; empty if there is no such column.
+    pub fn scalars(&self, kind: Kind, name: &str) -> &[f64] {
+        match self.column(kind, name).map(|c| &c.values) {
+            Some(Values::Scalar(v)) => v,
+            _ => &[],
+        }
+    }
+
+    /// The 3-vectors of a column; empty if there is no such column.
+    pub fn vectors(&self, kind: Kind, name: &str) -> &[[f64; 3]] {
+        match self.column(kind, name).map(|c| &c.values) {
+            Some(Values::Vector(v)) => v,
+            _ => &[],
+        }
+    }
+
+    /// The whole numbers of a column; empty if there is no such column.
+    pub fn integers(&self, kind: Kind, name: &str) -> &[i64] {
+        match self.column(kind, name).map(|c| &c.values) {
+            Some(Values::Integer(v)) => v,
+            _ => &[],
+        }
+    }
+
+    /// The cell of the periodic axes, if there are any: low and high corner [m], and 1 for each axis that repeats.
+    pub fn periodic(&self) -> Option<[[f64; 3]; 3]> {
+        let one = |name| self.vectors(Kind::Global, name).first().copied();
+        Some([one("periodic low")?, one("periodic high")?, one("periodic")?])
     }
 
     /// Adds a column of whole numbers.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::folder::write_atomically;
 use crate::frame::{Frame, Kind};
 use crate::vtp::{self, stem};
-use crate::{FileError, xyz};
+use crate::{FileError, lammps, xyz};
 
 const KINDS: [Kind; 4] = [Kind::Grain, Kind::Contact, Kind::Cell, Kind::Surface];
 
@@ -19,26 +19,35 @@ pub struct Snapshot {
     pub path: PathBuf,
 }
 
+/// Formats that are written beside VTK.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Formats {
+    /// Extended XYZ.
+    pub xyz: bool,
+    /// LAMMPS dump files.
+    pub lammps: bool,
+}
+
 /// Writes snapshots one after the other.
 #[derive(Debug)]
 pub struct FrameWriter {
     folder: PathBuf,
-    with_xyz: bool,
+    formats: Formats,
     next: usize,
     indices: [Vec<(f64, String)>; 4],
 }
 
 impl FrameWriter {
-    /// Starts `frames/` in the run folder; `with_xyz` adds an extended XYZ file per snapshot.
-    pub fn create(run_folder: &Path, with_xyz: bool) -> Result<Self, FileError> {
+    /// Starts `frames/` in the run folder; `formats` adds a file each per snapshot.
+    pub fn create(run_folder: &Path, formats: Formats) -> Result<Self, FileError> {
         let folder = run_folder.join("frames");
         fs::create_dir_all(&folder).map_err(FileError::write(&folder))?;
-        Ok(Self { folder, with_xyz, next: 0, indices: Default::default() })
+        Ok(Self { folder, formats, next: 0, indices: Default::default() })
     }
 
     /// Goes on behind the snapshots at or before `time`; later ones are computed again under the same numbers.
-    pub fn resume(run_folder: &Path, with_xyz: bool, time: f64) -> Result<Self, FileError> {
-        let mut writer = Self::create(run_folder, with_xyz)?;
+    pub fn resume(run_folder: &Path, formats: Formats, time: f64) -> Result<Self, FileError> {
+        let mut writer = Self::create(run_folder, formats)?;
         for (kind, index) in KINDS.into_iter().zip(&mut writer.indices) {
             let Some(stem) = stem(kind) else { continue };
             let pvd = writer.folder.join(format!("{stem}.pvd"));
@@ -76,8 +85,11 @@ impl FrameWriter {
                 write_pvd(&self.folder.join(format!("{stem}.pvd")), index)?;
             }
         }
-        if self.with_xyz {
+        if self.formats.xyz {
             xyz::write(&self.folder.join(format!("grains_{number:06}.xyz")), frame)?;
+        }
+        if self.formats.lammps {
+            lammps::write(&self.folder.join(format!("grains_{number:06}.lammpstrj")), frame)?;
         }
         self.next += 1;
         Ok(())

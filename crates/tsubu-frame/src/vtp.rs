@@ -1,7 +1,7 @@
 //! VTK `PolyData` (`.vtp`): XML with raw appended binary data, for `ParaView` and anything built on VTK.
 //!
 //! One file per moment and kind: grains, contacts and cells are points with their columns as point data, walls are
-//! closed lines. Units travel as VTK's own `UNITS_LABEL`, time and step as field data, so that a single file says
+//! closed lines and polygons. Units travel as VTK's own `UNITS_LABEL`, time and step as field data, so that a single file says
 //! everything about itself.
 
 use std::fmt::Write as _;
@@ -30,12 +30,13 @@ pub fn write(path: &Path, frame: &Frame, kind: Kind) -> Result<bool, FileError> 
     };
     let time = [frame.time];
     let step = [frame.step as i64];
-    let (cells, (connectivity, offsets)) = if kind == Kind::Surface {
-        ("Lines", outlines(frame, points.len()))
+    let cells = if kind == Kind::Surface {
+        surfaces(frame, points.len())
     } else {
         let rows = points.len() as i64;
-        ("Verts", ((0..rows).collect(), (1..=rows).collect()))
+        vec![("Verts", Cells { connectivity: (0..rows).collect(), offsets: (1..=rows).collect() })]
     };
+    let count = |name: &str| cells.iter().find(|c| c.0 == name).map_or(0, |c| c.1.offsets.len());
     let mut blocks = Blocks::default();
     let mut head = String::from(
         "<?xml version=\"1.0\"?>\n\
@@ -51,10 +52,11 @@ pub fn write(path: &Path, frame: &Frame, kind: Kind) -> Result<bool, FileError> 
     head.push_str("</FieldData>\n");
     let _ = writeln!(
         head,
-        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">",
+        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">",
         points.len(),
-        if cells == "Verts" { offsets.len() } else { 0 },
-        if cells == "Lines" { offsets.len() } else { 0 },
+        count("Verts"),
+        count("Lines"),
+        count("Polys"),
     );
     head.push_str("<PointData>\n");
     for column in frame.of(kind) {
@@ -64,10 +66,14 @@ pub fn write(path: &Path, frame: &Frame, kind: Kind) -> Result<bool, FileError> 
     }
     head.push_str("</PointData>\n<Points>\n");
     blocks.vectors(&mut head, "position", "m", points, "");
-    let _ = writeln!(head, "</Points>\n<{cells}>");
-    blocks.integers(&mut head, "connectivity", "-", &connectivity, "");
-    blocks.integers(&mut head, "offsets", "-", &offsets, "");
-    let _ = write!(head, "</{cells}>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
+    head.push_str("</Points>\n");
+    for (name, cells) in &cells {
+        let _ = writeln!(head, "<{name}>");
+        blocks.integers(&mut head, "connectivity", "-", &cells.connectivity, "");
+        blocks.integers(&mut head, "offsets", "-", &cells.offsets, "");
+        let _ = writeln!(head, "</{name}>");
+    }
+    head.push_str("</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
     write_atomically(path, |out| {
         out.write_all(head.as_bytes())?;
         blocks.write(out)?;
@@ -76,25 +82,34 @@ pub fn write(path: &Path, frame: &Frame, kind: Kind) -> Result<bool, FileError> 
     Ok(true)
 }
 
-/// Closed lines: consecutive rows of equal `outline`, back to their first row.
-fn outlines(frame: &Frame, rows: usize) -> (Vec<i64>, Vec<i64>) {
+/// Points of one cell after the other, and where each ends.
+#[derive(Default)]
+struct Cells {
+    connectivity: Vec<i64>,
+    offsets: Vec<i64>,
+}
+
+/// Closed lines and polygons: consecutive rows of equal `outline`. Lines go back to their first row.
+fn surfaces(frame: &Frame, rows: usize) -> Vec<(&'static str, Cells)> {
     let zeros = vec![0; rows];
-    let outline = match frame.column(Kind::Surface, "outline").map(|c| &c.values) {
-        Some(Values::Integer(v)) if v.len() == rows => v,
+    let column = |name| match frame.integers(Kind::Surface, name) {
+        v if v.len() == rows => v,
         _ => &zeros,
     };
-    let mut connectivity = Vec::with_capacity(rows + 1);
-    let mut offsets = Vec::new();
+    let (outline, face) = (column("outline"), column("face"));
+    let (mut lines, mut polygons) = (Cells::default(), Cells::default());
     let mut start = 0;
     for group in outline.chunk_by(|a, b| a == b) {
-        connectivity.extend((start..start + group.len()).map(|i| i as i64));
-        if group.len() > 2 {
-            connectivity.push(start as i64);
+        let solid = face[start] != 0;
+        let cells = if solid { &mut polygons } else { &mut lines };
+        cells.connectivity.extend((start..start + group.len()).map(|i| i as i64));
+        if group.len() > 2 && !solid {
+            cells.connectivity.push(start as i64);
         }
-        offsets.push(connectivity.len() as i64);
+        cells.offsets.push(cells.connectivity.len() as i64);
         start += group.len();
     }
-    (connectivity, offsets)
+    vec![("Lines", lines), ("Polys", polygons)]
 }
 
 /// The data arrays, in the order of their XML elements.
@@ -107,6 +122,7 @@ struct Blocks<'a> {
 enum Data<'a> {
     Reals(&'a [f64]),
     Vectors(&'a [[f64; 3]]),
+    Quaternions(&'a [[f64; 4]]),
     Integers(&'a [i64]),
 }
 
@@ -115,6 +131,7 @@ impl Data<'_> {
         8 * match self {
             Self::Reals(v) => v.len() as u64,
             Self::Vectors(v) => 3 * v.len() as u64,
+            Self::Quaternions(v) => 4 * v.len() as u64,
             Self::Integers(v) => v.len() as u64,
         }
     }
@@ -125,6 +142,10 @@ impl<'a> Blocks<'a> {
         match &column.values {
             Values::Scalar(v) => self.reals(head, column.name, column.unit, v, more),
             Values::Vector(v) => self.vectors(head, column.name, column.unit, v, more),
+            Values::Quaternion(v) => {
+                let about = format!("type=\"Float64\" NumberOfComponents=\"4\" {more}");
+                self.declare(head, column.name, column.unit, &about, Data::Quaternions(v));
+            }
             Values::Integer(v) => self.integers(head, column.name, column.unit, v, more),
         }
     }
@@ -169,6 +190,9 @@ impl<'a> Blocks<'a> {
             match data {
                 Data::Reals(v) => v.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))?,
                 Data::Vectors(v) => {
+                    v.iter().flatten().try_for_each(|x| out.write_all(&x.to_le_bytes()))?;
+                }
+                Data::Quaternions(v) => {
                     v.iter().flatten().try_for_each(|x| out.write_all(&x.to_le_bytes()))?;
                 }
                 Data::Integers(v) => v.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))?,

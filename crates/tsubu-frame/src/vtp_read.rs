@@ -48,9 +48,9 @@ pub fn parse(bytes: &[u8], kind: Kind, frame: &mut Frame) -> Result<(), String> 
     for tag in head.split('<').skip(1) {
         let name = tag.split([' ', '>', '/']).next().unwrap_or_default();
         match name {
-            "FieldData" | "PointData" | "Points" | "Verts" | "Lines" => section = name,
+            "FieldData" | "PointData" | "Points" | "Verts" | "Lines" | "Polys" => section = name,
             "DataArray" => array(tag, section, kind, data, frame)?,
-            "InformationKey" if !matches!(section, "Verts" | "Lines") => {
+            "InformationKey" if !matches!(section, "Verts" | "Lines" | "Polys") => {
                 let label = tag.split_once('>').map_or("", |(_, text)| text);
                 if let Some(last) = frame.columns.last_mut() {
                     last.unit = interned(&unescape(label));
@@ -66,7 +66,7 @@ pub fn parse(bytes: &[u8], kind: Kind, frame: &mut Frame) -> Result<(), String> 
 }
 
 fn array(tag: &str, section: &str, kind: Kind, data: &[u8], frame: &mut Frame) -> Result<(), String> {
-    if matches!(section, "Verts" | "Lines") {
+    if matches!(section, "Verts" | "Lines" | "Polys") {
         return Ok(());
     }
     let name = unescape(attribute(tag, "Name").ok_or("an array has no name")?);
@@ -104,6 +104,11 @@ fn values(tag: &str, data: &[u8]) -> Option<Values> {
             let flat: Vec<f64> = reals().collect();
             let (vectors, rest) = flat.as_chunks::<3>();
             rest.is_empty().then(|| Values::Vector(vectors.to_vec()))
+        }
+        ("Float64", Some("4")) => {
+            let flat: Vec<f64> = reals().collect();
+            let (quaternions, rest) = flat.as_chunks::<4>();
+            rest.is_empty().then(|| Values::Quaternion(quaternions.to_vec()))
         }
         ("Int64", None) => Some(Values::Integer(words.iter().map(|b| i64::from_le_bytes(*b)).collect())),
         _ => None,

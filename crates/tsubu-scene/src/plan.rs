@@ -786,6 +786,8 @@ pub struct Dem {
     pub skin: f64,
     /// Overlap over diameter at which the run stops as blown up [-].
     pub largest_overlap: f64,
+    /// Follow how grains turn.
+    pub orientation: bool,
     /// Energy residual over turned-over energy above which the run warns [-].
     pub energy_tolerance: f64,
 }
@@ -911,6 +913,8 @@ pub struct Output {
     pub checkpoint_interval: f64,
     /// Also write extended XYZ.
     pub xyz: bool,
+    /// Also write LAMMPS dump files.
+    pub lammps: bool,
 }
 
 /// A result that must lie in a range.

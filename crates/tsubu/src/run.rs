@@ -10,8 +10,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{
-    CheckpointError, Claim, Existing, FileError, FrameWriter, Header, History, ResultValue, RunFolder, State, Status,
-    Summary, checkpoint,
+    CheckpointError, Claim, Existing, FileError, Formats, FrameWriter, Header, History, ResultValue, RunFolder, State,
+    Status, Summary, checkpoint,
 };
 use tsubu_scene::{Plan, Scene};
 
@@ -80,14 +80,19 @@ pub fn run(scene: &Scene, folder: &Path, existing: Existing, watcher: &Watcher) 
         run.resume(folder.path())?;
         let time = run.engine.time();
         let history = History::resume(&folder.file("history.csv"), &header, time)?;
-        (history, FrameWriter::resume(folder.path(), plan.output.xyz, time)?)
+        (history, FrameWriter::resume(folder.path(), formats(plan), time)?)
     } else {
         scene_files::write(&folder, scene)?;
         let verdict = check::verdict(plan, &run.hosts, &*run.engine);
         folder.write("check.txt", verdict.to_string().as_bytes())?;
-        (History::create(&folder.file("history.csv"), &header)?, FrameWriter::create(folder.path(), plan.output.xyz)?)
+        (History::create(&folder.file("history.csv"), &header)?, FrameWriter::create(folder.path(), formats(plan))?)
     };
     run.go(&folder, history, frames, watcher)
+}
+
+/// What frames are written in beside VTK.
+pub(crate) const fn formats(plan: &Plan) -> Formats {
+    Formats { xyz: plan.output.xyz, lammps: plan.output.lammps }
 }
 
 /// Hash of a scene in its resolved form: what a checkpoint belongs to.

@@ -4,7 +4,9 @@ use std::path::Path;
 use std::process::Command;
 
 use proptest::prelude::*;
-use tsubu_frame::{Frame, FrameWriter, Kind, read_frame, snapshots, vtp_read};
+use tsubu_frame::{Formats, Frame, FrameWriter, Kind, read_frame, snapshots, vtp_read};
+
+const ALL: Formats = Formats { xyz: true, lammps: true };
 
 fn sample(time: f64) -> Frame {
     let mut frame = Frame { time, step: (time * 1e4) as u64, ..Frame::default() };
@@ -18,9 +20,12 @@ fn sample(time: f64) -> Frame {
     frame.integer(Kind::Contact, "first", "-", vec![1]);
     frame.integer(Kind::Contact, "second", "-", vec![-1]);
     let corners = [[0.0, 0.0, 0.0], [0.5, 0.0, 0.0], [0.5, 0.4, 0.0], [0.0, 0.4, 0.0]];
-    let walls = [corners.to_vec(), vec![[0.1, 0.0, 0.0], [0.1, 0.1, 0.0]]].concat();
+    let triangle = vec![[0.1, 0.0, 0.0], [0.1, 0.1, 0.0], [0.1, 0.1, 0.125]];
+    let walls = [corners.to_vec(), triangle, vec![[0.1, 0.0, 0.0], [0.1, 0.1, 0.0]]].concat();
     frame.vector(Kind::Surface, "position", "m", walls);
-    frame.integer(Kind::Surface, "outline", "-", vec![0, 0, 0, 0, 1, 1]);
+    frame.integer(Kind::Surface, "outline", "-", vec![0, 0, 0, 0, 1, 1, 1, 2, 2]);
+    frame.integer(Kind::Surface, "face", "-", vec![0, 0, 0, 0, 1, 1, 1, 0, 0]);
+    frame.quaternion(Kind::Grain, "orientation", vec![[1.0, 0.0, 0.0, 0.0], [0.8, 0.0, 0.6, 0.0]]);
     frame.scalar(Kind::Global, "host displacement", "m", vec![0.004]);
     frame
 }
@@ -37,7 +42,7 @@ fn same(a: &Frame, b: &Frame) {
 #[test]
 fn a_snapshot_comes_back() {
     let folder = tempfile::tempdir().unwrap();
-    let mut writer = FrameWriter::create(folder.path(), true).unwrap();
+    let mut writer = FrameWriter::create(folder.path(), ALL).unwrap();
     writer.write(&sample(0.0)).unwrap();
     writer.write(&sample(0.25)).unwrap();
     let found = snapshots(folder.path()).unwrap();
@@ -48,11 +53,11 @@ fn a_snapshot_comes_back() {
 #[test]
 fn resumed_snapshots_go_on_with_the_number_after_the_checkpoint() {
     let folder = tempfile::tempdir().unwrap();
-    let mut writer = FrameWriter::create(folder.path(), false).unwrap();
+    let mut writer = FrameWriter::create(folder.path(), Formats::default()).unwrap();
     for time in [0.0, 0.1, 0.2, 0.3] {
         writer.write(&sample(time)).unwrap();
     }
-    let mut writer = FrameWriter::resume(folder.path(), false, 0.1).unwrap();
+    let mut writer = FrameWriter::resume(folder.path(), Formats::default(), 0.1).unwrap();
     assert_eq!(writer.count(), 2);
     assert!(!folder.path().join("frames/grains_000003.vtp").exists());
     writer.write(&sample(0.2)).unwrap();
@@ -66,7 +71,7 @@ fn an_empty_moment_and_no_folder_are_no_errors() {
     assert!(snapshots(folder.path()).unwrap().is_empty());
     let mut empty = Frame::default();
     empty.vector(Kind::Grain, "position", "m", vec![]);
-    let mut writer = FrameWriter::create(folder.path(), true).unwrap();
+    let mut writer = FrameWriter::create(folder.path(), ALL).unwrap();
     writer.write(&empty).unwrap();
     assert_eq!(read_frame(&snapshots(folder.path()).unwrap()[0].path).unwrap().rows(Kind::Grain), 0);
 }
@@ -74,20 +79,43 @@ fn an_empty_moment_and_no_folder_are_no_errors() {
 #[test]
 fn extended_xyz_reads_as_its_comment_line_says() {
     let folder = tempfile::tempdir().unwrap();
-    FrameWriter::create(folder.path(), true).unwrap().write(&sample(0.5)).unwrap();
+    FrameWriter::create(folder.path(), ALL).unwrap().write(&sample(0.5)).unwrap();
     let text = std::fs::read_to_string(folder.path().join("frames/grains_000000.xyz")).unwrap();
     let lines: Vec<_> = text.lines().collect();
     assert_eq!(lines[0], "2");
-    assert!(lines[1].contains("Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:id:I:1 Time=0.5"));
-    assert!(lines[1].starts_with("Lattice=\"0.5 0 0 0 0.4 0 0 0 0.006\" Origin=\"0.0 0.0 -0.003\""));
-    assert_eq!(lines[2], "grain 0.1 0.2 0.0 1.0 0.0 0.0 0.003 0");
+    assert!(lines[1].contains("Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:id:I:1:orientation:R:4 Time=0.5"));
+    assert!(lines[1].starts_with("Lattice=\"0.5 0 0 0 0.4 0 0 0 0.128\" Origin=\"0.0 0.0 -0.003\""));
+    assert_eq!(lines[2], "grain 0.1 0.2 0.0 1.0 0.0 0.0 0.003 0 0.0 0.0 0.0 1.0");
     assert_eq!(lines.len(), 4);
+}
+
+#[test]
+fn a_repeating_world_is_the_cell_of_xyz_and_dump() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut frame = sample(0.5);
+    for (name, value) in
+        [("periodic low", [-1.0, 0.0, 0.0]), ("periodic high", [2.0, 0.0, 0.0]), ("periodic", [1.0, 0.0, 0.0])]
+    {
+        frame.vector(Kind::Global, name, "-", vec![value]);
+    }
+    FrameWriter::create(folder.path(), ALL).unwrap().write(&frame).unwrap();
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("frames").join(name)).unwrap();
+    let xyz = read("grains_000000.xyz");
+    assert!(xyz.contains("Lattice=\"3.0 0 0 0 0.4 ") && xyz.contains("Origin=\"-1.0 0.0 "), "{xyz}");
+    assert!(xyz.contains("pbc=\"T F F\""), "{xyz}");
+    let dump = read("grains_000000.lammpstrj");
+    let lines: Vec<&str> = dump.lines().collect();
+    assert_eq!(lines[4..9], ["ITEM: TIMESTEP", "5000", "ITEM: NUMBER OF ATOMS", "2", "ITEM: BOX BOUNDS pp ff ff"]);
+    assert_eq!(lines[9], "-1.0 2.0");
+    assert_eq!(lines[12], "ITEM: ATOMS id type x y z vx vy vz omegax omegay omegaz radius mass");
+    assert_eq!(lines[13], "1 1 0.1 0.2 0.0 1.0 0.0 0.0 0.0 0.0 0.0 0.003 0.0");
+    assert_eq!(lines.len(), 15);
 }
 
 #[test]
 fn a_cut_snapshot_is_refused() {
     let folder = tempfile::tempdir().unwrap();
-    FrameWriter::create(folder.path(), false).unwrap().write(&sample(0.5)).unwrap();
+    FrameWriter::create(folder.path(), Formats::default()).unwrap().write(&sample(0.5)).unwrap();
     let path = folder.path().join("frames/grains_000000.vtp");
     let bytes = std::fs::read(&path).unwrap();
     std::fs::write(&path, &bytes[..bytes.len() / 3]).unwrap();
@@ -98,7 +126,7 @@ fn a_cut_snapshot_is_refused() {
 
 fn bytes_of_sample() -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
-    FrameWriter::create(folder.path(), false).unwrap().write(&sample(0.5)).unwrap();
+    FrameWriter::create(folder.path(), Formats::default()).unwrap().write(&sample(0.5)).unwrap();
     std::fs::read(folder.path().join("frames/grains_000000.vtp")).unwrap()
 }
 
@@ -123,7 +151,7 @@ proptest! {
 fn vtk_reads_every_snapshot() {
     let python = std::env::var_os("TSUBU_VTK_PYTHON").unwrap_or_else(|| "python3".into());
     let folder = tempfile::tempdir().unwrap();
-    let mut writer = FrameWriter::create(folder.path(), false).unwrap();
+    let mut writer = FrameWriter::create(folder.path(), Formats::default()).unwrap();
     for time in [0.0, 0.1, 0.2] {
         writer.write(&sample(time)).unwrap();
     }
@@ -132,6 +160,6 @@ fn vtk_reads_every_snapshot() {
     let said = String::from_utf8_lossy(&out.stdout);
     assert!(out.status.success(), "{said}{}", String::from_utf8_lossy(&out.stderr));
     assert!(said.contains("grains: 3 files, 6 points"), "{said}");
-    assert!(said.contains("walls: 3 files, 18 points, 6 cells"), "{said}");
+    assert!(said.contains("walls: 3 files, 27 points, 9 cells"), "{said}");
     assert!(said.contains("velocity [m/s]"), "{said}");
 }

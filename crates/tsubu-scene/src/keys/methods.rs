@@ -31,6 +31,7 @@ pub(super) static DEM: &[Key] = &[
         .default("0.1")
         .above(0.0)
         .at_most(1.0),
+    Key::new("orientation", Kind::Flag, "Follow how grains turn, and write it into frames").default("false"),
     Key::new(
         "energy-tolerance",
         Kind::Quantity(&NUMBER),

@@ -39,6 +39,7 @@ pub(super) static OUTPUT: &[Key] = &[
         .above(0.0)
         .derived("duration / 10"),
     Key::new("xyz", Kind::Flag, "Also write extended XYZ, which OVITO opens").default("false"),
+    Key::new("lammps", Kind::Flag, "Also write LAMMPS dump files, for `read_dump`, `rerun` and OVITO").default("false"),
 ];
 
 pub(super) static CLAIM: &[Key] = &[

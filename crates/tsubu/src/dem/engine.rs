@@ -1,6 +1,7 @@
 //! The DEM engine: its state, how it is built from a plan, and how it answers.
 
 use super::integrate::Report;
+use super::orientation::Orientation;
 use super::place;
 use super::room;
 use super::sizes;
@@ -32,6 +33,7 @@ pub struct DemEngine {
     pub(super) touch: Touch,
     pub(super) sums: Sums,
     pub(super) sources: Sources,
+    pub(super) orientation: Orientation,
     // What the plan says.
     pub(super) law: Law,
     pub(super) table: Table,
@@ -40,6 +42,7 @@ pub struct DemEngine {
     pub(super) integrator: Integrator,
     pub(super) dt: f64,
     pub(super) rotation: bool,
+    pub(super) in_space: bool,
     pub(super) smallest_diameter: f64,
     pub(super) largest_diameter: f64,
     pub(super) largest_overlap: f64,
@@ -113,6 +116,7 @@ impl DemEngine {
             touch: Touch::default(),
             sums: Sums::default(),
             sources,
+            orientation: Orientation::new(dem.orientation),
             dt: check::time_step(plan, &law, &table, hosts),
             law,
             table,
@@ -120,6 +124,7 @@ impl DemEngine {
             gravity,
             integrator: dem.integrator,
             rotation: contact.rotation,
+            in_space: *dimension == 3,
             smallest_diameter: smallest,
             largest_diameter: largest_present,
             largest_overlap: dem.largest_overlap,

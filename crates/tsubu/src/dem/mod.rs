@@ -1,10 +1,12 @@
 //! The discrete element method.
 
+mod drawn;
 pub mod engine;
 mod fill;
 mod integrate;
 mod keep;
 mod memory;
+mod orientation;
 mod output;
 mod place;
 mod room;

@@ -10,7 +10,7 @@ use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, Kind, State};
 
 impl DemEngine {
-    /// Grains in the order of their ids, contacts, and outlines of the walls.
+    /// Grains in the order of their ids, contacts, and the walls.
     pub(super) fn picture(&self) -> Frame {
         let order = self.grains.by_id();
         let vectors = |column: &[DVec3]| order.iter().map(|&i| column[i].to_array()).collect::<Vec<_>>();
@@ -30,6 +30,10 @@ impl DemEngine {
                 self.grains.mass[i] * (self.grains.acceleration[i] - pulled)
             })
             .collect();
+        let turned: Option<Vec<_>> = order.iter().map(|&i| self.orientation.of(self.grains.id[i])).collect();
+        if let Some(turned) = turned {
+            frame.quaternion(Kind::Grain, "orientation", turned.iter().map(|q| [q.w, q.x, q.y, q.z]).collect());
+        }
         frame.vector(Kind::Grain, "contact force", "N", vectors(&force));
         let contacts = self.contact_list();
         let id = |i: usize| i64::from(self.grains.id[i]);
@@ -41,15 +45,7 @@ impl DemEngine {
         frame.vector(Kind::Contact, "force", "N", contacts.iter().map(|c| c.force.to_array()).collect());
         frame.vector(Kind::Contact, "normal", "-", contacts.iter().map(|c| c.normal.to_array()).collect());
         frame.scalar(Kind::Contact, "overlap", "m", contacts.iter().map(|c| c.overlap).collect());
-        let mut corners = Vec::new();
-        let mut index = Vec::new();
-        let lines = self.walls.iter().flat_map(|wall| wall.outline().lines);
-        for (k, line) in lines.enumerate() {
-            corners.extend(line.iter().map(DVec3::to_array));
-            index.extend(line.iter().map(|_| k as i64));
-        }
-        frame.vector(Kind::Surface, "position", "m", corners);
-        frame.integer(Kind::Surface, "outline", "-", index);
+        self.draw_walls(&mut frame);
         frame
     }
 
@@ -57,6 +53,7 @@ impl DemEngine {
     pub(super) fn write_state(&self, state: &mut State) {
         self.grains.save("grains", state);
         state.put_integer("dem.step", vec![self.step as i64, self.sums.contacts as i64, self.grains.len() as i64]);
+        self.orientation.save(state);
         state.put_integer("dem.streams", self.sources.placed());
         let mut reals = self.last_flows.powers.to_vec();
         reals.extend(self.last_flows.wall_force.to_array());
@@ -85,6 +82,7 @@ impl DemEngine {
         self.grains = Grains::load("grains", grains as usize, state)?;
         self.total_mass = self.grains.moved_mass();
         (self.step, self.sums.contacts) = (step as u64, contacts as usize);
+        self.orientation.load(state)?;
         self.sources.set_placed(state.integer("dem.streams")?);
         let flows = state.real("dem.flows")?;
         if flows.len() != 8 {

@@ -19,6 +19,7 @@ impl DemEngine {
             integrate::before(&mut self.grains, &mut self.candidates, &mut self.reports, &motion);
         }
         self.step += 1;
+        self.turn();
         let time = self.time();
         hosts.before(self.dt);
         self.move_walls(time, hosts);

@@ -239,6 +239,16 @@ impl Wall {
         }
     }
 
+    /// Point and normal of a plane that stands alone: it has no end, and is drawn as large as the rest of a picture.
+    pub fn lone_plane(&self) -> Option<(DVec3, DVec3)> {
+        match &self.surface {
+            Surface::HalfSpaces { planes, .. } if planes.len() == 1 => {
+                Some((self.pose.to_world(planes[0].point), self.pose.direction(planes[0].normal)))
+            }
+            _ => None,
+        }
+    }
+
     /// Lines and triangles for pictures, where they are now.
     pub fn outline(&self) -> Outline {
         self.outline.placed(&self.pose)

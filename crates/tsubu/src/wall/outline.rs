@@ -24,7 +24,7 @@ impl Outline {
     /// a plane is 1 m long, a cylinder four radii about the foot of its point.
     pub(super) fn new(shape: &Shape, surface: &Surface, dimension: u8) -> Self {
         match (surface, dimension) {
-            (Surface::HalfSpaces { .. }, _) => Self { lines: vec![corners(shape)], triangles: Vec::new() },
+            (Surface::HalfSpaces { .. }, _) => Self { lines: edges(shape, dimension), triangles: Vec::new() },
             (Surface::Frustum(frustum), 2) => Self { lines: section(frustum), triangles: Vec::new() },
             (Surface::Frustum(frustum), _) => Self { lines: Vec::new(), triangles: skin(frustum) },
             (Surface::Shell(shell), 2) => {
@@ -38,6 +38,21 @@ impl Outline {
         }
     }
 
+    /// A piece of a plane about the foot of a point, `half` [m] to each side: a line in the plane, a square in space.
+    pub(crate) fn of_plane(point: DVec3, normal: DVec3, about: DVec3, half: f64, in_space: bool) -> Self {
+        let foot = about - normal * (about - point).dot(normal);
+        let along = normal.cross(DVec3::Y);
+        let along = if along.length_squared() > 1e-12 { along.normalize() } else { DVec3::X } * half;
+        if !in_space {
+            return Self { lines: vec![vec![foot - along, foot + along]], triangles: Vec::new() };
+        }
+        let across = normal.cross(along);
+        let square = [foot - along - across, foot + along - across, foot + along + across, foot - along + across];
+        let mut triangles = Vec::new();
+        quad(&mut triangles, square);
+        Self { lines: vec![square.to_vec()], triangles }
+    }
+
     /// Where it is now.
     pub(super) fn placed(&self, pose: &Pose) -> Self {
         let place = |p: DVec3| pose.to_world(p);
@@ -48,17 +63,23 @@ impl Outline {
     }
 }
 
-/// Corners of a box or plane in the plane (x, z).
-fn corners(shape: &Shape) -> Vec<DVec3> {
+/// Closed lines of a box or plane: round it in the plane, round every side in space.
+fn edges(shape: &Shape, dimension: u8) -> Vec<Vec<DVec3>> {
     match shape {
         Shape::Plane { point, normal } => {
             let along = DVec3::from_array(*normal).cross(DVec3::Y);
-            [-0.5, 0.5].map(|s| DVec3::from_array(*point) + along * s).to_vec()
+            vec![[-0.5, 0.5].map(|s| DVec3::from_array(*point) + along * s).to_vec()]
         }
-        Shape::Box { width, height, floor_centre, .. } => {
+        Shape::Box { width, height, depth, floor_centre } => {
             let c = DVec3::from_array(*floor_centre);
-            let (x, z) = (DVec3::X * (0.5 * width), DVec3::Z * *height);
-            vec![c - x, c + x, c + x + z, c - x + z]
+            let half = DVec3::new(0.5 * width, if dimension == 3 { 0.5 * depth } else { 0.0 }, 0.5 * height);
+            let at = |x: f64, y: f64, z: f64| c + DVec3::new(x, y, z + 1.0) * half;
+            let round = |y: f64| vec![at(-1.0, y, -1.0), at(1.0, y, -1.0), at(1.0, y, 1.0), at(-1.0, y, 1.0)];
+            if dimension == 2 {
+                return vec![round(0.0)];
+            }
+            let side = |x: f64| vec![at(x, -1.0, -1.0), at(x, 1.0, -1.0), at(x, 1.0, 1.0), at(x, -1.0, 1.0)];
+            vec![round(-1.0), round(1.0), side(-1.0), side(1.0)]
         }
         Shape::Cylinder { .. } | Shape::Cone { .. } | Shape::Sphere { .. } | Shape::Mesh { .. } => Vec::new(),
     }
@@ -97,7 +118,8 @@ fn skin(frustum: &Frustum) -> Vec<[DVec3; 3]> {
     let [start, end] = ends(frustum);
     let [r0, r1] = frustum.radius;
     let around = |k: usize| {
-        let (sin, cos) = (TAU * k as f64 / PIECES as f64).sin_cos();
+        // The last piece ends where the first begins, to the last bit.
+        let (sin, cos) = (TAU * (k % PIECES) as f64 / PIECES as f64).sin_cos();
         u * cos + v * sin
     };
     let mut triangles = Vec::new();
@@ -111,7 +133,7 @@ fn skin(frustum: &Frustum) -> Vec<[DVec3; 3]> {
 /// A sphere by longitude and latitude.
 fn globe(shell: &SphericalShell) -> Vec<[DVec3; 3]> {
     let at = |i: usize, j: usize| {
-        let (sin, cos) = (TAU * i as f64 / PIECES as f64).sin_cos();
+        let (sin, cos) = (TAU * (i % PIECES) as f64 / PIECES as f64).sin_cos();
         let (sin_height, cos_height) = (TAU * j as f64 / PIECES as f64 - 0.5 * PI).sin_cos();
         shell.centre + shell.radius * DVec3::new(cos * cos_height, sin * cos_height, sin_height)
     };

@@ -2,6 +2,7 @@
 
 mod books;
 mod everything;
+mod orientation;
 mod place;
 mod plane;
 mod same_bits;

@@ -67,6 +67,7 @@ pub fn plan(count: usize, mode: LatticeMode) -> Plan {
             rotation: false,
         },
         dem: Dem {
+            orientation: false,
             time_step: None,
             steps_per_contact: 20.0,
             integrator: Integrator::VelocityVerlet,
@@ -89,7 +90,13 @@ pub fn plan(count: usize, mode: LatticeMode) -> Plan {
         },
         response: None,
         sweep: None,
-        output: Output { history_interval: 0.1, frame_interval: None, checkpoint_interval: 60.0, xyz: false },
+        output: Output {
+            history_interval: 0.1,
+            frame_interval: None,
+            checkpoint_interval: 60.0,
+            xyz: false,
+            lammps: false,
+        },
         claim: Vec::new(),
     }
 }

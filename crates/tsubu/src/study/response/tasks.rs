@@ -131,7 +131,7 @@ pub(super) fn film(
     let step = |periods: f64| (periods / (frequency * engine.time_step())).round() as u64;
     let begin = f64::from(wanted.discard_periods);
     let moments: Vec<u64> = (0..=8).map(|k| step(begin + f64::from(k) / 8.0)).collect();
-    let mut frames = FrameWriter::create(folder.path(), plan.output.xyz)?;
+    let mut frames = FrameWriter::create(folder.path(), crate::run::formats(plan))?;
     for moment in moments {
         engine.advance(moment - engine.steps(), &mut hosts, &mut ledger)?;
         frames.write(&engine.frame(&hosts))?;
