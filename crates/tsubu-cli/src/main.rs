@@ -5,6 +5,7 @@
 
 mod commands;
 mod failure;
+mod machine;
 mod options;
 mod output;
 mod progress;

@@ -51,10 +51,32 @@ pub(crate) fn build(source: &mut Source) -> Report {
             report.section("Claims", vec![claims_table(&summary.claims.iter().collect::<Vec<_>>())]);
         }
         report.section("Results", results_table(summary).into_iter().collect());
-        report.section("Cost", vec![cost_table(&[(method_name(&summary.method), summary)])]);
+        let mut cost = vec![cost_table(&[(method_name(&summary.method), summary)])];
+        cost.extend(machine(source));
+        report.section("Cost", cost);
     }
     source.scene_and_verdict(&mut report);
     report
+}
+
+/// What `tsubu bench` has found out about the machine.
+fn machine(source: &mut Source) -> Option<Block> {
+    if !source.has("bench.json") {
+        return None;
+    }
+    let read = tsubu_frame::summary::read_json::<serde_json::Value>(&source.dir.join("bench.json"));
+    let bench = source.told(read)?;
+    let rows: Vec<String> = bench["rows"]
+        .as_array()?
+        .iter()
+        .filter_map(|row| {
+            let (work, threads) = (row["work"].as_str()?, row["threads"].as_u64()?);
+            let speed = row["particle_steps_per_second"].as_f64()?;
+            Some(format!("{work} on {threads} thread{} {:.2e}", if threads == 1 { "" } else { "s" }, speed))
+        })
+        .collect();
+    let processor = bench["processor"].as_str().unwrap_or("this machine");
+    Some(Block::Text(format!("The machine: {processor}. `tsubu bench` there, in grain-steps/s: {}.", rows.join(", "))))
 }
 
 fn verdict(summary: Option<&Summary>) -> (Tone, String) {

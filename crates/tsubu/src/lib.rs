@@ -4,6 +4,7 @@
 //! plan's method names; [`engine::Engine::advance`] moves it; [`partner::Hosts`] are the vibrating structures that it meets
 //! once a step; [`ledger::Ledger`] keeps the books.
 
+pub mod bench;
 pub mod check;
 pub mod contact;
 pub mod dem;

@@ -1,6 +1,7 @@
 //! `tsubu check`: a verdict a line.
 
 use crate::failure::Failure;
+use crate::machine;
 use crate::options::SceneOptions;
 use crate::output::{self, Stream};
 use clap::Args;
@@ -21,7 +22,8 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<(), Failure> {
     let scene = options.scene.read()?;
-    let verdict = tsubu::check::check(scene.plan()).map_err(|error| Failure::from(&error))?;
+    let verdict =
+        tsubu::check::check(scene.plan(), machine::known().as_ref()).map_err(|error| Failure::from(&error))?;
     let stream = Stream::Data;
     let mut text = String::new();
     for line in &verdict.lines {

@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+mod bench;
 mod check;
 mod claims;
 mod compare;
@@ -33,6 +34,8 @@ pub enum Command {
     Verify(verify::Options),
     /// Make figures and a self-contained report.html from a folder of results
     Report(report::Options),
+    /// Measure how fast this machine is, in about a minute
+    Bench(bench::Options),
     /// Look at a simulation in the browser (not there yet)
     View(view::Options),
     /// Write a commented example scene
@@ -53,6 +56,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Compare(options) => compare::run(&options),
         Command::Verify(options) => verify::run(&options),
         Command::Report(options) => report::run(&options),
+        Command::Bench(options) => bench::run(&options),
         Command::View(options) => view::run(&options),
         Command::New(options) => new::run(&options),
         Command::Schema => schema::run(),

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
 use crate::output::{self, Stream};
 use crate::progress::Progress;
-use crate::{stop, table};
+use crate::{machine, stop, table};
 use clap::Args;
 use std::fmt::Write as _;
 use tsubu::check::human_time;
@@ -51,6 +51,10 @@ pub fn run(options: &Options) -> Result<(), Failure> {
             folder.display()
         );
         return Err(Failure::interrupted(message).hint(format!("go on with `{}`", command_to_resume())));
+    }
+    if let Some(bench) = machine::known() {
+        let file = folder.join("bench.json");
+        tsubu_frame::summary::write_json(&file, &bench).map_err(|error| Failure::of_file(&error, &folder))?;
     }
     output::print(&told(&scene.plan().title, &summary))?;
     output::tell(&format!("results in {}; figures and a page: tsubu report {0}\n", folder.display()));

@@ -97,3 +97,25 @@ fn a_reader_may_leave() {
         assert!(!said.contains("panicked"), "{line}: {said}");
     }
 }
+
+#[test]
+fn bench_is_kept_for_check_and_quoted_by_reports() {
+    let desk = Desk::new();
+    let ended = desk.done("bench --seconds 2 -q -o me");
+    assert!(ended.stdout.contains("chute") && ended.stdout.contains("particle-steps/s"), "{}", ended.stdout);
+    assert_eq!(desk.read("me/bench.json"), desk.read(".cache/tsubu/bench.json"));
+    let bench: serde_json::Value = serde_json::from_str(&desk.read("me/bench.json")).unwrap();
+    assert_eq!(bench["rows"][0]["threads"], 1);
+    desk.done("run balls.toml -q");
+    desk.done("report out/balls");
+    assert!(desk.read("out/balls/report.html").contains("tsubu bench"));
+    if bench["cores"].as_u64().unwrap() > 1 {
+        let many = "--set particles.balls.count=2500 --set 'walls.box.shape.box.width=1 m' --set 'walls.box.shape.box.height=1 m'";
+        let check = desk.done(&format!("check balls.toml {many}"));
+        assert!(check.stdout.contains("times as fast by `tsubu bench`"), "{}", check.stdout);
+    }
+    // A damaged file is as good as none.
+    std::fs::write(desk.path(".cache/tsubu/bench.json"), "{").unwrap();
+    desk.done("check balls.toml");
+    assert_eq!(desk.run("bench --seconds 0").code, Some(2));
+}

@@ -88,7 +88,12 @@ impl Desk {
     /// A command of ours, words parted by spaces; `'` keeps words together.
     pub fn command(&self, line: &str) -> Command {
         let mut command = Command::new(cargo_bin("tsubu"));
-        command.args(words(line)).current_dir(self.folder.path()).env("NO_COLOR", "1").stdin(Stdio::null());
+        command
+            .args(words(line))
+            .current_dir(self.folder.path())
+            .env("NO_COLOR", "1")
+            .env("XDG_CACHE_HOME", self.folder.path().join(".cache"))
+            .stdin(Stdio::null());
         command
     }
 

@@ -1,8 +1,10 @@
 //! The verdict: is this scene resolved well enough, and what will it cost?
 
 use super::{bodies, mesh, shortest_period, speed_scale};
+use crate::bench::Bench;
 use crate::contact::{Law, Table};
 use crate::engine::{self, Engine, Fault, OpenError};
+use crate::find::candidates::WORTH_THREADS;
 use crate::ledger::Ledger;
 use crate::partner::Hosts;
 use std::fmt;
@@ -63,7 +65,9 @@ impl fmt::Display for Verdict {
 }
 
 /// Builds the scene, judges it, and measures for a moment how fast this machine moves it.
-pub fn check(plan: &Plan) -> Result<Verdict, OpenError> {
+///
+/// Where `bench` knows this machine, the estimate is for all its cores too.
+pub fn check(plan: &Plan, bench: Option<&Bench>) -> Result<Verdict, OpenError> {
     let mut hosts = Hosts::new(&plan.hosts);
     let mut engine = match engine::open(plan, &hosts) {
         Err(OpenError::Settling(fault)) => return unsettled(plan, &hosts, &fault),
@@ -72,9 +76,14 @@ pub fn check(plan: &Plan) -> Result<Verdict, OpenError> {
     let mut verdict = verdict(plan, &hosts, &*engine);
     let mut ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
     let total = plan.duration / engine.time_step();
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().ok();
     let (mut block, begun) = (64, Instant::now());
     while begun.elapsed().as_millis() < 300 && (engine.steps() as f64) < total {
-        if let Err(fault) = engine.advance(block, &mut hosts, &mut ledger) {
+        let done = match &one {
+            Some(pool) => pool.install(|| engine.advance(block, &mut hosts, &mut ledger)),
+            None => engine.advance(block, &mut hosts, &mut ledger),
+        };
+        if let Err(fault) = done {
             verdict.fail("the run would fail", &fault);
             return Ok(verdict);
         }
@@ -86,6 +95,17 @@ pub fn check(plan: &Plan) -> Result<Verdict, OpenError> {
         human_time(per_step * total),
         human_time(per_step)
     ));
+    let threaded = plan.method == Method::Dem && engine.grains() >= WORTH_THREADS;
+    match bench {
+        Some(bench) if threaded && bench.cores > 1 => verdict.say(format!(
+            "time: about {} with {} threads, {:.2} times as fast by `tsubu bench`",
+            human_time(per_step * total / bench.scaling()),
+            bench.cores,
+            bench.scaling()
+        )),
+        None if threaded => verdict.say("time with more threads: `tsubu bench` measures this machine".to_owned()),
+        _ => {}
+    }
     if let Some(response) = &plan.response {
         let cases: usize = response.vary.values().map(Vec::len).product();
         let runs = cases * response.frequency_ratio.len() * response.seeds as usize;
@@ -137,7 +157,7 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         verdict.say(format!("approximated: `{}`: {}", note.key, note.text));
     }
     let steps = plan.duration / dt;
-    let bytes = engine.grains() as f64 * 1000.0 + 2e5;
+    let bytes = memory(plan.method, engine.grains(), engine.contacts());
     verdict.say(format!(
         "{} grains, {steps:.0} steps of {dt:.3e} s, {:.3e} particle-steps, about {:.1} MB of memory",
         engine.grains(),
@@ -145,6 +165,15 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         bytes / 1e6
     ));
     verdict
+}
+
+/// Bytes that a run takes at most. Measured for DEM: beds of 1,000 to 1,000,000 spheres with friction springs, whole
+/// program with its checkpoints. A bed that has yet to settle will have two contacts a grain.
+fn memory(method: Method, grains: usize, contacts: usize) -> f64 {
+    match method {
+        Method::Dem => 12e6 + 700.0 * grains as f64 + 150.0 * contacts.max(2 * grains) as f64,
+        Method::Lattice => 2e5 + 1000.0 * grains as f64,
+    }
 }
 
 fn step_key(plan: &Plan) -> &'static str {
