@@ -60,19 +60,25 @@ pub struct Balls {
     pub quantity: (String, String),
     /// Closed outlines of the walls.
     pub outlines: Vec<Vec<[f64; 3]>>,
+    /// Triangles of the walls.
+    pub faces: Vec<[[f64; 3]; 3]>,
+    /// Whether one looks slantwise into space, not onto a plane.
+    pub space: bool,
 }
 
 impl Balls {
     /// Takes what a picture needs from a frame.
     pub fn of(frame: &Frame, look: &Look) -> Self {
-        let position = vectors(frame, Kind::Grain, "position");
-        let turn = turned(look.view, position);
+        let position = frame.vectors(Kind::Grain, "position");
+        let view = settled(look.view, frame);
+        let turn = turned(view);
         let count = position.len();
         let radii = match scalars(frame, "radius") {
             Some(r) if r.len() == count => r.to_vec(),
             _ => vec![fallback_radius(position); count],
         };
-        let velocity = vectors(frame, Kind::Grain, "velocity");
+        let velocity = frame.vectors(Kind::Grain, "velocity");
+        let (outlines, faces) = walls(frame, &turn);
         let (quantity, values) = match &look.colour {
             ColourBy::Speed => (
                 ("speed".to_owned(), "m/s".to_owned()),
@@ -80,7 +86,9 @@ impl Balls {
             ),
             ColourBy::Column(name) => {
                 let unit = frame.column(Kind::Grain, name).map_or("-", |c| c.unit);
-                ((name.clone(), unit.to_owned()), scalars(frame, name).unwrap_or_default().to_vec())
+                let whole = frame.integers(Kind::Grain, name).iter().map(|v| *v as f64);
+                let values = scalars(frame, name).map_or_else(|| whole.collect(), <[f64]>::to_vec);
+                ((name.clone(), unit.to_owned()), values)
             }
             ColourBy::Given(name, unit, values) => ((name.clone(), unit.clone()), values.clone()),
         };
@@ -91,15 +99,23 @@ impl Balls {
             velocities: velocity.iter().map(|v| turn(*v)).collect(),
             values,
             quantity,
-            outlines: outlines(frame).into_iter().map(|o| o.into_iter().map(&turn).collect()).collect(),
+            outlines,
+            faces,
+            space: view == View::Slant,
         }
+    }
+
+    /// Whether there is nothing to see: neither grains nor walls.
+    pub fn is_empty(&self) -> bool {
+        self.centres.is_empty() && self.outlines.is_empty() && self.faces.is_empty()
     }
 
     /// The rectangle that holds all grains and walls: left, bottom, right, top.
     pub fn extent(&self) -> [f64; 4] {
         let mut e = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
         let spheres = self.centres.iter().zip(&self.radii).map(|(c, r)| (c, *r));
-        for (c, r) in spheres.chain(self.outlines.iter().flatten().map(|c| (c, 0.0))) {
+        for (c, r) in spheres.chain(self.outlines.iter().flatten().chain(self.faces.iter().flatten()).map(|c| (c, 0.0)))
+        {
             if c.iter().all(|x| x.is_finite()) {
                 e = [e[0].min(c[0] - r), e[1].min(c[1] - r), e[2].max(c[0] + r), e[3].max(c[1] + r)];
             }
@@ -128,21 +144,19 @@ pub fn common(series: &[Balls], look: &Look) -> Look {
     if look.window.is_none() {
         look.window = series
             .iter()
+            .filter(|balls| !balls.is_empty())
             .map(Balls::extent)
             .reduce(|a, b| [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]);
     }
     if look.range.is_none() {
-        let joined = series.iter().map(Balls::range).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let joined = series
+            .iter()
+            .filter(|balls| !balls.values.is_empty())
+            .map(Balls::range)
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
         look.range = joined.map(|(low, high)| if look.colour == ColourBy::Speed { (0.0, high) } else { (low, high) });
     }
     look
-}
-
-fn vectors<'a>(frame: &'a Frame, kind: Kind, name: &str) -> &'a [[f64; 3]] {
-    match frame.column(kind, name).map(|c| &c.values) {
-        Some(Values::Vector(v)) => v,
-        _ => &[],
-    }
 }
 
 fn scalars<'a>(frame: &'a Frame, name: &str) -> Option<&'a [f64]> {
@@ -158,33 +172,46 @@ fn fallback_radius(position: &[[f64; 3]]) -> f64 {
     if reach > 0.0 { reach * 0.01 } else { 1e-3 }
 }
 
-fn outlines(frame: &Frame) -> Vec<Vec<[f64; 3]>> {
-    let points = vectors(frame, Kind::Surface, "position");
+type Points = Vec<[f64; 3]>;
+
+/// Outlines and triangles of the walls.
+fn walls(frame: &Frame, turn: impl Fn([f64; 3]) -> [f64; 3]) -> (Vec<Points>, Vec<[[f64; 3]; 3]>) {
+    let points = frame.vectors(Kind::Surface, "position");
     let zeros = vec![0; points.len()];
-    let index = match frame.column(Kind::Surface, "outline").map(|c| &c.values) {
-        Some(Values::Integer(v)) if v.len() == points.len() => v,
-        _ => &zeros,
-    };
-    let mut rest = points;
-    index
-        .chunk_by(|a, b| a == b)
-        .map(|group| {
-            let (outline, after) = rest.split_at(group.len());
-            rest = after;
-            outline.to_vec()
-        })
-        .collect()
+    let column = |name| Some(frame.integers(Kind::Surface, name)).filter(|v| v.len() == points.len()).unwrap_or(&zeros);
+    let face = column("face");
+    let (mut outlines, mut faces) = (Vec::new(), Vec::new());
+    let mut start = 0;
+    for group in column("outline").chunk_by(|a, b| a == b) {
+        let corners: Vec<_> = points[start..start + group.len()].iter().map(|p| turn(*p)).collect();
+        match corners[..] {
+            [a, b, c] if face[start] != 0 => faces.push([a, b, c]),
+            _ => outlines.push(corners),
+        }
+        start += group.len();
+    }
+    (outlines, faces)
 }
 
-fn turned(view: View, position: &[[f64; 3]]) -> impl Fn([f64; 3]) -> [f64; 3] + use<> {
+/// The view, where it is left to the frame: onto the plane in which everything lies.
+fn settled(view: View, frame: &Frame) -> View {
+    if view != View::Auto {
+        return view;
+    }
+    let position = frame.vectors(Kind::Grain, "position");
     let flat = |axis: usize| position.windows(2).all(|p| p[0][axis] == p[1][axis]);
-    let view = match view {
+    // A lone grain lies in every plane; faces tell that it lies in space.
+    let solid = frame.integers(Kind::Surface, "face").iter().any(|face| *face != 0);
+    match () {
+        () if solid => View::Slant,
         // Up is z wherever the plane allows it.
-        View::Auto if flat(1) => View::Side,
-        View::Auto if flat(2) => View::Front,
-        View::Auto => View::Slant,
-        chosen => chosen,
-    };
+        () if flat(1) => View::Side,
+        () if flat(2) => View::Front,
+        () => View::Slant,
+    }
+}
+
+fn turned(view: View) -> impl Fn([f64; 3]) -> [f64; 3] {
     let (sin_a, cos_a) = 30.0_f64.to_radians().sin_cos();
     let (sin_e, cos_e) = 18.0_f64.to_radians().sin_cos();
     move |[x, y, z]| match view {

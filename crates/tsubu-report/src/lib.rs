@@ -23,6 +23,7 @@ mod source;
 pub mod strip;
 mod sweep;
 pub mod text;
+mod veil;
 mod verify;
 
 use page::Report;

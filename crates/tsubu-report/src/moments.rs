@@ -11,6 +11,8 @@ use crate::strip::{Panel, strip, time_label};
 use crate::text::short;
 
 const PICTURES: usize = 8;
+/// Pictures of space are larger: the first moment, the middle, the last.
+const IN_SPACE: usize = 3;
 /// An animation of more pictures is heavier than a mail takes.
 const MOST_FRAMES: usize = 60;
 const ANIMATION_HEIGHT: f64 = 420.0;
@@ -35,7 +37,11 @@ fn draw(source: &mut Source, history: Option<&Table>, found: &[Snapshot], stem: 
     let resolved = shown_period(all, found);
     let chosen = match resolved {
         Some(p) => eighths(found, p),
-        None => evenly(found, PICTURES).into_iter().map(|i| (i, None)).collect(),
+        None => {
+            let space = Balls::of(&read_frame(&found[found.len() - 1].path)?, &Look::default()).space;
+            let most = if space { IN_SPACE } else { PICTURES };
+            evenly(found, most).into_iter().map(|i| (i, None)).collect()
+        }
     };
     let look = Look::default();
     let mut panels = Vec::new();
@@ -60,9 +66,29 @@ fn draw(source: &mut Source, history: Option<&Table>, found: &[Snapshot], stem: 
         None => format!("The run at {} moments.{arrows}", panels.len()),
     };
     let columns = if wide(&panels) { 4 } else { PICTURES };
+    let columns = if panels.iter().any(|p| p.balls.space) { IN_SPACE } else { columns };
     let mut blocks = vec![source.drawing(&format!("{stem}strip"), strip(&panels, &look, columns), &caption)];
+    blocks.extend(told_apart(source, found, stem)?);
     if found.len() > 2 && panels.iter().all(|p| p.balls.centres.len() <= MOST_ANIMATED) {
         blocks.extend(animated(source, found, resolved.is_some(), stem)?);
+    }
+    Ok(blocks)
+}
+
+/// In space, the last moment by what tells grains apart: their size and their group.
+fn told_apart(source: &mut Source, found: &[Snapshot], stem: &str) -> Result<Vec<Block>, FileError> {
+    let mut blocks = Vec::new();
+    let frame = read_frame(&found[found.len() - 1].path)?;
+    for name in ["radius", "group"] {
+        let look = Look { colour: ColourBy::Column(name.to_owned()), ..Look::default() };
+        let balls = Balls::of(&frame, &look);
+        let (low, high) = balls.range();
+        if balls.space && high > 1.02 * low && balls.values.len() == balls.centres.len() {
+            let caption = format!("The last moment, t = {} s, by {name}.", short(frame.time));
+            let bytes = raster::picture(&balls, &look, 640).to_png();
+            source.files.push((format!("figures/{stem}{name}.png"), bytes.clone()));
+            blocks.push(Block::Picture { media: "image/png", bytes, caption });
+        }
     }
     Ok(blocks)
 }

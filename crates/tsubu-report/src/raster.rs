@@ -11,6 +11,7 @@ use crate::colour;
 use crate::plot::{AXIS, INK};
 use crate::strip::{colour_bar, time_label};
 use crate::text::escape;
+use crate::veil::Veil;
 
 /// Each pixel is the mean of this many squared.
 const FINE: usize = 3;
@@ -83,7 +84,7 @@ pub fn picture(balls: &Balls, look: &Look, width: u32) -> Image {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{}\" font-family=\"Ubuntu\" fill=\"{INK}\">",
         inner + footer
     );
-    for outline in &balls.outlines {
+    for outline in balls.outlines.iter().filter(|_| !balls.space) {
         let points: Vec<String> = outline
             .iter()
             .map(|p| {
@@ -114,43 +115,84 @@ pub fn picture(balls: &Balls, look: &Look, width: u32) -> Image {
     image
 }
 
-/// The spheres alone, on nothing, filling `width` by `height` pixels with the window of the look and its margin.
-pub fn spheres(balls: &Balls, look: &Look, width: u32, height: u32) -> Image {
-    let w = look.window.unwrap_or_else(|| balls.extent());
-    let range = look.range.unwrap_or_else(|| balls.range());
-    let (width, height) = (width.clamp(1, 8192) as usize, height.clamp(1, 8192) as usize);
-    let margin = 0.03 * (w[2] - w[0]).max(w[3] - w[1]);
-    let fine = if width * height > 4_000_000 { 1 } else { FINE };
-    let (fw, fh) = (width * fine, height * fine);
-    let scale = fw as f64 / (w[2] - w[0] + 2.0 * margin);
-    let mut depth = vec![f32::NEG_INFINITY; fw * fh];
-    let mut colours = vec![[0_u8; 3]; fw * fh];
-    for (i, (c, r)) in balls.centres.iter().zip(&balls.radii).enumerate() {
-        if !c.iter().all(|x| x.is_finite()) || !r.is_finite() {
-            continue;
+/// What is drawn on: pixels finer than those of the picture.
+pub(crate) struct Canvas {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// Pixels of the canvas along one of the picture.
+    pub fine: usize,
+    /// Towards the viewer, in pixels; minus infinity where there is no grain.
+    pub depth: Vec<f32>,
+    colours: Vec<[u8; 3]>,
+    corner: [f64; 2],
+    scale: f64,
+}
+
+impl Canvas {
+    fn new(w: [f64; 4], width: usize, height: usize, fine: usize) -> Self {
+        let margin = 0.03 * (w[2] - w[0]).max(w[3] - w[1]);
+        let (width, height) = (width * fine, height * fine);
+        let pixels = width * height;
+        Self {
+            width,
+            height,
+            fine,
+            depth: vec![f32::NEG_INFINITY; pixels],
+            colours: vec![[0; 3]; pixels],
+            corner: [w[0] - margin, w[1] - margin],
+            scale: width as f64 / (w[2] - w[0] + 2.0 * margin),
         }
-        let base = colour::at(balls.shade(i, range));
-        let x = (c[0] - w[0] + margin) * scale;
-        let y = fh as f64 - (c[1] - w[1] + margin) * scale;
+    }
+
+    /// From metres to pixels: right, down, towards the viewer.
+    pub fn place(&self, p: &[f64; 3]) -> [f64; 3] {
+        let up = (p[1] - self.corner[1]) * self.scale;
+        [(p[0] - self.corner[0]) * self.scale, self.height as f64 - up, p[2] * self.scale]
+    }
+
+    fn sphere(&mut self, centre: &[f64; 3], radius: f64, base: [u8; 3]) {
+        let [x, y, front] = self.place(centre);
         // A grain smaller than a pixel still shows.
-        let r = (r * scale).max(0.5);
-        let rows = span(y, r, fh);
-        for row in rows {
+        let r = (radius * self.scale).max(0.5);
+        for row in span(y, r, self.height) {
             let dy = (row as f64 + 0.5 - y) / r;
             let half = (1.0 - dy * dy).max(0.0).sqrt() * r;
-            for column in span(x, half, fw) {
+            for column in span(x, half, self.width) {
                 let dx = (column as f64 + 0.5 - x) / r;
                 let dz = (1.0 - dx * dx - dy * dy).max(0.0).sqrt();
-                let z = (c[2] * scale + dz * r) as f32;
-                let at = row * fw + column;
-                if z > depth[at] {
-                    depth[at] = z;
-                    colours[at] = lit(base, dx, -dy, dz);
+                let z = (front + dz * r) as f32;
+                let at = row * self.width + column;
+                if z > self.depth[at] {
+                    self.depth[at] = z;
+                    self.colours[at] = lit(base, dx, -dy, dz);
                 }
             }
         }
     }
-    averaged(&depth, &colours, width, height, fine)
+}
+
+/// The grains alone, on nothing, filling `width` by `height` pixels with the window of the look and its margin; in space
+/// with the walls, as one sees through them.
+pub fn spheres(balls: &Balls, look: &Look, width: u32, height: u32) -> Image {
+    let w = look.window.unwrap_or_else(|| balls.extent());
+    let range = look.range.unwrap_or_else(|| balls.range());
+    let (width, height) = (width.clamp(1, 8192) as usize, height.clamp(1, 8192) as usize);
+    let fine = match width * height {
+        0..300_000 => FINE,
+        300_000..4_000_000 if balls.space => FINE - 1,
+        300_000..4_000_000 => FINE,
+        _ => 1,
+    };
+    let mut canvas = Canvas::new(w, width, height, fine);
+    for (i, (c, r)) in balls.centres.iter().zip(&balls.radii).enumerate() {
+        if c.iter().all(|x| x.is_finite()) && r.is_finite() {
+            canvas.sphere(c, *r, colour::at(balls.shade(i, range)));
+        }
+    }
+    let veil = balls.space.then(|| Veil::of(balls, &canvas));
+    averaged(&canvas, veil.as_ref(), width, height)
 }
 
 fn span(middle: f64, half: f64, end: usize) -> std::ops::Range<usize> {
@@ -169,23 +211,27 @@ fn lit(base: [u8; 3], x: f64, y: f64, z: f64) -> [u8; 3] {
     base.map(|c| (f64::from(c) * light * edge + shine).clamp(0.0, 255.0) as u8)
 }
 
-fn averaged(depth: &[f32], colours: &[[u8; 3]], width: usize, height: usize, fine: usize) -> Image {
+fn averaged(canvas: &Canvas, veil: Option<&Veil>, width: usize, height: usize) -> Image {
+    let fine = canvas.fine;
     let mut rgba = Vec::with_capacity(4 * width * height);
-    let samples = (fine * fine) as u32;
+    let samples = (fine * fine) as f32;
     for y in 0..height {
         for x in 0..width {
-            let mut sum = [0_u32; 3];
-            let mut hit = 0_u32;
-            for at in (0..fine * fine).map(|k| (y * fine + k / fine) * width * fine + x * fine + k % fine) {
-                if depth[at] > f32::NEG_INFINITY {
-                    hit += 1;
-                    for k in 0..3 {
-                        sum[k] += u32::from(colours[at][k]);
-                    }
+            let (mut sum, mut cover) = ([0.0_f32; 3], 0.0_f32);
+            for at in (0..fine * fine).map(|k| (y * fine + k / fine) * canvas.width + x * fine + k % fine) {
+                let hit = canvas.depth[at] > f32::NEG_INFINITY;
+                let (mut colour, mut alpha) =
+                    if hit { (canvas.colours[at].map(f32::from), 1.0) } else { ([0.0; 3], 0.0) };
+                if let Some(veil) = veil {
+                    (colour, alpha) = veil.over(at, colour, alpha);
                 }
+                for k in 0..3 {
+                    sum[k] += colour[k];
+                }
+                cover += alpha;
             }
-            rgba.extend(sum.map(|s| s.checked_div(hit).unwrap_or(0) as u8));
-            rgba.push((255 * hit / samples) as u8);
+            rgba.extend(sum.map(|s| if cover > 0.0 { (s / cover) as u8 } else { 0 }));
+            rgba.push((255.0 * cover / samples) as u8);
         }
     }
     Image { width: width as u32, height: height as u32, rgba }

@@ -99,7 +99,7 @@ impl Place {
 
 fn draw(out: &mut String, balls: &Balls, look: &Look, range: (f64, f64), place: &Place, frame: [f64; 4]) {
     let [x, y, w, h] = frame;
-    for outline in &balls.outlines {
+    for outline in balls.outlines.iter().filter(|_| !balls.space) {
         let points: String = outline.iter().map(|p| place.of(p)).fold(String::new(), |mut s, (u, v)| {
             let _ = write!(s, "{u:.2},{v:.2} ");
             s
@@ -110,13 +110,13 @@ fn draw(out: &mut String, balls: &Balls, look: &Look, range: (f64, f64), place: 
             points.trim_end()
         );
     }
-    if balls.outlines.is_empty() {
+    if balls.outlines.is_empty() && !balls.space {
         let _ = write!(
             out,
             "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"none\" stroke=\"{FAINT}\"/>"
         );
     }
-    if balls.centres.len() > MOST_CIRCLES {
+    if balls.space || balls.centres.len() > MOST_CIRCLES {
         let look = Look { range: Some(range), ..look.clone() };
         let png = raster::spheres(balls, &look, (2.0 * w) as u32, (2.0 * h) as u32).to_png();
         let data = crate::page::base64(&png);

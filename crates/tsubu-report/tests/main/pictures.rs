@@ -167,3 +167,43 @@ fn views_turn_the_right_way() {
     assert!(up > 0.0);
     assert_eq!(seen(View::Auto), seen(View::Slant));
 }
+
+/// One grain behind a triangle, seen in space.
+fn behind_a_wall() -> Balls {
+    Balls {
+        centres: vec![[0.0, 0.0, 0.0]],
+        radii: vec![0.2],
+        values: vec![0.0],
+        faces: vec![[[-1.0, -1.0, 1.0], [1.0, -1.0, 1.0], [0.0, 1.0, 1.0]]],
+        space: true,
+        ..Balls::default()
+    }
+}
+
+#[test]
+fn walls_in_space_let_grains_shine_through() {
+    let pixel = |balls: &Balls, x: usize, y: usize| {
+        let image = spheres(balls, &Look::default(), 100, 100);
+        let at = 4 * (y * 100 + x);
+        [0, 1, 2, 3].map(|k| image.rgba[at + k])
+    };
+    let veiled = behind_a_wall();
+    let mut before = behind_a_wall();
+    before.faces[0].iter_mut().for_each(|corner| corner[2] = -1.0);
+    // The grain is whole either way, paler where the wall is before it.
+    let (through, bare) = (pixel(&veiled, 50, 50), pixel(&before, 50, 50));
+    assert_eq!((through[3], bare[3]), (255, 255));
+    assert!(through[0] > bare[0] && through[0] < 150, "{through:?} {bare:?}");
+    // The wall alone is seen, and seen through; beside it is nothing.
+    let wall = pixel(&veiled, 50, 85);
+    assert!(wall[3] > 10 && wall[3] < 120, "{wall:?}");
+    assert_eq!(pixel(&veiled, 5, 20)[3], 0);
+}
+
+#[test]
+fn an_empty_moment_says_nothing_about_window_and_scale() {
+    let full = behind_a_wall();
+    let look = common(&[Balls::default(), full.clone()], &Look::default());
+    assert_eq!(look.window, Some(full.extent()));
+    assert_eq!(look.range, Some((0.0, 0.0)));
+}
