@@ -38,4 +38,29 @@ pub static TEMPLATES: &[Template] = &[
         about: "a box on a spring let go with balls inside: damping from the decay",
         text: include_str!("../../../scenes/ring-down.toml"),
     },
+    Template {
+        name: "drum",
+        about: "230 discs in a drum that turns: avalanches",
+        text: include_str!("../../../scenes/drum.toml"),
+    },
+    Template {
+        name: "hopper",
+        about: "beads rain into a funnel in space, run out below and are gone",
+        text: include_str!("../../../scenes/hopper.toml"),
+    },
+    Template {
+        name: "chute",
+        about: "down a rough slope without end: periodic world, frozen ground, tilted gravity",
+        text: include_str!("../../../scenes/chute.toml"),
+    },
+    Template {
+        name: "powder",
+        about: "a heap of sticky powder: JKR attraction, resistance to rolling",
+        text: include_str!("../../../scenes/powder.toml"),
+    },
+    Template {
+        name: "press",
+        about: "a lid under constant pressure sinks onto a bed and stops",
+        text: include_str!("../../../scenes/press.toml"),
+    },
 ];
