@@ -2,10 +2,13 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop where it is")]
 
+/// Messages about bad input of walls, files, boundaries and laws.
+mod bad_input;
 /// The same bits for any number of threads, and after a kill or Ctrl-C.
 mod bits;
 /// Lists, schema, completion, help: commands that run nothing.
 mod commands;
+/// Files beside a scene, in folders of results.
 mod companions;
 /// What a run folder holds.
 mod folder;
