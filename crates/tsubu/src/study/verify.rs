@@ -1,17 +1,24 @@
 //! Verification: every claim re-run by one command.
 
+mod beds;
 mod bench;
+mod brazil_nut;
 mod chung_ooi_2011;
+mod chute;
 mod cohesion;
 mod contact;
+mod cooling;
 mod damper_2003;
 mod drop;
+mod drum;
 mod held;
 mod host;
 mod impact_damper;
 mod lump;
+mod random_loads;
 mod rolling;
 mod shapes;
+mod silo;
 mod stack;
 mod throw;
 
@@ -61,6 +68,9 @@ pub static CASES: &[Case] = &[
     quick("incline", "rolling", "V-21: rolling and sliding down a slope", rolling::incline),
     quick("spin-down", "rolling", "V-22, V-24: torques of rolling resistance", rolling::spin_down),
     quick("rolling-models", "rolling", "V-23: stops and stays", rolling::models),
+    quick("haff", "dem-benchmarks", "V-30: a gas of grains cools, in the plane and in space", cooling::haff),
+    quick("centrifuging", "dem-benchmarks", "V-37: where a drum's grain leaves the wall", drum::centrifuging),
+    quick("q-model", "dem-benchmarks", "V-40: random loads on a lattice", random_loads::q_model),
     quick("drop-dem", "damper-2003", "V-06, A-F8: a ball dropped in a still box, by DEM", drop::dem),
     quick("drop-lattice", "damper-2003", "A-F8: the same by the automaton", drop::lattice),
     quick("lump", "shaken", "V-39: an inelastic ball locks to a shaken floor", lump::locking),
@@ -69,6 +79,10 @@ pub static CASES: &[Case] = &[
     quick("added-mass", "damper", "V-65, A-7.1: a bed at rest is an added mass", host::added_mass),
     quick("ring-down", "damper", "loss factor with balls, driven and ringing down", host::loss_factor_with_grains),
     quick("figure-9", "damper-2003", "A-F9, A-F10: shaken box, landing and lift-off", damper_2003::figure_9),
+    long("beverloo", "dem-benchmarks", "V-31: discharge through a slot, in the plane", silo::beverloo),
+    long("janssen", "dem-benchmarks", "V-32: pressure in a silo, in the plane", silo::janssen),
+    long("chute", "dem-benchmarks", "V-35, V-36: flow down a rough slope", chute::silbert),
+    long("brazil-nut", "dem-benchmarks", "V-38: a large grain rises, an equal one does not", brazil_nut::brazil_nut),
     long("figure-3a", "damper-2003", "A-F3a: response by DEM, literal law", damper_2003::figure_3a),
     long("figure-3b", "damper-2003", "A-F3b: the same with more wall friction", damper_2003::figure_3b),
     long("figure-3-extended", "damper-2003", "A-F3: response by DEM, extended law", damper_2003::figure_3_extended),

@@ -1,0 +1,88 @@
+//! A gas of inelastic grains that cools (V-30).
+
+use super::bench::{Rig, near};
+use std::f64::consts::PI;
+use tsubu_frame::Claim;
+
+/// Share of the volume (3-D) or area (2-D) that grains fill.
+const FILLED: f64 = 0.1;
+
+/// A periodic box of `count` grains of diameter 1 and mass 1 at temperature 1.
+fn gas(dimension: u8, count: u32, restitution: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
+    let space = dimension == 3;
+    let density = if space { FILLED * 6.0 / PI } else { FILLED * 4.0 / PI };
+    let half = 0.5 * (f64::from(count) / density).powf(1.0 / f64::from(dimension));
+    let ends = |axis: &str| format!("periodic.{axis} = [{}, {half}]", -half);
+    let periodic = if space { ["x", "y", "z"].map(ends).join("\n") } else { ["x", "z"].map(ends).join("\n") };
+    let corner = |h: f64| if space { format!("[{h}, {h}, {h}]") } else { format!("[{h}, {h}]") };
+    let text = format!(
+        r#"
+        title = "a cooling gas of grains"
+        dimension = {dimension}
+        seed = {seed}
+        gravity = 0
+        duration = 100
+        speed-scale = 1
+        {periodic}
+        [materials.hard]
+        young-modulus = 3e6
+        restitution = {restitution}
+        friction = 0
+        [particles.gas]
+        material = "hard"
+        count = {count}
+        diameter = 1
+        mass = 1
+        start.random = {{ speed = {speed}, region = {{ low = {low}, high = {high} }} }}
+        [contact]
+        tangential.none = {{}}
+        rotation = false
+        "#,
+        speed = f64::from(dimension).sqrt(),
+        low = corner(-half),
+        high = corner(half),
+    );
+    Rig::new(&text, spoiler)
+}
+
+/// Mean kinetic energy a degree of freedom of the random motion, and for masses of 1 the temperature.
+fn temperature(rig: &Rig, dimension: u8) -> f64 {
+    let velocities = rig.vectors("velocity");
+    let count = velocities.len() as f64;
+    let mean = velocities.iter().sum::<glam::DVec3>() / count;
+    velocities.iter().map(|v| (v - mean).length_squared()).sum::<f64>() / (f64::from(dimension) * (count - 1.0))
+}
+
+/// Collisions of a grain a second at temperature 1 (Carnahan and Starling, Henderson).
+fn collisions(dimension: u8) -> f64 {
+    if dimension == 3 {
+        let n = FILLED * 6.0 / PI;
+        4.0 * PI.sqrt() * n * (1.0 - 0.5 * FILLED) / (1.0 - FILLED).powi(3)
+    } else {
+        let n = FILLED * 4.0 / PI;
+        2.0 * PI.sqrt() * n * (1.0 - 7.0 / 16.0 * FILLED) / (1.0 - FILLED).powi(2)
+    }
+}
+
+/// V-30: sqrt(T1/T2) - 1 grows as time over Haff's time, in boxes too small for clusters.
+pub(super) fn haff(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let mut claims = Vec::new();
+    for (dimension, count, seeds) in [(2, 50, 6), (3, 400, 1)] {
+        for restitution in [0.9, 0.8] {
+            let haff = 2.0 * f64::from(dimension) / ((1.0 - restitution * restitution) * collisions(dimension));
+            let mut rate = 0.0;
+            for seed in 1..=seeds {
+                let mut rig = gas(dimension, count, restitution, seed, spoiler)?;
+                // Five collisions make the equal speeds of the start Maxwell's.
+                rig.until(5.0 / collisions(dimension))?;
+                let (t, first) = (rig.engine.time(), temperature(&rig, dimension));
+                rig.until(t + 1.5 * haff)?;
+                let cooled = (first / temperature(&rig, dimension)).sqrt() - 1.0;
+                rate += cooled / (rig.engine.time() - t) / first.sqrt() / f64::from(seeds);
+            }
+            let name = format!("cooling gas, {dimension}-D, restitution {restitution}: Haff's time");
+            claims.push(near(name, 1.0 / rate, haff, 0.05, "Haff 1983, closed form (V-30)"));
+        }
+    }
+    Ok(claims)
+}
