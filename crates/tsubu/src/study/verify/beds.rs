@@ -6,7 +6,7 @@ use glam::DVec3;
 /// Materials and contact law of the chute of Silbert et al. 2001, with springs of 2e4 m g/d instead of 2e5.
 pub(super) fn law(friction: f64, restitution: f64) -> String {
     format!(
-        r#"
+        r"
         speed-scale = 1
         [materials.grain]
         young-modulus = 1e6
@@ -18,7 +18,7 @@ pub(super) fn law(friction: f64, restitution: f64) -> String {
         tangential.spring.damping = 1
         [dem]
         largest-overlap = 0.3
-        "#
+        "
     )
 }
 

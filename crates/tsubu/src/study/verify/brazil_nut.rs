@@ -1,7 +1,7 @@
 //! Segregation under vertical shaking (V-38).
 
-use super::bench::{Rig, within};
 use super::beds::law;
+use super::bench::{Rig, within};
 use tsubu_frame::Claim;
 
 /// A periodic bed on a shaken floor, one grain of its own size at the bottom.

@@ -71,8 +71,7 @@ fn flow(degrees: f64, span: [f64; 2], spoiler: f64) -> Result<Flow, String> {
     let mean = |part: &[(Vec<glam::DVec3>, Vec<glam::DVec3>)]| {
         part.iter().flat_map(|s| &s.1).map(|v| v.x).sum::<f64>() / (part.len() as f64 * count)
     };
-    let all: Vec<(f64, f64)> =
-        samples.iter().flat_map(|(p, v)| p.iter().zip(v).map(|(p, v)| (p.z, v.x))).collect();
+    let all: Vec<(f64, f64)> = samples.iter().flat_map(|(p, v)| p.iter().zip(v).map(|(p, v)| (p.z, v.x))).collect();
     let mut heights: Vec<f64> = all.iter().map(|x| x.0).collect();
     heights.sort_by(f64::total_cmp);
     let at = |share: f64| heights[((heights.len() - 1) as f64 * share) as usize];
@@ -101,7 +100,13 @@ pub(super) fn silbert(spoiler: f64) -> Result<Vec<Claim>, String> {
         let flow = flow(degrees, [250.0, 400.0], spoiler)?;
         let name = |what: &str| format!("chute at {degrees} degrees: {what}");
         claims.push(Claim::judge(name("speed over sqrt(g d)"), flow.speed, Some(0.5), None, source));
-        claims.push(within(name("speed in the first half of the time over that of all"), flow.early / flow.speed, 1.0, 0.1, source));
+        claims.push(within(
+            name("speed in the first half of the time over that of all"),
+            flow.early / flow.speed,
+            1.0,
+            0.1,
+            source,
+        ));
         let profile = "Bagnold's profile: mean over surface speed is 3/5; 1/2 for linear, 1 for a plug (V-35)";
         claims.push(within(name("mean speed over surface speed"), flow.speed / flow.surface, 0.6, 0.06, profile));
         let bulk = "constant density with depth (V-36)";

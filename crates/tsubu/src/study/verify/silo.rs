@@ -1,7 +1,7 @@
 //! Silos in the plane: pressure (V-32) and discharge (V-31).
 
-use super::bench::{Rig, near, vectors, within};
 use super::beds::{centres, law, line, sampled};
+use super::bench::{Rig, near, vectors, within};
 use std::fmt::Write;
 use tsubu_frame::{Claim, Kind, Values};
 
@@ -38,10 +38,14 @@ fn column(spoiler: f64) -> Result<Rig, String> {
     Rig::new(&text, spoiler)
 }
 
+/// What is seen of the column at one time: height and mass of every grain; height, horizontal and vertical force of every
+/// contact with a side wall.
+type Seen = (Vec<(f64, f64)>, Vec<[f64; 3]>);
+
 /// Depth below the surface, mean vertical stress there, and mean horizontal stress on the walls there.
 type Level = [f64; 3];
 
-fn stresses(samples: &[(Vec<(f64, f64)>, Vec<[f64; 3]>)], depths: &[f64]) -> Vec<Level> {
+fn stresses(samples: &[Seen], depths: &[f64]) -> Vec<Level> {
     let mut levels: Vec<Level> = depths.iter().map(|d| [*d, 0.0, 0.0]).collect();
     for (grains, contacts) in samples {
         let top = grains.iter().map(|g| g.0).fold(f64::MIN, f64::max);
@@ -91,7 +95,7 @@ pub(super) fn janssen(spoiler: f64) -> Result<Vec<Claim>, String> {
 /// A flat-bottomed silo, 40 wide, whose slot opens between frozen grains; grains below it vanish.
 fn outlet(slot: f64, spoiler: f64) -> Result<Rig, String> {
     let mut floor = String::new();
-    for i in 0..20 {
+    for i in 0..(20.0 - 0.5 * slot) as u32 {
         let x = 0.5 * slot + 0.5 + f64::from(i);
         let _ = write!(floor, "[{x}, 0], [-{x}, 0],");
     }
@@ -154,7 +158,13 @@ pub(super) fn beverloo(spoiler: f64) -> Result<Vec<Claim>, String> {
     }
     let (slope, offset) = line(&points);
     let k = -offset / slope;
-    claims.push(Claim::judge("slot: width k at which the flow would end, in diameters", k, Some(1.0), Some(2.0), source));
+    claims.push(Claim::judge(
+        "slot: width k at which the flow would end, in diameters",
+        k,
+        Some(1.0),
+        Some(2.0),
+        source,
+    ));
     let exponent = line(&logs.iter().map(|(d, w)| ((d - 1.4).ln(), w.ln())).collect::<Vec<_>>()).0;
     claims.push(within("slot: exponent of (D - 1.4 d)", exponent, 1.5, 0.1, source));
     Ok(claims)
