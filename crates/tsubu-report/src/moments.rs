@@ -35,13 +35,11 @@ fn draw(source: &mut Source, history: Option<&Table>, found: &[Snapshot], stem: 
     let who = if by_host.is_empty() { "box" } else { "host" };
     let all = if by_host.is_empty() { whole_periods(&box_motion(found)?) } else { by_host };
     let resolved = shown_period(all, found);
-    let chosen = match resolved {
-        Some(p) => eighths(found, p),
-        None => {
-            let space = Balls::of(&read_frame(&found[found.len() - 1].path)?, &Look::default()).space;
-            let most = if space { IN_SPACE } else { PICTURES };
-            evenly(found, most).into_iter().map(|i| (i, None)).collect()
-        }
+    let chosen = if let Some(period) = resolved {
+        eighths(found, period)
+    } else {
+        let space = Balls::of(&read_frame(&found[found.len() - 1].path)?, &Look::default()).space;
+        evenly(found, if space { IN_SPACE } else { PICTURES }).into_iter().map(|i| (i, None)).collect()
     };
     let look = Look::default();
     let mut panels = Vec::new();

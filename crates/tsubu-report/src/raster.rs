@@ -180,10 +180,9 @@ pub fn spheres(balls: &Balls, look: &Look, width: u32, height: u32) -> Image {
     let range = look.range.unwrap_or_else(|| balls.range());
     let (width, height) = (width.clamp(1, 8192) as usize, height.clamp(1, 8192) as usize);
     let fine = match width * height {
-        0..300_000 => FINE,
-        300_000..4_000_000 if balls.space => FINE - 1,
-        300_000..4_000_000 => FINE,
-        _ => 1,
+        4_000_000.. => 1,
+        300_000.. if balls.space => FINE - 1,
+        _ => FINE,
     };
     let mut canvas = Canvas::new(w, width, height, fine);
     for (i, (c, r)) in balls.centres.iter().zip(&balls.radii).enumerate() {

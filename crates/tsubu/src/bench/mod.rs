@@ -146,7 +146,7 @@ impl Job<'_> {
 
 /// One, two, four and so on, and all.
 fn threads(cores: usize) -> Vec<usize> {
-    let mut all: Vec<usize> = (0..).map(|k| 1 << k).take_while(|n| *n < cores).collect();
+    let mut all: Vec<usize> = std::iter::successors(Some(1), |n| Some(2 * n)).take_while(|n| *n < cores).collect();
     all.push(cores);
     all
 }

@@ -22,6 +22,7 @@ use tsubu_frame::{Frame, State};
 use tsubu_scene::plan::{Integrator, Plan};
 
 /// Grains under a contact law.
+#[expect(clippy::struct_excessive_bools, reason = "four independent yes or no; a type each would say less")]
 #[derive(Debug)]
 pub struct DemEngine {
     // State.

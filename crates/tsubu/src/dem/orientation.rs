@@ -26,7 +26,7 @@ impl Orientation {
     /// Writes it into a checkpoint.
     pub fn save(&self, state: &mut State) {
         if self.wanted {
-            state.put_real("dem.orientation", self.turned.iter().flat_map(|q| q.to_array()).collect::<Vec<_>>());
+            state.put_real("dem.orientation", self.turned.iter().flat_map(DQuat::to_array).collect::<Vec<_>>());
         }
     }
 
