@@ -25,6 +25,7 @@ const OURS: &[&str] = &[
     "frames",
     "figures",
     "checkpoint",
+    "watch",
     "progress.jsonl",
 ];
 
