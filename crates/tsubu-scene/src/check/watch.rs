@@ -48,14 +48,6 @@ fn names_and_kinds(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
 
 fn times(parts: &Parts<'_>, name: &str, watch: &Watch, complaints: &mut Vec<Complaint>) {
     let at = |key: &str| parts.root.locate(&["watch", name, key]);
-    let duration = parts.resolved.get("duration").and_then(toml::Value::as_float);
-    if let Some(duration) = duration.filter(|duration| watch.from > *duration) {
-        complaints.push(
-            Complaint::new(format!("the watch `{name}` begins after the end of the run"))
-                .at(&at("from"), format!("{} s", watch.from))
-                .also(&parts.root.locate(&["duration"]), format!("the run ends at {duration} s")),
-        );
-    }
     if let Some(until) = watch.until.filter(|until| *until < watch.from) {
         complaints.push(
             Complaint::new(format!("the watch `{name}` ends before it begins"))
@@ -133,9 +125,10 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
                 .at(&at("direction"), "says how the pressure acts")
                 .hint("give an `area`, or leave `direction` out: forces are given along all axes"),
         ),
-        Measure::Track { ids } if !parts.incomplete => {
+        Measure::Track { ids } => {
             let grains: usize = parts.particles.values().map(|group| group.count).sum();
-            if let Some(id) = ids.iter().find(|id| **id as usize >= grains) {
+            let beyond = ids.iter().find(|id| **id as usize >= grains);
+            if let Some(id) = beyond.filter(|_| !parts.incomplete && !counts_vary(parts)) {
                 complaints.push(
                     Complaint::new(format!("there is no grain {id} to track"))
                         .at(&at("ids"), format!("the scene has {grains}, counted from 0")),
@@ -149,6 +142,17 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
         }
         _ => {}
     }
+}
+
+/// Whether a study changes groups: a grain may be there in some of its cases only.
+fn counts_vary(parts: &Parts<'_>) -> bool {
+    let varied =
+        |study: &str| parts.resolved.get(study).and_then(|study| study.get("vary")).and_then(toml::Value::as_table);
+    ["response", "sweep"]
+        .into_iter()
+        .filter_map(varied)
+        .flat_map(toml::Table::keys)
+        .any(|key| key.starts_with("particles."))
 }
 
 fn no_y(parts: &Parts<'_>, axes: &[Axis], place: &crate::complaint::Place, complaints: &mut Vec<Complaint>) {

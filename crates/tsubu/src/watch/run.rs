@@ -45,6 +45,8 @@ struct Watched {
     means: [Means; 2],
     /// What the last look gave.
     last: Vec<f64>,
+    /// How often it has looked.
+    looks: f64,
 }
 
 impl Watched {
@@ -73,6 +75,7 @@ impl Watched {
 
     fn look(&mut self, view: &View) -> Result<(), FileError> {
         let sample = self.watch.take(view);
+        self.looks += 1.0;
         self.means[0].take(sample.scalars.iter().copied());
         self.last = sample.scalars;
         let Some(sheet) = &self.sheet else { return Ok(()) };
@@ -100,7 +103,17 @@ impl Watches {
             let watch = open(&watch.measure, plan);
             let last = vec![f64::NAN; watch.scalars().len()];
             let means = [Means::new(last.len()), Means::default()];
-            Watched { name: name.clone(), kind, trigger, sheet: watch.sheet(), watch, file: None, means, last }
+            Watched {
+                name: name.clone(),
+                kind,
+                trigger,
+                sheet: watch.sheet(),
+                watch,
+                file: None,
+                means,
+                last,
+                looks: 0.0,
+            }
         });
         let moves = |wall: &tsubu_scene::plan::Wall| {
             let tsubu_scene::plan::Wall { material: _, shape: _, host, motion, rotation, servo, body } = wall;
@@ -178,6 +191,9 @@ impl Watches {
     /// Means and last values, for the summary.
     pub fn results(&self, summary: &mut Summary) {
         for w in &self.list {
+            if w.looks == 0.0 {
+                summary.warnings.push(format!("the watch `{}` has not looked once: it begins later", w.name));
+            }
             for ((what, mean), last) in w.watch.scalars().iter().zip(w.means[0].get()).zip(&w.last) {
                 let what = tsubu_frame::csv::split_unit(what).0;
                 summary.results.insert(w.column(what), mean);
@@ -198,7 +214,7 @@ impl Watches {
     pub fn save(&self, state: &mut State) {
         for w in &self.list {
             let name = format!("watch.{}", w.name);
-            state.put_real(&format!("{name}.last"), w.last.clone());
+            state.put_real(&format!("{name}.last"), [&[w.looks], w.last.as_slice()].concat());
             for (means, what) in w.means.iter().zip(["scalars", "cells"]) {
                 state.put_real(&format!("{name}.{what}"), means.numbers());
             }
@@ -210,11 +226,11 @@ impl Watches {
     pub fn load(&mut self, state: &State) -> Result<(), MissingSection> {
         for w in &mut self.list {
             let name = format!("watch.{}", w.name);
-            let last = state.real(&format!("{name}.last"))?;
-            if last.len() != w.last.len() {
-                return Err(MissingSection { name, kind: "real" });
-            }
-            w.last = last.to_vec();
+            let (looks, last) = match state.real(&format!("{name}.last"))? {
+                [looks, last @ ..] if last.len() == w.last.len() => (looks, last),
+                _ => return Err(MissingSection { name, kind: "real" }),
+            };
+            (w.looks, w.last) = (*looks, last.to_vec());
             for (means, what) in w.means.iter_mut().zip(["scalars", "cells"]) {
                 *means = Means::from_numbers(state.real(&format!("{name}.{what}"))?);
             }
