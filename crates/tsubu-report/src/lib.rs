@@ -12,6 +12,7 @@ pub mod animation;
 pub mod balls;
 pub mod colour;
 mod compare;
+mod field;
 pub mod figure;
 mod moments;
 pub mod page;
@@ -24,6 +25,7 @@ pub mod strip;
 mod sweep;
 pub mod text;
 mod verify;
+mod watch;
 
 use page::Report;
 use source::Source;

@@ -12,7 +12,8 @@ angle           atan(b) of z = a + b x: positive where the surface rises along t
 heap angle      -atan(b) of z = a + b |x - centre|: the mean slope of both flanks of a heap        [rad]
 surface height  mean of the columns                                                                [m]
 Grains that touch nothing are in flight and no surface, unless `touching` is off; frozen and driven ones count.
-Limits: columns narrower than a grain have holes (left out); each column is taken at its highest grain, so a line lies up
+Limits: grains of a falling stream that touch each other count; columns narrower than a grain have holes (left out); each
+column is taken at its highest grain, so a line lies up
 to a radius above the mean surface, which changes its height but not its slope. A line needs two columns.";
 
 /// Heights of columns, and lines through them.
