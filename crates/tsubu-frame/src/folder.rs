@@ -26,6 +26,7 @@ const OURS: &[&str] = &[
     "frames",
     "figures",
     "checkpoint",
+    "watch",
     "progress.jsonl",
 ];
 

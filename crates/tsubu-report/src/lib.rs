@@ -12,6 +12,7 @@ pub mod animation;
 pub mod balls;
 pub mod colour;
 mod compare;
+mod field;
 pub mod figure;
 mod moments;
 pub mod page;
@@ -25,6 +26,7 @@ mod sweep;
 pub mod text;
 mod veil;
 mod verify;
+mod watch;
 
 use page::Report;
 use source::Source;

@@ -12,6 +12,7 @@ use crate::source::{
     summary_cards, versions,
 };
 use crate::text::{count, duration, short};
+use crate::watch::Watches;
 
 pub(crate) fn build(source: &mut Source) -> Report {
     let summary = source.summary();
@@ -32,7 +33,9 @@ pub(crate) fn build(source: &mut Source) -> Report {
         report.cards.extend(host_card(history.as_ref()));
         report.cards.extend(result_cards(summary, 4));
     }
-    let motion = history.as_ref().map(|h| motion_blocks(source, h)).unwrap_or_default();
+    let watches = Watches::read(source);
+    let motion = history.as_ref().map(|h| motion_blocks(source, h, &watches)).unwrap_or_default();
+    let watched = watches.blocks(source, history.as_ref());
     let pictures = moments::blocks(source, history.as_ref(), "");
     let mut energy = history.as_ref().map(|h| energy_over_time(source, h)).unwrap_or_default();
     if let Some(summary) = &summary {
@@ -44,6 +47,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     }
     report.section("To be noted", remarks);
     report.section("Motion", motion);
+    report.section("Watches", watched);
     report.section("Grains", pictures);
     report.section("Energy", energy);
     if let Some(summary) = &summary {
@@ -143,7 +147,7 @@ fn over_time(history: &Table, columns: &[usize], label: &str) -> Figure {
     figure
 }
 
-fn motion_blocks(source: &mut Source, history: &Table) -> Vec<Block> {
+fn motion_blocks(source: &mut Source, history: &Table, watches: &Watches) -> Vec<Block> {
     let mut blocks = Vec::new();
     let hosts = moments::host_columns(history);
     if !hosts.is_empty() {
@@ -165,6 +169,7 @@ fn motion_blocks(source: &mut Source, history: &Table) -> Vec<Block> {
     }
     let others: Vec<usize> = (1..history.header.len())
         .filter(|i| !hosts.contains(i) && split_unit(&history.header[*i]).1 != Some("J"))
+        .filter(|i| !watches.own(&history.header[*i]))
         .collect();
     let mut inside = Vec::new();
     for i in others.into_iter().take(12) {

@@ -86,7 +86,7 @@ fn put(table: &mut Table, keys: &'static [Key], path: &str, steps: &[Step], valu
     let Some(key) = keys::find(keys, &step.name) else {
         return Err(unknown_key(&step.name, &step.place, keys, path));
     };
-    table.entries.retain(|entry| !key.rivals.contains(&entry.key.as_str()));
+    table.entries.retain(|entry| entry.key == key.name || !key.rivals.contains(&entry.key.as_str()));
     if rest.is_empty() {
         table.set(Entry { key: step.name.clone(), place: step.place.clone(), node: value });
         return Ok(());

@@ -10,6 +10,7 @@ mod overlap;
 mod place;
 mod shell;
 mod walls;
+mod watch;
 mod world;
 
 use crate::attach;
@@ -56,6 +57,7 @@ pub(crate) fn check(resolved: &toml::Table, root: &Node, files: &Files) -> Vec<C
     grains::check(&parts, &mut complaints);
     walls::check(&parts, &mut complaints);
     world::check(&parts, &mut complaints);
+    watch::check(&parts, &rooms, &mut complaints);
     contact::check(&parts, &mut complaints);
     host::check(&parts, &mut complaints);
     pairs(&parts, &mut complaints);

@@ -10,9 +10,11 @@ mod hosts;
 mod methods;
 mod study;
 mod walls;
+mod watch;
 mod world;
 
 pub(crate) use grains::PARTICLES;
+pub(crate) use watch::KINDS as WATCHES;
 pub use world::SCENE;
 
 use crate::units::Dimension;
@@ -28,7 +30,7 @@ pub struct Key {
     pub need: Need,
     /// Which numbers are allowed.
     pub range: Range,
-    /// Keys that say the same thing another way: only one of them may be given.
+    /// Keys that say the same thing another way: only one of them may be given. It may name itself.
     pub rivals: &'static [&'static str],
     /// One sentence for people.
     pub about: &'static str,
@@ -45,8 +47,12 @@ pub enum Kind {
     Text,
     /// `true` or `false`.
     Flag,
+    /// A list of whole numbers.
+    Wholes,
     /// One of a few words.
     OneOf(&'static [Word]),
+    /// A list of some of a few words, each once.
+    SomeOf(&'static [Word]),
     /// A position or velocity: [x, z] in the plane, [x, y, z] in space.
     Vector(&'static Dimension),
     /// A list of vectors.
@@ -73,6 +79,8 @@ pub enum Kind {
     Ratios,
     /// The name of something defined elsewhere in the scene.
     Name(Family),
+    /// A list of such names, each once.
+    Names(Family),
     /// Two material names.
     NamePair,
     /// A table of keys.
@@ -116,6 +124,10 @@ pub enum Family {
     Material,
     /// `[hosts.NAME]`.
     Host,
+    /// `[particles.NAME]`.
+    Group,
+    /// `[walls.NAME]`.
+    Wall,
 }
 
 impl Family {
@@ -124,6 +136,8 @@ impl Family {
         match self {
             Self::Material => "materials",
             Self::Host => "hosts",
+            Self::Group => "particles",
+            Self::Wall => "walls",
         }
     }
 
@@ -132,6 +146,8 @@ impl Family {
         match self {
             Self::Material => "material",
             Self::Host => "host",
+            Self::Group => "group of grains",
+            Self::Wall => "wall",
         }
     }
 }

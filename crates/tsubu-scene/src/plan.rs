@@ -9,6 +9,10 @@
 
 #![allow(rustdoc::broken_intra_doc_links, reason = "[s] is a unit, not a link")]
 
+mod watch;
+
+pub use watch::{Axis, Kernel, Measure, Quantity, Watch};
+
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -63,6 +67,9 @@ pub struct Plan {
     pub response: Option<Response>,
     /// What `tsubu sweep` reads.
     pub sweep: Option<Sweep>,
+    /// What is looked at while the scene runs, by name.
+    #[serde(default)]
+    pub watch: BTreeMap<String, Watch>,
     /// What is written, and how often.
     pub output: Output,
     /// Results that must lie in a range.

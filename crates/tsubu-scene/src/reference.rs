@@ -1,6 +1,6 @@
 //! The scene reference page, made from the table of keys.
 
-use crate::keys::{self, Key, Kind, Need, Variant};
+use crate::keys::{self, Key, Kind, Need, Variant, Word};
 use crate::suggest;
 use crate::units::DIMENSIONS;
 use std::fmt::Write as _;
@@ -114,9 +114,10 @@ fn value(key: &Key) -> String {
         Kind::Whole => "whole number".to_string(),
         Kind::Text => "text".to_string(),
         Kind::Flag => "`true` or `false`".to_string(),
-        Kind::OneOf(words) => {
-            words.iter().map(|word| format!("`\"{}\"` ({})", word.name, word.about)).collect::<Vec<_>>().join(", ")
-        }
+        Kind::OneOf(words) => words_of(words),
+        Kind::SomeOf(words) => format!("list of {}", words_of(words)),
+        Kind::Wholes => "list of whole numbers".to_string(),
+        Kind::Names(family) => format!("names of {}", family.table()),
         Kind::Vector(dimension) => format!("vector [{}], or `\"origin\"`", dimension.si),
         Kind::Vectors(dimension) => format!("list of vectors [{}]", dimension.si),
         Kind::Turning(dimension) => format!("number or vector [{}]", dimension.si),
@@ -138,6 +139,10 @@ fn value(key: &Key) -> String {
         Kind::Choice(variants) => format!("choice of {}", suggest::list(variants.iter().map(|variant| variant.name))),
         Kind::Vary => "quoted keys with lists".to_string(),
     }
+}
+
+fn words_of(words: &[Word]) -> String {
+    words.iter().map(|word| format!("`\"{}\"` ({})", word.name, word.about)).collect::<Vec<_>>().join(", ")
 }
 
 fn default(key: &Key) -> String {

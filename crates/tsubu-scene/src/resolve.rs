@@ -4,6 +4,7 @@
 //! be checked; the result is complete only when there are no complaints.
 
 mod derive;
+mod several;
 mod table;
 mod value;
 mod vector;
@@ -289,6 +290,8 @@ fn explain(key: &Key) -> String {
         Kind::Choice(variants) => format!("; one of {}", suggest::list(variants.iter().map(|variant| variant.name))),
         Kind::OneOf(words) => format!("; one of {}", suggest::list(words.iter().map(|word| word.name))),
         Kind::Name(family) => format!(", one of those in [{}]", family.table()),
+        Kind::Names(family) => format!(", some of those in [{}]", family.table()),
+        Kind::SomeOf(words) => format!("; some of {}", suggest::list(words.iter().map(|word| word.name))),
         _ => String::new(),
     };
     format!("`{}`: {}{example}", key.name, key.about)

@@ -1,6 +1,6 @@
 //! The JSON Schema of the scene file (draft 2020-12), for editors that complete and check TOML.
 
-use crate::keys::{self, Bound, Key, Kind, Need, Range, Variant};
+use crate::keys::{self, Bound, Key, Kind, Need, Range, Variant, Word};
 use crate::units::Dimension;
 use serde_json::{Map, Value, json};
 
@@ -53,11 +53,17 @@ fn kind(key: &'static Key) -> Value {
         Kind::Quantity(dimension) => quantity(dimension, key.range),
         Kind::Whole => limited(json!({ "type": "integer" }), key.range),
         Kind::Text | Kind::Name(_) => json!({ "type": "string" }),
+        Kind::Wholes => {
+            let item = limited(json!({ "type": "integer" }), key.range);
+            json!({ "type": "array", "minItems": 1, "items": item })
+        }
+        Kind::Names(_) => {
+            json!({ "type": "array", "minItems": 1, "uniqueItems": true, "items": { "type": "string" } })
+        }
         Kind::Flag => json!({ "type": "boolean" }),
-        Kind::OneOf(words) => {
-            let words: Vec<Value> =
-                words.iter().map(|word| json!({ "const": word.name, "description": word.about })).collect();
-            json!({ "oneOf": words })
+        Kind::OneOf(words) => one_of(words),
+        Kind::SomeOf(words) => {
+            json!({ "type": "array", "minItems": 1, "uniqueItems": true, "items": one_of(words) })
         }
         Kind::Vector(dimension) => json!({ "anyOf": [{ "const": "origin" }, vector(dimension)] }),
         Kind::Vectors(dimension) => json!({ "type": "array", "items": vector(dimension) }),
@@ -105,6 +111,11 @@ fn kind(key: &'static Key) -> Value {
         Kind::NamedChoice(variants, _) => json!({ "type": "object", "additionalProperties": choice(variants) }),
         Kind::Vary => json!({ "type": "object", "additionalProperties": { "type": "array", "minItems": 1 } }),
     }
+}
+
+fn one_of(words: &[Word]) -> Value {
+    let words: Vec<Value> = words.iter().map(|word| json!({ "const": word.name, "description": word.about })).collect();
+    json!({ "oneOf": words })
 }
 
 fn choice(variants: &'static [Variant]) -> Value {

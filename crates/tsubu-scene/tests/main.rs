@@ -12,6 +12,8 @@ mod messages;
 mod products;
 /// No text makes the reader panic.
 mod robust;
+/// Watches.
+mod watches;
 /// Ends of the world, shapes, sizes, starts, motions, and the wider contact law.
 mod wider;
 

@@ -2,6 +2,7 @@
 
 use crate::ledger::{Ledger, Stocks};
 use crate::partner::Hosts;
+use crate::view::{View, Wants};
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, State};
 use tsubu_scene::plan::{Method, Plan};
@@ -139,6 +140,12 @@ pub trait Engine: Send {
 
     /// The answer of this moment.
     fn frame(&self, hosts: &Hosts) -> Frame;
+
+    /// What it can show to those who look on.
+    fn offers(&self) -> Wants;
+
+    /// This moment, with what is wanted of what it [offers](Engine::offers).
+    fn view(&self, wants: Wants) -> View<'_>;
 
     /// Writes everything that the next step depends on.
     fn save(&self, state: &mut State);

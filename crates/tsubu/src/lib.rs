@@ -19,7 +19,9 @@ pub mod run;
 pub(crate) mod scene_files;
 pub mod state;
 pub mod study;
+pub mod view;
 pub mod wall;
+pub mod watch;
 
 /// Version of the program, as written into summaries and checkpoints.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -5,6 +5,7 @@ use crate::engine::{self, Engine, Fault, OpenError};
 use crate::ledger::{Account, Ledger};
 use crate::partner::Hosts;
 use crate::scene_files;
+use crate::watch::Watches;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -68,6 +69,7 @@ pub fn run(scene: &Scene, folder: &Path, existing: Existing, watcher: &Watcher) 
     let mut run = Run {
         ledger: Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum()),
         measured: Measured::new(&hosts),
+        watches: Watches::new(plan, &*engine),
         scene_hash: scene_hash(&resolved),
         wall_before: 0.0,
         started: Instant::now(),
@@ -80,11 +82,13 @@ pub fn run(scene: &Scene, folder: &Path, existing: Existing, watcher: &Watcher) 
         run.resume(folder.path())?;
         let time = run.engine.time();
         let history = History::resume(&folder.file("history.csv"), &header, time)?;
+        run.watches.resume(folder.path(), time)?;
         (history, FrameWriter::resume(folder.path(), formats(plan), time)?)
     } else {
         scene_files::write(&folder, scene)?;
         let verdict = check::verdict(plan, &run.hosts, &*run.engine);
         folder.write("check.txt", verdict.to_string().as_bytes())?;
+        run.watches.create(folder.path())?;
         (History::create(&folder.file("history.csv"), &header)?, FrameWriter::create(folder.path(), formats(plan))?)
     };
     run.go(&folder, history, frames, watcher)
@@ -109,6 +113,7 @@ struct Run<'a> {
     hosts: Hosts,
     ledger: Ledger,
     measured: Measured,
+    watches: Watches,
     scene_hash: String,
     wall_before: f64,
     started: Instant,
@@ -130,6 +135,7 @@ impl Run<'_> {
         let saves = clock(output.checkpoint_interval);
         let resumed = self.engine.steps() > 0;
         if !resumed {
+            self.watches.look(&*self.engine)?;
             history.append(&self.row())?;
             if pictures.is_some() {
                 frames.write(&self.engine.frame(&self.hosts))?;
@@ -139,11 +145,12 @@ impl Run<'_> {
         while self.engine.steps() < last {
             let now = self.engine.steps();
             let next_picture = pictures.map_or(u64::MAX, |p| p.next(now));
-            let (next_row, next_save) = (rows.next(now), saves.next(now));
-            let target = next_row.min(next_picture).min(next_save).min(last).min(now + block);
+            let (next_row, next_save, next_look) = (rows.next(now), saves.next(now), self.watches.next(now));
+            let target = next_row.min(next_picture).min(next_save).min(next_look).min(last).min(now + block);
             let begun = Instant::now();
             if let Err(fault) = self.engine.advance(target - now, &mut self.hosts, &mut self.ledger) {
                 history.sync()?;
+                self.watches.sync()?;
                 let mut summary = self.summary(Status::Failed);
                 summary.warnings.push(fault.to_string());
                 summary.write(&folder.file("summary.json"))?;
@@ -151,6 +158,9 @@ impl Run<'_> {
             }
             // Short enough to answer Ctrl-C at once, long enough that nothing here is felt.
             block = if begun.elapsed().as_millis() < 20 { (2 * block).min(1 << 20) } else { (block / 2).max(16) };
+            if target == next_look {
+                self.watches.look(&*self.engine)?;
+            }
             if target == next_row || target == last {
                 history.append(&self.row())?;
             }
@@ -160,6 +170,7 @@ impl Run<'_> {
             let stop = watcher.interrupted.load(Ordering::Relaxed);
             if target == next_save || stop || target == last {
                 history.sync()?;
+                self.watches.sync()?;
                 self.save(folder)?;
             }
             (watcher.progress)(target as f64 / last.max(1) as f64);
@@ -187,6 +198,7 @@ impl Run<'_> {
             header.push(format!("host {name} velocity [m/s]"));
             header.push(format!("force on host {name} [N]"));
         }
+        header.extend(self.watches.header());
         header
     }
 
@@ -205,6 +217,7 @@ impl Run<'_> {
         for host in &self.hosts.list {
             row.extend([host.displacement(), host.velocity(), host.grain_force()]);
         }
+        row.extend(self.watches.row(&*self.engine));
         self.measured.take(&self.hosts, self.engine.contacts());
         row
     }
@@ -212,6 +225,7 @@ impl Run<'_> {
     fn save(&self, folder: &RunFolder) -> Result<(), FileError> {
         let mut state = self.state();
         self.measured.save(&mut state);
+        self.watches.save(&mut state);
         state.put_real("run.wall-seconds", vec![self.wall_seconds()]);
         let header = Header {
             tsubu_version: crate::VERSION.to_owned(),
@@ -243,6 +257,7 @@ impl Run<'_> {
         self.hosts.load(&state)?;
         self.ledger = Ledger::load(&state)?;
         self.measured.load(&state)?;
+        self.watches.load(&state)?;
         self.wall_before = state.real("run.wall-seconds")?.first().copied().unwrap_or(0.0);
         Ok(())
     }
@@ -290,6 +305,7 @@ impl Run<'_> {
             summary.warnings.push(format!("{}: {}", note.key, note.text));
         }
         self.measured.results(&self.hosts, &mut summary);
+        self.watches.results(&mut summary);
         let momentum = self.ledger.momentum_residual(self.engine.momentum());
         summary.results.insert("momentum residual", momentum.iter().map(|p| p * p).sum::<f64>().sqrt());
         judge(self.plan, &mut summary);

@@ -8,3 +8,4 @@ mod host;
 mod lattice;
 mod verify;
 mod wall;
+mod watch;

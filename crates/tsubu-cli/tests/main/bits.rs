@@ -83,6 +83,51 @@ fn lattice_interrupted_and_resumed() {
     stopped_and_resumed(LONG_LATTICE, "INT");
 }
 
+/// Watches of every sort: some remember, some have tables, some look at times of their own.
+const WATCHES: &str = r#"
+[watch.gate]
+discharge = { point = [0, "10 mm"], normal = "z" }
+[watch.late]
+from = "0.11 s"
+until = "0.52 s"
+every = "13 ms"
+coordination = {}
+[watch.layers]
+profile.bins = 5
+[watch.field]
+every = "20 ms"
+coarse-grain = { width = "8 mm", axes = ["x", "z"], points = [6, 8] }
+[watch.chains]
+forces.bins = 4
+[watch.some]
+every = "7 ms"
+track.ids = [0, 7]
+[watch.box]
+wall-load.wall = "box"
+"#;
+
+#[test]
+fn watches_killed_and_resumed_say_the_same() {
+    let desk = Desk::with(&format!("{SCENE}{WATCHES}"));
+    desk.done(&format!("run balls.toml {LONG} -o whole -q"));
+    let mut child = desk.start(&format!("run balls.toml {LONG} -o cut -q"));
+    wait_for(&desk.path("cut/checkpoint/state.tsubu"));
+    signal(&child, "KILL");
+    assert_eq!(child.wait().unwrap().code(), None, "the run ended before it could be killed");
+    desk.done(&format!("run balls.toml {LONG} -o cut -q --resume"));
+    for name in ["layers", "field", "chains", "some"] {
+        let file = format!("watch/{name}.csv");
+        assert_eq!(desk.read(&format!("whole/{file}")), desk.read(&format!("cut/{file}")), "{file}");
+    }
+    assert_eq!(desk.read("whole/history.csv"), desk.read("cut/history.csv"));
+    let results = desk.summary("whole")["results"].clone();
+    assert_eq!(results, desk.summary("cut")["results"]);
+    assert!(results["gate passed grains final"].as_f64().is_some() && results["late mean"].as_f64().unwrap() > 0.0);
+    // The control: another seed says something else.
+    desk.done(&format!("run balls.toml {LONG} -o other -q --set seed=99"));
+    assert_ne!(desk.read("whole/watch/layers.csv"), desk.read("other/watch/layers.csv"));
+}
+
 #[test]
 fn a_finished_run_resumes_to_itself() {
     let desk = Desk::new();

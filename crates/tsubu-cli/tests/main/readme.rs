@@ -31,7 +31,7 @@ fn every_row_of_the_readme_works() {
                 assert!(known.contains(name), "the README names `{name}`, which `tsubu verify --list` does not know");
             }
         } else if command.starts_with("run ") || command.starts_with("compare ") {
-            desk.done(&format!("{command} -q -o {folder} --set 'duration=0.05 s'"));
+            desk.done(&format!("{command} -q -o {folder} --set 'duration=0.05 s' --set claim=[]"));
         } else if command.starts_with("response ") {
             let short = "--set response.discard-periods=1 --set response.frequency-ratio=[0.95,1.0]";
             desk.done(&format!("{command} -q -o {folder} {short}"));

@@ -5,3 +5,4 @@
 mod fixture;
 mod pictures;
 mod reports;
+mod watches;

@@ -1,6 +1,6 @@
 //! The top of a scene, and its materials.
 
-use super::{Key, Kind, Word, contact, grains, hosts, methods, study, walls};
+use super::{Key, Kind, Word, contact, grains, hosts, methods, study, walls, watch};
 use crate::units::{DENSITY, NUMBER, PRESSURE, SPEED, SURFACE_ENERGY, TIME};
 
 /// The keys at the top of a scene, in the order of the plan.
@@ -61,6 +61,15 @@ pub static SCENE: &[Key] = &[
         .optional(),
     Key::new("sweep", Kind::Table(study::SWEEP), "What `tsubu sweep` reads: every combination of values is a run")
         .optional(),
+    Key::new(
+        "watch",
+        Kind::Named(
+            watch::WATCH,
+            "What is looked at while `tsubu run` (or a case of a sweep or comparison) goes on; exactly one of the tables below `every`",
+        ),
+        "What is measured on the way",
+    )
+    .default("{}"),
     Key::new("output", Kind::Table(study::OUTPUT), "What is written, and how often").default("{}"),
     Key::new("claim", Kind::Many(study::CLAIM), "Results that must lie in a range").default("[]"),
 ];

@@ -3,6 +3,7 @@
 mod grains;
 mod signals;
 mod walls;
+mod watch;
 
 use super::{explain, join, table};
 use crate::complaint::{Complaint, Source};
@@ -34,6 +35,7 @@ pub(crate) fn derive(
     derive.oscillators(resolved);
     derive.signals(resolved);
     settings(resolved);
+    derive.watches(resolved);
     derive.response(resolved);
     derive.complaints
 }

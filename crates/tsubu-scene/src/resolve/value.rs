@@ -51,6 +51,7 @@ impl Resolver<'_> {
             Kind::Matrix(dimension) => self.matrix(key, node, dimension),
             Kind::Ratios => self.ratios(key, node),
             Kind::Name(family) => self.name(key, family, node),
+            Kind::Wholes | Kind::SomeOf(_) | Kind::Names(_) => self.several(key, node),
             Kind::NamePair => self.name_pair(key, node),
             Kind::Vary => self.vary(key, node),
             Kind::Table(_) | Kind::Named(..) | Kind::Many(_) | Kind::Choice(_) | Kind::NamedChoice(..) => None,
@@ -119,7 +120,7 @@ impl Resolver<'_> {
         inside
     }
 
-    fn whole(&mut self, key: &Key, node: &Node) -> Option<toml::Value> {
+    pub(super) fn whole(&mut self, key: &Key, node: &Node) -> Option<toml::Value> {
         let Value::Whole(whole) = node.value else {
             if !matches!(node.value, Value::Number(_)) {
                 return self.wrong_kind(key, node, "a whole number", Some("10, without quotes".to_string()));
@@ -133,7 +134,7 @@ impl Resolver<'_> {
         self.in_range(key, node, whole as f64, "a whole number").then_some(toml::Value::Integer(whole))
     }
 
-    fn one_of(&mut self, key: &Key, words: &'static [Word], node: &Node) -> Option<toml::Value> {
+    pub(super) fn one_of(&mut self, key: &Key, words: &'static [Word], node: &Node) -> Option<toml::Value> {
         let names = || words.iter().map(|word| word.name);
         let Value::Text(text) = &node.value else {
             return self.wrong_kind(key, node, &format!("one of {}", suggest::list(names())), None);
@@ -151,7 +152,7 @@ impl Resolver<'_> {
         None
     }
 
-    fn list(
+    pub(super) fn list(
         &mut self,
         key: &Key,
         node: &Node,
@@ -280,7 +281,7 @@ impl Resolver<'_> {
         Some(toml::Value::Array(values.into_iter().map(toml::Value::Float).collect()))
     }
 
-    fn name(&mut self, key: &Key, family: Family, node: &Node) -> Option<toml::Value> {
+    pub(super) fn name(&mut self, key: &Key, family: Family, node: &Node) -> Option<toml::Value> {
         let Value::Text(text) = &node.value else {
             return self.wrong_kind(key, node, &format!("the name of a {} in quotes", family.noun()), None);
         };

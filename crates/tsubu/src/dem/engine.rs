@@ -7,7 +7,7 @@ use super::room;
 use super::sizes;
 use super::sources::Sources;
 use super::step::Flows;
-use super::touch::{Sums, Touch, WallLoad};
+use super::touch::{Sums, Touch};
 use crate::check;
 use crate::contact::{Law, Table};
 use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
@@ -15,6 +15,7 @@ use crate::find::{Candidates, Search};
 use crate::ledger::{Ledger, Stocks};
 use crate::partner::Hosts;
 use crate::state::Grains;
+use crate::view::{View, WallLoad, Wants};
 use crate::wall::{Mover, Wall};
 use glam::DVec3;
 use tsubu_frame::state::MissingSection;
@@ -87,6 +88,7 @@ impl DemEngine {
             lattice: _,
             response: _,
             sweep: _,
+            watch: _,
             output: _,
             claim: _,
         } = plan;
@@ -218,6 +220,14 @@ impl Engine for DemEngine {
 
     fn frame(&self, _hosts: &Hosts) -> Frame {
         self.picture()
+    }
+
+    fn offers(&self) -> Wants {
+        Wants::ALL
+    }
+
+    fn view(&self, wants: Wants) -> View<'_> {
+        self.shown(wants)
     }
 
     fn save(&self, state: &mut State) {

@@ -5,6 +5,7 @@ use super::memory::{Kept, Name};
 use crate::engine::Engine;
 use crate::partner::Hosts;
 use crate::state::Grains;
+use crate::view::{Columns, Contact, View, Wants};
 use glam::DVec3;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, Kind, State};
@@ -38,7 +39,7 @@ impl DemEngine {
         let contacts = self.contact_list();
         let id = |i: usize| i64::from(self.grains.id[i]);
         // A wall is told as -1 less its number.
-        let second = |c: &super::touch::Contact| if c.wall { -1 - c.second as i64 } else { id(c.second) };
+        let second = |c: &Contact| if c.wall { -1 - c.second as i64 } else { id(c.second) };
         frame.integer(Kind::Contact, "first", "-", contacts.iter().map(|c| id(c.first)).collect());
         frame.integer(Kind::Contact, "second", "-", contacts.iter().map(second).collect());
         frame.vector(Kind::Contact, "position", "m", contacts.iter().map(|c| c.position.to_array()).collect());
@@ -47,6 +48,26 @@ impl DemEngine {
         frame.scalar(Kind::Contact, "overlap", "m", contacts.iter().map(|c| c.overlap).collect());
         self.draw_walls(&mut frame);
         frame
+    }
+
+    /// What those see who look on. A pair that only the reach of the law holds near each other is no contact.
+    pub(super) fn shown(&self, wants: Wants) -> View<'_> {
+        let g = &self.grains;
+        let grains = Columns {
+            position: (&g.position).into(),
+            wrapped: (&g.wrapped).into(),
+            velocity: (&g.velocity).into(),
+            spin: (&g.spin).into(),
+            radius: (&g.radius).into(),
+            mass: (&g.mass).into(),
+            inverse_mass: (&g.inverse_mass).into(),
+            group: (&g.group).into(),
+            id: (&g.id).into(),
+        };
+        let mut contacts = if wants.contacts { self.contact_list() } else { Vec::new() };
+        contacts.retain(|c| c.overlap > 0.0 || c.force != DVec3::ZERO);
+        let walls = if wants.walls { self.wall_loads.clone() } else { Vec::new() };
+        View { time: self.time(), ends: self.search.ends, grains, contacts, walls }
     }
 
     /// Everything that the next step depends on.

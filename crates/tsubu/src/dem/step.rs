@@ -3,10 +3,11 @@
 use super::engine::DemEngine;
 use super::integrate::{self, Motion};
 use super::memory::Kept;
-use super::touch::{Contact, Scene, Touch};
+use super::touch::{Scene, Touch};
 use crate::engine::{Engine, Fault};
 use crate::ledger::{Account, Ledger};
 use crate::partner::Hosts;
+use crate::view::Contact;
 use glam::DVec3;
 use tsubu_scene::plan::Integrator;
 

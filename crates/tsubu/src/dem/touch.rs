@@ -12,6 +12,7 @@ use crate::contact::{Law, Table};
 use crate::find::Candidates;
 use crate::find::candidates::{List, WORTH_THREADS};
 use crate::state::Grains;
+use crate::view::{Contact, WallLoad};
 use crate::wall::{self, Wall};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -67,22 +68,6 @@ impl Load {
     pub fn add(&mut self, other: &Self) {
         self.force += other.force;
         self.lossy += other.lossy;
-        self.torque += other.torque;
-    }
-}
-
-/// What grains do to a wall.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct WallLoad {
-    /// Force [N].
-    pub force: DVec3,
-    /// Torque about the origin of the wall's pose [N.m].
-    pub torque: DVec3,
-}
-
-impl WallLoad {
-    pub fn add(&mut self, other: &Self) {
-        self.force += other.force;
         self.torque += other.torque;
     }
 }
@@ -218,6 +203,7 @@ impl Touch {
                         second,
                         wall,
                         position: scene.grains.position[first] + rows.point(r),
+                        between: if wall { rows.point(r) } else { Chunk::vector(&rows.between, r) },
                         force: Chunk::vector(&rows.force, r),
                         normal: Chunk::vector(&rows.chunk.normal, r),
                         overlap: rows.chunk.overlap[r],
@@ -231,25 +217,6 @@ impl Touch {
         }
         contacts
     }
-}
-
-/// A touching pair, for pictures and for watches.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Contact {
-    /// Index of the first grain.
-    pub first: usize,
-    /// Index of the second grain, or number of the wall.
-    pub second: usize,
-    /// Whether the second body is a wall.
-    pub wall: bool,
-    /// Point of contact [m].
-    pub position: DVec3,
-    /// Force on the first grain [N].
-    pub force: DVec3,
-    /// Unit normal from the first to the second body.
-    pub normal: DVec3,
-    /// Overlap [m].
-    pub overlap: f64,
 }
 
 impl Block {

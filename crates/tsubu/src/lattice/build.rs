@@ -5,6 +5,7 @@ use super::fixed::{Restitution, Scale};
 use super::grid::COLUMN_SPACING;
 use super::start;
 use crate::engine::{Note, Refusal, Verdict};
+use crate::view::Wants;
 use tsubu_scene::plan::{
     self, Collision, LatticeMode, ObliqueGravity, Plan, Rolling, Shape, Signal, Start, Tangential,
 };
@@ -86,6 +87,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         lattice,
         response: _,
         sweep: _,
+        watch,
         output: _,
         claim: _,
     } = plan;
@@ -108,6 +110,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
     let casing = casing(plan, &mut remarks);
     let kind = kind(plan, &mut remarks);
     remark_contact(contact, plan, &mut remarks);
+    remark_watches(watch, plan, &mut remarks);
     let (Some(casing), Some(kind)) = (casing, kind) else {
         return Err(remarks.refusal().unwrap_or(Refusal { method: "lattice", notes: Vec::new() }));
     };
@@ -248,6 +251,28 @@ fn remark_contact(contact: &plan::Contact, plan: &Plan, remarks: &mut Remarks) {
     }
     if *rotation || !matches!(rolling, Rolling::None {}) {
         remarks.approximate("contact.rotation", "the automaton knows no spin and no rolling resistance");
+    }
+}
+
+/// Watches that want to see what the automaton does not have.
+fn remark_watches(watches: &std::collections::BTreeMap<String, plan::Watch>, plan: &Plan, remarks: &mut Remarks) {
+    for (name, watch) in watches {
+        let kind = watch.measure.name();
+        let key = format!("watch.{name}.{kind}");
+        let way_out = match kind {
+            "slope" => "set `touching = false`",
+            "profile" => "leave `coordination` out of its quantities",
+            _ => "leave this watch out",
+        };
+        let wants = crate::watch::open(&watch.measure, plan).wants();
+        match wants.missing(Wants::GRAINS) {
+            None => {}
+            Some("spins") => remarks.approximate(key, "the automaton knows no spin; it is given as zero"),
+            Some(what) => remarks.refuse(
+                key,
+                format!("it looks at {what}, which the automaton does not have; {way_out}, or use `method = \"dem\"`"),
+            ),
+        }
     }
 }
 

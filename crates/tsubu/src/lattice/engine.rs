@@ -4,7 +4,7 @@
 //! of the step (a prescribed motion: at its end). The structure is then moved by Runge-Kutta over the same step under the
 //! constant force -P/dt (A11).
 
-use super::build::{Built, build};
+use super::build::{Built, build, count_of};
 use super::damper::{Damper, box_motion::OutOfRoom};
 use super::direction::{Direction, Vector};
 use super::grid::COLUMN_SPACING;
@@ -12,7 +12,9 @@ use super::start::Geometry;
 use crate::engine::{Engine, Fault, Note, Refusal};
 use crate::ledger::{Account, Ledger, Stocks};
 use crate::partner::Hosts;
+use crate::view::{Columns, View, Wants};
 use crate::wall::Carrier;
+use glam::DVec3;
 use tsubu_frame::frame::Kind;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, State};
@@ -28,6 +30,8 @@ pub struct LatticeEngine {
     dt: f64,
     mass: f64,
     radius: f64,
+    /// Number of every ball's group.
+    groups: Vec<u32>,
     /// Momentum of one unit of h and of k [N.s].
     momentum_unit: [f64; 2],
     /// m u^2 / 2 [J].
@@ -42,6 +46,8 @@ impl LatticeEngine {
     /// Builds the automaton of a plan at time 0, or says all that it cannot do.
     pub fn new(plan: &Plan, hosts: &Hosts) -> Result<Self, Refusal> {
         let Built { mut damper, notes, wall, dt, mass, radius, floor_centre, spacing } = build(plan)?;
+        let groups = plan.particles.values().enumerate();
+        let groups = groups.flat_map(|(k, group)| std::iter::repeat_n(k as u32, count_of(group))).collect();
         let carrier = Carrier::new(&plan.walls[&wall], hosts);
         let unit = mass * damper.scale.speed;
         let geometry = Geometry { spacing, floor_centre, columns: damper.place.columns, rows: damper.place.rows };
@@ -62,6 +68,7 @@ impl LatticeEngine {
             dt,
             mass,
             radius,
+            groups,
             momentum_unit: [unit * COLUMN_SPACING, 0.5 * unit],
             energy_unit: 0.5 * unit * unit / if mass > 0.0 { mass } else { 1.0 },
             forces: vec![0.0; hosts.list.len()],
@@ -218,6 +225,27 @@ impl Engine for LatticeEngine {
         frame.integer(Kind::Surface, "outline", "-", vec![0; outline.len()]);
         frame.vector(Kind::Surface, "position", "m", outline);
         frame
+    }
+
+    fn offers(&self) -> Wants {
+        Wants::GRAINS
+    }
+
+    fn view(&self, _wants: Wants) -> View<'_> {
+        let n = self.grains();
+        let vectors = |of: &dyn Fn(usize) -> [f64; 3]| (0..n).map(|i| DVec3::from_array(of(i))).collect::<Vec<_>>();
+        let grains = Columns {
+            position: vectors(&|i| self.position(i)).into(),
+            wrapped: vec![DVec3::ZERO; n].into(),
+            velocity: vectors(&|i| self.velocity(i)).into(),
+            spin: vec![DVec3::ZERO; n].into(),
+            radius: vec![self.radius; n].into(),
+            mass: vec![self.mass; n].into(),
+            inverse_mass: vec![1.0 / self.mass; n].into(),
+            group: self.groups.as_slice().into(),
+            id: (0..n as u32).collect(),
+        };
+        View { time: self.time(), ends: [None; 3], grains, contacts: Vec::new(), walls: Vec::new() }
     }
 
     fn save(&self, state: &mut State) {

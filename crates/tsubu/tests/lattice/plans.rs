@@ -90,6 +90,7 @@ pub fn plan(count: usize, mode: LatticeMode) -> Plan {
         },
         response: None,
         sweep: None,
+        watch: BTreeMap::new(),
         output: Output {
             history_interval: 0.1,
             frame_interval: None,

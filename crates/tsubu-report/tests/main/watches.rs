@@ -1,0 +1,122 @@
+//! Watches on the page of a run: numbers over time, profiles, paths, maps.
+
+use std::fs;
+use std::path::Path;
+
+use tsubu_frame::{Cell, Table};
+use tsubu_report::page::{Block, Report};
+use tsubu_report::raster::from_svg;
+use tsubu_report::{build, report};
+
+use crate::fixture;
+
+const INDEX: &str = r#"[
+  {"name": "layers", "kind": "profile", "about": "", "scalars": [], "file": "watch/layers.csv",
+   "coordinates": ["z [m]"], "values": ["solid fraction [-]", "nothing [-]"]},
+  {"name": "field", "kind": "coarse-grain", "about": "", "scalars": [], "file": "watch/field.csv",
+   "coordinates": ["x [m]", "z [m]"], "values": ["density [kg/m^2]"]},
+  {"name": "some", "kind": "track", "about": "", "scalars": [], "file": "watch/some.csv",
+   "coordinates": ["id [-]"], "values": ["position z [m]"]},
+  {"name": "out", "kind": "discharge", "about": "",
+   "scalars": ["out passed mass [kg]", "out force x [N]", "out force z [N]", "out rate [1/s]"], "file": null,
+   "coordinates": [], "values": []}
+]"#;
+
+/// A run with watches: a bed that empties.
+fn watched(dir: &Path) {
+    fixture::run(dir, "dem", 0);
+    fixture::text(dir, "watch/index.json", INDEX);
+    let mut history = Table::read(&dir.join("history.csv")).unwrap();
+    for (k, name) in ["out passed mass [kg]", "out force x [N]", "out force z [N]", "out rate [1/s]"].iter().enumerate()
+    {
+        history.header.push((*name).to_owned());
+        for row in &mut history.rows {
+            let t = row[0].number().unwrap();
+            row.push(Cell::Number(if k == 3 && t < 1.0 { f64::NAN } else { (1.0 + k as f64) * t }));
+        }
+    }
+    history.write(&dir.join("history.csv")).unwrap();
+    let mut layers = Table::new(["time [s]", "z [m]", "solid fraction [-]", "nothing [-]"]);
+    let mut field = Table::new(["time [s]", "x [m]", "z [m]", "density [kg/m^2]"]);
+    let mut some = Table::new(["time [s]", "id [-]", "position z [m]"]);
+    for look in 0..9 {
+        let t = 0.5 * f64::from(look);
+        for k in 0..12 {
+            let z = 0.01 * f64::from(k);
+            layers.push([t, z, 0.6 - 0.05 * t - z, 0.0].map(Cell::Number));
+            for i in 0..5 {
+                let blank = i == 0 && k == 0;
+                field.push([t, 0.01 * f64::from(i), z, if blank { f64::NAN } else { z * t }].map(Cell::Number));
+            }
+        }
+        for id in [7.0, 3.0] {
+            some.push([t, id, id * t].map(Cell::Number));
+        }
+    }
+    layers.write(&dir.join("watch/layers.csv")).unwrap();
+    field.write(&dir.join("watch/field.csv")).unwrap();
+    some.write(&dir.join("watch/some.csv")).unwrap();
+}
+
+fn captions(blocks: &[Block]) -> Vec<String> {
+    let mut found = Vec::new();
+    for block in blocks {
+        match block {
+            Block::Drawing { caption, .. } => found.push(caption.clone()),
+            Block::Folded { inside, .. } => found.extend(captions(inside)),
+            _ => {}
+        }
+    }
+    found
+}
+
+fn section<'a>(report: &'a Report, title: &str) -> &'a [Block] {
+    report.sections.iter().find(|s| s.title == title).map_or(&[], |s| s.blocks.as_slice())
+}
+
+#[test]
+fn what_watches_saw_is_drawn() {
+    let dir = tempfile::tempdir().unwrap();
+    watched(dir.path());
+    report(dir.path()).unwrap();
+    let page = build(dir.path()).unwrap();
+    assert_eq!(
+        captions(section(&page, "Watches")),
+        [
+            "layers (profile): solid fraction",
+            "field (coarse grain): density, mean over time",
+            "some (track): position z",
+            "out (discharge): passed mass",
+            "out (discharge): force",
+            "out (discharge): rate",
+        ]
+    );
+    // Once on the page, not among the history's figures too.
+    assert!(!captions(section(&page, "Motion")).iter().any(|c| c.contains("out ")));
+    let figure = |name: &str| fs::read_to_string(dir.path().join("figures").join(name)).unwrap();
+    for (name, said) in [
+        ("watch_layers_solid_fraction_profile.svg", "t = 2 s"),
+        ("watch_layers_solid_fraction_profile.svg", "mean over time"),
+        ("watch_some_position_z_paths.svg", "grain 7"),
+        ("watch_out_force.svg", "force z"),
+    ] {
+        assert!(figure(name).contains(said), "{name}: {said}");
+    }
+    let map = figure("watch_field_density_map.svg");
+    assert!(from_svg(&map, 1.0).is_some());
+    // Sixty points, one of them blank; the ground, the frame and the colour bar.
+    assert_eq!(map.matches("<rect").count(), 59 + 3);
+    assert!(map.contains("density [kg/m^2]"));
+}
+
+#[test]
+fn damaged_tables_of_watches_become_notes() {
+    let dir = tempfile::tempdir().unwrap();
+    watched(dir.path());
+    fixture::text(dir.path(), "watch/field.csv", "time [s],x [m]\n1\n");
+    let page = build(dir.path()).unwrap();
+    assert!(page.to_html().contains("watch/field.csv"));
+    assert!(captions(section(&page, "Watches")).len() == 5);
+    fixture::text(dir.path(), "watch/index.json", "[{");
+    assert!(section(&build(dir.path()).unwrap(), "Watches").is_empty());
+}

@@ -1,0 +1,166 @@
+//! Watches that could not see anything, or not what they say.
+
+use super::fill::has_size;
+use super::place::Room;
+use super::{Parts, named};
+use crate::complaint::Complaint;
+use crate::keys::WATCHES;
+use crate::plan::{Axis, Measure, Region, Watch};
+use crate::suggest;
+
+/// More points than this are a slip, not a field.
+const MOST_POINTS: usize = 1_000_000;
+
+pub(super) fn check(parts: &Parts<'_>, rooms: &[Room<'_>], complaints: &mut Vec<Complaint>) {
+    names_and_kinds(parts, complaints);
+    for (name, watch) in named::<Watch>(parts.resolved, "watch") {
+        times(parts, &name, &watch, complaints);
+        if let Some(region) = watch.measure.region() {
+            where_it_looks(parts, rooms, [&name, watch.measure.name()], region, complaints);
+        }
+        measure(parts, &name, &watch.measure, complaints);
+    }
+}
+
+fn names_and_kinds(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
+    let Some(typed) = parts.root.find(&["watch"]).and_then(crate::node::Node::table) else { return };
+    for entry in &typed.entries {
+        // A watch gives its name to a file.
+        if !entry.key.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_') || entry.key.is_empty() {
+            complaints.push(
+                Complaint::new(format!("`{}` cannot be the name of a watch", entry.key))
+                    .at(&entry.place, "names the file of the watch")
+                    .hint("use letters, digits, `-` and `_`"),
+            );
+        }
+        if let Some(watch) = entry.node.table()
+            // A misspelt one has its own complaint.
+            && watch.keys().all(|key| ["from", "until", "every"].contains(&key))
+        {
+            complaints.push(
+                Complaint::new(format!("the watch `{}` measures nothing", entry.key))
+                    .at(&entry.place, "needs one of its tables")
+                    .hint(format!("choices: {}", suggest::list(WATCHES.iter().copied()))),
+            );
+        }
+    }
+}
+
+fn times(parts: &Parts<'_>, name: &str, watch: &Watch, complaints: &mut Vec<Complaint>) {
+    let at = |key: &str| parts.root.locate(&["watch", name, key]);
+    if let Some(until) = watch.until.filter(|until| *until < watch.from) {
+        complaints.push(
+            Complaint::new(format!("the watch `{name}` ends before it begins"))
+                .at(&at("until"), format!("{until} s"))
+                .also(&at("from"), format!("begins at {} s", watch.from)),
+        );
+    }
+}
+
+fn where_it_looks(
+    parts: &Parts<'_>,
+    rooms: &[Room<'_>],
+    [name, kind]: [&str; 2],
+    region: &Region,
+    complaints: &mut Vec<Complaint>,
+) {
+    let path = ["watch", name, kind, "region"];
+    if !has_size(parts, region, &path, complaints) {
+        return;
+    }
+    let place = parts.root.locate(&path);
+    let axes: &[usize] = if parts.space() { &[0, 1, 2] } else { &[0, 2] };
+    let ends = [parts.periodic.x, parts.periodic.y, parts.periodic.z];
+    for &axis in axes {
+        let letter = ["x", "y", "z"][axis];
+        if ends[axis].is_some_and(|[low, high]| region.low[axis] < low || region.high[axis] > high) {
+            complaints.push(
+                Complaint::new(format!(
+                    "the region of the watch `{name}` reaches beyond the periodic world along {letter}"
+                ))
+                .at(&place, format!("must lie within the ends of periodic.{letter}")),
+            );
+            return;
+        }
+    }
+    // A box that moves, or a second one, may hold grains elsewhere.
+    let [room] = rooms else { return };
+    let wall = &parts.walls[room.name];
+    let moved = wall.host.is_some() || wall.motion.is_some() || wall.servo.is_some() || wall.body.is_some();
+    let apart = axes.iter().any(|&axis| {
+        let [low, high] = room.ends(axis);
+        region.low[axis] >= high || region.high[axis] <= low
+    });
+    if apart && !moved {
+        complaints.push(
+            Complaint::new(format!("the region of the watch `{name}` lies outside the box `{}`", room.name))
+                .at(&place, "no grain will be here")
+                .also(&parts.root.locate(&["walls", room.name, "shape", "box"]), "the box"),
+        );
+    }
+}
+
+fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Vec<Complaint>) {
+    let kind = measure.name();
+    let at = |key: &str| parts.root.locate(&["watch", name, kind, key]);
+    match measure {
+        Measure::Profile { axis, .. } | Measure::Slope { axis, .. } => no_y(parts, &[*axis], &at("axis"), complaints),
+        Measure::CoarseGrain { axes, points, .. } => {
+            no_y(parts, axes, &at("axes"), complaints);
+            let all = points.iter().try_fold(1usize, |product, n| product.checked_mul(*n));
+            if axes.len() != points.len() {
+                complaints.push(
+                    Complaint::new("`points` needs one number for each of `axes`")
+                        .at(&at("points"), format!("{} for {} axes", points.len(), axes.len())),
+                );
+            } else if all.is_none_or(|all| all > MOST_POINTS) {
+                complaints.push(
+                    Complaint::new(format!("the field `{name}` has too many points"))
+                        .at(&at("points"), format!("more than {MOST_POINTS} in all")),
+                );
+            }
+        }
+        Measure::WallLoad { area: None, direction: Some(_), .. } => complaints.push(
+            Complaint::new("a `direction` is of no use without an `area`")
+                .at(&at("direction"), "says how the pressure acts")
+                .hint("give an `area`, or leave `direction` out: forces are given along all axes"),
+        ),
+        Measure::Track { ids } => {
+            let grains: usize = parts.particles.values().map(|group| group.count).sum();
+            let beyond = ids.iter().find(|id| **id as usize >= grains);
+            if let Some(id) = beyond.filter(|_| !parts.incomplete && !counts_vary(parts)) {
+                complaints.push(
+                    Complaint::new(format!("there is no grain {id} to track"))
+                        .at(&at("ids"), format!("the scene has {grains}, counted from 0")),
+                );
+            }
+            if let Some(k) = (1..ids.len()).find(|&k| ids[..k].contains(&ids[k])) {
+                complaints.push(
+                    Complaint::new(format!("the grain {} is tracked twice", ids[k])).at(&at("ids"), "given again"),
+                );
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Whether a study changes groups: a grain may be there in some of its cases only.
+fn counts_vary(parts: &Parts<'_>) -> bool {
+    let varied =
+        |study: &str| parts.resolved.get(study).and_then(|study| study.get("vary")).and_then(toml::Value::as_table);
+    ["response", "sweep"]
+        .into_iter()
+        .filter_map(varied)
+        .flat_map(toml::Table::keys)
+        .any(|key| key.starts_with("particles."))
+}
+
+fn no_y(parts: &Parts<'_>, axes: &[Axis], place: &crate::complaint::Place, complaints: &mut Vec<Complaint>) {
+    if axes.contains(&Axis::Y) && !parts.space() {
+        complaints.push(
+            Complaint::new("the plane has no y to look along")
+                .at(place, "the scene has dimension 2")
+                .hint("write \"x\" or \"z\", or set dimension = 3"),
+        );
+    }
+}

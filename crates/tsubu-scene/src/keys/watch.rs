@@ -1,0 +1,158 @@
+//! Watches: what is looked at while a scene runs, and when.
+
+use super::{Family, Key, Kind, Word, walls};
+use crate::units::{AREA, LENGTH, NUMBER, TIME};
+
+/// A watch has exactly one of these tables.
+pub(crate) const KINDS: &[&str] = &[
+    "profile",
+    "coarse-grain",
+    "slope",
+    "discharge",
+    "coordination",
+    "fabric",
+    "forces",
+    "segregation",
+    "wall-load",
+    "track",
+];
+
+const fn kind(name: &'static str, keys: &'static [Key], about: &'static str) -> Key {
+    Key::new(name, Kind::Table(keys), about).optional().rivals(KINDS)
+}
+
+pub(super) static WATCH: &[Key] = &[
+    Key::new("from", Kind::Quantity(&TIME), "When the first look is taken").default("0").at_least(0.0),
+    Key::new("until", Kind::Quantity(&TIME), "After this no look is taken").above(0.0).word("end"),
+    Key::new("every", Kind::Quantity(&TIME), "Simulated time between looks")
+        .above(0.0)
+        .derived("`output.history-interval`"),
+    kind("profile", PROFILE, "Averages in slices across an axis: solid fraction, velocity, temperature, coordination"),
+    kind(
+        "coarse-grain",
+        COARSE_GRAIN,
+        "Density, velocity, stress and granular temperature as smooth fields (Goldhirsch 2010); in the plane per area, not volume",
+    ),
+    kind("slope", SLOPE, "Slope of the free surface, and the angle of a heap, by least squares"),
+    kind("discharge", DISCHARGE, "Grains and mass that have passed a plane, less those that came back, and the rate"),
+    kind("coordination", COORDINATION, "Contacts per grain, with and without rattlers"),
+    kind("fabric", FABRIC, "Fabric tensor of the contact normals, its deviator and principal direction"),
+    kind("forces", FORCES, "Distribution of normal contact forces, and the share of contacts in force chains"),
+    kind(
+        "segregation",
+        SEGREGATION,
+        "How well two groups are mixed: Lacey index, and the height of one over the other",
+    ),
+    kind("wall-load", WALL_LOAD, "Force and torque of the grains on a wall, and its pressure"),
+    kind("track", TRACK, "Position, velocity and spin of some grains; positions go on across periodic ends"),
+];
+
+const REGION: Key = Key::new("region", Kind::Table(walls::REGION), "Where: a box of space, still");
+const WITHIN: Key = Key::new("region", Kind::Table(walls::REGION), "Only grains whose centres are inside").optional();
+const INSIDE_THE_BOX: &str = "the inside of the box as drawn, where there is one box";
+const WALLS: Key = Key::new("walls", Kind::Flag, "Whether contacts with walls count");
+
+static X: Word = Word { name: "x", about: "to the right" };
+static Y: Word = Word { name: "y", about: "into the picture, only in space" };
+static Z: Word = Word { name: "z", about: "up" };
+static AXES: &[Word] = &[X, Y, Z];
+static ACROSS: &[Word] = &[X, Y];
+
+static QUANTITIES: &[Word] = &[
+    Word { name: "solid-fraction", about: "share of the volume that grains fill, in the plane of the area" },
+    Word { name: "velocity", about: "mean velocity, by mass" },
+    Word { name: "granular-temperature", about: "mean square of a component of the velocity about the mean" },
+    Word { name: "coordination", about: "contacts per grain, those with walls among them" },
+];
+
+static KERNEL: &[Word] = &[
+    Word { name: "gaussian", about: "exp(-r^2 / 2 w^2), cut where nothing is left at 8 w" },
+    Word { name: "lucy", about: "(1 + 3 r/w) (1 - r/w)^3, zero from w on" },
+];
+
+static PROFILE: &[Key] = &[
+    Key::new("axis", Kind::OneOf(AXES), "Axis along which the slices follow each other").default("'z'"),
+    Key::new("bins", Kind::Whole, "Number of slices").default("20").at_least(1.0).at_most(1e5),
+    Key::new("quantities", Kind::SomeOf(QUANTITIES), "What is averaged")
+        .default("['solid-fraction', 'velocity', 'granular-temperature']"),
+    REGION.derived(INSIDE_THE_BOX),
+];
+
+static COARSE_GRAIN: &[Key] = &[
+    Key::new("kernel", Kind::OneOf(KERNEL), "How a grain is smeared out").default("'lucy'"),
+    Key::new(
+        "width",
+        Kind::Quantity(&LENGTH),
+        "Width w of the kernel: standard deviation of the Gaussian, reach of Lucy's",
+    )
+    .above(0.0),
+    Key::new(
+        "axes",
+        Kind::SomeOf(AXES),
+        "Axes along which fields vary; along the others they are averaged over the region",
+    )
+    .default("['z']"),
+    Key::new("points", Kind::Wholes, "Points along each of these axes, evenly spaced in the region")
+        .at_least(1.0)
+        .at_most(1e5),
+    REGION.derived(INSIDE_THE_BOX),
+];
+
+static SLOPE: &[Key] = &[
+    Key::new("axis", Kind::OneOf(ACROSS), "Horizontal axis of the slope").default("'x'"),
+    Key::new("bins", Kind::Whole, "Columns in which the highest grain is looked for")
+        .default("20")
+        .at_least(4.0)
+        .at_most(1e5),
+    Key::new("share", Kind::Quantity(&NUMBER), "Middle share of the width that the lines are laid through")
+        .default("0.8")
+        .above(0.0)
+        .at_most(1.0),
+    Key::new("centre", Kind::Quantity(&LENGTH), "Where the top of a heap is, along the axis")
+        .derived("the middle of the region"),
+    Key::new("touching", Kind::Flag, "Whether grains must touch something to count: those in flight are no surface")
+        .default("true"),
+    REGION.derived(INSIDE_THE_BOX),
+];
+
+static DISCHARGE: &[Key] = &[
+    Key::new("point", Kind::Vector(&LENGTH), "A point on the plane").default("'origin'"),
+    Key::new("normal", Kind::Direction, "Direction in which grains pass").default("'-z'"),
+    Key::new("group", Kind::Name(Family::Group), "Only the grains of this group").optional(),
+];
+
+static COORDINATION: &[Key] = &[
+    Key::new("fewest", Kind::Whole, "Grains with fewer contacts are rattlers; taken out until none is left")
+        .default("2")
+        .at_least(1.0)
+        .at_most(12.0),
+    WALLS.default("true"),
+    WITHIN,
+];
+
+static FABRIC: &[Key] = &[WALLS.default("false"), WITHIN];
+
+static FORCES: &[Key] = &[
+    Key::new("bins", Kind::Whole, "Bins of the histogram").default("30").at_least(1.0).at_most(1e5),
+    Key::new("largest", Kind::Quantity(&NUMBER), "Upper end of the histogram, in mean forces").default("6").above(1.0),
+    WALLS.default("false"),
+    WITHIN,
+];
+
+static SEGREGATION: &[Key] = &[
+    Key::new("groups", Kind::Names(Family::Group), "The two groups").derived("the two groups, where there are two"),
+    Key::new("cell", Kind::Quantity(&LENGTH), "Edge of the cells in which grains are counted").above(0.0),
+    WITHIN,
+];
+
+static WALL_LOAD: &[Key] = &[
+    Key::new("wall", Kind::Name(Family::Wall), "The wall"),
+    Key::new("area", Kind::Quantity(&AREA), "Area for the pressure; in the plane times the depth that is meant")
+        .above(0.0)
+        .optional(),
+    Key::new("direction", Kind::Direction, "Direction in which the pressure acts on the wall")
+        .derived("of a plane against its normal; else required with `area`"),
+];
+
+static TRACK: &[Key] =
+    &[Key::new("ids", Kind::Wholes, "Numbers of the grains, from 0 in the order of the groups' names").at_least(0.0)];

@@ -1,0 +1,204 @@
+//! Watches: what is looked at while a scene runs, and when.
+
+use super::{Region, Vector};
+use serde::{Deserialize, Serialize};
+
+/// A watch: when it looks, and at what.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Watch {
+    /// When the first look is taken [s].
+    pub from: f64,
+    /// After this no look is taken [s]; `None`: to the end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub until: Option<f64>,
+    /// Time between looks [s].
+    pub every: f64,
+    /// What is measured.
+    #[serde(flatten)]
+    pub measure: Measure,
+}
+
+/// What a watch measures.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Measure {
+    /// Averages in slices across an axis.
+    Profile {
+        /// Axis along which the slices follow each other.
+        axis: Axis,
+        /// Number of slices.
+        bins: usize,
+        /// What is averaged.
+        quantities: Vec<Quantity>,
+        /// Where.
+        region: Region,
+    },
+    /// Smooth fields (Goldhirsch 2010).
+    CoarseGrain {
+        /// How a grain is smeared out.
+        kernel: Kernel,
+        /// Width of the kernel [m].
+        width: f64,
+        /// Axes along which fields vary.
+        axes: Vec<Axis>,
+        /// Points along each of them.
+        points: Vec<usize>,
+        /// Where the points are, and over what the other axes are averaged.
+        region: Region,
+    },
+    /// Slope of the free surface.
+    Slope {
+        /// Horizontal axis.
+        axis: Axis,
+        /// Columns.
+        bins: usize,
+        /// Middle share of the width that is looked at [-].
+        share: f64,
+        /// Where the top of a heap is along the axis [m].
+        centre: f64,
+        /// Whether only grains count that touch something.
+        touching: bool,
+        /// Where.
+        region: Region,
+    },
+    /// Grains that have passed a plane.
+    Discharge {
+        /// A point on the plane [m].
+        point: Vector,
+        /// Unit direction in which grains pass.
+        normal: Vector,
+        /// Only grains of this group.
+        group: Option<String>,
+    },
+    /// Contacts per grain.
+    Coordination {
+        /// Grains with fewer contacts are rattlers.
+        fewest: u32,
+        /// Whether contacts with walls count.
+        walls: bool,
+        /// Only grains inside.
+        region: Option<Region>,
+    },
+    /// Fabric tensor of the contacts.
+    Fabric {
+        /// Whether contacts with walls count.
+        walls: bool,
+        /// Only grains inside.
+        region: Option<Region>,
+    },
+    /// Distribution of the contact forces.
+    Forces {
+        /// Bins of the histogram.
+        bins: usize,
+        /// Upper end of the histogram, in mean forces [-].
+        largest: f64,
+        /// Whether contacts with walls count.
+        walls: bool,
+        /// Only grains inside.
+        region: Option<Region>,
+    },
+    /// Mixing of two groups.
+    Segregation {
+        /// The two groups.
+        groups: [String; 2],
+        /// Edge of the cells [m].
+        cell: f64,
+        /// Only grains inside.
+        region: Option<Region>,
+    },
+    /// Force and torque on a wall.
+    WallLoad {
+        /// The wall.
+        wall: String,
+        /// Area for the pressure [m^2].
+        area: Option<f64>,
+        /// Unit direction in which the pressure acts on the wall.
+        direction: Option<Vector>,
+    },
+    /// Single grains.
+    Track {
+        /// Their numbers.
+        ids: Vec<u32>,
+    },
+}
+
+impl Measure {
+    /// Name in scene files.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Profile { .. } => "profile",
+            Self::CoarseGrain { .. } => "coarse-grain",
+            Self::Slope { .. } => "slope",
+            Self::Discharge { .. } => "discharge",
+            Self::Coordination { .. } => "coordination",
+            Self::Fabric { .. } => "fabric",
+            Self::Forces { .. } => "forces",
+            Self::Segregation { .. } => "segregation",
+            Self::WallLoad { .. } => "wall-load",
+            Self::Track { .. } => "track",
+        }
+    }
+
+    /// The region it looks at, if it is not everywhere.
+    pub const fn region(&self) -> Option<&Region> {
+        match self {
+            Self::Profile { region, .. } | Self::CoarseGrain { region, .. } | Self::Slope { region, .. } => {
+                Some(region)
+            }
+            Self::Coordination { region, .. }
+            | Self::Fabric { region, .. }
+            | Self::Forces { region, .. }
+            | Self::Segregation { region, .. } => region.as_ref(),
+            Self::Discharge { .. } | Self::WallLoad { .. } | Self::Track { .. } => None,
+        }
+    }
+}
+
+/// An axis of the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Axis {
+    /// To the right.
+    X,
+    /// Into the picture.
+    Y,
+    /// Up.
+    Z,
+}
+
+impl Axis {
+    /// 0, 1, 2.
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+
+    /// Name in scene files and tables.
+    pub const fn name(self) -> &'static str {
+        ["x", "y", "z"][self as usize]
+    }
+}
+
+/// What a profile averages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Quantity {
+    /// Share of the volume that grains fill.
+    SolidFraction,
+    /// Mean velocity by mass.
+    Velocity,
+    /// Mean square of a component of the velocity about the mean.
+    GranularTemperature,
+    /// Contacts per grain.
+    Coordination,
+}
+
+/// How a grain is smeared out into a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kernel {
+    /// exp(-r^2 / 2 w^2).
+    Gaussian,
+    /// (1 + 3 r/w) (1 - r/w)^3.
+    Lucy,
+}

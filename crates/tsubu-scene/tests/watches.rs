@@ -1,0 +1,146 @@
+//! Watches: what is asked for, what follows from the rest of the scene, what cannot be seen.
+
+use crate::{GOOD, complaint, read};
+use tsubu_scene::plan::{Axis, Measure, Quantity, Watch};
+
+/// The good scene with watches.
+fn with(watches: &str) -> String {
+    format!("{GOOD}\n{watches}\n")
+}
+
+fn watches(text: &str) -> Vec<(String, Watch)> {
+    let scene = read(&with(text), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let again = read(&scene.resolved_toml(), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    assert_eq!(again.plan(), scene.plan());
+    assert_eq!(again.resolved_toml(), scene.resolved_toml());
+    scene.plan().watch.clone().into_iter().collect()
+}
+
+fn about(text: &str) -> String {
+    complaint(&with(text), &[])
+}
+
+const SECOND: &str = "[particles.more]\nmaterial = \"glass\"\ncount = 3\ndiameter = \"6 mm\"\n";
+
+#[test]
+fn times_and_the_region_follow_from_the_scene() {
+    let all = watches(
+        "[watch.layers]\nprofile = {}\n[watch.late]\nfrom = \"0.5 s\"\nevery = \"5 ms\"\nuntil = 0.7\ncoordination = {}",
+    );
+    let (name, layers) = &all[1];
+    assert_eq!(all[0].0, "late");
+    assert_eq!((all[0].1.from, all[0].1.every, all[0].1.until), (0.5, 0.005, Some(0.7)));
+    assert_eq!((name.as_str(), layers.from, layers.until, layers.every), ("layers", 0.0, None, 0.001));
+    let Measure::Profile { axis: Axis::Z, bins: 20, quantities, region } = &layers.measure else {
+        panic!("{layers:?}")
+    };
+    assert_eq!(quantities[..], [Quantity::SolidFraction, Quantity::Velocity, Quantity::GranularTemperature]);
+    assert_eq!((region.low, region.high), ([-0.03, 0.0, 0.0], [0.03, 0.0, 0.096]));
+}
+
+#[test]
+fn every_kind_survives_the_run_folder() {
+    let text = format!(
+        "{SECOND}
+[watch.a]
+coarse-grain = {{ kernel = \"gaussian\", width = \"3 mm\", axes = [\"x\", \"z\"], points = [10, 12] }}
+[watch.b]
+slope = {{ axis = \"x\", share = \"50 %\", touching = false, region = {{ low = [0, 0], high = [\"20 mm\", \"30 mm\"] }} }}
+[watch.c]
+discharge = {{ point = [0, \"10 mm\"], group = \"more\" }}
+[watch.d]
+coordination = {{ fewest = 3, region = {{ low = [0, 0], high = [1, 1] }} }}
+[watch.e]
+fabric = {{}}
+[watch.f]
+forces.bins = 7
+[watch.g]
+segregation.cell = \"12 mm\"
+[watch.h]
+wall-load = {{ wall = \"box\", area = \"1 cm^2\", direction = \"-z\" }}
+[watch.i]
+track.ids = [0, 22]
+"
+    );
+    let all = watches(&text);
+    assert_eq!(all.len(), 9);
+    let Measure::Slope { centre, .. } = all[1].1.measure else { panic!("a slope") };
+    assert_eq!(centre, 0.01);
+    let Measure::Segregation { groups, .. } = &all[6].1.measure else { panic!("segregation") };
+    assert_eq!(groups, &["balls", "more"].map(String::from));
+}
+
+#[test]
+fn a_plane_is_pressed_against_its_normal() {
+    let all = watches(
+        "[walls.floor]\nmaterial = \"glass\"\nshape.plane.point = [0, -1]\n[watch.w]\nwall-load = { wall = \"floor\", area = 1 }",
+    );
+    let Measure::WallLoad { direction, .. } = all[0].1.measure else { panic!("a load") };
+    assert_eq!(direction, Some([0.0, 0.0, -1.0]));
+}
+
+#[test]
+fn another_kind_can_be_set_from_outside() {
+    let text = with("[watch.a]\nprofile.bins = 3");
+    let measure = |changes: &[&str]| {
+        read(&text, changes).unwrap_or_else(|wrong| panic!("{wrong}")).plan().watch["a"].measure.clone()
+    };
+    let Measure::Profile { bins: 3, axis: Axis::X, .. } = measure(&["watch.a.profile.axis=x"]) else {
+        panic!("a profile")
+    };
+    assert_eq!(measure(&["watch.a.fabric={}"]).name(), "fabric");
+}
+
+#[test]
+fn watches_that_say_nothing_or_too_much() {
+    insta::assert_snapshot!(about(
+        "[watch.a]\nevery = 0.1\n[watch.b]\nfabric = {}\ncoordination = {}\n[watch.\"c/d\"]\nfabric = {}\n[watch.e]\nprofil = {}"
+    ));
+}
+
+#[test]
+fn times_that_never_come() {
+    insta::assert_snapshot!(about(
+        "[watch.a]\nevery = 0\nfabric = {}\n[watch.c]\nfrom = 0.5\nuntil = 0.3\nfabric = {}"
+    ));
+}
+
+#[test]
+fn places_where_nothing_is() {
+    let text = "[watch.a]\nprofile.region = { low = [0, -2], high = [1, -1] }\n[watch.b]\nprofile.region = { low = [0, 0], high = [0, 1] }\n";
+    let still = with(text).replace("host = \"spring\"\n", "");
+    insta::assert_snapshot!(complaint(&still, &[]));
+}
+
+#[test]
+fn regions_that_nobody_can_guess() {
+    let text = with("[watch.a]\nprofile = {}\n[watch.b]\nslope.region = { low = [-1, 0], high = [0.5, 1] }");
+    let plane = text
+        .replace("host = \"spring\"\nshape.box = { width = \"60 mm\", height = \"96 mm\" }", "shape.plane = {}")
+        .replace(
+            "mass = \"0.2 g\"",
+            "mass = \"0.2 g\"\nstart.random.region = { low = [-0.1, 0.1], high = [0.1, 0.2] }",
+        );
+    insta::assert_snapshot!(complaint(&plane, &["periodic.x=[-0.5, 0.5]"]));
+}
+
+#[test]
+fn names_that_are_not_there() {
+    insta::assert_snapshot!(about(
+        "[watch.a]\nwall-load.wall = \"bax\"\n[watch.b]\ndischarge.group = \"bals\"\n[watch.c]\nsegregation = { groups = [\"balls\", \"sand\"], cell = 1 }\n[watch.d]\ntrack.ids = [3, 20]\n[watch.e]\ntrack.ids = [3, 3]"
+    ));
+}
+
+#[test]
+fn numbers_that_make_no_sense() {
+    insta::assert_snapshot!(about(
+        "[watch.a]\nprofile = { bins = 0, quantities = [] }\n[watch.b]\ncoarse-grain = { width = 0, points = [0] }\n[watch.c]\ncoarse-grain = { width = 1, axes = [\"x\", \"x\"], points = [3] }\n[watch.d]\ncoarse-grain = { width = 1, axes = [\"x\", \"z\"], points = [3] }\n[watch.e]\ncoarse-grain = { width = 1, axes = [\"x\", \"z\"], points = [3000, 3000] }\n[watch.f]\nprofile = { axis = \"y\", quantities = [\"solid-fracton\"] }\n[watch.g]\nslope = { axis = \"z\", share = 1.5 }"
+    ));
+}
+
+#[test]
+fn groups_and_directions_that_are_missing() {
+    insta::assert_snapshot!(about(
+        "[watch.a]\nsegregation.cell = 1\n[watch.b]\nsegregation = { cell = 1, groups = [\"balls\"] }\n[watch.c]\nwall-load = { wall = \"box\", area = 1 }\n[watch.d]\nwall-load = { wall = \"box\", direction = \"x\" }\n[watch.e]\nprofile.axis = \"y\""
+    ));
+}

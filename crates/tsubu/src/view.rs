@@ -1,0 +1,176 @@
+//! What an engine shows to those who look on: grains, contacts, loads on walls.
+
+use crate::find::grid::Ends;
+use glam::DVec3;
+use std::borrow::Cow;
+
+/// What somebody wants to see beside the grains, or what an engine can show beside them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wants {
+    /// Spins of the grains.
+    pub spins: bool,
+    /// The list of contacts; it costs about a step to make.
+    pub contacts: bool,
+    /// Forces and torques on the walls.
+    pub walls: bool,
+}
+
+impl Wants {
+    /// Grains alone, spins not looked at.
+    pub const GRAINS: Self = Self { spins: false, contacts: false, walls: false };
+    /// Grains and their contacts.
+    pub const CONTACTS: Self = Self { contacts: true, ..Self::GRAINS };
+    /// Forces and torques on the walls.
+    pub const WALLS: Self = Self { walls: true, ..Self::GRAINS };
+    /// Everything.
+    pub const ALL: Self = Self { spins: true, contacts: true, walls: true };
+
+    /// What either wants.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            spins: self.spins || other.spins,
+            contacts: self.contacts || other.contacts,
+            walls: self.walls || other.walls,
+        }
+    }
+
+    /// What of this `offered` does not have, in words; `None` if it has all.
+    pub fn missing(self, offered: Self) -> Option<&'static str> {
+        if self.contacts && !offered.contacts {
+            Some("a list of contacts")
+        } else if self.walls && !offered.walls {
+            Some("forces on walls")
+        } else {
+            (self.spins && !offered.spins).then_some("spins")
+        }
+    }
+}
+
+/// One moment, to be read.
+#[derive(Clone, Debug, Default)]
+pub struct View<'a> {
+    /// Simulated time [s].
+    pub time: f64,
+    /// Periodic axes.
+    pub ends: Ends,
+    /// The grains, in an order of the engine's own.
+    pub grains: Columns<'a>,
+    /// Touching pairs; empty unless wanted.
+    pub contacts: Vec<Contact>,
+    /// Loads on the walls, in the order of their names; empty unless wanted.
+    pub walls: Vec<WallLoad>,
+}
+
+/// Columns of the grains.
+#[derive(Clone, Debug, Default)]
+pub struct Columns<'a> {
+    /// Centre [m]; may lie a little beyond a periodic end.
+    pub position: Cow<'a, [DVec3]>,
+    /// What periodic ends have taken from the position so far [m].
+    pub wrapped: Cow<'a, [DVec3]>,
+    /// Velocity [m/s].
+    pub velocity: Cow<'a, [DVec3]>,
+    /// Spin [rad/s].
+    pub spin: Cow<'a, [DVec3]>,
+    /// Radius [m].
+    pub radius: Cow<'a, [f64]>,
+    /// Mass [kg].
+    pub mass: Cow<'a, [f64]>,
+    /// One over the mass [1/kg]; 0 for frozen and driven grains.
+    pub inverse_mass: Cow<'a, [f64]>,
+    /// Number of the group, in the order of the groups' names.
+    pub group: Cow<'a, [u32]>,
+    /// Number of the grain.
+    pub id: Cow<'a, [u32]>,
+}
+
+/// A touching pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Index of the first grain.
+    pub first: usize,
+    /// Index of the second grain, or number of the wall.
+    pub second: usize,
+    /// Whether the second body is a wall.
+    pub wall: bool,
+    /// Point of contact [m].
+    pub position: DVec3,
+    /// From the centre of the first grain to that of the second, or of the image of it that is touched; for a wall to the
+    /// point of contact [m].
+    pub between: DVec3,
+    /// Force on the first grain [N].
+    pub force: DVec3,
+    /// Unit normal from the first to the second body.
+    pub normal: DVec3,
+    /// Overlap [m].
+    pub overlap: f64,
+}
+
+/// What grains do to a wall.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WallLoad {
+    /// Force [N].
+    pub force: DVec3,
+    /// Torque about the origin of the wall's pose [N.m].
+    pub torque: DVec3,
+}
+
+impl WallLoad {
+    /// Adds another load.
+    pub fn add(&mut self, other: &Self) {
+        self.force += other.force;
+        self.torque += other.torque;
+    }
+}
+
+impl View<'_> {
+    /// Number of grains.
+    pub fn len(&self) -> usize {
+        self.grains.id.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Whether forces move the grain.
+    pub fn free(&self, i: usize) -> bool {
+        self.grains.inverse_mass[i] != 0.0
+    }
+
+    /// A point put between the periodic ends.
+    pub fn put(&self, mut p: DVec3) -> DVec3 {
+        for (axis, end) in self.ends.iter().enumerate() {
+            if let Some([low, high]) = end {
+                p[axis] -= ((p[axis] - low) / (high - low)).floor() * (high - low);
+            }
+        }
+        p
+    }
+
+    /// Centre of a grain between the periodic ends.
+    pub fn place(&self, i: usize) -> DVec3 {
+        self.put(self.grains.position[i])
+    }
+
+    /// Centre of a grain as if the world did not repeat.
+    pub fn unwrapped(&self, i: usize) -> DVec3 {
+        self.grains.position[i] + self.grains.wrapped[i]
+    }
+
+    /// Contacts of every grain; those with walls only if `walls`.
+    pub fn touching(&self, walls: bool) -> Vec<u32> {
+        let mut count = vec![0; self.len()];
+        for contact in &self.contacts {
+            if !contact.wall {
+                count[contact.first] += 1;
+                count[contact.second] += 1;
+            } else if walls {
+                count[contact.first] += 1;
+            }
+        }
+        count
+    }
+}

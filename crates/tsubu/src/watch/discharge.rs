@@ -1,0 +1,136 @@
+//! Grains that have passed a plane.
+
+use super::{Sample, Watch};
+use crate::view::{View, Wants};
+use glam::DVec3;
+use std::collections::BTreeMap;
+use tsubu_frame::State;
+use tsubu_frame::state::MissingSection;
+
+pub(super) const ABOUT: &str = "\
+Grains that have passed a plane along its normal since the first look, less those that came back.
+passed grains  number                                                            [-]
+passed mass    their mass                                                        [kg]
+rate           change of the number since the last look over the time between    [1/s]
+mass rate      the same for the mass                                             [kg/s]
+A grain has passed when its centre has. Where the world repeats itself along the normal, every passage counts. Grains that
+come into the world in front of the plane do not count. One that vanished (see `removal`) between two looks counts if in
+free fall from where and as fast as it was last seen it would have passed by now: look often enough to see grains that pass.
+The mean of the rate is the number that passed over the time from the first to the last look.";
+
+/// Where a grain was last seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Seen {
+    /// Whole periods that it has passed; without periods -1 behind the plane and 0 in front.
+    side: i64,
+    mass: f64,
+    /// Distance in front of the plane [m] and speed along the normal [m/s].
+    ahead: f64,
+    speed: f64,
+}
+
+/// Counts what passes.
+#[derive(Clone, Debug)]
+pub(super) struct Discharge {
+    point: DVec3,
+    normal: DVec3,
+    group: Option<u32>,
+    gravity: DVec3,
+    seen: BTreeMap<u32, Seen>,
+    last: Option<f64>,
+    passed: i64,
+    mass: f64,
+}
+
+impl Discharge {
+    pub fn new(point: DVec3, normal: DVec3, group: Option<u32>, gravity: DVec3) -> Self {
+        Self { point, normal, group, gravity, seen: BTreeMap::new(), last: None, passed: 0, mass: 0.0 }
+    }
+
+    /// The period along the normal, if the world repeats itself along it.
+    fn period(&self, view: &View) -> Option<f64> {
+        let axis = (0..3).find(|&a| self.normal[a].abs() > 1.0 - 1e-12)?;
+        view.ends[axis].map(|[low, high]| high - low)
+    }
+
+    fn look(&self, view: &View, i: usize, period: Option<f64>) -> Seen {
+        let ahead = (view.unwrapped(i) - self.point).dot(self.normal);
+        let side = match period {
+            Some(period) => (ahead / period).floor() as i64,
+            None => i64::from(ahead >= 0.0) - 1,
+        };
+        Seen { side, mass: view.grains.mass[i], ahead, speed: view.grains.velocity[i].dot(self.normal) }
+    }
+}
+
+impl Watch for Discharge {
+    fn about(&self) -> &'static str {
+        ABOUT
+    }
+
+    fn wants(&self) -> Wants {
+        Wants::GRAINS
+    }
+
+    fn scalars(&self) -> Vec<String> {
+        ["passed grains [-]", "passed mass [kg]", "rate [1/s]", "mass rate [kg/s]"].map(String::from).to_vec()
+    }
+
+    fn take(&mut self, view: &View) -> Sample {
+        let (before, mass_before) = (self.passed, self.mass);
+        let elapsed = self.last.map_or(f64::NAN, |last| view.time - last);
+        let period = self.period(view);
+        let mut gone = std::mem::take(&mut self.seen);
+        for i in 0..view.len() {
+            if self.group.is_some_and(|group| view.grains.group[i] != group) {
+                continue;
+            }
+            let id = view.grains.id[i];
+            let now = self.look(view, i, period);
+            if let Some(old) = gone.remove(&id) {
+                self.passed += now.side - old.side;
+                self.mass += (now.side - old.side) as f64 * now.mass;
+            }
+            self.seen.insert(id, now);
+        }
+        let pull = self.gravity.dot(self.normal);
+        for old in gone.values() {
+            let fallen = old.ahead + old.speed * elapsed + 0.5 * pull * elapsed * elapsed;
+            if period.is_none() && old.side < 0 && fallen >= 0.0 {
+                self.passed += 1;
+                self.mass += old.mass;
+            }
+        }
+        self.last = Some(view.time);
+        let rates = [(self.passed - before) as f64 / elapsed, (self.mass - mass_before) / elapsed];
+        Sample { scalars: vec![self.passed as f64, self.mass, rates[0], rates[1]], rows: Vec::new() }
+    }
+
+    fn save(&self, name: &str, state: &mut State) {
+        let whole = self.seen.iter().flat_map(|(id, seen)| [i64::from(*id), seen.side]);
+        state.put_integer(&format!("{name}.seen"), [self.passed].into_iter().chain(whole).collect::<Vec<_>>());
+        let real = self.seen.values().flat_map(|seen| [seen.mass, seen.ahead, seen.speed]);
+        let head = [self.mass, self.last.unwrap_or(f64::NAN)];
+        state.put_real(&format!("{name}.seen-real"), head.into_iter().chain(real).collect::<Vec<_>>());
+    }
+
+    fn load(&mut self, name: &str, state: &State) -> Result<(), MissingSection> {
+        let key = format!("{name}.seen");
+        let wrong = || MissingSection { name: key.clone(), kind: "integer" };
+        let (Some((passed, whole)), Some(([mass, last], real))) =
+            (state.integer(&key)?.split_first(), state.real(&format!("{name}.seen-real"))?.split_first_chunk::<2>())
+        else {
+            return Err(wrong());
+        };
+        if 3 * whole.len() != 2 * real.len() {
+            return Err(wrong());
+        }
+        (self.passed, self.mass, self.last) = (*passed, *mass, Some(*last).filter(|t| !t.is_nan()));
+        let pairs = whole.as_chunks::<2>().0.iter().zip(real.as_chunks::<3>().0);
+        let seen = |(&[id, side], &[mass, ahead, speed]): (&[i64; 2], &[f64; 3])| {
+            (id as u32, Seen { side, mass, ahead, speed })
+        };
+        self.seen = pairs.map(seen).collect();
+        Ok(())
+    }
+}

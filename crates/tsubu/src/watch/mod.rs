@@ -1,0 +1,181 @@
+//! Watches: they read, never write, and say what they want, so that nothing is made for nobody.
+//!
+//! A [`Watch`] turns a [`View`] into a [`Sample`]: numbers for the history and rows for a table of its own.
+//! [`Watches`] are those of a run: when they look ([`Trigger`]), where their rows go, what their means are, and what of
+//! them a checkpoint holds. One file a watch; each says what it measures, in which units, after whom, and where it ends.
+
+mod coarse_grain;
+mod coordination;
+mod discharge;
+mod fabric;
+mod forces;
+pub mod kernel;
+mod means;
+mod points;
+mod profile;
+mod run;
+mod segregation;
+mod slope;
+mod track;
+mod trigger;
+mod wall_load;
+
+pub use run::Watches;
+pub use trigger::Trigger;
+
+use crate::view::{View, Wants};
+use glam::DVec3;
+use std::fmt::Debug;
+use tsubu_frame::State;
+use tsubu_frame::state::MissingSection;
+use tsubu_scene::plan::{self, Measure, Plan, Region};
+
+/// Something that looks on.
+pub trait Watch: Send + Debug {
+    /// What is measured, formula, units, source, limits.
+    fn about(&self) -> &'static str;
+
+    /// What it wants to see.
+    fn wants(&self) -> Wants;
+
+    /// The numbers it gives, `what [unit]`.
+    fn scalars(&self) -> Vec<String>;
+
+    /// Its own table, if it has one.
+    fn sheet(&self) -> Option<Sheet> {
+        None
+    }
+
+    /// Looks.
+    fn take(&mut self, view: &View) -> Sample;
+
+    /// Writes what the next look depends on into a checkpoint; most watches remember nothing.
+    fn save(&self, _name: &str, _state: &mut State) {}
+
+    /// Takes it back.
+    fn load(&mut self, _name: &str, _state: &State) -> Result<(), MissingSection> {
+        Ok(())
+    }
+}
+
+/// The columns of a watch's own table, after the time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sheet {
+    /// Columns that say what a row is about: `z [m]`.
+    pub coordinates: Vec<String>,
+    /// Columns of values.
+    pub values: Vec<String>,
+    /// Whether every look gives the same rows, so that each has a mean over time.
+    pub steady: bool,
+}
+
+/// What a look gives.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sample {
+    /// One value for each of [`Watch::scalars`]; not a number where there is nothing to measure.
+    pub scalars: Vec<f64>,
+    /// Rows of the table: coordinates, then values.
+    pub rows: Vec<Vec<f64>>,
+}
+
+/// Builds a watch.
+pub fn open(measure: &Measure, plan: &Plan) -> Box<dyn Watch> {
+    match measure {
+        Measure::Profile { .. } => Box::new(profile::Profile::new(measure, plan)),
+        Measure::CoarseGrain { .. } => Box::new(coarse_grain::CoarseGrain::new(measure, plan)),
+        Measure::Slope { .. } => Box::new(slope::Slope::new(measure, plan)),
+        Measure::Discharge { point, normal, group } => Box::new(discharge::Discharge::new(
+            DVec3::from_array(*point),
+            DVec3::from_array(*normal),
+            group.as_ref().map(|name| group_number(plan, name)),
+            DVec3::from_array(plan.gravity),
+        )),
+        Measure::Coordination { fewest, walls, region } => Box::new(coordination::Coordination {
+            fewest: *fewest,
+            walls: *walls,
+            region: Inside::new(region.as_ref(), plan),
+        }),
+        Measure::Fabric { walls, region } => {
+            Box::new(fabric::Fabric { walls: *walls, region: Inside::new(region.as_ref(), plan), axes: axes(plan) })
+        }
+        Measure::Forces { bins, largest, walls, region } => Box::new(forces::Forces {
+            bins: *bins,
+            largest: *largest,
+            walls: *walls,
+            region: Inside::new(region.as_ref(), plan),
+        }),
+        Measure::Segregation { groups, cell, region } => Box::new(segregation::Segregation {
+            groups: [0, 1].map(|k| group_number(plan, &groups[k])),
+            cell: *cell,
+            region: Inside::new(region.as_ref(), plan),
+            axes: axes(plan),
+        }),
+        Measure::WallLoad { wall, area, direction } => Box::new(wall_load::Load {
+            wall: plan.walls.keys().position(|name| name == wall).unwrap_or(0),
+            pressed: area.zip(*direction).map(|(area, along)| (area, DVec3::from_array(along))),
+            axes: axes(plan),
+        }),
+        Measure::Track { ids } => Box::new(track::Track { ids: ids.clone(), axes: axes(plan) }),
+    }
+}
+
+/// Every kind of watch with its text, for the book.
+pub const ABOUT: [(&str, &str); 10] = [
+    ("profile", profile::ABOUT),
+    ("coarse-grain", coarse_grain::ABOUT),
+    ("slope", slope::ABOUT),
+    ("discharge", discharge::ABOUT),
+    ("coordination", coordination::ABOUT),
+    ("fabric", fabric::ABOUT),
+    ("forces", forces::ABOUT),
+    ("segregation", segregation::ABOUT),
+    ("wall-load", wall_load::ABOUT),
+    ("track", track::ABOUT),
+];
+
+/// Names of the axes.
+const LETTERS: [&str; 3] = ["x", "y", "z"];
+
+/// The axes that a scene has.
+pub type Axes = &'static [usize];
+
+fn axes(plan: &Plan) -> Axes {
+    if plan.dimension == 3 { &[0, 1, 2] } else { &[0, 2] }
+}
+
+/// Number of a group; the scene has been checked, so it is there.
+fn group_number(plan: &Plan, name: &str) -> u32 {
+    plan.particles.keys().position(|known| known == name).unwrap_or(0) as u32
+}
+
+/// A box of space that may be everywhere.
+#[derive(Clone, Debug)]
+pub struct Inside {
+    region: Option<Region>,
+    axes: Axes,
+}
+
+impl Inside {
+    /// A region of a plan; `None` is everywhere.
+    pub fn new(region: Option<&plan::Region>, plan: &Plan) -> Self {
+        Self { region: region.cloned(), axes: axes(plan) }
+    }
+
+    /// Whether a point is in it; the low ends belong to it, the high ends do not.
+    pub fn holds(&self, p: DVec3) -> bool {
+        self.holds_but(p, &[])
+    }
+
+    /// The same, not looking along some axes.
+    pub fn holds_but(&self, p: DVec3, not: &[usize]) -> bool {
+        let Some(region) = &self.region else { return true };
+        let mut looked_at = self.axes.iter().filter(|a| !not.contains(a));
+        looked_at.all(|&a| p[a] >= region.low[a] && p[a] < region.high[a])
+    }
+}
+
+/// Mean of numbers; not a number if there are none.
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
+    sum / count
+}

@@ -1,0 +1,246 @@
+//! The watches of a run: when they look, where their numbers go, what of them a checkpoint holds.
+
+use super::means::Means;
+use super::{Axes, Sheet, Trigger, Watch, axes, open, wall_load};
+use crate::engine::Engine;
+use crate::view::{View, Wants};
+use serde::Serialize;
+use std::path::Path;
+use tsubu_frame::state::MissingSection;
+use tsubu_frame::summary::write_json;
+use tsubu_frame::{FileError, History, State, Summary};
+use tsubu_scene::Plan;
+
+/// What `watch/index.json` says about a watch, for those who draw it.
+#[derive(Debug, Serialize)]
+struct Entry<'a> {
+    name: &'a str,
+    kind: &'a str,
+    about: &'a str,
+    /// Columns of `history.csv`.
+    scalars: Vec<String>,
+    /// Its table in the run folder.
+    file: Option<String>,
+    coordinates: Vec<String>,
+    values: Vec<String>,
+}
+
+/// All watches of a run, and the walls whose loads are written down in any case: those that move or can be moved.
+#[derive(Debug)]
+pub struct Watches {
+    list: Vec<Watched>,
+    walls: Vec<(usize, String)>,
+    axes: Axes,
+}
+
+#[derive(Debug)]
+struct Watched {
+    name: String,
+    kind: &'static str,
+    trigger: Trigger,
+    watch: Box<dyn Watch>,
+    sheet: Option<Sheet>,
+    file: Option<History>,
+    /// Means of the scalars, and of the cells of the table.
+    means: [Means; 2],
+    /// What the last look gave.
+    last: Vec<f64>,
+    /// How often it has looked.
+    looks: f64,
+}
+
+impl Watched {
+    fn column(&self, what: &str) -> String {
+        format!("{} {what}", self.name)
+    }
+
+    fn entry(&self) -> Entry<'_> {
+        let sheet = self.sheet.clone().unwrap_or_default();
+        Entry {
+            name: &self.name,
+            kind: self.kind,
+            about: self.watch.about(),
+            scalars: self.watch.scalars().iter().map(|what| self.column(what)).collect(),
+            file: self.sheet.as_ref().map(|_| file(&self.name)),
+            coordinates: sheet.coordinates,
+            values: sheet.values,
+        }
+    }
+
+    fn header(&self) -> Option<Vec<String>> {
+        let sheet = self.sheet.as_ref()?;
+        let columns = sheet.coordinates.iter().chain(&sheet.values).cloned();
+        Some(["time [s]".to_owned()].into_iter().chain(columns).collect())
+    }
+
+    fn look(&mut self, view: &View) -> Result<(), FileError> {
+        let sample = self.watch.take(view);
+        self.looks += 1.0;
+        self.means[0].take(sample.scalars.iter().copied());
+        self.last = sample.scalars;
+        let Some(sheet) = &self.sheet else { return Ok(()) };
+        if sheet.steady {
+            let cells = sample.rows.iter().flatten().copied().collect::<Vec<_>>();
+            self.means[1].take(cells.into_iter());
+        }
+        let Some(file) = &mut self.file else { return Ok(()) };
+        let mut line = vec![view.time];
+        for row in &sample.rows {
+            line.truncate(1);
+            line.extend(row);
+            file.append(&line)?;
+        }
+        Ok(())
+    }
+}
+
+impl Watches {
+    /// The watches of a plan, before their first look.
+    pub fn new(plan: &Plan, engine: &dyn Engine) -> Self {
+        let list = plan.watch.iter().map(|(name, watch)| {
+            let kind = watch.measure.name();
+            let trigger = Trigger::new(watch, engine.time_step());
+            let watch = open(&watch.measure, plan);
+            let last = vec![f64::NAN; watch.scalars().len()];
+            let means = [Means::new(last.len()), Means::default()];
+            Watched {
+                name: name.clone(),
+                kind,
+                trigger,
+                sheet: watch.sheet(),
+                watch,
+                file: None,
+                means,
+                last,
+                looks: 0.0,
+            }
+        });
+        let moves = |wall: &tsubu_scene::plan::Wall| {
+            let tsubu_scene::plan::Wall { material: _, shape: _, host, motion, rotation, servo, body } = wall;
+            host.is_some() || motion.is_some() || rotation.is_some() || servo.is_some() || body.is_some()
+        };
+        let walls = plan.walls.iter().enumerate().filter(|(_, (_, wall))| engine.offers().walls && moves(wall));
+        let walls = walls.map(|(k, (name, _))| (k, name.clone())).collect();
+        Self { list: list.collect(), walls, axes: axes(plan) }
+    }
+
+    /// Makes the files, and a list of what is in them.
+    pub fn create(&mut self, folder: &Path) -> Result<(), FileError> {
+        for watched in &mut self.list {
+            if let Some(header) = watched.header() {
+                watched.file = Some(History::create(&folder.join(file(&watched.name)), &header)?);
+            }
+        }
+        if self.list.is_empty() { Ok(()) } else { write_json(&folder.join("watch/index.json"), &self.index()) }
+    }
+
+    /// Goes on with the files of a run that was cut at `time` [s].
+    pub fn resume(&mut self, folder: &Path, time: f64) -> Result<(), FileError> {
+        for watched in &mut self.list {
+            if let Some(header) = watched.header() {
+                watched.file = Some(History::resume(&folder.join(file(&watched.name)), &header, time)?);
+            }
+        }
+        Ok(())
+    }
+
+    fn index(&self) -> Vec<Entry<'_>> {
+        self.list.iter().map(Watched::entry).collect()
+    }
+
+    /// The next step at which one of them looks; `u64::MAX` if none does any more.
+    pub fn next(&self, now: u64) -> u64 {
+        self.list.iter().map(|w| w.trigger.at_or_after(now + 1)).min().unwrap_or(u64::MAX)
+    }
+
+    /// Lets all look whose time it is.
+    pub fn look(&mut self, engine: &dyn Engine) -> Result<(), FileError> {
+        let step = engine.steps();
+        let due = |w: &Watched| w.trigger.due(step);
+        let wants = self.list.iter().filter(|w| due(w)).map(|w| w.watch.wants()).reduce(Wants::and);
+        let Some(wants) = wants else { return Ok(()) };
+        let view = engine.view(wants);
+        self.list.iter_mut().filter(|w| w.trigger.due(step)).try_for_each(|w| w.look(&view))
+    }
+
+    /// Columns that they add to the history: loads on walls that move, then what every watch measures.
+    pub fn header(&self) -> Vec<String> {
+        let walls = self.walls.iter().flat_map(|(_, name)| {
+            wall_load::names(self.axes).into_iter().map(move |what| format!("wall {name} {what}"))
+        });
+        let own = self.list.iter().flat_map(|w| w.watch.scalars().into_iter().map(|what| w.column(&what)));
+        walls.chain(own).collect()
+    }
+
+    /// Their values in a row of the history: of walls now, of watches at their last look.
+    pub fn row(&self, engine: &dyn Engine) -> Vec<f64> {
+        let mut row = Vec::new();
+        if !self.walls.is_empty() {
+            let view = engine.view(Wants::WALLS);
+            row.extend(self.walls.iter().flat_map(|(k, _)| wall_load::values(&view.walls[*k], self.axes)));
+        }
+        row.extend(self.list.iter().flat_map(|w| &w.last));
+        row
+    }
+
+    /// Hands all rows to the disk, before a checkpoint is written.
+    pub fn sync(&mut self) -> Result<(), FileError> {
+        self.list.iter_mut().filter_map(|w| w.file.as_mut()).try_for_each(History::sync)
+    }
+
+    /// Means and last values, for the summary.
+    pub fn results(&self, summary: &mut Summary) {
+        for w in &self.list {
+            if w.looks == 0.0 {
+                summary.warnings.push(format!("the watch `{}` has not looked once: it begins later", w.name));
+            }
+            for ((what, mean), last) in w.watch.scalars().iter().zip(w.means[0].get()).zip(&w.last) {
+                let what = tsubu_frame::csv::split_unit(what).0;
+                summary.results.insert(w.column(what), mean);
+                summary.results.insert(w.column(&format!("{what} final")), *last);
+            }
+            // Lists of fields over two axes would fill the summary; they are in the table.
+            let Some(sheet) = w.sheet.as_ref().filter(|s| s.steady && s.coordinates.len() == 1) else { continue };
+            let names: Vec<&String> = sheet.coordinates.iter().chain(&sheet.values).collect();
+            let cells: Vec<f64> = w.means[1].get().collect();
+            for (k, what) in names.iter().enumerate() {
+                let column: Vec<f64> = cells.iter().skip(k).step_by(names.len()).copied().collect();
+                summary.results.insert(w.column(&format!("{} profile", tsubu_frame::csv::split_unit(what).0)), column);
+            }
+        }
+    }
+
+    /// Writes what a resumed run needs.
+    pub fn save(&self, state: &mut State) {
+        for w in &self.list {
+            let name = format!("watch.{}", w.name);
+            state.put_real(&format!("{name}.last"), [&[w.looks], w.last.as_slice()].concat());
+            for (means, what) in w.means.iter().zip(["scalars", "cells"]) {
+                state.put_real(&format!("{name}.{what}"), means.numbers());
+            }
+            w.watch.save(&name, state);
+        }
+    }
+
+    /// Takes it back.
+    pub fn load(&mut self, state: &State) -> Result<(), MissingSection> {
+        for w in &mut self.list {
+            let name = format!("watch.{}", w.name);
+            let (looks, last) = match state.real(&format!("{name}.last"))? {
+                [looks, last @ ..] if last.len() == w.last.len() => (looks, last),
+                _ => return Err(MissingSection { name, kind: "real" }),
+            };
+            (w.looks, w.last) = (*looks, last.to_vec());
+            for (means, what) in w.means.iter_mut().zip(["scalars", "cells"]) {
+                *means = Means::from_numbers(state.real(&format!("{name}.{what}"))?);
+            }
+            w.watch.load(&name, state)?;
+        }
+        Ok(())
+    }
+}
+
+/// The table of a watch in the run folder.
+fn file(name: &str) -> String {
+    format!("watch/{name}.csv")
+}

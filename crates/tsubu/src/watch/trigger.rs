@@ -1,0 +1,67 @@
+//! When a watch looks.
+
+use tsubu_scene::plan;
+
+/// Looks at `from`, `from + every`, ... up to `until`, each at the nearest step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trigger {
+    from: f64,
+    every: f64,
+    until: f64,
+    dt: f64,
+}
+
+impl Trigger {
+    /// The trigger of a watch in a run with steps of `dt` [s].
+    pub fn new(watch: &plan::Watch, dt: f64) -> Self {
+        Self { from: watch.from, every: watch.every, until: watch.until.unwrap_or(f64::INFINITY), dt }
+    }
+
+    /// The first look at step `now` or later; `u64::MAX` if there is none any more.
+    pub fn at_or_after(&self, now: u64) -> u64 {
+        let mut k = ((now as f64 * self.dt - self.from) / self.every).floor().max(0.0);
+        loop {
+            let time = self.from + k * self.every;
+            // The last look is not lost to the last digit.
+            if time > self.until + 1e-9 * self.every {
+                return u64::MAX;
+            }
+            let step = (time / self.dt).round() as u64;
+            if step >= now {
+                return step;
+            }
+            k += 1.0;
+        }
+    }
+
+    /// Whether there is a look at this step.
+    pub fn due(&self, step: u64) -> bool {
+        self.at_or_after(step) == step
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn looks(from: f64, every: f64, until: f64, dt: f64, last: u64) -> Vec<u64> {
+        let trigger = Trigger { from, every, until, dt };
+        (0..=last).filter(|step| trigger.due(*step)).collect()
+    }
+
+    #[test]
+    fn looks_come_when_they_are_due() {
+        assert_eq!(looks(0.0, 0.3, f64::INFINITY, 0.1, 10), [0, 3, 6, 9]);
+        assert_eq!(looks(0.2, 0.3, 0.8, 0.1, 20), [2, 5, 8]);
+        // Finer than the step: every step, never twice.
+        assert_eq!(looks(0.0, 0.01, f64::INFINITY, 0.1, 3), [0, 1, 2, 3]);
+        // Not a multiple of the step: the nearest.
+        assert_eq!(looks(0.0, 0.25, f64::INFINITY, 0.1, 10), [0, 3, 5, 8, 10]);
+    }
+
+    #[test]
+    fn the_next_look_is_found_from_anywhere() {
+        let trigger = Trigger { from: 0.2, every: 0.3, until: 0.8, dt: 0.1 };
+        assert_eq!([0, 2, 3, 6, 8, 9].map(|now| trigger.at_or_after(now)), [2, 2, 5, 8, 8, u64::MAX]);
+    }
+}

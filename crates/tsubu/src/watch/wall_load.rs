@@ -1,0 +1,61 @@
+//! Force and torque on a wall.
+
+use super::{Axes, LETTERS, Sample, Watch};
+use crate::view::{View, WallLoad, Wants};
+use glam::DVec3;
+
+pub(super) const ABOUT: &str = "\
+What the grains do to a wall, from the forces of the last step.
+force x, z        sum of the contact forces on it                                           [N]
+torque y          their torque; in space all three entries                                  [N.m]
+pressure          force along `direction` over `area`, if these are given                   [Pa]
+The torque is about the origin of the wall's pose: the centre of mass of a free body, the centre of rotation of a turning
+wall, else the origin of the scene moved along with the wall.
+Limits: the pressure is a mean over the area that is given, whatever part of it grains touch; a direction stays as it is
+when the wall turns. Momentary values of stiff contacts are rough: take means.";
+
+/// Reads a wall's load.
+#[derive(Clone, Debug)]
+pub(super) struct Load {
+    /// Number of the wall.
+    pub wall: usize,
+    /// Area and direction of the pressure.
+    pub pressed: Option<(f64, DVec3)>,
+    pub axes: Axes,
+}
+
+/// Names of the forces and torques on a wall.
+pub(super) fn names(axes: Axes) -> Vec<String> {
+    let turns: Axes = if axes.len() == 3 { axes } else { &[1] };
+    let forces = axes.iter().map(|&a| format!("force {} [N]", LETTERS[a]));
+    forces.chain(turns.iter().map(|&a| format!("torque {} [N.m]", LETTERS[a]))).collect()
+}
+
+/// Their values.
+pub(super) fn values(load: &WallLoad, axes: Axes) -> Vec<f64> {
+    let turns: Axes = if axes.len() == 3 { axes } else { &[1] };
+    axes.iter().map(|&a| load.force[a]).chain(turns.iter().map(|&a| load.torque[a])).collect()
+}
+
+impl Watch for Load {
+    fn about(&self) -> &'static str {
+        ABOUT
+    }
+
+    fn wants(&self) -> Wants {
+        Wants::WALLS
+    }
+
+    fn scalars(&self) -> Vec<String> {
+        let mut names = names(self.axes);
+        names.extend(self.pressed.map(|_| "pressure [Pa]".to_owned()));
+        names
+    }
+
+    fn take(&mut self, view: &View) -> Sample {
+        let load = view.walls.get(self.wall).copied().unwrap_or_default();
+        let mut scalars = values(&load, self.axes);
+        scalars.extend(self.pressed.map(|(area, direction)| load.force.dot(direction) / area));
+        Sample { scalars, rows: Vec::new() }
+    }
+}

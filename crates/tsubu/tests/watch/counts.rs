@@ -1,0 +1,153 @@
+//! Counting: what passes a plane, how groups are mixed, where single grains are.
+
+use super::{Ball, GROUPS, ball, near, once, plan, scalar, shaken, view, watch};
+use glam::DVec3;
+use tsubu::view::View;
+use tsubu::watch::open;
+use tsubu_frame::State;
+
+const GRAVITY: &str = "gravity = 0\n";
+
+/// Grains 0.1 apart that fall at 2 m/s through z = 0: 20 a second.
+fn falling(time: f64, gone_below: f64) -> View<'static> {
+    let grain = |k: usize| Ball {
+        velocity: DVec3::new(0.0, 0.0, -2.0),
+        mass: 0.5,
+        ..ball(0.0, 0.0, 0.1 * k as f64 + 0.05 - 2.0 * time, 0.04)
+    };
+    let balls: Vec<Ball> = (0..400).map(grain).collect();
+    let mut shown = view(&balls, Vec::new(), [None; 3]);
+    let kept: Vec<usize> = (0..400).filter(|&k| balls[k].at.z >= gone_below).collect();
+    let g = &mut shown.grains;
+    g.id = kept.iter().map(|&k| k as u32).collect();
+    let vectors = |of: fn(&Ball) -> DVec3| kept.iter().map(|&k| of(&balls[k])).collect::<Vec<_>>();
+    let reals = |of: fn(&Ball) -> f64| kept.iter().map(|&k| of(&balls[k])).collect::<Vec<_>>();
+    (g.position, g.velocity) = (vectors(|b| b.at).into(), vectors(|b| b.velocity).into());
+    (g.mass, g.inverse_mass) = (reals(|b| b.mass).into(), reals(|b| 1.0 / b.mass).into());
+    shown.time = time;
+    shown
+}
+
+#[test]
+fn a_steady_fall_is_counted_exactly() {
+    // Seen on both sides of the plane; vanishing between two looks; far less often.
+    for (gone_below, every) in [(-9.0, 0.01), (-0.01, 0.01), (-0.01, 0.13)] {
+        let plan = plan(2, GRAVITY, "discharge = {}");
+        let mut gate = open(&plan.watch["w"].measure, &plan);
+        let mut rates = Vec::new();
+        let looks = (2.6_f64 / every).round() as usize;
+        for k in 0..=looks {
+            let sample = once(&mut *gate, &falling(k as f64 * every, gone_below));
+            let passed = (20.0 * k as f64 * every + 0.5).floor();
+            assert_eq!(scalar(&*gate, &sample, "passed grains"), passed, "{gone_below} {every}, look {k}");
+            assert!((scalar(&*gate, &sample, "passed mass") - 0.5 * passed).abs() < 1e-12);
+            rates.push(scalar(&*gate, &sample, "rate"));
+        }
+        assert!(rates[0].is_nan());
+        let mean = rates[1..].iter().sum::<f64>() / looks as f64;
+        assert!(near(mean, 20.0, 1e-3), "{mean}");
+        // The control: the same gate refuses 1 % more.
+        assert!(!near(mean, 20.2, 1e-3));
+    }
+}
+
+#[test]
+fn who_comes_back_is_taken_off_and_who_appears_in_front_does_not_count() {
+    let mut gate = watch(2, "discharge = { normal = \"x\" }");
+    let mut passed = |xs: &[f64]| {
+        let balls: Vec<Ball> = xs.iter().map(|x| ball(*x, 0.0, 0.0, 0.1)).collect();
+        let sample = once(&mut *gate, &view(&balls, Vec::new(), [None; 3]));
+        scalar(&*gate, &sample, "passed grains")
+    };
+    assert_eq!(passed(&[-1.0, -1.0]), 0.0);
+    assert_eq!(passed(&[0.5, 0.1]), 2.0);
+    assert_eq!(passed(&[0.5, -0.1]), 1.0);
+    assert_eq!(passed(&[0.6, -0.1, 3.0]), 1.0);
+}
+
+#[test]
+fn every_round_of_a_periodic_world_counts() {
+    let mut gate = watch(2, "discharge = { normal = \"x\", point = [0.3, 0] }");
+    let mut passed = |x: f64| {
+        let mut shown = view(&[ball(x - x.floor(), 0.0, 0.0, 0.1)], Vec::new(), [Some([0.0, 1.0]), None, None]);
+        shown.grains.wrapped = vec![DVec3::new(x.floor(), 0.0, 0.0)].into();
+        let sample = once(&mut *gate, &shown);
+        scalar(&*gate, &sample, "passed grains")
+    };
+    assert_eq!([0.1, 0.4, 0.9, 1.2, 1.4, 4.4, -0.8].map(&mut passed), [0.0, 1.0, 1.0, 1.0, 2.0, 5.0, -1.0]);
+}
+
+#[test]
+fn a_count_goes_on_after_a_checkpoint() {
+    let plan = plan(2, GRAVITY, "discharge = {}");
+    let fresh = || open(&plan.watch["w"].measure, &plan);
+    let (mut whole, mut first, mut second) = (fresh(), fresh(), fresh());
+    let look = |k: usize| falling(0.1 * k as f64, -0.1);
+    (0..5).for_each(|k| drop((whole.take(&look(k)), first.take(&look(k)))));
+    let mut state = State::default();
+    first.save("watch.w", &mut state);
+    second.load("watch.w", &state).unwrap();
+    for k in 5..9 {
+        assert_eq!(whole.take(&look(k)), second.take(&look(k)));
+    }
+    assert!(second.load("watch.other", &state).is_err());
+    // The control: one that forgot.
+    assert_ne!(whole.take(&look(9)), fresh().take(&look(9)));
+}
+
+/// Sixteen cells of 64 grains each; `group` says to which group a grain belongs.
+fn lacey(group: impl Fn(usize, usize) -> u32) -> f64 {
+    let plan = plan(2, GROUPS, "segregation.cell = 1");
+    let mut mixing = open(&plan.watch["w"].measure, &plan);
+    let balls: Vec<Ball> = (0..1024)
+        .map(|k| {
+            let (cell, n) = (k / 64, k % 64);
+            let x = (cell % 4) as f64 + ((n % 8) as f64 + 0.5) / 8.0;
+            let z = (cell / 4) as f64 + ((n / 8) as f64 + 0.5) / 8.0;
+            Ball { group: group(cell, n), ..ball(x, 0.0, z, 0.05) }
+        })
+        .collect();
+    let sample = once(&mut *mixing, &view(&balls, Vec::new(), [None; 3]));
+    assert_eq!(scalar(&*mixing, &sample, "cells"), 16.0);
+    scalar(&*mixing, &sample, "Lacey index")
+}
+
+#[test]
+fn groups_apart_in_order_and_at_random() {
+    assert!(lacey(|cell, _| u32::from(cell >= 8)).abs() < 1e-12, "apart");
+    let order = lacey(|_, n| u32::from(n >= 32));
+    assert!(near(order, 64.0 / 63.0, 1e-12), "{order}");
+    let random = lacey(|cell, n| u32::from(shaken(64 * cell + n + (cell * n) % 7) > 0.5));
+    assert!((random - 1.0).abs() < 0.05, "{random}");
+    // The control: three quarters of the way is neither.
+    let between = lacey(|cell, n| u32::from(if cell >= 8 { n >= 16 } else { n >= 48 }));
+    assert!((0.5..0.95).contains(&between), "{between}");
+}
+
+#[test]
+fn the_lighter_group_floats() {
+    let plan = plan(2, GROUPS, "segregation.cell = 1");
+    let mut mixing = open(&plan.watch["w"].measure, &plan);
+    let balls = [
+        Ball { mass: 3.0, ..ball(0.0, 0.0, 1.0, 0.1) },
+        ball(0.0, 0.0, 3.0, 0.1),
+        Ball { group: 1, ..ball(0.0, 0.0, 1.0, 0.1) },
+    ];
+    let sample = once(&mut *mixing, &view(&balls, Vec::new(), [None; 3]));
+    assert!(near(scalar(&*mixing, &sample, "height difference"), 0.5, 1e-12));
+    assert!(near(scalar(&*mixing, &sample, "share"), 2.0 / 3.0, 1e-12));
+}
+
+#[test]
+fn tracks_go_on_across_ends_and_stop_with_the_grain() {
+    let plan = plan(
+        2,
+        "[particles.a]\nmaterial = \"glass\"\ndiameter = 1\nstart.at.position = [[0, 0], [2, 0], [4, 0]]\n",
+        "track.ids = [2, 0]",
+    );
+    let mut track = open(&plan.watch["w"].measure, &plan);
+    let mut shown = view(&[ball(0.1, 0.0, 0.2, 0.1), ball(0.3, 0.0, 0.4, 0.1)], Vec::new(), [None; 3]);
+    shown.grains.wrapped = vec![DVec3::new(5.0, 0.0, 0.0), DVec3::ZERO].into();
+    let sample = once(&mut *track, &shown);
+    assert_eq!(sample.rows, [[0.0, 5.1, 0.2, 0.0, 0.0, 0.0]]);
+}
