@@ -20,6 +20,8 @@ const SINGLE_CONTACTS: &[&str] = &[
     "incline",
     "spin-down",
     "rolling-models",
+    "rebound-on-steel",
+    "starts-to-roll",
 ];
 
 /// The quick cases that take a few seconds pass.

@@ -10,6 +10,7 @@ mod held;
 mod host;
 mod impact_damper;
 mod lump;
+mod open_dem_benchmark;
 mod rolling;
 mod shapes;
 mod stack;
@@ -61,6 +62,13 @@ pub static CASES: &[Case] = &[
     quick("incline", "rolling", "V-21: rolling and sliding down a slope", rolling::incline),
     quick("spin-down", "rolling", "V-22, V-24: torques of rolling resistance", rolling::spin_down),
     quick("rolling-models", "rolling", "V-23: stops and stays", rolling::models),
+    quick("rebound-on-steel", "open-dem-benchmark", "V-48: rebound at 0.4 m/s", open_dem_benchmark::rebound),
+    quick(
+        "starts-to-roll",
+        "open-dem-benchmark",
+        "V-48: a steel sphere rolls down 45 degrees",
+        open_dem_benchmark::roll,
+    ),
     quick("drop-dem", "damper-2003", "V-06, A-F8: a ball dropped in a still box, by DEM", drop::dem),
     quick("drop-lattice", "damper-2003", "A-F8: the same by the automaton", drop::lattice),
     quick("lump", "shaken", "V-39: an inelastic ball locks to a shaken floor", lump::locking),
