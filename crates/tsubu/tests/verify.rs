@@ -23,6 +23,8 @@ const CLOSED_FORMS: &[&str] = &[
     "haff",
     "centrifuging",
     "q-model",
+    "rebound-on-steel",
+    "starts-to-roll",
 ];
 
 /// The quick cases that take a few seconds pass.

@@ -14,6 +14,7 @@ mod held;
 mod host;
 mod impact_damper;
 mod lump;
+mod open_dem_benchmark;
 mod random_loads;
 mod rolling;
 mod shapes;
@@ -70,6 +71,13 @@ pub static CASES: &[Case] = &[
     quick("haff", "dem-benchmarks", "V-30: a gas of grains cools, in the plane and in space", cooling::haff),
     quick("centrifuging", "dem-benchmarks", "V-37: where a drum's grain leaves the wall", drum::centrifuging),
     quick("q-model", "dem-benchmarks", "V-40: random loads on a lattice", random_loads::q_model),
+    quick("rebound-on-steel", "open-dem-benchmark", "V-48: rebound at 0.4 m/s", open_dem_benchmark::rebound),
+    quick(
+        "starts-to-roll",
+        "open-dem-benchmark",
+        "V-48: a steel sphere rolls down 45 degrees",
+        open_dem_benchmark::roll,
+    ),
     quick("drop-dem", "damper-2003", "V-06, A-F8: a ball dropped in a still box, by DEM", drop::dem),
     quick("drop-lattice", "damper-2003", "A-F8: the same by the automaton", drop::lattice),
     quick("lump", "shaken", "V-39: an inelastic ball locks to a shaken floor", lump::locking),
