@@ -89,7 +89,7 @@ fn chute() -> Plan {
         let pitch = [40.0 / across as f64, 20.0 / deep as f64];
         position.push([(i as f64 + 0.25 + shift) * pitch[0], (j as f64 + 0.25 + shift) * pitch[1], z]);
         let depth = (1.0 - z / high).max(0.0);
-        velocity.push([8.0 * (1.0 - depth * depth.sqrt()), 0.0, 0.0]);
+        velocity.push([3.0 * (1.0 - depth * depth.sqrt()), 0.0, 0.0]);
     }
     if let Some(flow) = plan.particles.get_mut("flow") {
         flow.start = Start::At { position, velocity, spin: Vec::new() };
