@@ -159,7 +159,7 @@ fn only_fluctuations_make_kinetic_stress() {
 #[test]
 fn momentum_balances_at_every_point() {
     let g = 10.0;
-    let balls: Vec<Ball> = (0..3).map(|k| ball(0.5 + 0.06 * k as f64, 0.0, 0.1 + 0.19 * k as f64, 0.1)).collect();
+    let balls: Vec<Ball> = (0..3_usize).map(|k| ball(0.5 + 0.06 * k as f64, 0.0, 0.1 + 0.19 * k as f64, 0.1)).collect();
     let mut contacts = touching(&balls, [None; 3], 0.0);
     // The upper grains' weight goes down; what it pushes sideways is held by a wall.
     for (k, c) in contacts.iter_mut().enumerate() {

@@ -8,7 +8,7 @@ type Ends = [Option<[f64; 2]>; 3];
 /// Square lattice, four by four, the world repeating itself both ways.
 fn square() -> (Vec<Ball>, Ends) {
     let ends = [Some([0.0, 4.0]), None, Some([0.0, 4.0])];
-    ((0..16).map(|k| ball((k % 4) as f64 + 0.5, 0.0, (k / 4) as f64 + 0.5, 0.5)).collect(), ends)
+    ((0..16_usize).map(|k| ball((k % 4) as f64 + 0.5, 0.0, (k / 4) as f64 + 0.5, 0.5)).collect(), ends)
 }
 
 /// Triangular lattice, the same.
@@ -89,7 +89,7 @@ fn lattices_are_isotropic_and_a_column_is_not() {
         assert!(fabric(&balls, [ends[0], None, None])[3] > 0.05);
     }
     // A column that leans by 30 degrees: F = n n.
-    let lean: Vec<Ball> = (0..5).map(|k| ball(0.5 * k as f64, 0.0, 0.75_f64.sqrt() * k as f64, 0.5)).collect();
+    let lean: Vec<Ball> = (0..5_usize).map(|k| ball(0.5 * k as f64, 0.0, 0.75_f64.sqrt() * k as f64, 0.5)).collect();
     let [xx, xz, zz, deviator] = fabric(&lean, [None; 3]);
     assert!(near(xx, 0.25, 1e-9) && near(zz, 0.75, 1e-9) && near(deviator, 1.0, 1e-9), "{xx} {zz} {deviator}");
     assert!(near(xz, 0.25 * 3.0_f64.sqrt(), 1e-9));
@@ -102,7 +102,7 @@ fn lattices_are_isotropic_and_a_column_is_not() {
 /// In space: contacts along x and y alone have a fabric of (1/2, 1/2, 0), deviator 1/2.
 #[test]
 fn a_layer_in_space() {
-    let balls: Vec<Ball> = (0..16).map(|k| ball((k % 4) as f64 + 0.5, (k / 4) as f64 + 0.5, 0.0, 0.5)).collect();
+    let balls: Vec<Ball> = (0..16_usize).map(|k| ball((k % 4) as f64 + 0.5, (k / 4) as f64 + 0.5, 0.0, 0.5)).collect();
     let ends = [Some([0.0, 4.0]), Some([0.0, 4.0]), None];
     let mut fabric = watch(3, "fabric = {}");
     let sample = once(&mut *fabric, &view(&balls, touching(&balls, ends, 1.0), ends));

@@ -39,7 +39,7 @@ fn a_contact_across_the_end_knows_the_image() {
     let shown = engine.view(Wants::ALL);
     let pair = shown.contacts.iter().find(|c| !c.wall).unwrap();
     let (a, b) = (shown.grains.position[pair.first], shown.grains.position[pair.second]);
-    assert!(near(pair.between.length(), 0.0096_f64.hypot(0.002795), 1e-12), "{:?}", pair.between);
+    assert!(near(pair.between.length(), 0.0096_f64.hypot(0.002_795), 1e-12), "{:?}", pair.between);
     assert!((b - a).length() > 0.09, "the control: not the way through the world");
     assert!(pair.force.dot(pair.between) < 0.0, "they press each other apart");
     assert!(near((shown.grains.radius[pair.first] - 0.5 * pair.overlap).abs(), (pair.position - a).length(), 1e-12));
@@ -173,7 +173,10 @@ fn the_automaton_says_what_it_cannot_show() {
         let changes = ["method=lattice".to_owned(), "particles.a.start.settled={}".to_owned()];
         let scene = Scene::parse("test", &text, Path::new("."), &changes).unwrap_or_else(|wrong| panic!("{wrong}"));
         match engine::open(scene.plan(), &Hosts::default()) {
-            Ok(engine) => Err(engine.notes().iter().map(|n| format!("{}: {}\n", n.key, n.text)).collect::<String>()),
+            Ok(engine) => {
+                let notes: Vec<String> = engine.notes().iter().map(|n| format!("{}: {}", n.key, n.text)).collect();
+                Err(notes.join("\n"))
+            }
             Err(OpenError::Refused(refusal)) => Ok(refusal.to_string()),
             Err(other) => panic!("{other}"),
         }

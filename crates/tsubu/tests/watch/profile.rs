@@ -43,7 +43,7 @@ fn slices_wrap() {
 /// v = (3 z, 0): every slice has the speed of its middle and, about it, the temperature of uniform shear in a slice.
 #[test]
 fn shear_is_seen_as_it_is() {
-    let balls: Vec<Ball> = (0..200)
+    let balls: Vec<Ball> = (0..200_usize)
         .map(|k| {
             let z = (k as f64 + 0.5) / 200.0;
             Ball { velocity: DVec3::new(3.0 * z, 0.0, 0.0), ..ball(0.5, 0.0, z, 1e-5) }
@@ -66,7 +66,7 @@ fn shear_is_seen_as_it_is() {
 #[test]
 fn coordination_is_that_of_the_lattice() {
     let ends = [Some([0.0, 4.0]), None, Some([0.0, 4.0])];
-    let balls: Vec<Ball> = (0..16).map(|k| ball((k % 4) as f64 + 0.5, 0.0, (k / 4) as f64 + 0.5, 0.5)).collect();
+    let balls: Vec<Ball> = (0..16_usize).map(|k| ball((k % 4) as f64 + 0.5, 0.0, (k / 4) as f64 + 0.5, 0.5)).collect();
     let mut profile =
         watch(2, "profile = { bins = 3, quantities = [\"coordination\"], region = { low = [0, 0], high = [4, 4] } }");
     let sample = once(&mut *profile, &view(&balls, touching(&balls, ends, 1.0), ends));

@@ -123,6 +123,9 @@ pub(super) fn write(
             summary.energy.residual_relative
         ));
     }
+    if !plan.watch.is_empty() {
+        summary.warnings.push("watches do not look on at a response; `tsubu run` has them".to_owned());
+    }
     let hosts = Hosts::new(&plan.hosts);
     if let Ok(engine) = engine::open(plan, &hosts) {
         summary.time_step = engine.time_step();
