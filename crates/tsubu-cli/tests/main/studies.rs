@@ -92,7 +92,10 @@ fn reduced(desk: &Desk, scene: &str) -> serde_json::Value {
 
 #[test]
 fn a_silo_empties() {
-    let left = reduced(&Desk::empty(), "silo.toml")["particles"].as_u64().unwrap();
+    let summary = reduced(&Desk::empty(), "silo.toml");
+    let left = summary["particles"].as_u64().unwrap();
+    let passed = summary["results"]["outflow passed grains final"].as_f64().unwrap();
+    assert!((passed + left as f64 - 400.0).abs() < 3.0, "{left} are left and {passed} have passed");
     // Beverloo: 140 a second, 0.35 s open; half as many in the first moments to twice as many pass. A wall with a hole
     // loses all, a lid that stays none.
     assert!((300..=375).contains(&left), "{left} of 400 grains are left");
