@@ -18,6 +18,12 @@ impl DemEngine {
             (wall.pose.velocity, wall.pose.spin) = (DVec3::ZERO, DVec3::ZERO);
         }
         self.walls_held = true;
+        // Driven grains stand as walls do; they get their velocity back when the run begins.
+        for (velocity, inverse_mass) in self.grains.velocity.iter_mut().zip(&self.grains.inverse_mass) {
+            if *inverse_mass == 0.0 {
+                *velocity = DVec3::ZERO;
+            }
+        }
         let (mut hosts, mut ledger) = (Hosts::default(), Ledger::default());
         let block = (1e-2 / self.dt).ceil() as u64;
         let fall = self.total_mass * self.gravity.length() * self.smallest_diameter;

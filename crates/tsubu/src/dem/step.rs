@@ -3,7 +3,7 @@
 use super::engine::DemEngine;
 use super::integrate::{self, Motion};
 use super::memory::Kept;
-use super::touch::{Scene, Touch};
+use super::touch::Scene;
 use crate::engine::{Engine, Fault};
 use crate::ledger::{Account, Ledger};
 use crate::partner::Hosts;
@@ -66,37 +66,28 @@ impl DemEngine {
 
     /// Prepares the touch phase for new candidates.
     pub(super) fn fit(&mut self) {
-        let (scene, touch) = self.scene();
-        touch.fit(&scene);
+        let mut touch = std::mem::take(&mut self.touch);
+        touch.fit(&self.scene());
+        self.touch = touch;
     }
 
     pub(super) fn touch_all(&mut self) {
-        let (scene, touch) = self.scene();
-        let mut sums = touch.forces(&scene);
+        let mut touch = std::mem::take(&mut self.touch);
+        let mut sums = touch.forces(&self.scene());
+        self.touch = touch;
         sums.lost[1] += std::mem::take(&mut self.released) / self.dt;
         self.sums = sums;
     }
 
-    /// What the touch phase reads, and itself.
-    fn scene(&mut self) -> (Scene<'_>, &mut Touch) {
-        let Self { grains, walls, candidates, law, table, search, rotation, dt, touch, .. } = self;
-        let scene = Scene { grains, walls, candidates, law, table, reach: search.reach, rotation: *rotation, dt: *dt };
-        (scene, touch)
+    /// What the touch phase reads.
+    fn scene(&self) -> Scene<'_> {
+        let Self { grains, walls, candidates, law, table, search, rotation, dt, .. } = self;
+        Scene { grains, walls, candidates, law, table, reach: search.reach, rotation: *rotation, dt: *dt }
     }
 
     /// The contacts of this moment.
     pub(super) fn contact_list(&self) -> Vec<Contact> {
-        let Self { grains, walls, candidates, law, table, search, rotation, dt, touch, .. } = self;
-        touch.contacts(&Scene {
-            grains,
-            walls,
-            candidates,
-            law,
-            table,
-            reach: search.reach,
-            rotation: *rotation,
-            dt: *dt,
-        })
+        self.touch.contacts(&self.scene())
     }
 
     /// Accelerations from contact forces and gravity; completes the velocities for a step `dt` (0: leaves them).

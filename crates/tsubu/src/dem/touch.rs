@@ -151,13 +151,14 @@ impl Touch {
                 }
             }
         }
-        while self.scratch.len() < rayon::current_num_threads() {
-            self.scratch.push(Mutex::new(Scratch::new(width)));
-        }
     }
 
     /// Evaluates all contacts; returns their sums.
     pub fn forces(&mut self, scene: &Scene) -> Sums {
+        // An engine may be moved to a pool with more threads than the one it was built in.
+        while self.scratch.len() < rayon::current_num_threads() {
+            self.scratch.push(Mutex::new(Scratch::new(scene.law.width())));
+        }
         let scratch = &self.scratch;
         let work = |(block, list): (&mut Block, &List)| {
             let mine = rayon::current_thread_index().unwrap_or(0);
