@@ -1,8 +1,9 @@
 //! The verdict: is this scene resolved well enough, and what will it cost?
 
+use super::rest::{self, IN_A_BED, IN_AN_IMPACT};
 use super::{bodies, mesh, shortest_period, speed_scale};
 use crate::bench::Bench;
-use crate::contact::{Law, Table};
+use crate::contact::{Law, Pair, Table};
 use crate::engine::{self, Engine, Fault, OpenError};
 use crate::find::candidates::WORTH_THREADS;
 use crate::ledger::Ledger;
@@ -212,7 +213,19 @@ fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
                 )
             },
         );
-        damping_stable(verdict, plan, &label, &pair, dt);
+        let depth = rest::overlap(plan, &pair, a);
+        let pressed = pair.speed_of(depth);
+        if pressed > speed {
+            let steps = pair.contact_time(pressed) / dt;
+            verdict.judge(
+                steps >= 9.999,
+                format!(
+                    "{label}: a bed of all grains presses deeper than impacts do, d = {depth:.2e} m: {steps:.1} steps per contact (never below 10)"
+                ),
+                || format!("`dem.time-step` to {:.2e} s or less, or `speed-scale` to {pressed:.2} m/s", pair.contact_time(pressed) / 20.0),
+            );
+        }
+        damping_stable(verdict, plan, &label, &pair, dt, speed, depth);
     }
     for (name, group) in &plan.particles {
         if group.count == 0 {
@@ -234,19 +247,29 @@ fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
     }
 }
 
-/// Explicit dashpots: forward Euler gains energy when dt > eta/k; all schemes need eta dt / m below 1/2.
-fn damping_stable(verdict: &mut Verdict, plan: &Plan, label: &str, pair: &crate::contact::Pair, dt: f64) {
+/// Explicit dashpots: forward Euler gains energy when dt > eta/k; all schemes need a small eta dt / m, in an impact and, for
+/// all contacts of a grain together, in a bed at rest.
+fn damping_stable(verdict: &mut Verdict, plan: &Plan, label: &str, pair: &Pair, dt: f64, speed: f64, rest: f64) {
     if pair.damping == 0.0 {
         return;
     }
-    let depth = pair.largest_overlap(1.0);
-    let eta = pair.damping * depth.powf(pair.damping_exponent);
-    let tangent = pair.constants.exponent * pair.stiffness * depth.powf(pair.constants.exponent - 1.0);
-    let number = eta * dt / pair.mass;
-    verdict.judge(number < 0.5, format!("{label}: dashpot number eta dt / m* = {number:.3} (limit 0.5)"), || {
-        format!("`dem.time-step` to {:.2e} s or less", 0.4 * pair.mass / eta)
-    });
+    let depth = pair.largest_overlap(speed);
+    let (eta, at_rest) = (pair.dashpot(depth), pair.dashpot(rest));
+    let (impact, bed) = (eta * dt / pair.mass, at_rest * dt / pair.mass);
+    // A step that was chosen by one of the limits may lie on it.
+    let within = |number: f64, limit: f64| number <= limit * (1.0 + 1e-9);
+    verdict.judge(
+        within(impact, IN_AN_IMPACT) && within(bed, IN_A_BED),
+        format!(
+            "{label}: dashpot number eta dt / m* = {impact:.3} in an impact (limit {IN_AN_IMPACT}), {bed:.3} in a bed at rest (limit {IN_A_BED})"
+        ),
+        || {
+            let longest = (IN_AN_IMPACT / eta).min(IN_A_BED / at_rest) * pair.mass;
+            format!("`dem.time-step` to {longest:.2e} s or less, or leave it out")
+        },
+    );
     if plan.dem.integrator == Integrator::ForwardEuler {
+        let tangent = pair.constants.exponent * pair.stiffness * depth.powf(pair.constants.exponent - 1.0);
         let limit = eta / tangent;
         verdict.judge(
             dt <= limit,

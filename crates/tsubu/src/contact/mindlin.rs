@@ -2,7 +2,7 @@
 
 use super::chunk::{Chunk, Column};
 use super::part::{About, Part, Slot, Stage};
-use super::slider::{self, Strength, slide};
+use super::slider::{self, Strength, bearable, slide};
 use super::table::Constants;
 use glam::DVec3;
 use multiversion::multiversion;
@@ -88,7 +88,8 @@ pub(super) fn tangential(
 ) {
     let times = [dt, 1.0 / dt];
     for i in 0..chunk.rows() {
-        let s = strength(chunk, i);
+        let mut s = strength(chunk, i);
+        s.dashpot = bearable(s.dashpot, chunk.mass[i], dt);
         let (normal, slip) = (Chunk::vector(&chunk.normal, i), Chunk::vector(&chunk.slip, i));
         let slid = slide((DVec3::new(x[i], y[i], z[i]), c[i]), normal, slip, s, times);
         (x[i], y[i], z[i], c[i]) = (slid.spring.x, slid.spring.y, slid.spring.z, slid.compliance);

@@ -65,6 +65,23 @@ impl Pair {
             v * (self.mass / self.stiffness).sqrt()
         }
     }
+
+    /// Impact speed at which the largest overlap is `depth`, undamped [m/s].
+    pub fn speed_of(&self, depth: f64) -> f64 {
+        // 1/2 m* v^2 = k d^(p+1) / (p+1).
+        let p = self.constants.exponent;
+        (2.0 * self.stiffness * depth.powf(p + 1.0) / ((p + 1.0) * self.mass)).sqrt()
+    }
+
+    /// Overlap at rest under a force [m]: (f / k)^(1/p).
+    pub fn overlap_under(&self, force: f64) -> f64 {
+        (force / self.stiffness).powf(1.0 / self.constants.exponent)
+    }
+
+    /// Dashpot at an overlap [N.s/m]: c d^q.
+    pub fn dashpot(&self, depth: f64) -> f64 {
+        self.damping * depth.powf(self.damping_exponent)
+    }
 }
 
 /// All pairs of materials.

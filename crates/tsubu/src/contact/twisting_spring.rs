@@ -3,7 +3,7 @@
 use super::chunk::{Chunk, Column};
 use super::part::{About, Needs, Part, Slot, Stage};
 use super::root::{least, most};
-use super::slider::inverse;
+use super::slider::{bearable, inertia, inverse};
 use super::twisting_sliding::limit;
 use multiversion::multiversion;
 
@@ -57,7 +57,7 @@ fn rows(chunk: &mut Chunk, [held, was]: &mut [Column; 2], dt: f64) {
     for i in 0..chunk.rows() {
         let (twist, cap) = (chunk.twist[i], limit(chunk, i));
         let half = 0.5 * (chunk.disc[i] * chunk.disc[i]);
-        let (stiffness, dashpot) = (chunk.shear[i] * half, chunk.dashpot[i] * half);
+        let (stiffness, dashpot) = (chunk.shear[i] * half, bearable(chunk.dashpot[i] * half, inertia(chunk, i), dt));
         let before = 0.5 * held[i] * held[i] * was[i];
         let within = |torque: f64| most(least(torque, cap), -cap);
         let spring = within(held[i] * least(stiffness * was[i], 1.0) - twist * (stiffness * dt));

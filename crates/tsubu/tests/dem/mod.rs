@@ -5,6 +5,7 @@ mod everything;
 mod orientation;
 mod place;
 mod plane;
+mod rest;
 mod same_bits;
 mod seams;
 

@@ -35,7 +35,7 @@ wall-load = { wall = "floor", area = "250 mm^2" }
 #[test]
 fn stress_grows_with_the_weight_above() {
     let (mut engine, mut hosts, mut ledger) = open_text(BED, &[]);
-    let steps = (2.5 / engine.time_step()) as u64;
+    let steps = (4.0 / engine.time_step()) as u64;
     engine.advance(steps, &mut hosts, &mut ledger).unwrap();
     let kinetic = engine.grain_stocks().kinetic;
     assert!(kinetic < 1e-9, "{kinetic:e} J: not at rest");
