@@ -54,7 +54,7 @@ fn each(
     reports.resize(n.div_ceil(BLOCK), Report::default());
     let threaded = n >= WORTH_THREADS && rayon::current_num_threads() > 1;
     macro_rules! zipped {
-        ($chunks:ident, $chunks_mut:ident, $iter:ident) => {
+        ($chunks:ident, $chunks_mut:ident, $iter:ident $(, $split:ident)?) => {
             grains
                 .position
                 .$chunks_mut(BLOCK)
@@ -67,6 +67,7 @@ fn each(
                 .zip(reference.$chunks(BLOCK))
                 .zip(reports.$iter())
                 .enumerate()
+                $(.$split(1))?
                 .for_each(
                     |(
                         block,
@@ -94,7 +95,7 @@ fn each(
         };
     }
     if threaded {
-        zipped!(par_chunks, par_chunks_mut, par_iter_mut);
+        zipped!(par_chunks, par_chunks_mut, par_iter_mut, with_max_len);
     } else {
         zipped!(chunks, chunks_mut, iter_mut);
     }

@@ -168,7 +168,8 @@ impl Touch {
         };
         let lists = &scene.candidates.lists;
         if scene.grains.len() >= WORTH_THREADS && rayon::current_num_threads() > 1 {
-            self.blocks.par_iter_mut().zip(lists).for_each(work);
+            // Block by block: a thread that is done early finds work as long as there is any.
+            self.blocks.par_iter_mut().zip(lists).with_max_len(1).for_each(work);
         } else {
             self.blocks.iter_mut().zip(lists).for_each(work);
         }

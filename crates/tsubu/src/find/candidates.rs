@@ -179,7 +179,7 @@ impl Candidates {
             list.place();
         };
         if n >= WORTH_THREADS && rayon::current_num_threads() > 1 {
-            lists.par_iter_mut().enumerate().for_each(make);
+            lists.par_iter_mut().enumerate().with_max_len(1).for_each(make);
         } else {
             lists.iter_mut().enumerate().for_each(make);
         }
