@@ -86,6 +86,7 @@ fn pairs(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
     let mut seen: BTreeMap<[String; 2], String> = BTreeMap::new();
     for (index, pair) in list::<MaterialPair>(parts.resolved, "material-pair") {
         let place = parts.root.locate(&["material-pair", &index, "between"]);
+        let contact = parts.root.find(&["material-pair", &index, "contact"]).and_then(Node::table);
         let mut names = pair.between.clone();
         names.sort();
         let title = format!("the pair `{}` and `{}`", names[0], names[1]);
@@ -98,11 +99,11 @@ fn pairs(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
         }
         let MaterialPair { between: _, restitution, friction, rolling_friction, twisting_friction, .. } = &pair;
         let values = [restitution, friction, rolling_friction, twisting_friction, &pair.surface_energy, &pair.cohesion];
-        if values.iter().all(|value| value.is_none()) {
+        if values.iter().all(|value| value.is_none()) && contact.is_none_or(|contact| contact.entries.is_empty()) {
             complaints.push(
                 Complaint::new(format!("{title} changes nothing"))
                     .at(&place, "no value for this pair")
-                    .hint("give at least one of `restitution`, `friction`, `rolling-friction`, `twisting-friction`, `surface-energy`, `cohesion`"),
+                    .hint("give at least one of `restitution`, `friction`, `rolling-friction`, `twisting-friction`, `surface-energy`, `cohesion`, or a part of a `contact` law"),
             );
         }
     }
@@ -129,10 +130,7 @@ fn claims(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
 }
 
 fn is_typed(parts: &Parts<'_>, index: &str, key: &str) -> bool {
-    let Some(crate::node::Value::List(items)) = parts.root.find(&["claim"]).map(|node| &node.value) else {
-        return false;
-    };
-    index.parse::<usize>().ok().and_then(|index| items.get(index)).is_some_and(|item| item.find(&[key]).is_some())
+    parts.root.find(&["claim", index, key]).is_some()
 }
 
 /// The response varies the frequency of the host's sine; without one it would have nothing to turn.

@@ -299,7 +299,8 @@ pub(crate) fn walk(visit: &mut dyn FnMut(&str, &'static [Key])) {
 pub(crate) fn homes(name: &str) -> Vec<String> {
     let mut homes = Vec::new();
     walk(&mut |path, keys| {
-        if find(keys, name).is_some() {
+        // What a pair of materials says of its law is at home in the scene's.
+        if find(keys, name).is_some() && !path.starts_with("material-pair.contact") {
             homes.push(if path.is_empty() { "the top of the file".to_string() } else { format!("[{path}]") });
         }
     });

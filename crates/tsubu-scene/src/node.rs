@@ -80,9 +80,12 @@ impl Node {
         }
     }
 
-    /// The node at a path of table keys.
+    /// The node at a path of table keys and of numbers in lists.
     pub fn find(&self, path: &[&str]) -> Option<&Self> {
-        path.iter().try_fold(self, |node, key| node.table()?.get(key))
+        path.iter().try_fold(self, |node, key| match &node.value {
+            Value::List(list) => list.get(key.parse::<usize>().ok()?),
+            _ => node.table()?.get(key),
+        })
     }
 
     /// The best place for a complaint about the value at `path`: itself, or its nearest existing parent's key.

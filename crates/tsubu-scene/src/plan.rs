@@ -57,7 +57,7 @@ pub struct Plan {
     /// Vibrating structures by name.
     #[serde(default)]
     pub hosts: BTreeMap<String, Host>,
-    /// The contact law, used by DEM.
+    /// The contact law, used by DEM; pairs of materials may have their own.
     pub contact: Contact,
     /// What only the discrete element method reads.
     pub dem: Dem,
@@ -139,6 +139,23 @@ pub struct MaterialPair {
     pub surface_energy: Option<f64>,
     /// Cohesion, in the unit of the cohesion part.
     pub cohesion: Option<f64>,
+    /// The contact law of the pair, where it is another than the scene's; whether grains spin is the same in all.
+    pub contact: Option<Contact>,
+}
+
+impl Plan {
+    /// What the scene says of two materials, whichever it names first.
+    pub fn pair(&self, a: &str, b: &str) -> Option<&MaterialPair> {
+        self.material_pair.iter().find(|pair| {
+            let [x, y] = &pair.between;
+            (x == a && y == b) || (x == b && y == a)
+        })
+    }
+
+    /// The contact law of two materials.
+    pub fn contact_of(&self, a: &str, b: &str) -> &Contact {
+        self.pair(a, b).and_then(|pair| pair.contact.as_ref()).unwrap_or(&self.contact)
+    }
 }
 
 /// A group of grains of one material.

@@ -62,7 +62,12 @@ fn section(page: &mut String, key: &'static Key, path: &str, level: usize) {
         Kind::Named(keys, about) => (format!("[{here}.NAME]"), about, keys),
         Kind::Many(keys) => (format!("[[{here}]]"), key.about, keys),
         Kind::Choice(variants) => {
-            choices(page, key.about, variants, &here, &hashes);
+            match told_at(variants) {
+                Some(home) if home.matches('.').count() < here.matches('.').count() => {
+                    let _ = writeln!(page, "{hashes} Choice `{here}`\n\n{}: the choices of `{home}`.\n", key.about);
+                }
+                _ => choices(page, key.about, variants, &here, &hashes),
+            }
             return;
         }
         Kind::NamedChoice(variants, about) => {
@@ -77,6 +82,16 @@ fn section(page: &mut String, key: &'static Key, path: &str, level: usize) {
     for key in keys {
         section(page, key, inner, level + 1);
     }
+}
+
+/// Where a choice is told in full: the shortest of its paths.
+fn told_at(variants: &'static [Variant]) -> Option<String> {
+    let mut paths = Vec::new();
+    keys::walk(&mut |path, keys| {
+        let same = |key: &&Key| matches!(key.kind, Kind::Choice(others) if std::ptr::eq(others, variants));
+        paths.extend(keys.iter().filter(same).map(|key| format!("{path}.{}", key.name)));
+    });
+    paths.into_iter().min_by_key(|path| path.matches('.').count())
 }
 
 fn choices(page: &mut String, about: &str, variants: &'static [Variant], here: &str, hashes: &str) {

@@ -262,10 +262,11 @@ pub(crate) fn unknown_key(name: &str, place: &Place, keys: &'static [Key], path:
     let known = keys.iter().map(|key| key.name);
     let homes = keys::homes(name);
     let complaint = match suggest::nearest(name, known.clone()) {
-        Some(near) => complaint.hint(format!("did you mean `{near}`?")),
-        None if !homes.is_empty() => {
+        // What is right elsewhere is hardly misspelt.
+        _ if !homes.is_empty() => {
             complaint.hint(format!("`{name}` belongs in {}", homes[..homes.len().min(4)].join(" or ")))
         }
+        Some(near) => complaint.hint(format!("did you mean `{near}`?")),
         None => complaint,
     };
     if keys.is_empty() {

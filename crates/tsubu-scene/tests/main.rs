@@ -8,6 +8,8 @@ mod files;
 mod meaning;
 /// What a user reads when a scene is wrong; snapshots of whole messages.
 mod messages;
+/// Contact laws of pairs of materials.
+mod pairs;
 /// The resolved scene, the schema, the reference page, the templates.
 mod products;
 /// No text makes the reader panic.

@@ -1,18 +1,41 @@
 //! Parts of the contact law that need one another.
 
+mod cohesion;
+
 use super::Parts;
 use crate::complaint::Complaint;
-use crate::plan::{Cohesion, Contact, Normal, Rolling, Tangential, Twisting};
+use crate::plan::{Cohesion, Contact, MaterialPair, Normal, Rolling, Tangential, Twisting};
+
+/// A stack of parts: the scene's, or that of a pair of materials.
+struct Stack<'a> {
+    parts: &'a Parts<'a>,
+    contact: Contact,
+    /// Number and names of the pair.
+    pair: Option<(&'a str, &'a [String; 2])>,
+}
 
 pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
-    let Some(contact) = parts.resolved.get("contact").and_then(|contact| contact.clone().try_into::<Contact>().ok())
-    else {
-        return;
-    };
+    let contact = parts.resolved.get("contact").and_then(|contact| contact.clone().try_into::<Contact>().ok());
+    let pairs = super::list::<MaterialPair>(parts.resolved, "material-pair");
+    if let Some(contact) = &contact {
+        stack(&Stack { parts, contact: contact.clone(), pair: None }, complaints);
+    }
+    for (index, pair) in &pairs {
+        if let Some(contact) = &pair.contact {
+            stack(&Stack { parts, contact: contact.clone(), pair: Some((index, &pair.between)) }, complaints);
+        }
+    }
+    if let Some(contact) = &contact {
+        cohesion::check(parts, contact, &pairs, complaints);
+    }
+}
+
+fn stack(stack: &Stack<'_>, complaints: &mut Vec<Complaint>) {
+    let contact = &stack.contact;
     let hertz = matches!(contact.normal, Normal::Hertz {});
     let sprung = matches!(contact.tangential, Tangential::Mindlin { .. } | Tangential::Spring { .. });
     let mut wants = |part: [&str; 2], other: [&str; 2], why: &str, hint: &str| {
-        complaints.push(unfit(parts, part, other, why, hint));
+        complaints.extend(stack.unfit(part, other, why, hint));
     };
     match contact.tangential {
         Tangential::Mindlin { .. } if !hertz => wants(
@@ -57,16 +80,37 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
     }
 }
 
-/// Points at the part if it was typed; a default does not stand in the file, so then at the other one.
-fn unfit(parts: &Parts<'_>, part: [&str; 2], other: [&str; 2], why: &str, hint: &str) -> Complaint {
-    let typed = |part: [&str; 2]| parts.root.find(&["contact", part[0], part[1]]).is_some();
-    let place = |part: [&str; 2]| parts.root.locate(&["contact", part[0], part[1]]);
-    let [name, with] = [part, other].map(|[key, choice]| format!("{key}.{choice}"));
-    let complaint = Complaint::new(format!("`{name}` does not go with `{with}`"));
-    let complaint = match (typed(part), typed(other)) {
-        (true, true) => complaint.at(&place(part), why).also(&place(other), "chosen here"),
-        (true, false) => complaint.at(&place(part), why).hint(format!("`{with}` is the default")),
-        (false, _) => complaint.at(&place(other), "chosen here").hint(format!("`{name}` is the default; {why}")),
-    };
-    complaint.hint(hint)
+impl Stack<'_> {
+    /// Points at the part if it was typed; a default does not stand in the file, so then at the other one. A pair that only
+    /// inherits both is left alone: the scene's stack has the complaint.
+    fn unfit(&self, part: [&str; 2], other: [&str; 2], why: &str, hint: &str) -> Option<Complaint> {
+        let own = |part| self.pair.map_or_else(|| at(&[], part), |(index, _)| at(&["material-pair", index], part));
+        let root = self.parts.root;
+        let typed = |part| [own(part), at(&[], part)].into_iter().find(|path| root.find(path).is_some());
+        let place = |path: Option<Vec<&str>>| root.locate(&path.unwrap_or(vec!["contact"]));
+        let names = |part| self.pair.is_none() || root.find(&own(part)).is_some();
+        if !names(part) && !names(other) {
+            return None;
+        }
+        let [name, with] = [part, other].map(|[key, choice]| format!("{key}.{choice}"));
+        let pair = self.pair.map_or_else(String::new, |(_, [a, b])| format!(" between `{a}` and `{b}`"));
+        let complaint = Complaint::new(format!("`{name}` does not go with `{with}`{pair}"));
+        let complaint = match (typed(part), typed(other)) {
+            (part_at, None) => complaint.at(&place(part_at), why).hint(format!("`{with}` is the default")),
+            (None, other_at) => {
+                complaint.at(&place(other_at), "chosen here").hint(format!("`{name}` is the default; {why}"))
+            }
+            (part_at, other_at) if names(part) => {
+                complaint.at(&place(part_at), why).also(&place(other_at), "chosen here")
+            }
+            (part_at, other_at) => complaint.at(&place(other_at), "chosen here").also(&place(part_at), why),
+        };
+        let inherits = self.pair.is_some() && !(names(part) && names(other));
+        let inherited = inherits.then(|| "what a pair does not name is as in `[contact]`".to_string());
+        Some(complaint.hints(inherited).hint(hint))
+    }
+}
+
+fn at<'a>(table: &[&'a str], [key, choice]: [&'a str; 2]) -> Vec<&'a str> {
+    [table, &["contact", key, choice]].concat()
 }

@@ -4,22 +4,42 @@ use super::{Key, Kind, Variant, Word};
 use crate::units::{DAMPING as DASHPOT, FORCE, NUMBER, RATE, SLOWNESS, SPEED, SPIN, STIFFNESS};
 
 pub(super) static CONTACT: &[Key] = &[
-    Key::new("normal", Kind::Choice(NORMAL), "Elastic normal force for overlap d").default("{ hertz = {} }"),
-    Key::new(
-        "damping",
-        Kind::Choice(DAMPING),
-        "Damping of the normal motion; unless a form says otherwise, its coefficient is found from the restitution",
-    )
-    .default("{ quarter = {} }"),
-    Key::new("attraction", Kind::Flag, "Let damping make the normal force attractive instead of cutting it at zero")
-        .default("false"),
-    Key::new("tangential", Kind::Choice(TANGENTIAL), "Tangential force").default("{ mindlin = {} }"),
-    Key::new("rolling", Kind::Choice(ROLLING), "Rolling resistance").default("{ none = {} }"),
-    Key::new("twisting", Kind::Choice(TWISTING), "Resistance against turning about the normal")
-        .default("{ none = {} }"),
-    Key::new("cohesion", Kind::Choice(COHESION), "Attraction between bodies in contact").default("{ none = {} }"),
+    NORMAL_FORCE.default("{ hertz = {} }"),
+    NORMAL_DAMPING.default("{ quarter = {} }"),
+    ATTRACTION.default("false"),
+    TANGENTIAL_FORCE.default("{ mindlin = {} }"),
+    ROLLING_RESISTANCE.default("{ none = {} }"),
+    TWISTING_RESISTANCE.default("{ none = {} }"),
+    COHESIVE_FORCE.default("{ none = {} }"),
     Key::new("rotation", Kind::Flag, "Whether grains spin").default("true"),
 ];
+
+/// The same for a pair of materials; whether grains spin is no matter of a pair.
+pub(super) static OF_A_PAIR: &[Key] = &[
+    NORMAL_FORCE.derived(AS_IN_THE_SCENE),
+    NORMAL_DAMPING.derived(AS_IN_THE_SCENE),
+    ATTRACTION.derived(AS_IN_THE_SCENE),
+    TANGENTIAL_FORCE.derived(AS_IN_THE_SCENE),
+    ROLLING_RESISTANCE.derived(AS_IN_THE_SCENE),
+    TWISTING_RESISTANCE.derived(AS_IN_THE_SCENE),
+    COHESIVE_FORCE.derived(AS_IN_THE_SCENE),
+];
+
+const AS_IN_THE_SCENE: &str = "as in `[contact]`";
+
+const NORMAL_FORCE: Key = Key::new("normal", Kind::Choice(NORMAL), "Elastic normal force for overlap d");
+const NORMAL_DAMPING: Key = Key::new(
+    "damping",
+    Kind::Choice(DAMPING),
+    "Damping of the normal motion; unless a form says otherwise, its coefficient is found from the restitution",
+);
+const ATTRACTION: Key =
+    Key::new("attraction", Kind::Flag, "Let damping make the normal force attractive instead of cutting it at zero");
+const TANGENTIAL_FORCE: Key = Key::new("tangential", Kind::Choice(TANGENTIAL), "Tangential force");
+const ROLLING_RESISTANCE: Key = Key::new("rolling", Kind::Choice(ROLLING), "Rolling resistance");
+const TWISTING_RESISTANCE: Key =
+    Key::new("twisting", Kind::Choice(TWISTING), "Resistance against turning about the normal");
+const COHESIVE_FORCE: Key = Key::new("cohesion", Kind::Choice(COHESION), "Attraction between bodies in contact");
 
 static NORMAL: &[Variant] = &[
     Variant { name: "hertz", about: "k d^(3/2), k from the materials", keys: &[] },

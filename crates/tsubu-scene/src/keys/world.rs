@@ -30,7 +30,7 @@ pub static SCENE: &[Key] = &[
     Key::new(
         "material-pair",
         Kind::Many(MATERIAL_PAIR),
-        "Exceptions to the mixing rule (geometric mean) for two materials",
+        "Exceptions for two materials, to the mixing rule (geometric mean) and to the contact law",
     )
     .default("[]"),
     Key::new("particles", Kind::Named(grains::PARTICLES, "A group of grains of one material"), "The grains")
@@ -141,4 +141,10 @@ static MATERIAL_PAIR: &[Key] = &[
     Key::new("cohesion", Kind::Cohesion, "Attraction of the pair, in the unit of the cohesion part")
         .at_least(0.0)
         .optional(),
+    Key::new(
+        "contact",
+        Kind::Table(contact::OF_A_PAIR),
+        "The pair's own contact law: what is named here takes the place of what `[contact]` says",
+    )
+    .optional(),
 ];

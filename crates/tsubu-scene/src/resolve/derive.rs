@@ -34,7 +34,7 @@ pub(crate) fn derive(
     derive.walls(resolved);
     derive.oscillators(resolved);
     derive.signals(resolved);
-    settings(resolved);
+    settings(resolved, root);
     derive.watches(resolved);
     derive.response(resolved);
     derive.complaints
@@ -125,7 +125,7 @@ impl Derive<'_> {
     }
 }
 
-fn settings(resolved: &mut toml::Table) {
+fn settings(resolved: &mut toml::Table, root: &Node) {
     let duration = resolved.get("duration").and_then(Value::as_float);
     if let Some(lattice) = resolved.get_mut("lattice").and_then(Value::as_table_mut)
         && let Some(mode) = lattice.get("mode").and_then(Value::as_str)
@@ -141,8 +141,25 @@ fn settings(resolved: &mut toml::Table) {
     }
     // Ai 2011: k_r = 2.25 k_n (mu_r R)^2 for spheres, 3 k_n (mu_r R)^2 for discs.
     let ratio = if is_space(resolved) { 2.25 } else { 3.0 };
-    let rolling = resolved.get_mut("contact").and_then(|contact| contact.get_mut("rolling"));
-    if let Some(epsd) = rolling.and_then(|rolling| rolling.get_mut("epsd")).and_then(Value::as_table_mut) {
+    let scene = resolved.get_mut("contact").and_then(Value::as_table_mut).map(|contact| {
+        rolling_ratio(contact, ratio);
+        contact.clone()
+    });
+    let pairs = resolved.get_mut("material-pair").and_then(Value::as_array_mut).into_iter().flatten();
+    for (index, pair) in pairs.enumerate() {
+        let Some(contact) = pair.get_mut("contact").and_then(Value::as_table_mut) else { continue };
+        rolling_ratio(contact, ratio);
+        let index = index.to_string();
+        let typed = |key: &str| root.find(&["material-pair", &index, "contact", key]).is_some();
+        for (key, value) in scene.iter().flatten().filter(|(key, _)| !typed(key)) {
+            contact.insert(key.clone(), value.clone());
+        }
+    }
+}
+
+fn rolling_ratio(contact: &mut toml::Table, ratio: f64) {
+    let epsd = contact.get_mut("rolling").and_then(|rolling| rolling.get_mut("epsd"));
+    if let Some(epsd) = epsd.and_then(Value::as_table_mut) {
         epsd.entry("ratio").or_insert(Value::Float(ratio));
     }
 }

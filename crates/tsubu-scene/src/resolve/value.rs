@@ -192,11 +192,18 @@ impl Resolver<'_> {
 
     /// Materials stand above the contact law in a scene, but what their cohesion is the law says.
     fn cohesion(&mut self, key: &Key, node: &Node) -> Option<toml::Value> {
-        let chosen = |part| self.root.find(&["contact", "cohesion", part]).is_some();
+        let pairs = match self.root.find(&["material-pair"]).map(|pairs| &pairs.value) {
+            Some(Value::List(pairs)) => pairs.as_slice(),
+            _ => &[],
+        };
+        let chosen = |part| {
+            let says = |node: &Node| node.find(&["contact", "cohesion", part]).is_some();
+            says(self.root) || pairs.iter().any(says)
+        };
         let dimension = match (chosen("constant"), chosen("sjkr"), &node.value) {
             (true, false, _) => &FORCE,
             (false, true, _) => &ENERGY_DENSITY,
-            // Nobody reads it: either will do.
+            // Nobody reads it: either will do. Where both parts are chosen, who reads what is checked pair by pair.
             (_, _, Value::Text(text)) if units::read(text, &ENERGY_DENSITY).is_ok() => &ENERGY_DENSITY,
             _ => &FORCE,
         };

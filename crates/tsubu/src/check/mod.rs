@@ -6,24 +6,24 @@ mod verdict;
 
 pub use verdict::{Line, Verdict, check, human_time, verdict};
 
-use crate::contact::{Law, Table};
+use crate::contact::Table;
 use crate::dem::sizes;
 use crate::partner::Hosts;
 use tsubu_scene::plan::{GrainMotion, Plan, Shape, Signal, Start};
 
 /// Time step of DEM [s]: told, or the shortest contact time at the scene's speed scale, and under the weight of the bed, over
 /// the wanted steps per contact; shorter where a bed's dashpots ask for it.
-pub fn time_step(plan: &Plan, law: &Law, table: &Table, hosts: &Hosts) -> f64 {
+pub fn time_step(plan: &Plan, table: &Table, hosts: &Hosts) -> f64 {
     plan.dem.time_step.unwrap_or_else(|| {
         let speed = speed_scale(plan, hosts);
         let bodies = bodies(plan, table, hosts);
         let times = bodies.pairs().map(|(a, b)| {
-            let pair = table.pair(law, a.body(), b.body());
+            let pair = table.pair(a.body(), b.body());
             let depth = rest::overlap(plan, &pair, a);
             pair.contact_time(speed.max(pair.speed_of(depth)))
         });
         let shortest = times.fold(f64::INFINITY, f64::min);
-        let dt = (shortest / plan.dem.steps_per_contact).min(rest::longest_step(plan, law, table, &bodies, speed));
+        let dt = (shortest / plan.dem.steps_per_contact).min(rest::longest_step(plan, table, &bodies, speed));
         if dt.is_finite() { dt } else { shortest_period(hosts).min(plan.duration) / 200.0 }
     })
 }

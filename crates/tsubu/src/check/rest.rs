@@ -2,7 +2,7 @@
 //! by many dashpots at once.
 
 use super::{Bodies, Kind};
-use crate::contact::{Law, Pair, Table};
+use crate::contact::{Pair, Table};
 use tsubu_scene::plan::{GrainMotion, Particles, Plan, Shape};
 
 /// Largest dashpot number c dt / m* of one contact in a bed.
@@ -47,9 +47,9 @@ pub(super) fn overlap(plan: &Plan, pair: &Pair, lowest: &Kind) -> f64 {
 }
 
 /// Longest step [s] at which the dashpots of all pairs are stable and resolved, with impacts at `speed`.
-pub(super) fn longest_step(plan: &Plan, law: &Law, table: &Table, bodies: &Bodies, speed: f64) -> f64 {
+pub(super) fn longest_step(plan: &Plan, table: &Table, bodies: &Bodies, speed: f64) -> f64 {
     let limits = bodies.pairs().map(|(a, b)| {
-        let pair = table.pair(law, a.body(), b.body());
+        let pair = table.pair(a.body(), b.body());
         let longest = |number: f64, depth: f64| number * pair.mass / pair.dashpot(depth);
         longest(IN_A_BED, overlap(plan, &pair, a)).min(longest(IN_AN_IMPACT, pair.largest_overlap(speed)))
     });

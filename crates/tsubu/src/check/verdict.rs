@@ -3,14 +3,14 @@
 use super::rest::{self, IN_A_BED, IN_AN_IMPACT};
 use super::{bodies, mesh, shortest_period, speed_scale};
 use crate::bench::Bench;
-use crate::contact::{Law, Pair, Table};
+use crate::contact::{Pair, Table};
 use crate::engine::{self, Engine, Fault, OpenError};
 use crate::find::candidates::WORTH_THREADS;
 use crate::ledger::Ledger;
 use crate::partner::Hosts;
 use std::fmt;
 use std::time::Instant;
-use tsubu_scene::plan::{Integrator, Method, Plan, Start};
+use tsubu_scene::plan::{Integrator, Method, Normal, Plan, Start};
 
 /// One judgement.
 #[derive(Clone, Debug, PartialEq)]
@@ -185,11 +185,10 @@ fn step_key(plan: &Plan) -> &'static str {
 }
 
 fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
-    let law = Law::new(&plan.contact);
-    let table = Table::new(plan, &law);
+    let table = Table::new(plan);
     for (a, b) in bodies(plan, &table, hosts).pairs() {
         let label = format!("{} on {}", a.name, b.name);
-        let pair = table.pair(&law, a.body(), b.body());
+        let pair = table.pair(a.body(), b.body());
         let time = pair.contact_time(speed);
         let steps = time / dt;
         // Osada 2004: fewer than 10 steps a contact give abnormal rebounds.
@@ -208,7 +207,7 @@ fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
             || {
                 format!(
                     "stiffen: {} by {:.1}, or lower `speed-scale`",
-                    stiffness_key(plan, a.group.as_deref().map_or("", |g| &plan.particles[g].material)),
+                    stiffness_key(plan, table.name(a.material), table.name(b.material)),
                     (overlap / 0.01).powf(2.5)
                 )
             },
@@ -279,10 +278,13 @@ fn damping_stable(verdict: &mut Verdict, plan: &Plan, label: &str, pair: &Pair, 
     }
 }
 
-fn stiffness_key(plan: &Plan, material: &str) -> String {
-    match plan.contact.normal {
-        tsubu_scene::plan::Normal::Hertz {} => format!("`materials.{material}.young-modulus`"),
-        tsubu_scene::plan::Normal::Hooke { .. } => "`contact.normal.hooke.stiffness`".to_owned(),
+fn stiffness_key(plan: &Plan, material: &str, other: &str) -> String {
+    match plan.contact_of(material, other).normal {
+        Normal::Hertz {} => format!("`materials.{material}.young-modulus`"),
+        Normal::Hooke { .. } if plan.pair(material, other).is_some_and(|pair| pair.contact.is_some()) => {
+            format!("`contact.normal.hooke.stiffness` of the pair `{material}` and `{other}`")
+        }
+        Normal::Hooke { .. } => "`contact.normal.hooke.stiffness`".to_owned(),
     }
 }
 

@@ -24,7 +24,7 @@ pub struct Law {
 }
 
 impl Law {
-    /// The law that a scene's `[contact]` describes.
+    /// The law that a `[contact]` describes, the scene's or that of a pair of materials.
     pub fn new(contact: &Contact) -> Self {
         let parts = [
             Some(normal(&contact.normal)),

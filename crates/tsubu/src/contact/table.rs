@@ -1,7 +1,7 @@
-//! The contact table: everything about a pair of materials that does not change during a run.
+//! The contact table: everything about a pair of materials that does not change during a run, its law included.
 
 use super::law::Law;
-use tsubu_scene::plan::{Material, MaterialPair, Plan};
+use tsubu_scene::plan::{Contact, Material, MaterialPair, Plan};
 
 /// Two materials in contact, under a law.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -85,30 +85,58 @@ impl Pair {
 }
 
 /// All pairs of materials.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Table {
     materials: Vec<String>,
     constants: Vec<Constants>,
+    /// Number of the law of each pair.
+    law: Vec<u32>,
+    /// The different laws; in most scenes one.
+    laws: Vec<Law>,
 }
 
 impl Table {
-    /// The table of a plan under a law.
-    pub fn new(plan: &Plan, law: &Law) -> Self {
-        let materials: Vec<String> = plan.materials.keys().cloned().collect();
-        let mut constants = Vec::with_capacity(materials.len() * materials.len());
+    /// The table of a plan. Pairs whose stacks of parts are equal share a law, whether the scene says so once or for each.
+    pub fn new(plan: &Plan) -> Self {
+        let mut table = Self { materials: plan.materials.keys().cloned().collect(), ..Self::default() };
+        let mut contacts: Vec<&Contact> = Vec::new();
         for a in &plan.materials {
             for b in &plan.materials {
-                let mut pair = combine(a, b, &plan.material_pair);
-                law.prepare(&mut pair);
-                constants.push(pair);
+                let contact = plan.contact_of(a.0, b.0);
+                let law = contacts.iter().position(|known| *known == contact).unwrap_or_else(|| {
+                    contacts.push(contact);
+                    table.laws.push(Law::new(contact));
+                    table.laws.len() - 1
+                });
+                let mut pair = combine(a.1, b.1, plan.pair(a.0, b.0));
+                table.laws[law].prepare(&mut pair);
+                table.constants.push(pair);
+                table.law.push(law as u32);
             }
         }
-        Self { materials, constants }
+        table
+    }
+
+    /// The different laws.
+    #[inline]
+    pub fn laws(&self) -> &[Law] {
+        &self.laws
+    }
+
+    /// Number of the law of a pair of materials, by the number of the pair.
+    #[inline]
+    pub fn law(&self, index: u32) -> usize {
+        self.law[index as usize] as usize
     }
 
     /// Number of a material.
     pub fn material(&self, name: &str) -> u32 {
         self.materials.iter().position(|m| m == name).unwrap_or_default() as u32
+    }
+
+    /// Name of a material, by its number.
+    pub fn name(&self, material: u32) -> &str {
+        &self.materials[material as usize]
     }
 
     /// Number of a pair of materials.
@@ -124,22 +152,21 @@ impl Table {
     }
 
     /// Two bodies, given as (material, radius [m], mass [kg]); infinite radius and mass for walls.
-    pub fn pair(&self, law: &Law, a: (u32, f64, f64), b: (u32, f64, f64)) -> Pair {
+    pub fn pair(&self, a: (u32, f64, f64), b: (u32, f64, f64)) -> Pair {
         let reduced = |x: f64, y: f64| 1.0 / (1.0 / x + 1.0 / y);
+        let index = self.index(a.0, b.0);
         let mut pair = Pair {
-            constants: *self.constants(self.index(a.0, b.0)),
+            constants: *self.constants(index),
             radius: reduced(a.1, b.1),
             mass: reduced(a.2, b.2),
             ..Pair::default()
         };
-        law.judge(&mut pair);
+        self.laws[self.law(index)].judge(&mut pair);
         pair
     }
 }
 
-fn combine((a, m): (&String, &Material), (b, n): (&String, &Material), special: &[MaterialPair]) -> Constants {
-    let found =
-        special.iter().find(|p| (&p.between[0], &p.between[1]) == (a, b) || (&p.between[0], &p.between[1]) == (b, a));
+fn combine(m: &Material, n: &Material, found: Option<&MaterialPair>) -> Constants {
     let mix = |told: Option<f64>, x: f64, y: f64| told.unwrap_or_else(|| (x * y).sqrt());
     let plane_modulus = |m: &Material| m.young_modulus / (1.0 - m.poisson_ratio * m.poisson_ratio);
     let shear = |m: &Material| m.young_modulus / (2.0 * (1.0 + m.poisson_ratio) * (2.0 - m.poisson_ratio));

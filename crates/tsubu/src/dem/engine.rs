@@ -9,7 +9,7 @@ use super::sources::Sources;
 use super::step::Flows;
 use super::touch::{Sums, Touch};
 use crate::check;
-use crate::contact::{Law, Table};
+use crate::contact::Table;
 use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
 use crate::find::{Candidates, Search};
 use crate::ledger::{Ledger, Stocks};
@@ -37,8 +37,9 @@ pub struct DemEngine {
     pub(super) sources: Sources,
     pub(super) orientation: Orientation,
     // What the plan says.
-    pub(super) law: Law,
     pub(super) table: Table,
+    /// Gap at which bodies may still hold each other [m], of each law.
+    pub(super) reaches: Vec<f64>,
     pub(super) search: Search,
     pub(super) gravity: DVec3,
     pub(super) integrator: Integrator,
@@ -96,8 +97,7 @@ impl DemEngine {
             let notes = vec![Note { key, verdict: Verdict::Refused, text }];
             Refusal { method: "dem", notes }
         };
-        let law = Law::new(contact);
-        let table = Table::new(plan, &law);
+        let table = Table::new(plan);
         let gravity = DVec3::from_array(*gravity);
         let walls = walls(plan, &table, hosts, *dimension, gravity);
         let (grains, settle) = place::grains(plan, &table, hosts, &walls).map_err(refuse)?;
@@ -105,10 +105,12 @@ impl DemEngine {
         let diameters = grains.radius.iter().map(|r| (2.0 * r, 2.0 * r)).chain(sources.sizes());
         let (smallest, largest) = diameters.fold((f64::INFINITY, 0.0f64), |a, d| (a.0.min(d.0), a.1.max(d.1)));
         let skin = if smallest.is_finite() { dem.skin * smallest } else { 0.0 };
-        let reach = check::bodies(plan, &table, hosts)
-            .pairs()
-            .map(|(a, b)| law.reach(&table.pair(&law, a.body(), b.body())))
-            .fold(0.0, f64::max);
+        let mut reaches = vec![0.0f64; table.laws().len()];
+        for (a, b) in check::bodies(plan, &table, hosts).pairs() {
+            let law = table.law(table.index(a.material, b.material));
+            reaches[law] = reaches[law].max(table.laws()[law].reach(&table.pair(a.body(), b.body())));
+        }
+        let reach = reaches.iter().copied().fold(0.0, f64::max);
         let wall_loads = vec![WallLoad::default(); walls.len()];
         let largest_present = particles.values().map(|p| sizes::range(p).1).fold(largest, f64::max);
         let mut engine = Self {
@@ -120,9 +122,9 @@ impl DemEngine {
             sums: Sums::default(),
             sources,
             orientation: Orientation::new(dem.orientation),
-            dt: check::time_step(plan, &law, &table, hosts),
-            law,
+            dt: check::time_step(plan, &table, hosts),
             table,
+            reaches,
             search: Search { skin, reach, ends: room::ends(plan) },
             gravity,
             integrator: dem.integrator,

@@ -2,32 +2,33 @@
 
 use super::engine::DemEngine;
 use super::memory::{Kept, Name, WallKey};
+use crate::contact::Law;
 use crate::find::candidates::BLOCK;
 
 impl DemEngine {
     /// Every remembered contact, in the order of blocks.
     pub(super) fn kept(&self) -> Kept {
-        let width = self.law.width();
+        let width = self.widest();
         let id = &self.grains.id;
         let mut kept = Kept::default();
         if width == 0 {
             return kept;
         }
         for (block, list) in self.touch.blocks.iter().zip(&self.candidates.lists) {
-            let memory = &block.memory;
-            let mut own = 0;
-            for (c, &k) in memory.pairs.keys.iter().enumerate() {
-                while list.start[own + 1] <= k {
-                    own += 1;
+            for (law, memory) in (0..).zip(&block.memory) {
+                let mut own = 0;
+                for (c, &k) in memory.pairs.keys.iter().enumerate() {
+                    while list.start[own + 1] <= k {
+                        own += 1;
+                    }
+                    let (first, second) = (id[list.first + own], id[list.grain(list.pairs[k as usize])]);
+                    kept.push(Name { first, second, wall: false, patch: 0, law }, memory.pairs.of(c), width);
                 }
-                let (first, second) = (id[list.first + own], id[list.grain(list.pairs[k as usize])]);
-                kept.names.push(Name { first, second, wall: false, patch: 0 });
-                kept.history.extend(memory.pairs.of(c));
-            }
-            for (c, key) in memory.walls.keys.iter().enumerate() {
-                let first = id[list.first + key.own as usize];
-                kept.names.push(Name { first, second: key.wall, wall: true, patch: key.patch });
-                kept.history.extend(memory.walls.of(c));
+                for (c, key) in memory.walls.keys.iter().enumerate() {
+                    let first = id[list.first + key.own as usize];
+                    let name = Name { first, second: key.wall, wall: true, patch: key.patch, law };
+                    kept.push(name, memory.walls.of(c), width);
+                }
             }
         }
         kept
@@ -36,9 +37,12 @@ impl DemEngine {
     /// Gives the new candidates the histories they had; a pair whose bodies have changed places gets its turned. What a
     /// contact holds whose body is gone, or whose pair is no candidate any more, is returned as lost [J].
     pub(super) fn restore(&mut self, mut kept: Kept) -> f64 {
-        let width = self.law.width();
+        let width = self.widest();
+        let laws = self.table.laws();
         for block in &mut self.touch.blocks {
-            block.memory.clear(width);
+            for (memory, law) in block.memory.iter_mut().zip(laws) {
+                memory.clear(law.width());
+            }
         }
         if width == 0 {
             return 0.0;
@@ -54,6 +58,7 @@ impl DemEngine {
         let mut walls: Vec<Vec<(WallKey, usize)>> = vec![Vec::new(); self.candidates.lists.len()];
         let Kept { names, history } = &mut kept;
         for (n, (contact, history)) in names.iter().zip(history.chunks_exact_mut(width)).enumerate() {
+            let law = &laws[contact.law as usize];
             let place = if contact.wall {
                 index(contact.first).map(|i| {
                     let key = WallKey { own: i % BLOCK as u32, wall: contact.second, patch: contact.patch };
@@ -63,7 +68,7 @@ impl DemEngine {
                 index(contact.first).zip(index(contact.second)).and_then(|(i, j)| {
                     let (block, k) = self.candidate(i, j).or_else(|| {
                         let found = self.candidate(j, i)?;
-                        self.law.turned(history);
+                        law.turned(history);
                         Some(found)
                     })?;
                     pairs[block].push((k, n));
@@ -71,20 +76,28 @@ impl DemEngine {
                 })
             };
             if place.is_none() {
-                lost += self.law.held(history);
+                lost += law.held(history);
             }
         }
         for (block, (mut pairs, mut walls)) in self.touch.blocks.iter_mut().zip(pairs.into_iter().zip(walls)) {
             pairs.sort_unstable();
             walls.sort_unstable();
+            let of = |n: usize| (kept.names[n].law as usize, &kept.history[n * width..(n + 1) * width]);
             for (key, n) in pairs {
-                block.memory.pairs.push(key, &kept.history[n * width..(n + 1) * width]);
+                let (law, history) = of(n);
+                block.memory[law].pairs.push(key, history);
             }
             for (key, n) in walls {
-                block.memory.walls.push(key, &kept.history[n * width..(n + 1) * width]);
+                let (law, history) = of(n);
+                block.memory[law].walls.push(key, history);
             }
         }
         lost
+    }
+
+    /// Columns of history of the law that has most.
+    pub(super) fn widest(&self) -> usize {
+        self.table.laws().iter().map(Law::width).max().unwrap_or_default()
     }
 
     /// Block and number of the candidate of grain `i` with grain `j`.

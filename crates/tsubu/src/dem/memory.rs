@@ -111,7 +111,7 @@ pub(super) struct WallKey {
     pub patch: u32,
 }
 
-/// The contacts of one block: those of the last step, and those that this step writes.
+/// The contacts of one block under one law: those of the last step, and those that this step writes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Memory {
     /// Grain-grain contacts of the last step by number of the candidate.
@@ -152,12 +152,23 @@ pub(super) struct Name {
     pub second: u32,
     pub wall: bool,
     pub patch: u32,
+    /// Number of its law; follows from the materials, so a checkpoint does not have it.
+    pub law: u32,
 }
 
 /// Remembered contacts as they are kept over a search and in a checkpoint: by name, for indices change.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Kept {
     pub names: Vec<Name>,
-    /// As many numbers a contact as the law has columns of history.
+    /// As many numbers a contact as the widest law has columns of history.
     pub history: Vec<f64>,
+}
+
+impl Kept {
+    /// Adds a contact with its numbers, and zeros up to `width`.
+    pub fn push(&mut self, name: Name, history: impl Iterator<Item = f64>, width: usize) {
+        self.names.push(name);
+        self.history.extend(history);
+        self.history.resize(self.names.len() * width, 0.0);
+    }
 }

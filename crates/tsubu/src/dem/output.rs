@@ -7,6 +7,7 @@ use crate::partner::Hosts;
 use crate::state::Grains;
 use crate::view::{Columns, Contact, View, Wants};
 use glam::DVec3;
+use std::collections::BTreeMap;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, Kind, State};
 
@@ -136,13 +137,21 @@ impl DemEngine {
         for wall in self.walls.iter_mut().filter(|w| w.host().is_none()) {
             wall.follow(time, &hosts);
         }
-        let width = self.law.width();
+        let width = self.widest();
         let names = state.integer("dem.contacts")?.as_chunks::<4>().0;
         let history = state.real("dem.history")?;
         if history.len() != names.len() * width {
             return Err(missing("dem.history"));
         }
-        let name = |n: &[i64; 4]| Name { first: n[0] as u32, second: n[1] as u32, wall: n[2] != 0, patch: n[3] as u32 };
+        let of: BTreeMap<u32, u32> = self.grains.id.iter().copied().zip(self.grains.material.iter().copied()).collect();
+        let name = |n: &[i64; 4]| {
+            let (first, second, wall) = (n[0] as u32, n[1] as u32, n[2] != 0);
+            let other =
+                if wall { self.walls.get(second as usize).map(|w| w.material) } else { of.get(&second).copied() };
+            let pair = of.get(&first).zip(other.as_ref());
+            let law = pair.map_or(0, |(a, b)| self.table.law(self.table.index(*a, *b)) as u32);
+            Name { first, second, wall, patch: n[3] as u32, law }
+        };
         self.restore(Kept { names: names.iter().map(name).collect(), history: history.to_vec() });
         Ok(())
     }

@@ -4,6 +4,7 @@
 //! where they are met: the sieve then reads few cache lines, knows nothing of periods, and has no branch that a processor
 //! would have to guess (guessing wrong took a third of the time of a settled bed).
 
+use crate::contact::Table;
 use crate::find::candidates::List;
 use crate::find::grid::HERE;
 use crate::state::Grains;
@@ -84,6 +85,8 @@ pub(super) struct Hit {
 pub(super) struct Hits {
     room: Vec<Hit>,
     count: usize,
+    /// The same by law, where there are several.
+    parted: Vec<Vec<Hit>>,
 }
 
 impl Hits {
@@ -95,10 +98,31 @@ impl Hits {
         self.count = sieve(&list.start, &list.pairs, &spheres.places, reach, &mut self.room);
     }
 
-    /// What was found.
-    pub fn found(&self) -> &[Hit] {
-        &self.room[..self.count]
+    /// Parts what was found by the law of the pair. What is beyond the reach of its own law goes: laws that end with the overlap
+    /// are not asked about pairs that do not touch.
+    pub fn part(&mut self, list: &List, spheres: &Spheres, table: &Table, reaches: &[f64]) {
+        self.parted.resize_with(reaches.len(), Vec::new);
+        self.parted.iter_mut().for_each(Vec::clear);
+        for hit in &self.room[..self.count] {
+            let place = list.pairs[hit.candidate as usize];
+            let law = table.law(table.index(spheres.motion(hit.own).material, spheres.motion(place).material));
+            if near(&spheres.at(hit.own), &spheres.at(place), reaches[law]) {
+                self.parted[law].push(*hit);
+            }
+        }
     }
+
+    /// What was found under a law.
+    pub fn under(&self, law: usize) -> &[Hit] {
+        self.parted.get(law).map_or(&self.room[..self.count], Vec::as_slice)
+    }
+}
+
+/// Whether the gap of two spheres is below `reach` [m]: what `sieve` asks, with the same rounding.
+#[inline]
+fn near(a: &[f64; 4], b: &[f64; 4], reach: f64) -> bool {
+    let (dx, dy, dz, limit) = (b[0] - a[0], b[1] - a[1], b[2] - a[2], b[3] + (a[3] + reach));
+    dx * dx + dy * dy + dz * dz < limit * limit
 }
 
 #[multiversion(targets = "simd")]

@@ -81,8 +81,8 @@ impl DemEngine {
 
     /// What the touch phase reads.
     fn scene(&self) -> Scene<'_> {
-        let Self { grains, walls, candidates, law, table, search, rotation, dt, .. } = self;
-        Scene { grains, walls, candidates, law, table, reach: search.reach, rotation: *rotation, dt: *dt }
+        let Self { grains, walls, candidates, table, reaches, search, rotation, dt, .. } = self;
+        Scene { grains, walls, candidates, table, reaches, reach: search.reach, rotation: *rotation, dt: *dt }
     }
 
     /// The contacts of this moment.

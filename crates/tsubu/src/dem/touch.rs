@@ -75,7 +75,8 @@ impl Load {
 /// One block's contacts and what they do.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Block {
-    pub memory: Memory,
+    /// Of each law.
+    pub memory: Vec<Memory>,
     /// Loads on own grains, then on those of the halo.
     pub loads: Vec<Load>,
     pub walls: Vec<WallLoad>,
@@ -95,9 +96,10 @@ pub(super) struct Scene<'a> {
     pub grains: &'a Grains,
     pub walls: &'a [Wall],
     pub candidates: &'a Candidates,
-    pub law: &'a Law,
     pub table: &'a Table,
-    /// Gap at which bodies may still hold each other [m].
+    /// Gap at which bodies may still hold each other [m], of each law.
+    pub reaches: &'a [f64],
+    /// The widest of them [m].
     pub reach: f64,
     pub rotation: bool,
     pub dt: f64,
@@ -106,7 +108,8 @@ pub(super) struct Scene<'a> {
 /// Memory of one thread.
 #[derive(Debug)]
 struct Scratch {
-    rows: Box<Rows>,
+    /// Of each law: what no part of a law writes stays zero in its chunk.
+    rows: Vec<Rows>,
     /// Contact of the last step that each row goes on from.
     old: [u32; ROWS],
     /// Keys of wall rows.
@@ -119,9 +122,9 @@ struct Scratch {
 }
 
 impl Scratch {
-    fn new(width: usize) -> Self {
+    fn new(laws: &[Law]) -> Self {
         Self {
-            rows: Box::new(Rows::new(width)),
+            rows: laws.iter().map(|law| Rows::new(law.width())).collect(),
             old: [FRESH; ROWS],
             keys: Vec::with_capacity(ROWS),
             spheres: Spheres::default(),
@@ -136,17 +139,18 @@ impl Scratch {
 impl Touch {
     /// Prepares as many blocks as there are lists; called when the candidates have changed.
     pub fn fit(&mut self, scene: &Scene) {
-        let width = scene.law.width();
+        let laws = scene.table.laws();
         let lists = &scene.candidates.lists;
         self.blocks.resize_with(lists.len(), Block::default);
         for (block, list) in self.blocks.iter_mut().zip(lists) {
             block.loads.resize(list.own + list.halo.len(), Load::default());
             block.walls.resize(scene.walls.len(), WallLoad::default());
-            if width > 0 {
-                for contacts in [&mut block.memory.pairs, &mut block.memory.next_pairs] {
+            block.memory.resize_with(laws.len(), Memory::default);
+            for (memory, _) in block.memory.iter_mut().zip(laws).filter(|(_, law)| law.width() > 0) {
+                for contacts in [&mut memory.pairs, &mut memory.next_pairs] {
                     contacts.reserve(list.pairs.len());
                 }
-                for contacts in [&mut block.memory.walls, &mut block.memory.next_walls] {
+                for contacts in [&mut memory.walls, &mut memory.next_walls] {
                     contacts.reserve(list.walls.len());
                 }
             }
@@ -157,7 +161,7 @@ impl Touch {
     pub fn forces(&mut self, scene: &Scene) -> Sums {
         // An engine may be moved to a pool with more threads than the one it was built in.
         while self.scratch.len() < rayon::current_num_threads() {
-            self.scratch.push(Mutex::new(Scratch::new(scene.law.width())));
+            self.scratch.push(Mutex::new(Scratch::new(scene.table.laws())));
         }
         let scratch = &self.scratch;
         let work = |(block, list): (&mut Block, &List)| {
@@ -193,7 +197,7 @@ impl Touch {
     pub fn contacts(&self, scene: &Scene) -> Vec<Contact> {
         // A step of length zero leaves the tangential springs as they are.
         let scene = Scene { dt: 0.0, ..*scene };
-        let mut scratch = Scratch::new(scene.law.width());
+        let mut scratch = Scratch::new(scene.table.laws());
         let mut contacts = Vec::new();
         for (block, list) in self.blocks.iter().zip(&scene.candidates.lists) {
             let mut take = |rows: &Rows, wall: bool| {
@@ -229,52 +233,59 @@ impl Block {
         *sums = Sums::default();
         pairs(scene, list, memory, scratch, sums, |rows| scatter(rows, loads, scene.rotation));
         walls(scene, list, memory, scratch, sums, |rows| react(scene, list, rows, loads, wall_loads));
-        if scene.law.width() > 0 {
-            memory.turn(scene.law.width());
+        for (memory, law) in memory.iter_mut().zip(scene.table.laws()) {
+            if law.width() > 0 {
+                memory.turn(law.width());
+            }
         }
     }
 }
 
-/// Walks the grain-grain candidates of a block; `visit` sees every finished chunk.
+/// Walks the grain-grain candidates of a block, law by law; `visit` sees every finished chunk.
 fn pairs(
     scene: &Scene,
     list: &List,
-    memory: &mut Memory,
+    memory: &mut [Memory],
     scratch: &mut Scratch,
     sums: &mut Sums,
     mut visit: impl FnMut(&Rows),
 ) {
-    let width = scene.law.width();
     let Scratch { spheres, hits, rows, old, .. } = scratch;
     spheres.place(scene.grains, list, &scene.candidates.shifts);
     hits.sieve(list, spheres, scene.reach);
-    let mut cursor = 0;
-    let mut released = 0.0;
-    for hits in hits.found().chunks(ROWS) {
-        rows.gather(hits, list, spheres, scene.table, scene.rotation);
-        rows.spheres(scene.rotation);
-        if width > 0 {
-            for (hit, old) in hits.iter().zip(&mut *old) {
-                let opened = skip(&memory.pairs.keys, &mut cursor, |k| *k < hit.candidate);
-                if !opened.is_empty() {
-                    released += memory.pairs.held(opened, scene.law);
-                }
-                let goes_on = memory.pairs.keys.get(cursor) == Some(&hit.candidate);
-                *old = if goes_on { Contacts::<u32>::place(cursor) } else { FRESH };
-                cursor += usize::from(goes_on);
-            }
-            memory.pairs.recall(&old[..hits.len()], &mut rows.chunk.history);
-        }
-        apply(scene, rows, sums);
-        if width > 0 {
-            memory.next_pairs.keys.extend(hits.iter().map(|hit| hit.candidate));
-            memory.next_pairs.remember(hits.len(), &rows.chunk.history);
-        }
-        visit(rows);
+    if scene.reaches.len() > 1 {
+        hits.part(list, spheres, scene.table, scene.reaches);
     }
-    if width > 0 {
-        released += memory.pairs.held(cursor..memory.pairs.keys.len(), scene.law);
-        sums.lost[1] += released / scene.dt;
+    for (k, (law, (memory, rows))) in scene.table.laws().iter().zip(memory.iter_mut().zip(rows)).enumerate() {
+        let width = law.width();
+        let mut cursor = 0;
+        let mut released = 0.0;
+        for hits in hits.under(k).chunks(ROWS) {
+            rows.gather(hits, list, spheres, scene.table, scene.rotation);
+            rows.spheres(scene.rotation);
+            if width > 0 {
+                for (hit, old) in hits.iter().zip(&mut *old) {
+                    let opened = skip(&memory.pairs.keys, &mut cursor, |k| *k < hit.candidate);
+                    if !opened.is_empty() {
+                        released += memory.pairs.held(opened, law);
+                    }
+                    let goes_on = memory.pairs.keys.get(cursor) == Some(&hit.candidate);
+                    *old = if goes_on { Contacts::<u32>::place(cursor) } else { FRESH };
+                    cursor += usize::from(goes_on);
+                }
+                memory.pairs.recall(&old[..hits.len()], &mut rows.chunk.history);
+            }
+            apply(scene, k, rows, sums);
+            if width > 0 {
+                memory.next_pairs.keys.extend(hits.iter().map(|hit| hit.candidate));
+                memory.next_pairs.remember(hits.len(), &rows.chunk.history);
+            }
+            visit(rows);
+        }
+        if width > 0 {
+            released += memory.pairs.held(cursor..memory.pairs.keys.len(), law);
+            sums.lost[1] += released / scene.dt;
+        }
     }
 }
 
@@ -319,17 +330,18 @@ fn place(c: usize) -> u32 {
     Contacts::<WallKey>::place(c)
 }
 
-/// The law on a filled chunk, and its sums.
-fn apply(scene: &Scene, rows: &mut Rows, sums: &mut Sums) {
+/// Law `k` on a filled chunk, and its sums.
+fn apply(scene: &Scene, k: usize, rows: &mut Rows, sums: &mut Sums) {
+    let law = &scene.table.laws()[k];
     rows.constants(scene.table);
-    if scene.law.needs.roll || scene.law.needs.twist {
+    if law.needs.roll || law.needs.twist {
         rows.rolling();
     }
-    scene.law.apply(&mut rows.chunk, scene.dt);
+    law.apply(&mut rows.chunk, scene.dt);
     rows.actions(scene.rotation);
     let c = &rows.chunk;
     let n = c.rows();
-    let contacts = if scene.reach > 0.0 { c.overlap[..n].iter().filter(|d| **d > 0.0).count() } else { n };
+    let contacts = if scene.reaches[k] > 0.0 { c.overlap[..n].iter().filter(|d| **d > 0.0).count() } else { n };
     let ([stored, lost @ ..], deepest) = rows::sums(c);
     sums.add(&Sums { stored, lost, contacts, deepest });
 }
@@ -354,45 +366,66 @@ fn scatter(rows: &Rows, loads: &mut [Load], rotation: bool) {
     }
 }
 
-/// Walks the grain-wall candidates of a block: a wall is a body of infinite radius.
+/// Walks the grain-wall candidates of a block, law by law: a wall is a body of infinite radius.
 fn walls(
     scene: &Scene,
     list: &List,
-    memory: &mut Memory,
+    memory: &mut [Memory],
     scratch: &mut Scratch,
     sums: &mut Sums,
     mut visit: impl FnMut(&Rows),
 ) {
+    for (law, memory) in memory.iter_mut().enumerate() {
+        walls_under(scene, law, list, memory, scratch, sums, &mut visit);
+    }
+}
+
+/// The same for one law.
+fn walls_under(
+    scene: &Scene,
+    number: usize,
+    list: &List,
+    memory: &mut Memory,
+    scratch: &mut Scratch,
+    sums: &mut Sums,
+    visit: &mut impl FnMut(&Rows),
+) {
     let g = scene.grains;
-    let remembers = scene.law.width() > 0;
+    let law = &scene.table.laws()[number];
+    let several = scene.reaches.len() > 1;
+    let remembers = law.width() > 0;
     let mut cursor = 0;
     let mut released = 0.0;
-    scratch.rows.chunk.len = 0;
+    scratch.rows[number].chunk.len = 0;
     scratch.keys.clear();
     // Candidates of one grain on one wall are looked at together: on a mesh some touch only as the edge of another.
     for near in list.walls.chunk_by(|a, b| (a.own, a.wall) == (b.own, b.wall)) {
         let (own, k) = (near[0].own, near[0].wall);
         let i = list.first + own as usize;
         let wall = &scene.walls[k as usize];
+        let material = scene.table.index(g.material[i], wall.material);
+        if several && scene.table.law(material) != number {
+            continue;
+        }
         let Scratch { elements, touching, .. } = scratch;
         elements.clear();
         elements.extend(near.iter().map(|candidate| candidate.element));
-        wall.touching(elements, g.position[i], g.radius[i] + scene.reach, touching);
+        wall.touching(elements, g.position[i], g.radius[i] + scene.reaches[number], touching);
         if remembers {
             let before = WallKey { own, wall: k, patch: 0 };
             let opened = skip(&memory.walls.keys, &mut cursor, |key| *key < before);
-            released += memory.walls.held(opened, scene.law);
+            released += memory.walls.held(opened, law);
             let old = skip(&memory.walls.keys, &mut cursor, |key| (key.own, key.wall) == (own, k));
             match_up(wall, &memory.walls.keys, &old, touching, &mut scratch.went_on);
             let went_on = &scratch.went_on;
             let ended = old.filter(|c| !went_on.contains(&place(*c)));
-            released += ended.map(|c| memory.walls.held(c..c + 1, scene.law)).sum::<f64>();
+            released += ended.map(|c| memory.walls.held(c..c + 1, law)).sum::<f64>();
         }
         let mut t = 0;
         while t < scratch.touching.len() {
             let wall::Touch { element, nearest, .. } = scratch.touching[t];
             let overlap = g.radius[i] - nearest.distance;
-            let rows = &mut *scratch.rows;
+            let rows = &mut scratch.rows[number];
             let r = rows.chunk.len;
             scratch.keys.push(WallKey { own, wall: k, patch: wall.key(element) });
             scratch.old[r] = if remembers { scratch.went_on[t] } else { FRESH };
@@ -406,7 +439,7 @@ fn walls(
             rows.chunk.mass[r] = 1.0 / (g.inverse_mass[i] + wall.inverse_mass);
             rows.arm[0][r] = g.radius[i] - 0.5 * overlap;
             rows.arm[1][r] = 0.0;
-            rows.material[r] = scene.table.index(g.material[i], wall.material);
+            rows.material[r] = material;
             Chunk::set(
                 &mut rows.relative,
                 r,
@@ -416,38 +449,41 @@ fn walls(
             Chunk::set(&mut rows.spin[1], r, wall.pose.spin);
             rows.chunk.len = r + 1;
             if r + 1 == ROWS {
-                finish_walls(scene, memory, scratch, sums, &mut visit);
+                finish_walls(scene, number, memory, scratch, sums, visit);
             }
         }
     }
-    finish_walls(scene, memory, scratch, sums, &mut visit);
+    finish_walls(scene, number, memory, scratch, sums, visit);
     if remembers {
-        released += memory.walls.held(cursor..memory.walls.keys.len(), scene.law);
+        released += memory.walls.held(cursor..memory.walls.keys.len(), law);
         sums.lost[1] += released / scene.dt;
     }
 }
 
 fn finish_walls(
     scene: &Scene,
+    number: usize,
     memory: &mut Memory,
     scratch: &mut Scratch,
     sums: &mut Sums,
     visit: &mut impl FnMut(&Rows),
 ) {
-    let width = scene.law.width();
-    let n = scratch.rows.chunk.rows();
-    scratch.rows.motion(scene.rotation);
-    if width > 0 {
-        memory.walls.recall(&scratch.old[..n], &mut scratch.rows.chunk.history);
+    let Scratch { rows, old, keys, .. } = scratch;
+    let rows = &mut rows[number];
+    let remembers = scene.table.laws()[number].width() > 0;
+    let n = rows.chunk.rows();
+    rows.motion(scene.rotation);
+    if remembers {
+        memory.walls.recall(&old[..n], &mut rows.chunk.history);
     }
-    apply(scene, &mut scratch.rows, sums);
-    if width > 0 {
-        memory.next_walls.keys.extend_from_slice(&scratch.keys);
-        memory.next_walls.remember(n, &scratch.rows.chunk.history);
+    apply(scene, number, rows, sums);
+    if remembers {
+        memory.next_walls.keys.extend_from_slice(keys);
+        memory.next_walls.remember(n, &rows.chunk.history);
     }
-    visit(&scratch.rows);
-    scratch.keys.clear();
-    scratch.rows.chunk.len = 0;
+    visit(rows);
+    keys.clear();
+    rows.chunk.len = 0;
 }
 
 /// Adds the forces of a chunk of wall contacts to the grains and to the walls.

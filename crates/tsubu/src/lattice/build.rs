@@ -76,7 +76,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         duration: _,
         speed_scale: _, // Only chooses DEM's step.
         materials: _,   // Read pair by pair in `restitution`.
-        material_pair: _,
+        material_pair,
         particles: _,
         walls: _,
         periodic,
@@ -109,7 +109,12 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
     }
     let casing = casing(plan, &mut remarks);
     let kind = kind(plan, &mut remarks);
-    remark_contact(contact, plan, &mut remarks);
+    remark_contact(contact, None, plan, &mut remarks);
+    for (index, pair) in material_pair.iter().enumerate() {
+        if let Some(own) = &pair.contact {
+            remark_contact(own, Some((index, contact)), plan, &mut remarks);
+        }
+    }
     remark_watches(watch, plan, &mut remarks);
     let (Some(casing), Some(kind)) = (casing, kind) else {
         return Err(remarks.refusal().unwrap_or(Refusal { method: "lattice", notes: Vec::new() }));
@@ -239,18 +244,26 @@ fn refuse_group(name: &str, group: &plan::Particles, remarks: &mut Remarks) {
     }
 }
 
-/// What of the contact law the automaton leaves out.
-fn remark_contact(contact: &plan::Contact, plan: &Plan, remarks: &mut Remarks) {
+/// What of the contact law the automaton leaves out; of that of a pair of materials, given with its number and the scene's
+/// law, only what the scene's does not have.
+fn remark_contact(contact: &plan::Contact, pair: Option<(usize, &plan::Contact)>, plan: &Plan, remarks: &mut Remarks) {
     let plan::Contact { normal: _, damping: _, attraction: _, tangential, rolling, twisting: _, cohesion, rotation } =
         contact;
-    if !matches!(cohesion, plan::Cohesion::None {}) {
-        remarks.approximate("contact.cohesion", "the automaton knows no cohesion");
+    let key = |part: &str| pair.map_or_else(|| part.to_owned(), |(index, _)| format!("material-pair.{index}.{part}"));
+    let scene = pair.map(|(_, scene)| scene);
+    if !matches!(cohesion, plan::Cohesion::None {}) && scene.is_none_or(|scene| scene.cohesion != *cohesion) {
+        remarks.approximate(key("contact.cohesion"), "the automaton knows no cohesion");
     }
-    if !matches!(tangential, Tangential::None {}) && plan.materials.values().any(|m| m.friction > 0.0) {
-        remarks.approximate("contact.tangential", "the automaton knows no friction: balls slide freely");
+    let slides = matches!(tangential, Tangential::None {}) || plan.materials.values().all(|m| m.friction <= 0.0);
+    if !slides && scene.is_none_or(|scene| scene.tangential != *tangential) {
+        remarks.approximate(key("contact.tangential"), "the automaton knows no friction: balls slide freely");
     }
-    if *rotation || !matches!(rolling, Rolling::None {}) {
-        remarks.approximate("contact.rotation", "the automaton knows no spin and no rolling resistance");
+    let rolls = !matches!(rolling, Rolling::None {});
+    let text = "the automaton knows no spin and no rolling resistance";
+    match scene {
+        None if *rotation || rolls => remarks.approximate("contact.rotation", text),
+        Some(scene) if rolls && scene.rolling != *rolling => remarks.approximate(key("contact.rolling"), text),
+        _ => {}
     }
 }
 
@@ -412,14 +425,10 @@ fn rules(plan: &Plan, casing: &Casing, kind: &Kind, seed: u64, scale: &Scale) ->
 
 /// Restitution of a pair of materials: what the scene says of the pair, else the geometric mean.
 fn restitution(plan: &Plan, a: &str, b: &str) -> f64 {
-    let named = plan.material_pair.iter().find(|p| {
-        let [x, y] = &p.between;
-        (x == a && y == b) || (x == b && y == a)
-    });
     let own = |name: &str| plan.materials.get(name).map_or(1.0, |m| m.restitution);
     // The square root of e e can miss e by one bit.
     let mean = || if a == b { own(a) } else { (own(a) * own(b)).sqrt() };
-    named.and_then(|p| p.restitution).unwrap_or_else(mean)
+    plan.pair(a, b).and_then(|p| p.restitution).unwrap_or_else(mean)
 }
 
 /// Number of balls of a group: with given places, the number of places.

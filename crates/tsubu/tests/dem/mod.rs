@@ -3,6 +3,7 @@
 mod books;
 mod everything;
 mod orientation;
+mod pairs;
 mod place;
 mod plane;
 mod rest;

@@ -55,6 +55,27 @@ fn approximations_are_noted() {
     assert!(width.text.contains("10 columns") && width.text.contains("52.0 mm instead of 60.0 mm"), "{}", width.text);
 }
 
+/// Of the law of a pair only what the scene's law does not have is noted again.
+#[test]
+fn laws_of_pairs_are_noted() {
+    let mut plan = plan(50, LatticeMode::Extended);
+    let material = plan.materials.keys().next().expect("a material").clone();
+    let own = Contact { cohesion: Cohesion::Jkr {}, ..plan.contact.clone() };
+    plan.material_pair = vec![MaterialPair {
+        between: [material.clone(), material],
+        restitution: None,
+        friction: None,
+        rolling_friction: None,
+        twisting_friction: None,
+        surface_energy: None,
+        cohesion: None,
+        contact: Some(own),
+    }];
+    let engine = LatticeEngine::new(&plan, &Hosts::default()).expect("a good plan");
+    let keys: Vec<&str> = engine.notes().iter().map(|n| n.key.as_str()).filter(|k| k.contains("pair")).collect();
+    assert_eq!(keys, ["material-pair.0.contact.cohesion"]);
+}
+
 /// A box that leaves its grid stops the run and says which key to change.
 #[test]
 fn head_room_is_named() {

@@ -20,8 +20,11 @@ pub(super) fn spoil(plan: &mut Plan, factor: f64) {
         material.young_modulus *= factor;
         material.restitution *= factor;
     }
-    if let tsubu_scene::plan::Normal::Hooke { stiffness } = &mut plan.contact.normal {
-        *stiffness *= factor;
+    let pairs = plan.material_pair.iter_mut().filter_map(|pair| pair.contact.as_mut());
+    for contact in pairs.chain([&mut plan.contact]) {
+        if let tsubu_scene::plan::Normal::Hooke { stiffness } = &mut contact.normal {
+            *stiffness *= factor;
+        }
     }
 }
 
