@@ -39,6 +39,8 @@ pub struct Kind {
     pub material: u32,
     /// Radius [m]; infinite for walls.
     pub radius: f64,
+    /// Radius of the largest of them [m].
+    pub largest: f64,
     /// Mass [kg]; infinite for what forces do not move.
     pub mass: f64,
 }
@@ -67,13 +69,14 @@ impl Bodies {
 pub fn bodies(plan: &Plan, table: &Table, hosts: &Hosts) -> Bodies {
     let mut kinds = Vec::new();
     for (name, group) in plan.particles.iter().filter(|(_, group)| group.count > 0) {
-        let smallest = sizes::range(group).0;
+        let (smallest, largest) = sizes::range(group);
         let free = matches!(group.motion, GrainMotion::Free {});
         kinds.push(Kind {
             name: name.clone(),
             group: Some(name.clone()),
             material: table.material(&group.material),
             radius: 0.5 * smallest,
+            largest: 0.5 * largest,
             mass: if free { sizes::mass(group, smallest) } else { f64::INFINITY },
         });
     }
@@ -87,6 +90,7 @@ pub fn bodies(plan: &Plan, table: &Table, hosts: &Hosts) -> Bodies {
             group: None,
             material: table.material(&wall.material),
             radius: f64::INFINITY,
+            largest: f64::INFINITY,
             mass: host.or(own).unwrap_or(f64::INFINITY),
         };
         if !kinds.contains(&kind) {

@@ -108,7 +108,11 @@ impl DemEngine {
         let mut reaches = vec![0.0f64; table.laws().len()];
         for (a, b) in check::bodies(plan, &table, hosts).pairs() {
             let law = table.law(table.index(a.material, b.material));
-            reaches[law] = reaches[law].max(table.laws()[law].reach(&table.pair(a.body(), b.body())));
+            // Whether large or small grains hold each other over the wider gap is the law's business.
+            let largest = table.pair((a.material, a.largest, a.mass), (b.material, b.largest, b.mass));
+            for pair in [table.pair(a.body(), b.body()), largest] {
+                reaches[law] = reaches[law].max(table.laws()[law].reach(&pair));
+            }
         }
         let reach = reaches.iter().copied().fold(0.0, f64::max);
         let wall_loads = vec![WallLoad::default(); walls.len()];

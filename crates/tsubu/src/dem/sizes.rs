@@ -55,18 +55,7 @@ fn sieve(diameter: &[f64], passing: &[f64], power: i32, [pick, u]: [f64; 2]) -> 
 
 /// Smallest and largest diameter that a group may have [m].
 pub fn range(group: &Particles) -> (f64, f64) {
-    match &group.size {
-        Size::Equal {} => (group.diameter, group.diameter),
-        Size::Uniform { smallest, largest } => (*smallest, *largest),
-        Size::Normal { mean, deviation, cut } => (mean - cut * deviation, mean + cut * deviation),
-        Size::LogNormal { median, deviation, cut } => {
-            (median * (-cut * deviation).exp(), median * (cut * deviation).exp())
-        }
-        Size::Sieve { diameter, .. } => {
-            let d = |i: Option<&f64>| i.copied().unwrap_or(group.diameter);
-            (d(diameter.first()), d(diameter.last()))
-        }
-    }
+    (group.smallest_diameter(), group.largest_diameter())
 }
 
 /// Mass of a grain of the group with another diameter [kg].

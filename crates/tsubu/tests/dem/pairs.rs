@@ -151,6 +151,49 @@ fn every_impact_ends_as_its_own_law_says() {
     assert!(!each_by_its_own(&outcome(&swapped)));
 }
 
+/// JKR holds large grains over a wider gap than small ones: the smallest grain of a group must not shorten its reach.
+#[test]
+fn large_grains_are_held_until_their_own_pull_off() {
+    let pull_off = |smallest: &str| {
+        let text = format!(
+            r#"
+title = "a group of many sizes"
+dimension = 3
+gravity = 0
+duration = "1 ms"
+speed-scale = 1
+[materials.a]
+young-modulus = "0.5 GPa"
+surface-energy = {SURFACE_ENERGY}
+density = 2500
+[particles.a]
+material = "a"
+start.file.path = "grains.csv"
+[contact]
+cohesion.jkr = {{}}
+damping.none = {{}}
+[dem]
+time-step = "5e-8 s"
+"#
+        );
+        let folder = tempfile::tempdir().unwrap();
+        let grains =
+            format!("x,y,z,r,vx,vy,vz\n-4.01e-3,0,0,4e-3,0.5,0,0\n4.01e-3,0,0,4e-3,-0.5,0,0\n0,0,1,{smallest},0,0,0\n");
+        std::fs::write(folder.path().join("grains.csv"), grains).unwrap();
+        let (mut engine, mut hosts, mut ledger) = run_text(&text, folder.path(), &[]);
+        let mut most = 0.0f64;
+        for _ in 0..10_000 {
+            engine.advance(1, &mut hosts, &mut ledger).unwrap();
+            most = most.max(attraction(&engine.frame(&hosts), 0));
+        }
+        most / (3.0 * PI * SURFACE_ENERGY * 2e-3)
+    };
+    for smallest in ["4e-3", "0.2e-3"] {
+        let pull = pull_off(smallest);
+        assert!((pull - 1.0).abs() < 2e-3, "{smallest}: {pull}");
+    }
+}
+
 /// The step is a share of the shortest contact of any pair under its own law, and advice names the pair.
 #[test]
 fn the_verdict_judges_each_pair_under_its_own_law() {
