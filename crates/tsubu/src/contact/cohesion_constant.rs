@@ -2,7 +2,7 @@
 
 use super::chunk::Chunk;
 use super::dmt::pull;
-use super::part::{About, Part, Stage};
+use super::part::{About, Plain, Stage};
 use multiversion::multiversion;
 
 const ABOUT: About = About {
@@ -14,21 +14,8 @@ const ABOUT: About = About {
     reference: "in general use; Rognon et al. 2008 for flows of such grains",
 };
 
-#[derive(Debug)]
-pub(super) struct CohesionConstant;
-
-impl Part for CohesionConstant {
-    fn about(&self) -> &'static About {
-        &ABOUT
-    }
-
-    fn stage(&self) -> Stage {
-        Stage::Cohesion
-    }
-
-    fn apply(&self, chunk: &mut Chunk, _at: usize, _dt: f64) {
-        rows(chunk);
-    }
+pub(super) const fn part() -> Plain {
+    Plain { about: &ABOUT, stage: Stage::Cohesion, rows: |chunk, _, _| rows(chunk), number: 0.0 }
 }
 
 #[multiversion(targets = "simd")]

@@ -1,7 +1,7 @@
 //! Sliding friction without a spring: Coulomb.
 
 use super::chunk::Chunk;
-use super::part::{About, Part, Stage};
+use super::part::{About, Plain, Stage};
 use super::root::most;
 use super::slider::TINY;
 use multiversion::multiversion;
@@ -15,23 +15,9 @@ const ABOUT: About = About {
     reference: "Komatsuzaki 2003, eq. (4), sign fixed",
 };
 
-#[derive(Debug)]
-pub(super) struct Coulomb {
-    pub smoothing_speed: f64,
-}
-
-impl Part for Coulomb {
-    fn about(&self) -> &'static About {
-        &ABOUT
-    }
-
-    fn stage(&self) -> Stage {
-        Stage::Tangential
-    }
-
-    fn apply(&self, chunk: &mut Chunk, _at: usize, dt: f64) {
-        rows(chunk, dt, self.smoothing_speed);
-    }
+/// `smoothing_speed` is v_eps [m/s].
+pub(super) const fn part(smoothing_speed: f64) -> Plain {
+    Plain { about: &ABOUT, stage: Stage::Tangential, rows, number: smoothing_speed }
 }
 
 #[multiversion(targets = "simd")]

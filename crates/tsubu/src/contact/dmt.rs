@@ -1,7 +1,7 @@
 //! Attraction of stiff, small spheres: Derjaguin, Muller, Toporov.
 
 use super::chunk::Chunk;
-use super::part::{About, Part, Stage};
+use super::part::{About, Plain, Stage};
 use multiversion::multiversion;
 use std::f64::consts::PI;
 
@@ -25,21 +25,8 @@ pub(super) fn pull(chunk: &mut Chunk, held: f64, force: impl Fn(&Chunk, usize) -
     }
 }
 
-#[derive(Debug)]
-pub(super) struct Dmt;
-
-impl Part for Dmt {
-    fn about(&self) -> &'static About {
-        &ABOUT
-    }
-
-    fn stage(&self) -> Stage {
-        Stage::Cohesion
-    }
-
-    fn apply(&self, chunk: &mut Chunk, _at: usize, _dt: f64) {
-        rows(chunk);
-    }
+pub(super) const fn part() -> Plain {
+    Plain { about: &ABOUT, stage: Stage::Cohesion, rows: |chunk, _, _| rows(chunk), number: 0.0 }
 }
 
 #[multiversion(targets = "simd")]

@@ -1,7 +1,7 @@
 //! Rolling resistance as an elastic-plastic spring with a dashpot (EPSD), and its variant EPSD2.
 
 use super::chunk::{Chunk, Column};
-use super::part::{About, Needs, Part, Slot, Stage};
+use super::part::{About, Part, Slot, Stage};
 use super::slider::{self, Strength, roll};
 use multiversion::multiversion;
 
@@ -36,10 +36,6 @@ impl Part for Epsd {
 
     fn stage(&self) -> Stage {
         Stage::Rolling
-    }
-
-    fn needs(&self) -> Needs {
-        Needs { roll: true, twist: false }
     }
 
     fn history(&self) -> &'static [Slot] {

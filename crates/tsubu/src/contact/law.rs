@@ -116,10 +116,10 @@ fn normal(normal: &Normal) -> Box<dyn Part> {
 fn cohesion(cohesion: &Cohesion) -> Option<Box<dyn Part>> {
     match *cohesion {
         Cohesion::None {} => None,
-        Cohesion::Dmt {} => Some(Box::new(dmt::Dmt)),
+        Cohesion::Dmt {} => Some(Box::new(dmt::part())),
         Cohesion::Jkr {} => Some(Box::new(jkr::Jkr)),
-        Cohesion::Sjkr {} => Some(Box::new(sjkr::Sjkr)),
-        Cohesion::Constant {} => Some(Box::new(cohesion_constant::CohesionConstant)),
+        Cohesion::Sjkr {} => Some(Box::new(sjkr::part())),
+        Cohesion::Constant {} => Some(Box::new(cohesion_constant::part())),
     }
 }
 
@@ -143,7 +143,7 @@ fn damping(contact: &Contact) -> Option<Box<dyn Part>> {
 fn tangential(tangential: &Tangential) -> Option<Box<dyn Part>> {
     match *tangential {
         Tangential::None {} => None,
-        Tangential::Coulomb { smoothing_speed } => Some(Box::new(coulomb::Coulomb { smoothing_speed })),
+        Tangential::Coulomb { smoothing_speed } => Some(Box::new(coulomb::part(smoothing_speed))),
         Tangential::Mindlin { form, damping } => Some(Box::new(mindlin::Mindlin { form, damping })),
         Tangential::Spring { ratio, damping, cohesion } => Some(Box::new(spring::Spring { ratio, damping, cohesion })),
     }
@@ -152,19 +152,19 @@ fn tangential(tangential: &Tangential) -> Option<Box<dyn Part>> {
 fn rolling(rolling: &Rolling) -> Option<Box<dyn Part>> {
     match *rolling {
         Rolling::None {} => None,
-        Rolling::Constant { smoothing_speed } => Some(Box::new(rolling_constant::RollingConstant { smoothing_speed })),
-        Rolling::Viscous { coefficient } => Some(Box::new(rolling_viscous::RollingViscous { coefficient })),
+        Rolling::Constant { smoothing_speed } => Some(Box::new(rolling_constant::part(smoothing_speed))),
+        Rolling::Viscous { coefficient } => Some(Box::new(rolling_viscous::part(coefficient))),
         Rolling::Epsd { ratio, damping_ratio } => Some(Box::new(epsd::Epsd { told: Some([ratio, damping_ratio]) })),
         Rolling::Epsd2 {} => Some(Box::new(epsd::Epsd { told: None })),
         Rolling::Spring { stiffness, damping } => Some(Box::new(rolling_spring::RollingSpring { stiffness, damping })),
-        Rolling::ContactWidth { smoothing_speed } => Some(Box::new(contact_width::ContactWidth { smoothing_speed })),
+        Rolling::ContactWidth { smoothing_speed } => Some(Box::new(contact_width::part(smoothing_speed))),
     }
 }
 
 fn twisting(twisting: &Twisting) -> Option<Box<dyn Part>> {
     match *twisting {
         Twisting::None {} => None,
-        Twisting::Sliding { smoothing_spin } => Some(Box::new(twisting_sliding::TwistingSliding { smoothing_spin })),
+        Twisting::Sliding { smoothing_spin } => Some(Box::new(twisting_sliding::part(smoothing_spin))),
         Twisting::Spring {} => Some(Box::new(twisting_spring::TwistingSpring)),
     }
 }

@@ -74,9 +74,9 @@ pub trait Part: Send + Sync + std::fmt::Debug {
     /// When it acts.
     fn stage(&self) -> Stage;
 
-    /// What it needs.
+    /// What it needs: as a rule what it acts against.
     fn needs(&self) -> Needs {
-        Needs::default()
+        Needs { roll: self.stage() == Stage::Rolling, twist: self.stage() == Stage::Twisting }
     }
 
     /// The columns of history that it keeps; zero at first touch.
@@ -102,5 +102,29 @@ pub trait Part: Send + Sync + std::fmt::Debug {
     /// Energy [J] that a history still holds; it is lost when the contact opens. `history` begins with this part's.
     fn held(&self, _history: &[f64]) -> f64 {
         0.0
+    }
+}
+
+/// A part that keeps nothing and prepares nothing: a text, and a loop with at most one number.
+#[derive(Debug)]
+pub(super) struct Plain {
+    pub about: &'static About,
+    pub stage: Stage,
+    /// The loop over the rows of a chunk, with the time step [s] and the number.
+    pub rows: fn(&mut Chunk, f64, f64),
+    pub number: f64,
+}
+
+impl Part for Plain {
+    fn about(&self) -> &'static About {
+        self.about
+    }
+
+    fn stage(&self) -> Stage {
+        self.stage
+    }
+
+    fn apply(&self, chunk: &mut Chunk, _at: usize, dt: f64) {
+        (self.rows)(chunk, dt, self.number);
     }
 }

@@ -1,7 +1,7 @@
 //! Rolling resistance of constant torque.
 
 use super::chunk::Chunk;
-use super::part::{About, Needs, Part, Stage};
+use super::part::{About, Plain, Stage};
 use super::slider::resist;
 use multiversion::multiversion;
 
@@ -14,28 +14,9 @@ const ABOUT: About = About {
     reference: "model A of Ai, Chen, Rotter, Ooi 2011",
 };
 
-#[derive(Debug)]
-pub(super) struct RollingConstant {
-    /// v_eps [m/s].
-    pub smoothing_speed: f64,
-}
-
-impl Part for RollingConstant {
-    fn about(&self) -> &'static About {
-        &ABOUT
-    }
-
-    fn stage(&self) -> Stage {
-        Stage::Rolling
-    }
-
-    fn needs(&self) -> Needs {
-        Needs { roll: true, twist: false }
-    }
-
-    fn apply(&self, chunk: &mut Chunk, _at: usize, dt: f64) {
-        rows(chunk, dt, self.smoothing_speed);
-    }
+/// `smoothing_speed` is v_eps [m/s].
+pub(super) const fn part(smoothing_speed: f64) -> Plain {
+    Plain { about: &ABOUT, stage: Stage::Rolling, rows, number: smoothing_speed }
 }
 
 #[multiversion(targets = "simd")]

@@ -1,7 +1,7 @@
 //! Rolling resistance as spring, dashpot and slider on the rolling displacement.
 
 use super::chunk::{Chunk, Column};
-use super::part::{About, Needs, Part, Slot, Stage};
+use super::part::{About, Part, Slot, Stage};
 use super::slider::{self, Strength, roll};
 use multiversion::multiversion;
 
@@ -29,10 +29,6 @@ impl Part for RollingSpring {
 
     fn stage(&self) -> Stage {
         Stage::Rolling
-    }
-
-    fn needs(&self) -> Needs {
-        Needs { roll: true, twist: false }
     }
 
     fn history(&self) -> &'static [Slot] {

@@ -1,7 +1,7 @@
 //! Rolling resistance in proportion to the rolling speed.
 
 use super::chunk::Chunk;
-use super::part::{About, Needs, Part, Stage};
+use super::part::{About, Plain, Stage};
 use super::root::least;
 use super::slider::inertia;
 use multiversion::multiversion;
@@ -15,28 +15,9 @@ const ABOUT: About = About {
     reference: "model B of Ai, Chen, Rotter, Ooi 2011",
 };
 
-#[derive(Debug)]
-pub(super) struct RollingViscous {
-    /// C [s/m].
-    pub coefficient: f64,
-}
-
-impl Part for RollingViscous {
-    fn about(&self) -> &'static About {
-        &ABOUT
-    }
-
-    fn stage(&self) -> Stage {
-        Stage::Rolling
-    }
-
-    fn needs(&self) -> Needs {
-        Needs { roll: true, twist: false }
-    }
-
-    fn apply(&self, chunk: &mut Chunk, _at: usize, dt: f64) {
-        rows(chunk, dt, self.coefficient);
-    }
+/// `coefficient` is C [s/m].
+pub(super) const fn part(coefficient: f64) -> Plain {
+    Plain { about: &ABOUT, stage: Stage::Rolling, rows, number: coefficient }
 }
 
 #[multiversion(targets = "simd")]

@@ -1,7 +1,7 @@
 //! Attraction in proportion to the area of the overlap (the simplified JKR of other codes).
 
 use super::chunk::Chunk;
-use super::part::{About, Part, Stage};
+use super::part::{About, Plain, Stage};
 use multiversion::multiversion;
 use std::f64::consts::PI;
 
@@ -14,21 +14,8 @@ const ABOUT: About = About {
     reference: "the cohesion models sjkr, sjkr2 of LIGGGHTS, for overlaps small against the radii",
 };
 
-#[derive(Debug)]
-pub(super) struct Sjkr;
-
-impl Part for Sjkr {
-    fn about(&self) -> &'static About {
-        &ABOUT
-    }
-
-    fn stage(&self) -> Stage {
-        Stage::Cohesion
-    }
-
-    fn apply(&self, chunk: &mut Chunk, _at: usize, _dt: f64) {
-        rows(chunk);
-    }
+pub(super) const fn part() -> Plain {
+    Plain { about: &ABOUT, stage: Stage::Cohesion, rows: |chunk, _, _| rows(chunk), number: 0.0 }
 }
 
 #[multiversion(targets = "simd")]

@@ -1,7 +1,7 @@
 //! Resistance against spin about the normal, as of a sliding disc.
 
 use super::chunk::Chunk;
-use super::part::{About, Needs, Part, Stage};
+use super::part::{About, Plain, Stage};
 use super::root::most;
 use super::slider::{TINY, turning};
 use multiversion::multiversion;
@@ -15,28 +15,9 @@ const ABOUT: About = About {
     reference: "Marshall 2009, eq. (33)",
 };
 
-#[derive(Debug)]
-pub(super) struct TwistingSliding {
-    /// w_eps [rad/s].
-    pub smoothing_spin: f64,
-}
-
-impl Part for TwistingSliding {
-    fn about(&self) -> &'static About {
-        &ABOUT
-    }
-
-    fn stage(&self) -> Stage {
-        Stage::Twisting
-    }
-
-    fn needs(&self) -> Needs {
-        Needs { roll: false, twist: true }
-    }
-
-    fn apply(&self, chunk: &mut Chunk, _at: usize, dt: f64) {
-        rows(chunk, dt, self.smoothing_spin);
-    }
+/// `smoothing_spin` is w_eps [rad/s].
+pub(super) const fn part(smoothing_spin: f64) -> Plain {
+    Plain { about: &ABOUT, stage: Stage::Twisting, rows, number: smoothing_spin }
 }
 
 /// Largest torque of a row [N.m].

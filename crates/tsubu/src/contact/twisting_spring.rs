@@ -1,7 +1,7 @@
 //! Resistance against spin about the normal, with a spring on the angle of twist.
 
 use super::chunk::{Chunk, Column};
-use super::part::{About, Needs, Part, Slot, Stage};
+use super::part::{About, Part, Slot, Stage};
 use super::root::{least, most};
 use super::slider::{bearable, inertia, inverse};
 use super::twisting_sliding::limit;
@@ -26,10 +26,6 @@ impl Part for TwistingSpring {
 
     fn stage(&self) -> Stage {
         Stage::Twisting
-    }
-
-    fn needs(&self) -> Needs {
-        Needs { roll: false, twist: true }
     }
 
     /// What the spring holds, and one over its stiffness. A torque about the normal from the first to the second body is the same number
