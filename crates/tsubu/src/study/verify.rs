@@ -15,6 +15,7 @@ mod host;
 mod impact_damper;
 mod lump;
 mod open_dem_benchmark;
+mod outlet;
 mod random_loads;
 mod rolling;
 mod shapes;
@@ -86,7 +87,7 @@ pub static CASES: &[Case] = &[
     quick("added-mass", "damper", "V-65, A-7.1: a bed at rest is an added mass", host::added_mass),
     quick("ring-down", "damper", "loss factor with balls, driven and ringing down", host::loss_factor_with_grains),
     quick("figure-9", "damper-2003", "A-F9, A-F10: shaken box, landing and lift-off", damper_2003::figure_9),
-    long("beverloo", "dem-benchmarks", "V-31: discharge through a slot, in the plane", silo::beverloo),
+    long("beverloo", "dem-benchmarks", "V-31: discharge through a slot, in the plane", outlet::beverloo),
     long("janssen", "dem-benchmarks", "V-32: pressure in a silo, in the plane", silo::janssen),
     long("chute", "dem-benchmarks", "V-35, V-36: flow down a rough slope", chute::silbert),
     long("figure-3a", "damper-2003", "A-F3a: response by DEM, literal law", damper_2003::figure_3a),

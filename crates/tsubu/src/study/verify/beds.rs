@@ -3,8 +3,8 @@
 use super::bench::Rig;
 use glam::DVec3;
 
-/// Materials and contact law of the chute of Silbert et al. 2001, with springs of 2e4 m g/d instead of 2e5.
-pub(super) fn law(friction: f64, restitution: f64) -> String {
+/// Materials and contact law of the chute of Silbert et al. 2001, with softer springs, in m g/d, than the 2e5 there.
+pub(super) fn law(stiffness: f64, friction: f64, restitution: f64) -> String {
     format!(
         r"
         speed-scale = 1
@@ -13,7 +13,7 @@ pub(super) fn law(friction: f64, restitution: f64) -> String {
         restitution = {restitution}
         friction = {friction}
         [contact]
-        normal.hooke.stiffness = 2e4
+        normal.hooke.stiffness = {stiffness:e}
         damping.linear = {{}}
         tangential.spring.damping = 1
         [dem]
@@ -49,4 +49,12 @@ pub(super) fn line(points: &[(f64, f64)]) -> (f64, f64) {
     let (mx, my) = (sx / n, sy / n);
     let (xy, xx) = points.iter().fold((0.0, 0.0), |s, p| (s.0 + (p.0 - mx) * (p.1 - my), s.1 + (p.0 - mx).powi(2)));
     (xy / xx, my - mx * xy / xx)
+}
+
+/// Mean of independent values, and its standard error.
+pub(super) fn mean(values: &[f64]) -> (f64, f64) {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0);
+    (mean, (variance / n).sqrt())
 }

@@ -166,3 +166,10 @@ pub(super) fn near(name: impl Into<String>, value: f64, expected: f64, share: f6
 pub(super) fn within(name: impl Into<String>, value: f64, expected: f64, distance: f64, source: &str) -> Claim {
     Claim::judge(name, value, Some(expected - distance), Some(expected + distance), source)
 }
+
+/// A claim that something wrong on purpose is refused by at least so many of the same gates.
+pub(super) fn refused(what: &str, gates: &[Claim], least: u32) -> Claim {
+    let count = gates.iter().filter(|c| !c.pass).count();
+    let name = format!("wrong on purpose: {what}: gates that refuse it, of {}", gates.len());
+    Claim::judge(name, count as f64, Some(f64::from(least)), None, "a gate can fail (studies/README.md)")
+}

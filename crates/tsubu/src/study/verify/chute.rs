@@ -1,120 +1,211 @@
 //! Flow down a rough slope (V-35, V-36).
 
 use super::beds::{centres, law, sampled};
-use super::bench::{Rig, within};
+use super::bench::{Rig, refused, within};
 use std::fmt::Write;
 use tsubu_frame::Claim;
 
 /// Length and width of the periodic world, in diameters.
-const LENGTH: [f64; 2] = [8.0, 5.0];
-const LAYERS: f64 = 12.0;
+const LENGTH: f64 = 8.0;
+const WIDE: f64 = 6.0;
+/// Not looked at next to the base and to the surface.
+const EDGE: f64 = 3.0;
 
-/// A layer of grains on a base of frozen ones.
-fn slope(degrees: f64, spoiler: f64) -> Result<Rig, String> {
-    let (sin, cos) = degrees.to_radians().sin_cos();
-    let mut base = String::new();
-    for i in 0..8 {
-        for j in 0..5 {
-            // Rough: heights spread over half a diameter.
-            let height = f64::from((i * 7 + j * 3 + i * j) % 5) / 10.0;
-            let _ = write!(base, "[{}, {}, {height}],", f64::from(i) + 0.5, f64::from(j) + 0.5);
+/// A layer of grains on a slope.
+#[derive(Clone, Copy)]
+struct Slope {
+    degrees: f64,
+    /// Grains above a unit of area.
+    layers: f64,
+    friction: f64,
+    /// On frozen grains at random places in a layer of two diameters, or on a plane.
+    rough: bool,
+    /// Speed of the surface at the beginning; deeper grains begin more slowly.
+    start: f64,
+}
+
+impl Slope {
+    fn frozen(&self) -> usize {
+        if self.rough { (LENGTH * WIDE) as usize } else { 0 }
+    }
+
+    fn rig(&self, spoiler: f64) -> Result<Rig, String> {
+        let (sin, cos) = self.degrees.to_radians().sin_cos();
+        let mut groups = String::new();
+        if self.rough {
+            let _ = write!(
+                groups,
+                r#"
+                [particles.a-base]
+                material = "grain"
+                count = {}
+                diameter = 1
+                mass = 1
+                motion.frozen = {{}}
+                start.random.region = {{ low = [0, 0, -2], high = [{LENGTH}, {WIDE}, 0] }}
+                "#,
+                self.frozen(),
+            );
         }
+        // Four sheets, so that the layer begins with about the profile that it will have.
+        let (sheets, high) = (4, self.layers * 2.2 / 4.0);
+        for sheet in 0..sheets {
+            let (low, middle) = (f64::from(sheet) * high, (f64::from(sheet) + 0.5) / f64::from(sheets));
+            let _ = write!(
+                groups,
+                r#"
+                [particles.b-sheet-{sheet}]
+                material = "grain"
+                count = {count}
+                diameter = 1
+                mass = 1
+                start.random = {{ velocity = [{along}, 0, 0], speed = 0.5, region = {{ low = [0, 0, {low}], high = [{LENGTH}, {WIDE}, {top}] }} }}
+                "#,
+                count = (LENGTH * WIDE * self.layers / f64::from(sheets)) as u32,
+                along = self.start * (1.0 - (1.0 - middle).powf(1.5)),
+                top = low + high,
+            );
+        }
+        let text = format!(
+            r#"
+            title = "a layer of grains on a rough slope"
+            dimension = 3
+            gravity = [{sin}, 0, {down}]
+            duration = 1000
+            periodic.x = [0, {LENGTH}]
+            periodic.y = [0, {WIDE}]
+            {law}
+            {groups}
+            [walls.bottom]
+            material = "grain"
+            shape.plane.point = [0, 0, {bottom}]
+            "#,
+            down = -cos,
+            bottom = if self.rough { -2 } else { 0 },
+            law = law(5e3, self.friction, 0.88),
+        );
+        Rig::new(&text, spoiler)
     }
-    let count = LENGTH[0] * LENGTH[1] * LAYERS;
-    let text = format!(
-        r#"
-        title = "a layer of grains on a rough slope"
-        dimension = 3
-        gravity = [{sin}, 0, {down}]
-        duration = 1000
-        periodic.x = [0, 8]
-        periodic.y = [0, 5]
-        {law}
-        [particles.a-base]
-        material = "grain"
-        diameter = 1
-        mass = 1
-        motion.frozen = {{}}
-        start.at.position = [{base}]
-        [particles.b-layer]
-        material = "grain"
-        count = {count}
-        diameter = 1
-        mass = 1
-        start.rows = {{ spacing = 1.05, jitter = 0.5, speed = 0.5, region = {{ low = [0, 0, 1.5], high = [8, 5, 30] }} }}
-        "#,
-        down = -cos,
-        law = law(0.5, 0.88),
-    );
-    Rig::new(&text, spoiler)
+
+    /// What it does in the span of time.
+    fn flow(&self, span: [f64; 2], spoiler: f64) -> Result<Flow, String> {
+        let mut rig = self.rig(spoiler)?;
+        let base = self.frozen();
+        let samples = sampled(&mut rig, [span[0], span[1], 0.5], |rig| {
+            let speeds = rig.vectors("velocity").split_off(base);
+            centres(rig, base).iter().zip(speeds).map(|(p, v)| [p.z, v.x]).collect::<Vec<_>>()
+        })?;
+        Ok(Flow { degrees: self.degrees, samples })
+    }
 }
 
-/// What a layer does in the long run.
+/// Mean of what is true of a grain at one time.
+fn mean(samples: &[Vec<[f64; 2]>], of: impl Fn(&[f64; 2]) -> f64) -> f64 {
+    let count: usize = samples.iter().map(Vec::len).sum();
+    samples.iter().flatten().map(of).sum::<f64>() / count as f64
+}
+
+/// Height and speed down the slope of every grain, at many times.
 struct Flow {
-    /// Mean speed down the slope.
-    speed: f64,
-    /// The same in the first half of the time it was looked at.
-    early: f64,
-    /// Speed at the surface.
-    surface: f64,
-    /// Least and largest number of grains a layer, over the mean, within the bulk.
-    density: [f64; 2],
+    degrees: f64,
+    samples: Vec<Vec<[f64; 2]>>,
 }
 
-fn flow(degrees: f64, span: [f64; 2], spoiler: f64) -> Result<Flow, String> {
-    let mut rig = slope(degrees, spoiler)?;
-    let base = 40;
-    let samples = sampled(&mut rig, [span[0], span[1], 0.5], |rig| {
-        (centres(rig, base), rig.vectors("velocity").split_off(base))
-    })?;
-    let count = samples.first().map_or(1, |s| s.0.len()) as f64;
-    let mean = |part: &[(Vec<glam::DVec3>, Vec<glam::DVec3>)]| {
-        part.iter().flat_map(|s| &s.1).map(|v| v.x).sum::<f64>() / (part.len() as f64 * count)
-    };
-    let all: Vec<(f64, f64)> = samples.iter().flat_map(|(p, v)| p.iter().zip(v).map(|(p, v)| (p.z, v.x))).collect();
-    let mut heights: Vec<f64> = all.iter().map(|x| x.0).collect();
-    heights.sort_by(f64::total_cmp);
-    let at = |share: f64| heights[((heights.len() - 1) as f64 * share) as usize];
-    let (low, high) = (at(0.2), at(0.8));
-    let mut layers = [0.0; 4];
-    for z in heights.iter().filter(|z| **z >= low && **z < high) {
-        layers[(((z - low) / (high - low) * 4.0) as usize).min(3)] += 4.0;
+impl Flow {
+    fn all(&self) -> impl Iterator<Item = &[f64; 2]> {
+        self.samples.iter().flatten()
     }
-    let bulk = layers.iter().sum::<f64>() / 4.0;
-    let top: Vec<f64> = all.iter().filter(|x| x.0 > at(0.93)).map(|x| x.1).collect();
-    Ok(Flow {
-        speed: mean(&samples),
-        early: mean(&samples[..samples.len() / 2]),
-        surface: top.iter().sum::<f64>() / top.len() as f64,
-        density: layers.map(|n| n / bulk).into_iter().fold([f64::MAX, 0.0], |r, n| [r[0].min(n), r[1].max(n)]),
-    })
+
+    fn speed(&self) -> f64 {
+        mean(&self.samples, |g| g[1])
+    }
+
+    /// Height of a layer of even density with the same centre of mass.
+    fn height(&self) -> f64 {
+        2.0 * mean(&self.samples, |g| g[0])
+    }
+
+    /// Number of grains and mean speed between two heights.
+    fn between(&self, low: f64, high: f64) -> (f64, f64) {
+        let (count, sum) = self
+            .all()
+            .filter(|g| g[0] >= low && g[0] < high)
+            .fold((0.0, 0.0), |(count, sum), g| (count + 1.0, sum + g[1]));
+        (count, sum / count)
+    }
+
+    /// Least and largest density of slabs one diameter thick, over their mean, away from base and surface.
+    fn density(&self) -> [f64; 2] {
+        let slabs = (self.height() - 2.0 * EDGE) as usize;
+        let counts: Vec<f64> = (0..slabs).map(|k| self.between(EDGE + k as f64, EDGE + k as f64 + 1.0).0).collect();
+        let mean = counts.iter().sum::<f64>() / slabs as f64;
+        counts.into_iter().map(|n| n / mean).fold([f64::MAX, 0.0], |r, n| [r[0].min(n), r[1].max(n)])
+    }
+
+    /// Inertial number, shear rate times diameter over the root of pressure over density, in the lower and the upper half
+    /// of the bulk. The pressure is the weight above.
+    fn inertial(&self) -> [f64; 2] {
+        let (low, high) = (EDGE, self.height() - EDGE);
+        let middle = 0.5 * (low + high);
+        [[low, middle], [middle, high]].map(|[from, to]| {
+            let third = (to - from) / 3.0;
+            let rate = (self.between(to - third, to).1 - self.between(from, from + third).1) / (2.0 * third);
+            let above = self.between(0.5 * (from + to), f64::MAX).0 / self.samples.len() as f64;
+            let pressure = above * self.degrees.to_radians().cos() / (LENGTH * WIDE);
+            rate / (pressure * std::f64::consts::PI / 6.0).sqrt()
+        })
+    }
+
+    /// The gates, for a flow that is right and for wrong ones.
+    fn gates(&self) -> Vec<Claim> {
+        let name = |what: &str| format!("chute at {} degrees: {what}", self.degrees);
+        let source = "Silbert et al. 2001: steady flow from 19.5 to 26 degrees (V-36)";
+        let early = mean(&self.samples[..self.samples.len() / 2], |g| g[1]);
+        let top = self.between(self.height() - 1.0, f64::MAX).1;
+        let profile = "Bagnold's profile: mean over surface speed is 3/5; 1/2 for linear, 1 for a plug (V-35)";
+        let bulk = "constant density with depth, but for the layers next to base and surface (V-36)";
+        let [least, largest] = self.density();
+        vec![
+            Claim::judge(name("speed over sqrt(g d)"), self.speed(), Some(0.5), None, source),
+            within(
+                name("speed in the first half of the time over that of all"),
+                early / self.speed(),
+                1.0,
+                0.1,
+                source,
+            ),
+            within(name("mean speed over surface speed"), self.speed() / top, 0.6, 0.06, profile),
+            Claim::judge(name("least density of a slab"), least, Some(0.95), None, bulk),
+            Claim::judge(name("largest density of a slab"), largest, None, Some(1.05), bulk),
+        ]
+    }
 }
 
 /// V-36: at rest below, steady flow of constant density with Bagnold's profile above the angle of repose.
 pub(super) fn silbert(spoiler: f64) -> Result<Vec<Claim>, String> {
     let source = "Silbert et al. 2001: flow from 19.5 to 26 degrees (V-36)";
-    let still = flow(17.0, [150.0, 170.0], spoiler)?;
-    let mut claims = vec![within("chute at 17 degrees: speed", still.speed, 0.0, 1e-3, source)];
-    let mut speeds = Vec::new();
-    for degrees in [22.0, 25.0] {
-        let flow = flow(degrees, [250.0, 400.0], spoiler)?;
-        let name = |what: &str| format!("chute at {degrees} degrees: {what}");
-        claims.push(Claim::judge(name("speed over sqrt(g d)"), flow.speed, Some(0.5), None, source));
-        claims.push(within(
-            name("speed in the first half of the time over that of all"),
-            flow.early / flow.speed,
-            1.0,
-            0.1,
-            source,
-        ));
-        let profile = "Bagnold's profile: mean over surface speed is 3/5; 1/2 for linear, 1 for a plug (V-35)";
-        claims.push(within(name("mean speed over surface speed"), flow.speed / flow.surface, 0.6, 0.06, profile));
-        let bulk = "constant density with depth (V-36)";
-        claims.push(Claim::judge(name("least density of a layer"), flow.density[0], Some(0.95), None, bulk));
-        claims.push(Claim::judge(name("largest density of a layer"), flow.density[1], None, Some(1.05), bulk));
-        speeds.push(flow.speed);
+    let slope = |degrees: f64, layers: f64, start: f64| Slope { degrees, layers, friction: 0.5, rough: true, start };
+    let still = slope(17.0, 12.0, 1.0).flow([200.0, 220.0], spoiler)?;
+    let mut claims = vec![within("chute at 17 degrees: speed", still.speed(), 0.0, 1e-3, source)];
+    let gentle = slope(22.0, 24.0, 5.0).flow([250.0, 450.0], spoiler)?;
+    let steep = slope(25.0, 24.0, 12.0).flow([250.0, 450.0], spoiler)?;
+    for flow in [&gentle, &steep] {
+        claims.extend(flow.gates());
+        let [lower, upper] = flow.inertial();
+        let name =
+            format!("chute at {} degrees: inertial number of the upper half of the bulk over the lower", flow.degrees);
+        let source = "mu(I): one slope, one inertial number at every depth (V-35)";
+        claims.push(within(name, upper / lower, 1.0, 0.1, source));
     }
     let name = "chute: speed at 25 over speed at 22 degrees";
-    claims.push(Claim::judge(name, speeds[1] / speeds[0], Some(1.2), None, source));
+    claims.push(Claim::judge(name, steep.speed() / gentle.speed(), Some(1.2), None, source));
+    let thin = slope(25.0, 12.0, 5.0).flow([200.0, 400.0], spoiler)?;
+    let exponent = (steep.speed() / thin.speed()).ln() / (steep.height() / thin.height()).ln();
+    let source = "mean speed grows with height to the power 3/2 (V-36); 1 for a plug, 2 for a viscous liquid";
+    claims.push(within("chute at 25 degrees: exponent of the height in the speed", exponent, 1.5, 0.25, source));
+    let smooth = Slope { rough: false, ..slope(22.0, 12.0, 5.0) }.flow([50.0, 150.0], 1.0)?;
+    claims.push(refused("chute, a base that is a plane", &smooth.gates(), 1));
+    let slippery = Slope { friction: 0.0, ..slope(22.0, 12.0, 5.0) }.flow([50.0, 150.0], 1.0)?;
+    claims.push(refused("chute, grains without friction", &slippery.gates(), 1));
     Ok(claims)
 }

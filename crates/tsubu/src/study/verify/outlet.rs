@@ -1,0 +1,167 @@
+//! Silos in the plane that empty through a slot (V-31).
+
+use super::beds::{law, line, mean};
+use super::bench::{Rig, refused, within};
+use std::fmt::Write;
+use tsubu_frame::Claim;
+
+/// When the slot opens: the bed has come to rest.
+const OPENS: f64 = 20.0;
+/// When the flow has become steady.
+const STEADY: f64 = OPENS + 8.0;
+/// Grains a unit of area.
+const PACKED: f64 = 1.04;
+/// Spans of equal numbers of grains in which the rate of one silo is measured.
+const SPANS: usize = 6;
+
+/// Width of a slot, and how many silos with it: as many as it takes for about 3000 grains or more.
+const SLOTS: [(f64, u32); 5] = [(6.0, 6), (8.0, 4), (10.0, 3), (14.0, 2), (20.0, 1)];
+
+/// A flat-bottomed silo, four slots wide and higher than wide. Its slot, between frozen grains, is closed by a plate that falls
+/// away faster than grains do; grains below it vanish.
+fn silo(slot: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
+    let half = 2.0 * slot;
+    let mut floor = String::new();
+    for i in 0..(half - 0.5 * slot) as u32 {
+        let x = 0.5 * slot + 0.5 + f64::from(i);
+        let _ = write!(floor, "[{x}, 0], [-{x}, 0],");
+    }
+    let high = 2.0 * half + 20.0;
+    let text = format!(
+        r#"
+        title = "a silo that empties through a slot"
+        seed = {seed}
+        gravity = 1
+        duration = 1000
+        {law}
+        [particles.a-floor]
+        material = "grain"
+        diameter = 1
+        mass = 1
+        motion.frozen = {{}}
+        start.at.position = [{floor}]
+        [particles.b-grains]
+        material = "grain"
+        count = {count}
+        size.uniform = {{ smallest = 0.85, largest = 1.15 }}
+        mass = 1
+        start.rows = {{ spacing = 1.01, jitter = 0.5, region = {{ low = [-{half}, 0.6], high = [{half}, {top}] }} }}
+        [walls.plate]
+        material = "grain"
+        shape.plane.point = [0, -0.5]
+        motion.signal.table = {{ time = [0, {OPENS}, {gone}], value = [0, 0, -200] }}
+        [walls.left]
+        material = "grain"
+        shape.plane = {{ point = [-{half}, 0], normal = [1, 0] }}
+        [walls.right]
+        material = "grain"
+        shape.plane = {{ point = [{half}, 0], normal = [-1, 0] }}
+        [removal.below]
+        behind = {{ point = [0, -5], normal = [0, 1] }}
+        "#,
+        law = law(5e3, 0.5, 0.5),
+        count = (2.0 * half * high * PACKED) as u32,
+        top = 1.5 * high + 3.0,
+        gone = OPENS + 5.0,
+    );
+    Rig::new(&text, spoiler)
+}
+
+/// Grains a unit of time in spans of equal numbers of grains, while the bed sinks to half the silo's width.
+fn rates(slot: f64, seed: u32, spoiler: f64) -> Result<Vec<f64>, String> {
+    let mut rig = silo(slot, seed, spoiler)?;
+    rig.until(STEADY)?;
+    let (first, last) = (rig.engine.grains(), (4.0 * slot * (2.0 * slot + 10.0) * PACKED) as usize);
+    let (mut count, mut time) = (first, rig.engine.time());
+    let mut found = Vec::new();
+    for span in 1..=SPANS {
+        let target = first - (first - last) * span / SPANS;
+        while rig.engine.grains() > target {
+            if rig.engine.time() > 500.0 {
+                return Err(format!("the slot of {slot} d is blocked"));
+            }
+            rig.steps(20)?;
+        }
+        found.push((count - rig.engine.grains()) as f64 / (rig.engine.time() - time));
+        (count, time) = (rig.engine.grains(), rig.engine.time());
+    }
+    Ok(found)
+}
+
+/// What the law has to say of slots, rates and their errors: `[D, W, error of W]`.
+struct Fit {
+    /// Width at which the flow would end, if rates go with the power `power` of the rest; and its standard error.
+    end: [f64; 2],
+    /// Exponent of (D - `short`), and its standard error.
+    exponent: [f64; 2],
+}
+
+impl Fit {
+    fn of(points: &[[f64; 3]], power: f64, short: f64) -> Self {
+        let end = |points: &[[f64; 3]]| {
+            let straight: Vec<_> = points.iter().map(|[d, w, _]| (*d, w.powf(1.0 / power))).collect();
+            let (slope, offset) = line(&straight);
+            -offset / slope
+        };
+        let exponent = |points: &[[f64; 3]]| {
+            line(&points.iter().map(|[d, w, _]| ((d - short).ln(), w.ln())).collect::<Vec<_>>()).0
+        };
+        Self { end: with_error(points, end), exponent: with_error(points, exponent) }
+    }
+
+    /// The gates, for the right law and for wrong ones.
+    fn claims(&self) -> [Claim; 2] {
+        let source = "Beverloo 1961 in the plane, exponent 3/2 (V-31)";
+        let name = "slot: width k at which the flow would end, in diameters";
+        [
+            Claim::judge(name, self.end[0], Some(1.2), Some(2.0), source),
+            within("slot: exponent of (D - 1.4 d), 6 to 20 d", self.exponent[0], 1.5, 0.1, source),
+        ]
+    }
+}
+
+/// A number made of independent rates, and its standard error.
+fn with_error(points: &[[f64; 3]], make: impl Fn(&[[f64; 3]]) -> f64) -> [f64; 2] {
+    let best = make(points);
+    let shifted = |i: usize| {
+        let mut moved = points.to_vec();
+        moved[i][1] += moved[i][2];
+        (make(&moved) - best).powi(2)
+    };
+    [best, (0..points.len()).map(shifted).sum::<f64>().sqrt()]
+}
+
+/// V-31, in the plane: rate^(2/3) is straight in the width of the slot, zero at k d, and does not know the height.
+pub(super) fn beverloo(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let (mut points, mut claims) = (Vec::new(), Vec::new());
+    for (slot, silos) in SLOTS {
+        let all = (1..=silos).map(|seed| rates(slot, seed, 1.0)).collect::<Result<Vec<_>, _>>()?;
+        // Spans have equal numbers of grains, so it is times that are added.
+        let times: Vec<f64> = all.iter().flatten().map(|rate| 1.0 / rate).collect();
+        let (time, error) = mean(&times);
+        let half = |spans: std::ops::Range<usize>| {
+            all.iter().flat_map(|silo| &silo[spans.clone()]).map(|rate| 1.0 / rate).sum::<f64>()
+        };
+        let later = half(0..SPANS / 2) / half(SPANS / 2..SPANS);
+        let source = "Beverloo 1961: the rate does not know the height (V-31)";
+        claims.push(within(
+            format!("slot of {slot} d: rate at half the height over rate before"),
+            later,
+            1.0,
+            0.1,
+            source,
+        ));
+        let source = "steady within 3 %, or the fits below say nothing; not a reference";
+        let name = format!("slot of {slot} d: standard error of the rate, over the rate");
+        claims.push(Claim::judge(name, error / time, None, Some(0.03), source));
+        points.push([slot * spoiler, 1.0 / time, error / (time * time)]);
+    }
+    let fit = Fit::of(&points, 1.5, 1.4);
+    claims.extend(fit.claims());
+    let source = "half of what the claim allows; not a reference";
+    claims.push(Claim::judge("slot: standard error of k", fit.end[1], None, Some(0.2), source));
+    claims.push(Claim::judge("slot: standard error of the exponent", fit.exponent[1], None, Some(0.05), source));
+    claims.push(refused("slot, the whole width without k d", &Fit::of(&points, 1.5, 0.0).claims()[1..], 1));
+    claims.push(refused("slot, the exponent 5/2 of round holes", &Fit::of(&points, 2.5, 1.4).claims()[..1], 1));
+    Ok(claims)
+}
