@@ -2,6 +2,7 @@
 
 mod beds;
 mod bench;
+mod brazil_nut;
 mod chung_ooi_2011;
 mod chute;
 mod cohesion;
@@ -90,6 +91,7 @@ pub static CASES: &[Case] = &[
     long("beverloo", "dem-benchmarks", "V-31: discharge through a slot, in the plane", outlet::beverloo),
     long("janssen", "dem-benchmarks", "V-32: pressure in a silo, in the plane", silo::janssen),
     long("chute", "dem-benchmarks", "V-35, V-36: flow down a rough slope", chute::silbert),
+    long("brazil-nut", "dem-benchmarks", "V-38: a large grain rises in a shaken bed", brazil_nut::brazil_nut),
     long("figure-3a", "damper-2003", "A-F3a: response by DEM, literal law", damper_2003::figure_3a),
     long("figure-3b", "damper-2003", "A-F3b: the same with more wall friction", damper_2003::figure_3b),
     long("figure-3-extended", "damper-2003", "A-F3: response by DEM, extended law", damper_2003::figure_3_extended),

@@ -1,0 +1,96 @@
+//! Segregation under vertical shaking (V-38).
+
+use super::beds::{law, mean, sampled};
+use super::bench::{Rig, refused, within};
+use tsubu_frame::Claim;
+
+/// Acceleration of the shaken box over gravity, at an amplitude of one diameter.
+const SHAKEN: f64 = 2.9;
+/// Shakes until the bed is looked at, and until the end.
+const SHAKES: [f64; 2] = [90.0, 150.0];
+/// Grains that the control follows: those that the lowest row has at the start.
+const LOWEST: usize = 19;
+
+/// A box of 20 diameters, shaken as a whole, so that its walls drag the bed into rolls; one grain of its own size begins at the
+/// middle of the floor.
+fn bed(size: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
+    let text = format!(
+        r#"
+        title = "one large grain in a shaken bed"
+        seed = {seed}
+        gravity = 1
+        duration = 2000
+        {law}
+        [particles.a-single]
+        material = "grain"
+        diameter = {size}
+        mass = {mass}
+        start.at.position = [[0, {height}]]
+        [particles.b-bed]
+        material = "grain"
+        count = 320
+        size.uniform = {{ smallest = 0.85, largest = 1.15 }}
+        mass = 1
+        start.random.region = {{ low = [-10, {above}], high = [10, 36] }}
+        [walls.box]
+        material = "grain"
+        shape.box = {{ width = 20, height = 50 }}
+        motion.signal.sine = {{ amplitude = 1, frequency = {frequency} }}
+        "#,
+        // Discs of one density.
+        mass = size * size,
+        height = 0.5 * size + 0.02,
+        above = size + 0.04,
+        frequency = 1.0 / period(),
+        law = law(5e3, 0.5, 0.6),
+    );
+    Rig::new(&text, spoiler)
+}
+
+/// Of a shake, in sqrt(d/g).
+fn period() -> f64 {
+    std::f64::consts::TAU / SHAKEN.sqrt()
+}
+
+/// Mean height of grains over that of all: at the start, and in the mean over the looks.
+fn heights(size: f64, seed: u32, spoiler: f64, followed: impl Fn(&[f64]) -> Vec<usize>) -> Result<[f64; 2], String> {
+    let mut rig = bed(size, seed, spoiler)?;
+    let height = |rig: &Rig| rig.vectors("position").iter().map(|p| p.z).collect::<Vec<_>>();
+    let start = height(&rig);
+    let grains = followed(&start);
+    let over = |z: &[f64]| grains.iter().map(|&i| z[i]).sum::<f64>() / grains.len() as f64 / mean(z).0;
+    let looks =
+        sampled(&mut rig, [SHAKES[0] * period(), SHAKES[1] * period(), 0.25 * period()], |rig| over(&height(rig)))?;
+    Ok([over(&start), mean(&looks).0])
+}
+
+/// The gates, for a large grain and for what must fail them.
+fn rises(what: &str, [start, end]: [f64; 2]) -> [Claim; 2] {
+    let source = "Rosato et al. 1987, Knight et al. 1993: large grains rise and stay on top (V-38)";
+    // A grain that goes everywhere alike is at 1 on average; one on top of the bed at nearly 2.
+    [
+        Claim::judge(format!("{what}: height over the bed's mean at the start"), start, None, Some(0.4), source),
+        Claim::judge(format!("{what}: the same after 90 shakes"), end, Some(1.25), None, source),
+    ]
+}
+
+/// V-38: a grain of four diameters comes up from the floor and stays on top; grains of the bed's own size go everywhere.
+pub(super) fn brazil_nut(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let mut claims = Vec::new();
+    for seed in 1..=3 {
+        let found = heights(4.0, seed, spoiler, |_| vec![0])?;
+        claims.extend(rises(&format!("shaken bed, seed {seed}, a grain of 4 diameters"), found));
+    }
+    let lowest = |z: &[f64]| {
+        let mut order: Vec<usize> = (0..z.len()).collect();
+        order.sort_by(|&a, &b| z[a].total_cmp(&z[b]));
+        order.truncate(LOWEST);
+        order
+    };
+    let control = heights(1.0, 1, spoiler, lowest)?;
+    let source = "grains of equal size have no reason to rise (V-38)";
+    let name = "shaken bed, the 19 lowest of equal grains: height over the bed's mean after 90 shakes";
+    claims.push(within(name, control[1], 1.0, 0.25, source));
+    claims.push(refused("the grain no larger than the others", &rises("", control)[1..], 1));
+    Ok(claims)
+}
