@@ -126,6 +126,11 @@ pub trait Engine: Send {
     /// Number of grains.
     fn grains(&self) -> usize;
 
+    /// Steps of single grains since time 0: what the computing time was spent on.
+    fn grain_steps(&self) -> u64 {
+        self.steps() * self.grains() as u64
+    }
+
     /// Moves the system by `steps` steps, together with its hosts; posts every flow to the ledger.
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault>;
 
@@ -134,6 +139,9 @@ pub trait Engine: Send {
 
     /// Momentum of the grains now [N.s].
     fn momentum(&self) -> [f64; 3];
+
+    /// Centre of mass of the grains that forces move [m]; zero where there are none.
+    fn centre_of_mass(&self) -> [f64; 3];
 
     /// Number of touching pairs (grain-grain and grain-wall) in the last step.
     fn contacts(&self) -> usize;

@@ -211,9 +211,7 @@ impl Run<'_> {
         let momentum = self.ledger.momentum_residual(self.engine.momentum());
         row.push(momentum.iter().map(|p| p * p).sum::<f64>().sqrt());
         row.push(self.engine.contacts() as f64);
-        let mass: f64 = self.plan.particles.values().map(|p| p.mass * p.count as f64).sum();
-        let weight: f64 = mass * self.plan.gravity[2];
-        row.push(if weight == 0.0 { 0.0 } else { -stocks.potential / weight });
+        row.push(self.engine.centre_of_mass()[2]);
         for host in &self.hosts.list {
             row.extend([host.displacement(), host.velocity(), host.grain_force()]);
         }
@@ -269,19 +267,18 @@ impl Run<'_> {
     fn summary(&self, status: Status) -> Summary {
         let stocks = engine::stocks(&*self.engine, &self.hosts);
         let wall_seconds = self.wall_seconds();
-        let particles = self.engine.grains() as u64;
         let mut summary = Summary {
             tsubu_version: crate::VERSION.to_owned(),
             status,
             method: self.plan.method.name().to_owned(),
             dimension: u32::from(self.plan.dimension),
-            particles,
+            particles: self.engine.grains() as u64,
             steps: self.engine.steps(),
             time_step: self.engine.time_step(),
             simulated_seconds: self.engine.time(),
             wall_seconds,
             threads: rayon::current_num_threads() as u32,
-            particle_steps_per_second: (particles * self.engine.steps()) as f64 / wall_seconds,
+            particle_steps_per_second: self.engine.grain_steps() as f64 / wall_seconds,
             contacts_mean: self.measured.contacts / self.measured.rows.max(1.0),
             state_hash: self.state().hash(),
             ..Summary::default()

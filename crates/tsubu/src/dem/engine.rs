@@ -29,6 +29,8 @@ pub struct DemEngine {
     // State.
     pub(super) grains: Grains,
     pub(super) step: u64,
+    /// Grains moved in every step so far, summed.
+    pub(super) grain_steps: u64,
     pub(super) walls: Vec<Wall>,
     pub(super) last_flows: Flows,
     pub(super) candidates: Candidates,
@@ -119,6 +121,7 @@ impl DemEngine {
         let largest_present = particles.values().map(|p| sizes::range(p).1).fold(largest, f64::max);
         let mut engine = Self {
             step: 0,
+            grain_steps: 0,
             walls,
             last_flows: Flows::default(),
             candidates: Candidates::default(),
@@ -218,6 +221,14 @@ impl Engine for DemEngine {
 
     fn momentum(&self) -> [f64; 3] {
         self.grains.momentum().to_array()
+    }
+
+    fn centre_of_mass(&self) -> [f64; 3] {
+        self.grains.centre_of_mass().to_array()
+    }
+
+    fn grain_steps(&self) -> u64 {
+        self.grain_steps
     }
 
     fn contacts(&self) -> usize {

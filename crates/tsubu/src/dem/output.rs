@@ -74,7 +74,8 @@ impl DemEngine {
     /// Everything that the next step depends on.
     pub(super) fn write_state(&self, state: &mut State) {
         self.grains.save("grains", state);
-        state.put_integer("dem.step", vec![self.step as i64, self.sums.contacts as i64, self.grains.len() as i64]);
+        let counts = [self.step, self.grain_steps, self.sums.contacts as u64, self.grains.len() as u64];
+        state.put_integer("dem.step", counts.map(|n| n as i64).to_vec());
         self.orientation.save(state);
         state.put_integer("dem.streams", self.sources.placed());
         let mut reals = self.last_flows.powers.to_vec();
@@ -100,10 +101,12 @@ impl DemEngine {
     /// Takes back what [`DemEngine::write_state`] wrote.
     pub(super) fn read_state(&mut self, state: &State) -> Result<(), MissingSection> {
         let missing = |name: &str| MissingSection { name: name.to_owned(), kind: "real" };
-        let &[step, contacts, grains] = state.integer("dem.step")? else { return Err(missing("dem.step")) };
+        let &[step, grain_steps, contacts, grains] = state.integer("dem.step")? else {
+            return Err(missing("dem.step"));
+        };
         self.grains = Grains::load("grains", grains as usize, state)?;
         self.total_mass = self.grains.moved_mass();
-        (self.step, self.sums.contacts) = (step as u64, contacts as usize);
+        (self.step, self.grain_steps, self.sums.contacts) = (step as u64, grain_steps as u64, contacts as usize);
         self.orientation.load(state)?;
         self.sources.set_placed(state.integer("dem.streams")?);
         let flows = state.real("dem.flows")?;

@@ -39,7 +39,7 @@ impl DemEngine {
             wall.pose = pose;
         }
         self.walls_held = false;
-        self.step = 0;
+        (self.step, self.grain_steps) = (0, 0);
         self.grains.velocity.fill(DVec3::ZERO);
         self.grains.spin.fill(DVec3::ZERO);
         result

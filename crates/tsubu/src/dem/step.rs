@@ -20,6 +20,7 @@ impl DemEngine {
             integrate::before(&mut self.grains, &mut self.candidates, &mut self.reports, &motion);
         }
         self.step += 1;
+        self.grain_steps += self.grains.len() as u64;
         self.turn();
         let time = self.time();
         hosts.before(self.dt);

@@ -209,6 +209,12 @@ impl Engine for LatticeEngine {
         self.momentum_of(self.damper.momentum())
     }
 
+    fn centre_of_mass(&self) -> [f64; 3] {
+        let balls = self.grains();
+        let sum: DVec3 = (0..balls).map(|i| DVec3::from_array(self.position(i))).sum();
+        (sum / balls.max(1) as f64).to_array()
+    }
+
     fn contacts(&self) -> usize {
         self.damper.contacts()
     }

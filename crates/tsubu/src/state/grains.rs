@@ -68,6 +68,14 @@ impl Grains {
         moved.map(|i| self.mass[i] * self.velocity[i]).sum()
     }
 
+    /// Centre of mass of the grains that forces move, as if nothing had been wrapped [m]; zero where there are none.
+    pub fn centre_of_mass(&self) -> DVec3 {
+        let moved = (0..self.len()).filter(|&i| self.inverse_mass[i] != 0.0);
+        let sum: DVec3 = moved.map(|i| self.mass[i] * (self.position[i] + self.wrapped[i])).sum();
+        let mass = self.moved_mass();
+        if mass > 0.0 { sum / mass } else { DVec3::ZERO }
+    }
+
     /// Total mass of the grains that forces move [kg].
     pub fn moved_mass(&self) -> f64 {
         (0..self.len()).filter(|&i| self.inverse_mass[i] != 0.0).map(|i| self.mass[i]).sum()
