@@ -156,20 +156,14 @@ impl DemEngine {
             engine.settle(settle).map_err(OpenError::Settling)?;
             engine.start();
         }
-        for (wall, load) in engine.walls.iter_mut().zip(&engine.wall_loads) {
-            wall.start(load.force, load.torque);
-        }
         Ok(engine)
     }
 
-    /// Finds, touches and accelerates at the present time level, so that the first step has what it needs.
+    /// Gives the first step what it needs.
     fn start(&mut self) {
         self.drive(0.0);
         self.find();
-        self.touch_all();
-        self.finish(0.0, false);
-        self.sum_wall_loads();
-        self.last_flows = self.flows();
+        self.stand();
     }
 }
 

@@ -2,11 +2,11 @@
 
 use super::engine::DemEngine;
 use super::fill::Occupied;
-use super::memory::Kept;
 use super::place::{direction, still};
 use super::room::{Clearance, Room, ends, images};
 use super::sizes;
 use crate::contact::Table;
+use crate::engine::Engine;
 use crate::ledger::{Account, Ledger};
 use crate::motion::value_and_rate;
 use crate::random::{Purpose, words};
@@ -119,21 +119,25 @@ impl DemEngine {
         }
     }
 
-    /// Lets grains come and go, where it is time to look; returns the remembered contacts when something has changed.
-    pub(super) fn come_and_go(&mut self, ledger: &mut Ledger) -> Option<Kept> {
+    /// Whether it is time after step `step` to look at what should come or go.
+    pub(super) fn looks(&self, step: u64) -> bool {
         let nothing = self.sources.streams.is_empty() && self.sources.removal.is_empty();
-        if nothing || !self.step.is_multiple_of(EVERY) || self.walls_held {
-            return None;
-        }
+        !nothing && !self.walls_held && step.is_multiple_of(EVERY)
+    }
+
+    /// Lets grains come and go between two steps. What is posted is the difference of all that is held: motion, height, and
+    /// the energy of the contacts of grains that go.
+    pub(super) fn come_and_go(&mut self, ledger: &mut Ledger) {
         let grains = &self.grains;
         let stays = |i: &u32| {
             let i = *i as usize;
             grains.inverse_mass[i] == 0.0 || !self.sources.removal.iter().any(|r| gone(r, grains.position[i]))
         };
         let order: Vec<u32> = (0..grains.len() as u32).filter(stays).collect();
+        let some_go = order.len() < grains.len();
         let arrivals = self.arrivals();
-        if order.len() == self.grains.len() && arrivals.is_empty() {
-            return None;
+        if !some_go && arrivals.is_empty() {
+            return;
         }
         let kept = self.kept();
         let before = self.books();
@@ -141,17 +145,22 @@ impl DemEngine {
         for grain in arrivals {
             self.grains.push(grain);
         }
+        self.total_mass = self.grains.moved_mass();
+        self.find_with(kept);
+        // What the springs of those contacts held is in the difference below.
+        self.released = 0.0;
+        if some_go {
+            self.stand();
+        }
         let after = self.books();
         ledger.post(Account::Exchange, after.0 - before.0);
         for (axis, impulse) in ledger.exchange_impulse.iter_mut().enumerate() {
             *impulse += after.1[axis] - before.1[axis];
         }
-        self.total_mass = self.grains.moved_mass();
-        Some(kept)
     }
 
     fn books(&self) -> (f64, DVec3) {
-        (self.grains.stocks(self.gravity).total(), self.grains.momentum())
+        (self.grain_stocks().total(), self.grains.momentum())
     }
 
     /// The grains that come now.
@@ -195,6 +204,7 @@ impl DemEngine {
                 let mut grain = still(&stream.group, stream.number, stream.material, p, diameter, id as usize);
                 let w = words(self.sources.plan.seed, Purpose::Stream, id, 1);
                 grain.velocity = DVec3::from_array(*velocity) + direction(dimension, w) * *speed;
+                grain.acceleration = self.gravity;
                 arrivals.push(grain);
                 stream.placed += 1;
             }

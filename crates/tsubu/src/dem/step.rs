@@ -15,6 +15,9 @@ impl DemEngine {
     /// Moves everything by one time step. With `go_on` the grains have begun the next step when it ends: the first half of
     /// that step is done together with the second half of this one.
     pub(super) fn step(&mut self, hosts: &mut Hosts, ledger: &mut Ledger, go_on: bool) -> Result<(), Fault> {
+        // Grains come and go between steps, so a step before a look is done to its end.
+        let looks = self.looks(self.step + 1);
+        let go_on = go_on && !looks;
         if !std::mem::replace(&mut self.begun, go_on) {
             let motion = self.motion(self.dt);
             integrate::before(&mut self.grains, &mut self.candidates, &mut self.reports, &motion);
@@ -26,9 +29,7 @@ impl DemEngine {
         hosts.before(self.dt);
         self.move_walls(time, hosts);
         self.drive(time);
-        if let Some(kept) = self.come_and_go(ledger) {
-            self.find_with(kept);
-        } else if self.candidates.stale(&self.grains, &self.walls, self.search.skin) {
+        if self.candidates.stale(&self.grains, &self.walls, self.search.skin) {
             self.check_finite()?;
             self.find();
         }
@@ -38,6 +39,9 @@ impl DemEngine {
         self.reactions(hosts, ledger);
         hosts.after(time, self.dt, &self.host_forces, ledger);
         self.close_books(ledger);
+        if looks {
+            self.come_and_go(ledger);
+        }
         Ok(())
     }
 
@@ -58,7 +62,7 @@ impl DemEngine {
     }
 
     /// The same with contacts that were remembered before grains came or went.
-    fn find_with(&mut self, kept: Kept) {
+    pub(super) fn find_with(&mut self, kept: Kept) {
         self.candidates.sort(&mut self.grains, &self.search);
         self.candidates.search(&self.grains, &self.walls, &self.search);
         self.fit();
@@ -78,6 +82,25 @@ impl DemEngine {
         self.touch = touch;
         sums.lost[1] += std::mem::take(&mut self.released) / self.dt;
         self.sums = sums;
+    }
+
+    /// Forces, stocks and powers of a moment that no step has led to: at time 0, and after grains have gone.
+    pub(super) fn stand(&mut self) {
+        // Without time, bodies that adhere take hold of each other and springs stay as they are. Powers have no meaning then:
+        // what snapping together sets free has gone before the books open.
+        let mut touch = std::mem::take(&mut self.touch);
+        let stored = touch.forces(&Scene { dt: 0.0, ..self.scene() }).stored;
+        self.touch = touch;
+        let kept = self.kept();
+        self.touch_all();
+        self.restore(kept);
+        self.sums.stored = stored;
+        self.finish(0.0, false);
+        self.sum_wall_loads();
+        for (wall, load) in self.walls.iter_mut().zip(&self.wall_loads) {
+            wall.start(load.force, load.torque);
+        }
+        self.last_flows = self.flows();
     }
 
     /// What the touch phase reads.
