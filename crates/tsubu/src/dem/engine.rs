@@ -52,7 +52,7 @@ pub struct DemEngine {
     pub(super) largest_diameter: f64,
     pub(super) largest_overlap: f64,
     pub(super) total_mass: f64,
-    /// While grains settle the walls do not follow their carriers.
+    /// While grains settle the walls stand, whoever moves them.
     pub(super) walls_held: bool,
     notes: Vec<Note>,
     /// Whether the grains have begun the next step already; never between two calls of `advance`.
@@ -102,7 +102,7 @@ impl DemEngine {
         let table = Table::new(plan);
         let gravity = DVec3::from_array(*gravity);
         let walls = walls(plan, &table, hosts, *dimension, gravity);
-        let (grains, settle) = place::grains(plan, &table, hosts, &walls).map_err(refuse)?;
+        let (grains, settle) = place::grains(plan, &table, &walls).map_err(refuse)?;
         let sources = Sources::new(plan, &table, grains.len());
         let diameters = grains.radius.iter().map(|r| (2.0 * r, 2.0 * r)).chain(sources.sizes());
         let (smallest, largest) = diameters.fold((f64::INFINITY, 0.0f64), |a, d| (a.0.min(d.0), a.1.max(d.1)));

@@ -4,10 +4,9 @@ use super::fill::Occupied;
 use super::room::{Clearance, Room, ends, images};
 use super::sizes;
 use crate::contact::Table;
-use crate::partner::Hosts;
 use crate::random::{Purpose, unit, words};
 use crate::state::{Grain, Grains};
-use crate::wall::{Carrier, Wall};
+use crate::wall::Wall;
 use glam::DVec3;
 use tsubu_scene::plan::{GrainMotion, GrainShape, Particles, Plan, Region, Shape, Start};
 
@@ -19,8 +18,8 @@ type Wrong = (String, String);
 
 /// All grains of a plan that are there at time 0, in the order of groups and numbers, and how long some of them may
 /// settle first [s]. Those at random places come last: they look for room among all others.
-pub(super) fn grains(plan: &Plan, table: &Table, hosts: &Hosts, walls: &[Wall]) -> Result<(Grains, f64), Wrong> {
-    let mut placing = Placing { plan, table, walls, grains: Grains::default(), room: room(plan, hosts), floor: 0.0 };
+pub(super) fn grains(plan: &Plan, table: &Table, walls: &[Wall]) -> Result<(Grains, f64), Wrong> {
+    let mut placing = Placing { plan, table, walls, grains: Grains::default(), room: room(plan, walls), floor: 0.0 };
     let mut settle: f64 = 0.0;
     let random = |group: &Particles| matches!(group.start, Start::Random { .. });
     let groups = || plan.particles.iter().enumerate();
@@ -62,11 +61,10 @@ fn no_room(key: String) -> Wrong {
 }
 
 /// The box that grains are placed in.
-fn room(plan: &Plan, hosts: &Hosts) -> Option<Room> {
-    plan.walls.values().find_map(|wall| match &wall.shape {
+fn room(plan: &Plan, walls: &[Wall]) -> Option<Room> {
+    plan.walls.values().zip(walls).find_map(|(wall, built)| match &wall.shape {
         Shape::Box { width, height, depth, floor_centre } => {
-            let displacement = Carrier::new(wall, hosts).place(0.0, hosts).0;
-            let centre = DVec3::from_array(*floor_centre) + displacement;
+            let centre = DVec3::from_array(*floor_centre) + built.pose.offset;
             Some(Room { centre, size: DVec3::new(*width, *depth, *height) })
         }
         _ => None,

@@ -13,7 +13,7 @@ use crate::engine::{Engine, Fault, Note, Refusal};
 use crate::ledger::{Account, Ledger, Stocks};
 use crate::partner::Hosts;
 use crate::view::{Columns, View, Wants};
-use crate::wall::Carrier;
+use crate::wall::Mover;
 use glam::DVec3;
 use tsubu_frame::frame::Kind;
 use tsubu_frame::state::MissingSection;
@@ -25,7 +25,7 @@ use tsubu_scene::plan::Plan;
 pub struct LatticeEngine {
     damper: Damper,
     notes: Vec<Note>,
-    carrier: Carrier,
+    mover: Mover,
     geometry: Geometry,
     dt: f64,
     mass: f64,
@@ -48,11 +48,11 @@ impl LatticeEngine {
         let Built { mut damper, notes, wall, dt, mass, radius, floor_centre, spacing } = build(plan)?;
         let groups = plan.particles.values().enumerate();
         let groups = groups.flat_map(|(k, group)| std::iter::repeat_n(k as u32, count_of(group))).collect();
-        let carrier = Carrier::new(&plan.walls[&wall], hosts);
+        let mover = Mover::new(&plan.walls[&wall], hosts, DVec3::ZERO);
         let unit = mass * damper.scale.speed;
         let geometry = Geometry { spacing, floor_centre, columns: damper.place.columns, rows: damper.place.rows };
         // A box that does not begin at its drawn place takes its balls along.
-        let level = (carrier.place(0.0, hosts).0.z / spacing).round() as i64;
+        let level = (mover.displacement(0.0, hosts).0.z / spacing).round() as i64;
         let place = &mut damper.place;
         place.level = level.clamp(-(place.head as i64), place.head as i64);
         for cell in &mut damper.cell {
@@ -63,7 +63,7 @@ impl LatticeEngine {
             weight_impulse: -(damper.balls() as f64) * unit * damper.scale.gravity as f64,
             damper,
             notes,
-            carrier,
+            mover,
             geometry,
             dt,
             mass,
@@ -96,7 +96,7 @@ impl LatticeEngine {
 
     fn step(&mut self, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
         let time = self.damper.step as f64 * self.dt;
-        let (place, velocity) = self.carrier.place(time + self.dt, hosts);
+        let (place, velocity) = self.mover.displacement(time + self.dt, hosts);
         let scale = &self.damper.scale;
         let wall = scale.cut(scale.speed_units(velocity.z));
         if wall.abs() > scale.cell / 4 {
@@ -122,7 +122,7 @@ impl LatticeEngine {
         ledger.rule_impulse[2] += rule_z;
         ledger.post(Account::Collision, self.energy_unit * tally.collision as f64);
         ledger.post(Account::LatticeRules, self.energy_unit * tally.rules as f64);
-        if matches!(self.carrier, Carrier::Motion(..)) {
+        if matches!(self.mover, Mover::Motion(..)) {
             ledger.post(Account::WallWork, z * wall_speed);
         }
         z
@@ -131,14 +131,14 @@ impl LatticeEngine {
     /// Every host moves by one step; the one that carries the box feels the balls.
     fn push_hosts(&mut self, time: f64, impulse: f64, wall_speed: f64, hosts: &mut Hosts, ledger: &mut Ledger) {
         let mut before = 0.0;
-        if let Carrier::Host(index, direction) = &self.carrier {
+        if let Mover::Host(index, direction) = &self.mover {
             before = direction.z * hosts.list[*index].displacement();
             self.forces[*index] = -impulse / self.dt * direction.z;
         }
         for (host, force) in hosts.list.iter_mut().zip(&self.forces) {
             host.runge_kutta(time, self.dt, *force, ledger);
         }
-        if let Carrier::Host(index, direction) = &self.carrier {
+        if let Mover::Host(index, direction) = &self.mover {
             // The balls were pushed at the speed the box had before it felt them.
             let moved = direction.z * hosts.list[*index].displacement() - before;
             ledger.post(Account::HeavyBox, impulse * (moved / self.dt - wall_speed));

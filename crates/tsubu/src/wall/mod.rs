@@ -8,7 +8,6 @@
 //! of the forces. A contact's history belongs to (grain, wall, [`Wall::key`]).
 
 pub mod body;
-pub mod carrier;
 mod distinct;
 pub mod frustum;
 pub mod half_space;
@@ -26,7 +25,6 @@ mod tree;
 pub mod triangle;
 
 pub use body::Body;
-pub use carrier::Carrier;
 pub use mover::{Exchange, Mover, Turning};
 pub use nearest::{Feature, Nearest, Touch};
 pub use outline::Outline;

@@ -40,7 +40,8 @@ pub struct Exchange {
 }
 
 impl Mover {
-    pub(super) fn new(wall: &plan::Wall, hosts: &Hosts, gravity: DVec3) -> Self {
+    /// The mover of a wall; `gravity` [m/s^2] pulls a body.
+    pub fn new(wall: &plan::Wall, hosts: &Hosts, gravity: DVec3) -> Self {
         if let Some(index) = wall.host.as_deref().and_then(|name| hosts.index(name)) {
             return Self::Host(index, DVec3::from_array(hosts.list[index].direction));
         }
@@ -56,27 +57,27 @@ impl Mover {
         }
     }
 
-    /// Puts displacement and velocity (of a body also rotation and spin) into a pose; a host's, servo's and body's are
-    /// those it has now.
-    pub(super) fn place(&self, time: f64, hosts: &Hosts, pose: &mut Pose) {
+    /// Displacement from the drawn place [m] and velocity [m/s] at `time`; a host's, servo's and body's are those it has now.
+    pub fn displacement(&self, time: f64, hosts: &Hosts) -> (DVec3, DVec3) {
         let (direction, (value, rate)) = match self {
-            Self::Still => return,
+            Self::Still => return (DVec3::ZERO, DVec3::ZERO),
             Self::Motion(direction, signal) => (*direction, value_and_rate(signal, time)),
             Self::Host(index, direction) => {
                 let host = &hosts.list[*index];
                 (*direction, (host.displacement(), host.velocity()))
             }
             Self::Servo(servo) => (servo.direction, (servo.displacement(), servo.velocity())),
-            Self::Body(body) => {
-                pose.offset = body.centre() - body.drawn_centre();
-                pose.velocity = body.velocity();
-                pose.rotation = body.rotation();
-                pose.spin = body.spin();
-                return;
-            }
+            Self::Body(body) => return (body.centre() - body.drawn_centre(), body.velocity()),
         };
-        pose.offset = direction * value;
-        pose.velocity = direction * rate;
+        (direction * value, direction * rate)
+    }
+
+    /// Puts displacement and velocity (of a body also rotation and spin) into a pose.
+    pub(super) fn place(&self, time: f64, hosts: &Hosts, pose: &mut Pose) {
+        (pose.offset, pose.velocity) = self.displacement(time, hosts);
+        if let Self::Body(body) = self {
+            (pose.rotation, pose.spin) = (body.rotation(), body.spin());
+        }
     }
 }
 
