@@ -69,7 +69,7 @@ impl Bodies {
 pub fn bodies(plan: &Plan, table: &Table, hosts: &Hosts) -> Bodies {
     let mut kinds = Vec::new();
     for (name, group) in plan.particles.iter().filter(|(_, group)| group.count > 0) {
-        let (smallest, largest) = sizes::range(group);
+        let (smallest, largest) = (group.smallest_diameter(), group.largest_diameter());
         let free = matches!(group.motion, GrainMotion::Free {});
         kinds.push(Kind {
             name: name.clone(),

@@ -4,7 +4,6 @@ use super::integrate::Report;
 use super::orientation::Orientation;
 use super::place;
 use super::room;
-use super::sizes;
 use super::sources::Sources;
 use super::step::Flows;
 use super::touch::{Sums, Touch};
@@ -20,7 +19,7 @@ use crate::wall::{Mover, Wall};
 use glam::DVec3;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, State};
-use tsubu_scene::plan::{Integrator, Plan};
+use tsubu_scene::plan::{Integrator, Particles, Plan};
 
 /// Grains under a contact law.
 #[expect(clippy::struct_excessive_bools, reason = "four independent yes or no; a type each would say less")]
@@ -118,7 +117,7 @@ impl DemEngine {
         }
         let reach = reaches.iter().copied().fold(0.0, f64::max);
         let wall_loads = vec![WallLoad::default(); walls.len()];
-        let largest_present = particles.values().map(|p| sizes::range(p).1).fold(largest, f64::max);
+        let largest_present = particles.values().map(Particles::largest_diameter).fold(largest, f64::max);
         let mut engine = Self {
             step: 0,
             grain_steps: 0,

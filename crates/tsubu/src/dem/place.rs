@@ -167,7 +167,7 @@ impl Placing<'_> {
         let space = self.plan.dimension == 3;
         let floor = if stack { self.floor } else { 0.0 };
         // Rows are as wide as the widest grain.
-        let d = sizes::range(group).1;
+        let d = group.largest_diameter();
         // How far a grain may be shaken from its place, and how many places fit when the outermost are shaken towards a
         // wall.
         let free = |pitch: f64| 0.5 * (pitch - d) * jitter * 0.999;

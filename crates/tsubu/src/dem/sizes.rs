@@ -53,11 +53,6 @@ fn sieve(diameter: &[f64], passing: &[f64], power: i32, [pick, u]: [f64; 2]) -> 
     diameter.last().copied().unwrap_or_default()
 }
 
-/// Smallest and largest diameter that a group may have [m].
-pub fn range(group: &Particles) -> (f64, f64) {
-    (group.smallest_diameter(), group.largest_diameter())
-}
-
 /// Mass of a grain of the group with another diameter [kg].
 pub fn mass(group: &Particles, diameter: f64) -> f64 {
     let power = if matches!(group.shape, GrainShape::Disc { .. }) { 2 } else { 3 };
@@ -66,7 +61,7 @@ pub fn mass(group: &Particles, diameter: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{diameter, mass, range};
+    use super::{diameter, mass};
     use tsubu_scene::plan::{GrainMotion, GrainShape, Particles, Size, Start};
 
     fn group(size: Size) -> Particles {
@@ -97,7 +92,6 @@ mod tests {
         assert!((passing(3) - 0.3).abs() < 0.01, "{}", passing(3));
         assert!((passing(2) - 0.3).abs() > 0.01);
         assert!((mass(&g, 4.0) - 64.0).abs() < 1e-12);
-        assert_eq!(range(&g), (1.0, 4.0));
     }
 
     /// Mean and deviation of the normal law, and the median of the log-normal one.

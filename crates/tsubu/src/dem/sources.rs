@@ -83,7 +83,7 @@ impl Sources {
 
     /// Largest diameter [m] of grains that may still come, and the smallest.
     pub fn sizes(&self) -> Option<(f64, f64)> {
-        let ranges = self.streams.iter().map(|s| sizes::range(&s.group));
+        let ranges = self.streams.iter().map(|s| (s.group.smallest_diameter(), s.group.largest_diameter()));
         ranges.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 }

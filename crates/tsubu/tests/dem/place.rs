@@ -111,3 +111,19 @@ fn speeds_in_a_file_are_for_free_grains() {
         assert_eq!(vectors(&engine.frame(&hosts), "velocity")[1][0], speed, "{motion}");
     }
 }
+
+/// The time step came from the mean diameter of a file, not from its smallest grain.
+#[test]
+fn the_smallest_grain_of_a_file_sets_the_time_step() {
+    let folder = tempfile::tempdir().unwrap();
+    let step = |small: &str, large: &str| {
+        let text = format!("x,y,z,diameter\n0,0,0,{small}\n0.02,0,0,{large}\n");
+        std::fs::write(folder.path().join("bed.csv"), text).unwrap();
+        let scene = format!(
+            "gravity = 0\n{MATERIAL}[particles.bed]\nmaterial = \"glass\"\nstart.file = {{ path = \"bed.csv\" }}\n"
+        );
+        super::run_text(&scene, folder.path(), &[]).0.time_step()
+    };
+    // The time of a contact goes with the diameter.
+    assert!((step("0.002", "0.01") * 3.0 / step("0.006", "0.006") - 1.0).abs() < 1e-9);
+}
