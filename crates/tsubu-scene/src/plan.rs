@@ -245,7 +245,7 @@ pub enum GrainMotion {
     Driven {
         /// Unit direction.
         direction: Vector,
-        /// Displacement [m] against time.
+        /// Displacement [m] from where the grains are placed, against time.
         signal: Signal,
     },
 }

@@ -167,7 +167,7 @@ static MOTION: &[Variant] = &[
     },
     Variant {
         name: "driven",
-        about: "A displacement given in advance; they do not spin, of infinite mass to others; velocities in a file are passed over",
+        about: "A displacement from their places given in advance; they do not spin, of infinite mass to others; velocities in a file are passed over",
         keys: &[
             Key::new("direction", Kind::Direction, "Direction of the motion").default("'z'"),
             Key::new("signal", Kind::Choice(&hosts::DISPLACEMENT), "Displacement against time"),

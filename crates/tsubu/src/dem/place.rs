@@ -4,6 +4,7 @@ use super::fill::Occupied;
 use super::room::{Clearance, Room, ends, images};
 use super::sizes;
 use crate::contact::Table;
+use crate::motion::value_and_rate;
 use crate::random::{Purpose, unit, words};
 use crate::state::{Grain, Grains};
 use crate::wall::Wall;
@@ -119,6 +120,13 @@ impl Placing<'_> {
 
     fn push(&mut self, group: &Particles, number: usize, position: DVec3, diameter: f64) {
         let material = self.table.material(&group.material);
+        // As walls do, driven grains stand at time 0 where their motion has brought them by then.
+        let position = match &group.motion {
+            GrainMotion::Driven { direction, signal } => {
+                position + DVec3::from_array(*direction) * value_and_rate(signal, 0.0).0
+            }
+            _ => position,
+        };
         self.grains.push(still(group, number, material, position, diameter, self.grains.len()));
     }
 

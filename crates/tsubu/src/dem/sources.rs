@@ -108,11 +108,11 @@ impl DemEngine {
         for driven in &self.sources.driven {
             let (now, rate) = value_and_rate(&driven.signal, time);
             let (before, rate_before) = value_and_rate(&driven.signal, time - self.dt);
-            // The drift of the step has taken them along with the velocity they had.
-            let drifted = if self.step > 0 { rate_before * self.dt } else { now - before };
+            // The drift of the step has taken them along with the velocity they had; at time 0 there was none.
+            let missing = if self.step > 0 { now - before - rate_before * self.dt } else { 0.0 };
             for i in 0..self.grains.len() {
                 if self.grains.group[i] == driven.number {
-                    self.grains.position[i] += driven.direction * (now - before - drifted);
+                    self.grains.position[i] += driven.direction * missing;
                     self.grains.velocity[i] = driven.direction * rate;
                 }
             }

@@ -162,3 +162,39 @@ fn height_and_speed_are_those_of_the_grains_there_are() {
     let told = summary.particle_steps_per_second * summary.wall_seconds;
     assert!((told / counted as f64 - 1.0).abs() < 1e-12, "{told} {counted}");
 }
+
+/// Driven grains began where they were placed, whatever their signal said of time 0: a wall with the same signal stood
+/// elsewhere. Now they are where signal and place say, after a bed has settled and at any time.
+#[test]
+fn driven_grains_are_where_walls_of_the_same_motion_are() {
+    let scene = r#"
+title = "rough plate"
+duration = "1 s"
+gravity = 10
+[materials.glass]
+density = "2500 kg/m^3"
+young-modulus = "5 MPa"
+restitution = 0.7
+[particles.bed]
+material = "glass"
+count = 5
+diameter = "6 mm"
+[particles.row]
+material = "glass"
+diameter = "6 mm"
+motion.driven = { direction = "z", signal.sine = { amplitude = "3 mm", frequency = "20 Hz", phase = "90 deg" } }
+start.at.position = [[0, 0, "80 mm"]]
+[walls.box]
+material = "glass"
+shape.box = { width = "40 mm", height = "100 mm" }
+"#;
+    let (mut engine, mut hosts, mut ledger) = open_text(scene, &[]);
+    for steps in [0, 1, 100, 1000] {
+        engine.advance(steps, &mut hosts, &mut ledger).unwrap();
+        let frame = engine.frame(&hosts);
+        let driven = frame.integers(Kind::Grain, "group").iter().position(|group| *group == 1).unwrap();
+        let z = frame.vectors(Kind::Grain, "position")[driven][2];
+        let asked = 0.08 + 0.003 * (std::f64::consts::TAU * 20.0 * engine.time()).cos();
+        assert!((z - asked).abs() < 1e-12, "{z} {asked} after {steps} steps");
+    }
+}
