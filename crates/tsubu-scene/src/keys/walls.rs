@@ -148,13 +148,13 @@ pub(super) static REMOVAL: &[Variant] = &[
     Variant {
         name: "inside",
         about: "Grains whose centres are inside a box of space",
-        keys: &[Key::new("region", Kind::Table(REGION), "The box")],
+        keys: &[Key::new("region", Kind::Table(REGION), "The box; it stands still, whatever walls are around it")],
     },
     Variant {
         name: "behind",
         about: "Grains whose centres are behind a plane",
         keys: &[
-            Key::new("point", Kind::Vector(&LENGTH), "A point on the plane").default("'origin'"),
+            Key::new("point", Kind::Vector(&LENGTH), "A point on the plane, which stands still").default("'origin'"),
             Key::new("normal", Kind::Direction, "Direction away from where grains vanish").default("'z'"),
         ],
     },

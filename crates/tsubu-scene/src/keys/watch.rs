@@ -47,8 +47,14 @@ pub(super) static WATCH: &[Key] = &[
     kind("track", TRACK, "Position, velocity and spin of some grains; positions go on across periodic ends"),
 ];
 
-const REGION: Key = Key::new("region", Kind::Table(walls::REGION), "Where: a box of space, still");
-const WITHIN: Key = Key::new("region", Kind::Table(walls::REGION), "Only grains whose centres are inside").optional();
+const REGION: Key = Key::new(
+    "region",
+    Kind::Table(walls::REGION),
+    "Where: a box of space; it stands still, whatever walls are around it",
+);
+const WITHIN: Key =
+    Key::new("region", Kind::Table(walls::REGION), "Only grains whose centres are inside; a box that stands still")
+        .optional();
 const INSIDE_THE_BOX: &str = "the inside of the box as drawn, where there is one box";
 const WALLS: Key = Key::new("walls", Kind::Flag, "Whether contacts with walls count");
 
