@@ -107,6 +107,20 @@ pub fn snapshots(run_folder: &Path) -> Result<Vec<Snapshot>, FileError> {
     Ok(entries.into_iter().map(|(time, name)| Snapshot { time, path: folder.join(name) }).collect())
 }
 
+/// Whether a file in `frames/` has a name that a [`FrameWriter`] gives.
+pub(crate) fn is_snapshot(name: &str) -> bool {
+    let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
+    let kind = |name: &str| KINDS.into_iter().any(|kind| vtp::stem(kind) == Some(name));
+    let numbered = |number: &str| number.len() >= 6 && number.bytes().all(|c| c.is_ascii_digit());
+    match ending {
+        "pvd" => kind(stem),
+        "vtp" | "xyz" | "lammpstrj" => {
+            stem.rsplit_once('_').is_some_and(|(stem, number)| kind(stem) && numbered(number))
+        }
+        _ => false,
+    }
+}
+
 fn number_of(name: &str) -> Option<usize> {
     name.strip_suffix(".vtp")?.rsplit_once('_')?.1.parse().ok()
 }

@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use tsubu_frame::FileError;
-use tsubu_frame::folder::write_atomically;
+use tsubu_frame::folder::{list, write_atomically};
 
 pub mod animation;
 pub mod balls;
@@ -57,6 +57,7 @@ pub enum ReportError {
 /// Writes `report.html` and `figures/` into a folder of results, whatever kind it is, and gives the page's path.
 pub fn report(dir: &Path) -> Result<PathBuf, ReportError> {
     let (report, files) = gather(dir)?;
+    list(dir, files.iter().map(|(name, _)| name.as_str()))?;
     for (name, bytes) in files {
         write_atomically(&dir.join(name), |out| out.write_all(&bytes))?;
     }

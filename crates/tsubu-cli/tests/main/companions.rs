@@ -71,6 +71,22 @@ fn a_run_folder_runs_again_elsewhere() {
     assert_eq!(desk.hash("moved"), desk.hash("second"));
 }
 
+/// Copies of files that only the earlier scene named, and its snapshots, stayed in the folder of the new run.
+#[test]
+fn overwriting_leaves_nothing_of_the_earlier_scene() {
+    let desk = desk();
+    desk.done("run balls.toml -q -o new --set output.frame-interval=20e-3");
+    fs::write(desk.path("plate.toml"), SCENE.replace("walls.tray", "walls.plate")).unwrap();
+    desk.done("run plate.toml -q -o old --set output.lammps=true");
+    desk.done("compare plate.toml -q -o old --methods dem --overwrite");
+    assert!(desk.path("old/dem/walls-plate.obj").exists());
+    desk.done("run balls.toml -q -o old --overwrite --set output.frame-interval=20e-3");
+    let inside = |folder: &str| -> Vec<String> {
+        desk.files().iter().filter_map(|f| f.strip_prefix(folder)).map(str::to_owned).collect()
+    };
+    assert_eq!(inside("old/"), inside("new/"));
+}
+
 #[test]
 fn a_cut_run_goes_on_without_the_originals() {
     let desk = desk();

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use tsubu_frame::folder::write_atomically;
+use tsubu_frame::folder::{list, write_atomically};
 use tsubu_frame::{Claim, Existing, FileError, Named, ResultValue, RunFolder, Status, Summary};
 
 #[test]
@@ -28,6 +28,54 @@ fn overwrite_removes_results_and_nothing_else() {
     assert!(folder.path().join("notes.txt").exists());
     assert!(!folder.path().join("summary.json").exists());
     assert!(!folder.path().join("frames").exists());
+}
+
+/// Whole folders were removed, whatever a user had put into them, and files with names of their own stayed for ever.
+#[test]
+fn overwrite_tells_ours_from_theirs_in_every_folder() {
+    let parent = tempfile::tempdir().unwrap();
+    let path = parent.path().join("out");
+    let ours = [
+        "walls-tray.obj",
+        "figures/speed.svg",
+        "watch/slope.csv",
+        "watch/index.json",
+        "frames/grains_000123.vtp",
+        "frames/walls.pvd",
+        "frames/.grains_000124.vtp.tmp",
+        "checkpoint/state.tsubu",
+        "cases/0003/history.csv",
+        "cases/0003/walls-tray.obj",
+        "dem/frames/contacts_1000000.vtp",
+    ];
+    let theirs = [
+        "walls-mine.obj",
+        "figures/mine.svg",
+        "frames/grains_best.vtp",
+        "frames/film.mp4",
+        "checkpoint/older.tsubu",
+        "cases/notes.txt",
+        "cases/0004/notes.txt",
+        "dem/notes.txt",
+    ];
+    for name in ours.iter().chain(&theirs) {
+        let file = path.join(name);
+        fs::create_dir_all(file.parent().unwrap()).unwrap();
+        fs::write(file, "").unwrap();
+    }
+    fs::write(parent.path().join("outside.txt"), "mine").unwrap();
+    list(&path, ["walls-tray.obj", "figures/speed.svg", "../outside.txt"]).unwrap();
+    list(&path, ["watch/slope.csv"]).unwrap();
+    list(&path.join("cases/0003"), ["walls-tray.obj"]).unwrap();
+    RunFolder::create(&path, Existing::Overwrite).unwrap();
+    for name in ours {
+        assert!(!path.join(name).exists(), "{name} stays");
+    }
+    for name in theirs {
+        assert!(path.join(name).exists(), "{name} is gone");
+    }
+    assert!(parent.path().join("outside.txt").exists());
+    assert!(!path.join("watch").exists() && !path.join("cases/0003").exists() && !path.join("files.txt").exists());
 }
 
 #[test]

@@ -126,6 +126,8 @@ impl Watches {
 
     /// Makes the files, and a list of what is in them.
     pub fn create(&mut self, folder: &Path) -> Result<(), FileError> {
+        let files: Vec<String> = self.list.iter().filter(|w| w.sheet.is_some()).map(|w| file(&w.name)).collect();
+        tsubu_frame::folder::list(folder, files.iter().map(String::as_str))?;
         for watched in &mut self.list {
             if let Some(header) = watched.header() {
                 watched.file = Some(History::create(&folder.join(file(&watched.name)), &header)?);
