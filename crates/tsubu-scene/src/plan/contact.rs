@@ -1,0 +1,223 @@
+//! Materials and the contact law.
+
+use serde::{Deserialize, Serialize};
+
+/// Bulk properties of a material.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus E [Pa].
+    pub young_modulus: f64,
+    /// Poisson's ratio [-].
+    pub poisson_ratio: f64,
+    /// Coefficient of restitution e against the same material [-], 0 < e <= 1.
+    pub restitution: f64,
+    /// Coulomb friction coefficient against the same material [-].
+    pub friction: f64,
+    /// Rolling friction coefficient against the same material [-]; for `contact.rolling.contact-width` the factor f'.
+    pub rolling_friction: f64,
+    /// Twisting friction coefficient against the same material [-].
+    pub twisting_friction: f64,
+    /// Surface energy gamma of one face [J/m^2]: two like bodies part at 4 pi gamma R* (DMT), 3 pi gamma R* (JKR).
+    pub surface_energy: f64,
+    /// Attraction of the constant and of the area kinds of cohesion: force [N] or energy density [Pa], as the part says.
+    pub cohesion: f64,
+    /// Density [kg/m^3]; needed where a grain group gives no mass.
+    pub density: Option<f64>,
+}
+
+/// Values for one pair of materials that replace the mixing rule (geometric mean of restitution and friction).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct MaterialPair {
+    /// The two material names.
+    pub between: [String; 2],
+    /// Coefficient of restitution [-].
+    pub restitution: Option<f64>,
+    /// Friction coefficient [-].
+    pub friction: Option<f64>,
+    /// Rolling friction coefficient [-].
+    pub rolling_friction: Option<f64>,
+    /// Twisting friction coefficient [-].
+    pub twisting_friction: Option<f64>,
+    /// Surface energy gamma of one face [J/m^2].
+    pub surface_energy: Option<f64>,
+    /// Cohesion, in the unit of the cohesion part.
+    pub cohesion: Option<f64>,
+    /// The contact law of the pair, where it is another than the scene's; whether grains spin is the same in all.
+    pub contact: Option<Contact>,
+}
+
+/// The contact law as a stack of parts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Contact {
+    /// Elastic normal force.
+    pub normal: Normal,
+    /// Normal damping; its coefficient is found so that the materials' restitution comes back.
+    pub damping: Damping,
+    /// Whether damping may make the normal force attractive (Komatsuzaki 2003, literally); otherwise the force is cut at zero.
+    pub attraction: bool,
+    /// Tangential force.
+    pub tangential: Tangential,
+    /// Rolling resistance.
+    pub rolling: Rolling,
+    /// Resistance against turning about the normal.
+    pub twisting: Twisting,
+    /// Attraction.
+    pub cohesion: Cohesion,
+    /// Whether grains spin.
+    pub rotation: bool,
+}
+
+/// Elastic normal force for overlap d.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Normal {
+    /// k d^(3/2), k from the materials (Hertz).
+    Hertz {},
+    /// k d, one k for all contacts.
+    Hooke {
+        /// k [N/m].
+        stiffness: f64,
+    },
+}
+
+/// Damping of the normal motion for overlap d and overlap rate d'.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Damping {
+    /// No damping, whatever the restitution.
+    None {},
+    /// c d^(1/2) d' (visco-elastic, Kuwabara-Kono): restitution falls slowly with speed.
+    Sqrt {
+        /// Impact speed at which the restitution is the materials' [m/s].
+        reference_speed: f64,
+    },
+    /// c d^(1/4) d' (Tsuji 1992): constant restitution with Hertz.
+    Quarter {},
+    /// c d': constant restitution with Hooke; with Hertz the restitution is met at the reference speed.
+    Linear {
+        /// Impact speed at which the restitution is the materials' [m/s].
+        reference_speed: f64,
+    },
+    /// rate m* d', whatever the restitution (the `mass_velocity` damping of other codes).
+    Rate {
+        /// Damping coefficient over reduced mass [1/s].
+        rate: f64,
+    },
+    /// c d', one c for all contacts, whatever the restitution (Osada 2004).
+    Dashpot {
+        /// c [N.s/m].
+        coefficient: f64,
+    },
+}
+
+/// Tangential force.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Tangential {
+    /// None.
+    None {},
+    /// Sliding friction -mu f_n v_t / max(|v_t|, v_eps): Komatsuzaki 2003, no spring.
+    Coulomb {
+        /// v_eps [m/s].
+        smoothing_speed: f64,
+    },
+    /// Mindlin's spring with history, capped at mu f_n.
+    Mindlin {
+        /// How force and slip belong together.
+        form: MindlinForm,
+        /// Tangential over normal dashpot [-]; `None`: equal damping ratios.
+        damping: Option<f64>,
+    },
+    /// A linear spring with history and a dashpot, capped at mu f_n + c b (Cundall and Strack 1979; Osada 2004).
+    Spring {
+        /// k_t over the stiffness of `contact.normal.hooke` [-].
+        ratio: f64,
+        /// Tangential over normal dashpot [-].
+        damping: f64,
+        /// Grain-level cohesion c: the tangential force may reach mu f_n plus this [N].
+        cohesion: f64,
+    },
+}
+
+/// Which reading of Mindlin's no-slip solution is used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MindlinForm {
+    /// dF = -k_t(d) dx, F scaled down on unloading (Thornton, Cummins, Cleary 2013).
+    Incremental,
+    /// F = -k_t(d) x, x the whole slip (the form behind the curves of Chung and Ooi 2011).
+    Secant,
+}
+
+/// Rolling resistance.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Rolling {
+    /// None.
+    None {},
+    /// Torque mu_r R f_n against the relative rolling, smoothed below a small rolling speed.
+    Constant {
+        /// Rolling speed below which the torque fades [m/s].
+        smoothing_speed: f64,
+    },
+    /// Torque coefficient times the rolling, without a limit (model B of Ai 2011).
+    Viscous {
+        /// Torque over (mu_r R f_n) at a rolling speed of 1 m/s [s/m].
+        coefficient: f64,
+    },
+    /// Elastic-plastic spring-dashpot (EPSD, model C of Ai 2011): k_r = ratio k_n (mu_r R)^2, capped at mu_r R f_n.
+    Epsd {
+        /// 2.25 in space, 3 in the plane [-].
+        ratio: f64,
+        /// Damping ratio of the rolling spring [-].
+        damping_ratio: f64,
+    },
+    /// The same without a dashpot, k_r = k_t R^2 (EPSD2).
+    Epsd2 {},
+    /// Rolling spring-dashpot-slider on the rolling displacement: force k x + c v, capped at mu_r f_n, at arm R (Luding 2008).
+    Spring {
+        /// k [N/m].
+        stiffness: f64,
+        /// c [N.s/m].
+        damping: f64,
+    },
+    /// Torque f' b f_n, b the half width of contact (Osada 2004).
+    ContactWidth {
+        /// Rolling speed below which the torque fades [m/s].
+        smoothing_speed: f64,
+    },
+}
+
+/// Resistance against relative spin about the normal.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Twisting {
+    /// None.
+    None {},
+    /// Torque 2/3 mu_t a f_n against the twisting, a the contact radius, fading below a small rate.
+    Sliding {
+        /// Spin below which the torque fades [rad/s].
+        smoothing_spin: f64,
+    },
+    /// Spring k_t a^2 / 2 on the angle of twist, capped at 2/3 mu_t a f_n (Marshall 2009).
+    Spring {},
+}
+
+/// Attraction between bodies in contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Cohesion {
+    /// None.
+    None {},
+    /// Hertz less 4 pi gamma R* (Derjaguin, Muller, Toporov 1975).
+    Dmt {},
+    /// Johnson, Kendall, Roberts 1971: replaces Hertz; holds on beyond the geometric contact until pull-off.
+    Jkr {},
+    /// Energy density times the area of the overlap lens; depends on stiffness.
+    Sjkr {},
+    /// The same force in every contact.
+    Constant {},
+}

@@ -1,0 +1,214 @@
+//! Groups of grains, and where they come and go.
+
+use super::{Signal, Vector};
+use serde::{Deserialize, Serialize};
+
+/// A group of grains of one material.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Particles {
+    /// Name of the material.
+    pub material: String,
+    /// Number of grains; with `start.at` the number of positions.
+    pub count: usize,
+    /// Diameter [m]; with a size distribution or a file, the mean.
+    pub diameter: f64,
+    /// Mass of a grain of that diameter [kg]: given, or from density and diameter. Others scale with their volume.
+    pub mass: f64,
+    /// Sphere or disc.
+    pub shape: GrainShape,
+    /// How the diameters are distributed.
+    pub size: Size,
+    /// Where they begin.
+    pub start: Start,
+    /// Free, frozen in place, or moved as told.
+    pub motion: GrainMotion,
+}
+
+/// What a grain is, for its mass and its moment of inertia; contacts are those of spheres either way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum GrainShape {
+    /// Mass pi/6 rho d^3, moment of inertia 2/5 m r^2.
+    Sphere {},
+    /// Mass pi/4 rho d^2 h, moment of inertia 1/2 m r^2; only in the plane.
+    Disc {
+        /// Thickness h [m].
+        thickness: f64,
+    },
+}
+
+/// Distribution of diameters within a group.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Size {
+    /// All have the group's `diameter`.
+    Equal {},
+    /// Every diameter between two is as likely.
+    Uniform {
+        /// Smallest diameter [m].
+        smallest: f64,
+        /// Largest diameter [m].
+        largest: f64,
+    },
+    /// Normal, cut at `cut` deviations on both sides.
+    Normal {
+        /// Mean diameter [m].
+        mean: f64,
+        /// Standard deviation [m].
+        deviation: f64,
+        /// Where the tails are cut, in deviations [-].
+        cut: f64,
+    },
+    /// Log-normal: ln d is normal around ln(median), cut at `cut` deviations on both sides.
+    LogNormal {
+        /// Median diameter [m].
+        median: f64,
+        /// Standard deviation of ln d [-].
+        deviation: f64,
+        /// Where the tails are cut, in deviations [-].
+        cut: f64,
+    },
+    /// A sieve curve: share of the mass that passes each sieve, straight between sieves.
+    Sieve {
+        /// Sieve openings [m], rising.
+        diameter: Vec<f64>,
+        /// Share of the mass that passes [-], rising from 0 to 1.
+        passing: Vec<f64>,
+    },
+}
+
+/// Who moves the grains of a group.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum GrainMotion {
+    /// Forces do.
+    Free {},
+    /// Nobody: they stay where they are, of infinite mass to others.
+    Frozen {},
+    /// A displacement given in advance; they do not spin, of infinite mass to others.
+    Driven {
+        /// Unit direction.
+        direction: Vector,
+        /// Displacement [m] from where the grains are placed, against time.
+        signal: Signal,
+    },
+}
+
+/// An axis-parallel box of space. In the plane the y entries are zero and not looked at.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Region {
+    /// Corner with the smallest coordinates [m].
+    pub low: Vector,
+    /// Corner with the largest coordinates [m].
+    pub high: Vector,
+}
+
+/// Axes along which the world repeats: a grain that leaves at one end comes in at the other.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Periodic {
+    /// Ends along x [m], low and high.
+    pub x: Option<[f64; 2]>,
+    /// Ends along y [m]; not in the plane.
+    pub y: Option<[f64; 2]>,
+    /// Ends along z [m].
+    pub z: Option<[f64; 2]>,
+}
+
+/// Where grains vanish: places that stand still. Every 50 steps it is looked for them, so a grain may go a little way in.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Removal {
+    /// Centres inside a box.
+    Inside {
+        /// The box.
+        region: Region,
+    },
+    /// Centres behind a plane.
+    Behind {
+        /// A point on the plane [m].
+        point: Vector,
+        /// Unit normal, away from where grains vanish.
+        normal: Vector,
+    },
+}
+
+/// How grains are placed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Start {
+    /// Dropped into the box in random loose rows and settled by DEM (or filled row by row on the lattice) before time 0.
+    Settled {
+        /// Longest settling time [s].
+        time: f64,
+    },
+    /// Rows from the floor up, at rest.
+    Rows {
+        /// Distance of centres over diameter [-], at least 1.
+        spacing: f64,
+        /// Random displacement over the free gap [-], 0 to 1.
+        jitter: f64,
+        /// Speed of each grain in a random direction [m/s].
+        speed: f64,
+        /// Where; `None`: the inside of the box.
+        region: Option<Region>,
+    },
+    /// Anywhere in a region, without overlap.
+    Random {
+        /// Where centres may lie, less a radius; `None`: the inside of the box.
+        region: Option<Region>,
+        /// Velocity of all [m/s].
+        velocity: Vector,
+        /// Speed of each grain in a random direction, added [m/s].
+        speed: f64,
+    },
+    /// Not there at first: put into a region one after the other, where there is room, without overlap.
+    Stream {
+        /// Where.
+        region: Region,
+        /// Grains per second.
+        rate: f64,
+        /// Velocity they come with [m/s].
+        velocity: Vector,
+        /// Speed of each grain in a random direction, added [m/s].
+        speed: f64,
+        /// When the first comes [s].
+        from: f64,
+    },
+    /// Places (and, where the file has them, diameters, velocities and spins) from a file.
+    File {
+        /// Name of the file's copy in the run folder (see `Scene::companions`).
+        path: String,
+        /// Which atom type of a LAMMPS data file; `None`: all of them.
+        kind: Option<u32>,
+        /// What tells one file from another: CRC-32 of its bytes, in hex.
+        fingerprint: String,
+        /// What the file says.
+        #[serde(skip)]
+        grains: std::sync::Arc<GrainTable>,
+    },
+    /// Given places.
+    At {
+        /// Centres [m].
+        position: Vec<Vector>,
+        /// Velocities [m/s]; empty means at rest.
+        velocity: Vec<Vector>,
+        /// Spins [rad/s]; empty means none.
+        spin: Vec<Vector>,
+    },
+}
+
+/// Grains read from a file. Columns other than `position` may be empty: the group's values hold then.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GrainTable {
+    /// Centres [m].
+    pub position: Vec<Vector>,
+    /// Diameters [m].
+    pub diameter: Vec<f64>,
+    /// Velocities [m/s].
+    pub velocity: Vec<Vector>,
+    /// Spins [rad/s].
+    pub spin: Vec<Vector>,
+}

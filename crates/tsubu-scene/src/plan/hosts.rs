@@ -1,0 +1,117 @@
+//! Vibrating structures, and signals against time.
+
+use super::Vector;
+use serde::{Deserialize, Serialize};
+
+/// A quantity given against time: displacement [m] or force [N], as the place says.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Signal {
+    /// amplitude sin(2 pi frequency t + phase).
+    Sine {
+        /// Amplitude [m] or [N].
+        amplitude: f64,
+        /// Frequency [Hz].
+        frequency: f64,
+        /// Phase [rad].
+        phase: f64,
+    },
+    /// Sine of constant amplitude whose frequency runs linearly in time; silent afterwards.
+    SineSweep {
+        /// Amplitude [m] or [N].
+        amplitude: f64,
+        /// First frequency [Hz].
+        from: f64,
+        /// Last frequency [Hz].
+        to: f64,
+        /// Length [s].
+        duration: f64,
+    },
+    /// Half-sine pulse.
+    Impact {
+        /// Height [m] or [N].
+        peak: f64,
+        /// Length [s].
+        duration: f64,
+        /// Begin [s].
+        at: f64,
+    },
+    /// rate t: steady translation or turning.
+    Steady {
+        /// Rate [m/s] or [rad/s] (or [N/s]).
+        rate: f64,
+    },
+    /// Straight lines between given points, constant outside. Read from a CSV file (`file`), kept here as numbers.
+    Table {
+        /// Times [s], rising.
+        time: Vec<f64>,
+        /// Values [m] or [N].
+        value: Vec<f64>,
+    },
+}
+
+/// A vibrating structure: M q'' + C (q' - r y') + K (q - r y) = w F(t) + w F_grains. The displacement that walls see is
+/// w . q along `direction`; y is the base motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Host {
+    /// M, C, K.
+    pub structure: Structure,
+    /// Unit direction of its motion.
+    pub direction: Vector,
+    /// Base displacement y(t) [m].
+    pub base: Option<Signal>,
+    /// Applied force F(t) [N].
+    pub force: Option<Signal>,
+    /// Displacement at time 0 of every coordinate [m].
+    pub displacement: f64,
+    /// Velocity at time 0 of every coordinate [m/s].
+    pub velocity: f64,
+}
+
+/// The matrices of a host.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Structure {
+    /// One degree of freedom.
+    Oscillator {
+        /// M [kg], without the grains.
+        mass: f64,
+        /// K [N/m].
+        stiffness: f64,
+        /// C [N.s/m].
+        damping: f64,
+    },
+    /// n degrees of freedom.
+    Matrices {
+        /// M [kg].
+        mass: Vec<Vec<f64>>,
+        /// C [N.s/m].
+        damping: Vec<Vec<f64>>,
+        /// K [N/m].
+        stiffness: Vec<Vec<f64>>,
+        /// Index (from 0) of the coordinate that carries the walls and takes the force.
+        coordinate: usize,
+    },
+    /// A list of modes.
+    Modes {
+        /// The modes.
+        mode: Vec<Mode>,
+    },
+}
+
+/// One vibration mode.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Mode {
+    /// Natural frequency [Hz].
+    pub frequency: f64,
+    /// Damping ratio [-].
+    pub damping_ratio: f64,
+    /// Modal mass [kg].
+    pub mass: f64,
+    /// Mode shape where the walls are [-].
+    pub shape: f64,
+    /// Participation of the base motion [-].
+    pub participation: f64,
+}

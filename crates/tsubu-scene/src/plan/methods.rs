@@ -1,0 +1,104 @@
+//! Settings of the methods.
+
+use serde::{Deserialize, Serialize};
+
+/// Settings of the discrete element method.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Dem {
+    /// Time step [s]; `None`: the shortest contact time at the speed scale over `steps_per_contact`.
+    pub time_step: Option<f64>,
+    /// Steps per contact for the automatic time step.
+    pub steps_per_contact: f64,
+    /// Time integration.
+    pub integrator: Integrator,
+    /// Extra reach of the candidate search over the smallest diameter [-]; changes speed, and above 96 grains the last bits.
+    pub skin: f64,
+    /// Overlap over diameter at which the run stops as blown up [-].
+    pub largest_overlap: f64,
+    /// Follow how grains turn.
+    pub orientation: bool,
+    /// Energy residual over turned-over energy above which the run warns [-].
+    pub energy_tolerance: f64,
+}
+
+/// Time integration of grains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Integrator {
+    /// Velocity Verlet, second order.
+    VelocityVerlet,
+    /// Kick, then drift with the new velocity; first order, stable.
+    SymplecticEuler,
+    /// Drift with the old velocity, then kick; only to reproduce older work.
+    ForwardEuler,
+}
+
+/// Settings of the damper automaton. `mode` sets what the other options default to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[expect(clippy::struct_excessive_bools, reason = "each is an independent reading of the published rules")]
+pub struct Lattice {
+    /// Literal (Komatsuzaki 2003) or extended rules.
+    pub mode: LatticeMode,
+    /// Time step [s].
+    pub time_step: f64,
+    /// Gravity along the oblique directions: `projected` (half) or `unit` (full).
+    pub oblique_gravity: ObliqueGravity,
+    /// Who changes in a ball-ball collision.
+    pub collision: Collision,
+    /// Scatter of a rebound: straight back with probability 1/2, else the two neighbours; `false`: straight back.
+    pub rebound_scatter: bool,
+    /// Forget the stored distance when a collision happens or a move is blocked.
+    pub reset_when_blocked: bool,
+    /// Keep the remainder of the stored distance after a move (else set to zero).
+    pub keep_remainder: bool,
+    /// Resting contacts pass their impulse to the host.
+    pub resting_impulses: bool,
+    /// Collisions at or below this many g dt of relative speed are resting contacts [-].
+    pub resting_threshold: f64,
+    /// Number representation of speeds.
+    pub arithmetic: Arithmetic,
+    /// Rows of head-room added above and below the box's travel.
+    pub head_room: usize,
+}
+
+/// Preset of lattice rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LatticeMode {
+    /// The nearest reading of Komatsuzaki 2003.
+    Literal,
+    /// With resting impulses.
+    Extended,
+}
+
+/// Gravity along oblique lattice directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ObliqueGravity {
+    /// The component along the direction (one half).
+    Projected,
+    /// As if vertical.
+    Unit,
+}
+
+/// Ball-ball collision on the lattice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Collision {
+    /// Both balls change, momentum conserved along the line.
+    Pairwise,
+    /// Each ball updates only itself.
+    Literal,
+}
+
+/// Numbers of the automaton.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Arithmetic {
+    /// Fixed point, 1/1024 of g dt.
+    Fixed,
+    /// Whole multiples of g dt, truncated toward zero.
+    Integer,
+}

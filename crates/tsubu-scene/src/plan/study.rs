@@ -1,0 +1,62 @@
+//! Studies, what is written, and what is claimed.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// A frequency-response sweep.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Response {
+    /// The host whose displacement is measured; its base (or force) must be a sine, whose frequency is varied.
+    pub host: String,
+    /// Frequency over the host's first undamped natural frequency [-].
+    pub frequency_ratio: Vec<f64>,
+    /// Periods thrown away before measuring, with grains.
+    pub discard_periods: u32,
+    /// Periods thrown away for the empty host.
+    pub discard_periods_empty: u32,
+    /// Periods measured.
+    pub measure_periods: u32,
+    /// Number of random seeds, from the scene's seed upwards.
+    pub seeds: u32,
+    /// Scene keys and the values they take; every combination is a case.
+    pub vary: BTreeMap<String, Vec<toml::Value>>,
+}
+
+/// A parameter sweep: every combination of the values is a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Sweep {
+    /// Scene keys and the values they take.
+    pub vary: BTreeMap<String, Vec<toml::Value>>,
+}
+
+/// What is written.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Output {
+    /// Simulated time between rows of `history.csv` [s].
+    pub history_interval: f64,
+    /// Simulated time between frames [s]; `None`: no frames.
+    pub frame_interval: Option<f64>,
+    /// Simulated time between checkpoints [s].
+    pub checkpoint_interval: f64,
+    /// Also write extended XYZ.
+    pub xyz: bool,
+    /// Also write LAMMPS dump files.
+    pub lammps: bool,
+}
+
+/// A result that must lie in a range.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Claim {
+    /// Name of the result, as in `results` of `summary.json`.
+    pub result: String,
+    /// Lower end of the accepted range.
+    pub low: Option<f64>,
+    /// Upper end of the accepted range.
+    pub high: Option<f64>,
+    /// Where the number comes from.
+    pub source: String,
+}
