@@ -117,7 +117,7 @@ pub struct Periodic {
     pub z: Option<[f64; 2]>,
 }
 
-/// Where grains vanish: places that stand still. Every 50 steps it is looked for them, so a grain may go a little way in.
+/// Where grains vanish: places that stand still. Grains are looked at every 50 steps, so one may go a little way in.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Removal {
