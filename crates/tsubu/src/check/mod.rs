@@ -17,13 +17,13 @@ pub fn time_step(plan: &Plan, table: &Table, hosts: &Hosts) -> f64 {
     plan.dem.time_step.unwrap_or_else(|| {
         let speed = speed_scale(plan, hosts);
         let bodies = bodies(plan, table, hosts);
-        let times = bodies.pairs().map(|(a, b)| {
+        let steps = bodies.pairs().map(|(a, b)| {
             let pair = table.pair(a.body(), b.body());
             let depth = rest::overlap(plan, &pair, a);
-            pair.contact_time(speed.max(pair.speed_of(depth)))
+            let time = pair.contact_time(speed.max(pair.speed_of(depth)));
+            (time / plan.dem.steps_per_contact).min(rest::longest_step(&pair, speed, depth))
         });
-        let shortest = times.fold(f64::INFINITY, f64::min);
-        let dt = (shortest / plan.dem.steps_per_contact).min(rest::longest_step(plan, table, &bodies, speed));
+        let dt = steps.fold(f64::INFINITY, f64::min);
         if dt.is_finite() { dt } else { shortest_period(hosts).min(plan.duration) / 200.0 }
     })
 }

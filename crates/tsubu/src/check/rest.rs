@@ -1,8 +1,8 @@
 //! What a bed at rest asks of the time step: its contacts may be pressed deeper than the impacts press them, and a grain is held
 //! by many dashpots at once.
 
-use super::{Bodies, Kind};
-use crate::contact::{Pair, Table};
+use super::Kind;
+use crate::contact::Pair;
 use tsubu_scene::plan::{GrainMotion, Particles, Plan, Shape};
 
 /// Largest dashpot number c dt / m* of one contact in a bed.
@@ -46,12 +46,8 @@ pub(super) fn overlap(plan: &Plan, pair: &Pair, lowest: &Kind) -> f64 {
     group.map_or(0.0, |group| pair.overlap_under(weight_on(plan, group, 2.0 * lowest.radius)))
 }
 
-/// Longest step [s] at which the dashpots of all pairs are stable and resolved, with impacts at `speed`.
-pub(super) fn longest_step(plan: &Plan, table: &Table, bodies: &Bodies, speed: f64) -> f64 {
-    let limits = bodies.pairs().map(|(a, b)| {
-        let pair = table.pair(a.body(), b.body());
-        let longest = |number: f64, depth: f64| number * pair.mass / pair.dashpot(depth);
-        longest(IN_A_BED, overlap(plan, &pair, a)).min(longest(IN_AN_IMPACT, pair.largest_overlap(speed)))
-    });
-    limits.fold(f64::INFINITY, f64::min)
+/// Longest step [s] at which the dashpot of a pair is stable and resolved, with impacts at `speed` and `depth` the overlap at rest.
+pub(super) fn longest_step(pair: &Pair, speed: f64, depth: f64) -> f64 {
+    let longest = |number: f64, depth: f64| number * pair.mass / pair.dashpot(depth);
+    longest(IN_A_BED, depth).min(longest(IN_AN_IMPACT, pair.largest_overlap(speed)))
 }

@@ -248,12 +248,20 @@ fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
 
 /// Explicit dashpots: forward Euler gains energy when dt > eta/k; all schemes need a small eta dt / m, in an impact and, for
 /// all contacts of a grain together, in a bed at rest.
-fn damping_stable(verdict: &mut Verdict, plan: &Plan, label: &str, pair: &Pair, dt: f64, speed: f64, rest: f64) {
+fn damping_stable(
+    verdict: &mut Verdict,
+    plan: &Plan,
+    label: &str,
+    pair: &Pair,
+    dt: f64,
+    speed: f64,
+    depth_at_rest: f64,
+) {
     if pair.damping == 0.0 {
         return;
     }
     let depth = pair.largest_overlap(speed);
-    let (eta, at_rest) = (pair.dashpot(depth), pair.dashpot(rest));
+    let (eta, at_rest) = (pair.dashpot(depth), pair.dashpot(depth_at_rest));
     let (impact, bed) = (eta * dt / pair.mass, at_rest * dt / pair.mass);
     // A step that was chosen by one of the limits may lie on it.
     let within = |number: f64, limit: f64| number <= limit * (1.0 + 1e-9);
@@ -263,7 +271,7 @@ fn damping_stable(verdict: &mut Verdict, plan: &Plan, label: &str, pair: &Pair, 
             "{label}: dashpot number eta dt / m* = {impact:.3} in an impact (limit {IN_AN_IMPACT}), {bed:.3} in a bed at rest (limit {IN_A_BED})"
         ),
         || {
-            let longest = (IN_AN_IMPACT / eta).min(IN_A_BED / at_rest) * pair.mass;
+            let longest = rest::longest_step(pair, speed, depth_at_rest);
             format!("`dem.time-step` to {longest:.2e} s or less, or leave it out")
         },
     );
