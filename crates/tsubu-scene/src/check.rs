@@ -11,6 +11,7 @@ mod place;
 mod shell;
 mod walls;
 mod watch;
+mod water;
 mod world;
 
 use crate::attach;
@@ -60,6 +61,7 @@ pub(crate) fn check(resolved: &toml::Table, root: &Node, files: &Files) -> Vec<C
     watch::check(&parts, &rooms, &mut complaints);
     contact::check(&parts, &mut complaints);
     host::check(&parts, &mut complaints);
+    water::check(&parts, &mut complaints);
     pairs(&parts, &mut complaints);
     claims(&parts, &mut complaints);
     response(&parts, &mut complaints);

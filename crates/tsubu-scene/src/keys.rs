@@ -11,6 +11,7 @@ mod methods;
 mod study;
 mod walls;
 mod watch;
+mod water;
 mod world;
 
 pub(crate) use grains::PARTICLES;

@@ -16,6 +16,7 @@ mod methods;
 mod study;
 mod walls;
 mod watch;
+mod water;
 
 pub use contact::{
     Cohesion, Contact, Damping, Material, MaterialPair, MindlinForm, Normal, Rolling, Tangential, Twisting,
@@ -26,6 +27,7 @@ pub use methods::{Arithmetic, Collision, Dem, Integrator, Lattice, LatticeMode, 
 pub use study::{Claim, Output, Response, Sweep};
 pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall};
 pub use watch::{Axis, Kernel, Measure, Quantity, Watch};
+pub use water::{Buoyancy, Drag, Flow, Water};
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -71,6 +73,8 @@ pub struct Plan {
     /// Vibrating structures by name.
     #[serde(default)]
     pub hosts: BTreeMap<String, Host>,
+    /// The water that the grains are in.
+    pub water: Option<Water>,
     /// The contact law, used by DEM; pairs of materials may have their own.
     pub contact: Contact,
     /// What only the discrete element method reads.

@@ -63,4 +63,9 @@ pub static TEMPLATES: &[Template] = &[
         about: "a lid under constant pressure sinks onto a bed and stops",
         text: include_str!("../../../scenes/press.toml"),
     },
+    Template {
+        name: "saltation",
+        about: "a grain leaps along the bed of a stream: drag, buoyancy and added mass in a log-law flow",
+        text: include_str!("../../../scenes/saltation.toml"),
+    },
 ];

@@ -51,6 +51,8 @@ dimensions! {
     SPIN "an angular speed" "rad/s" [0, 0, -1, 1] ["rad/s", "deg/s", "rpm"] ["10 rad/s", "95 rpm"] "Angular speeds."
     AREA "an area" "m^2" [2, 0, 0, 0] ["m^2", "cm^2", "mm^2"] ["4 cm^2", "1e-4 m^2"] "Areas."
     INERTIA "a moment of inertia" "kg m^2" [2, 1, 0, 0] ["kg m^2", "g cm^2", "g mm^2"] ["2 g cm^2"] "Moments of inertia."
+    AREA_RATE "an area per time" "m^2/s" [2, 0, -1, 0] ["m^2/s", "cm^2/s", "mm^2/s"] ["1e-6 m^2/s", "1 mm^2/s"]
+        "Areas per time: kinematic viscosities, discharges per width."
     RATE "a rate" "1/s" [0, 0, -1, 0] ["1/s", "1/ms", "1/min"] ["500 1/s"] "Rates: so many in a second."
     SLOWNESS "an inverse speed" "s/m" [-1, 0, 1, 0] ["s/m", "s/mm"] ["0.5 s/m"] "Inverse speeds."
     LOAD_RATE "a rate of force" "N/s" [1, 1, -3, 0] ["N/s", "kN/s", "N/ms"] ["2 N/s"] "Forces that grow."

@@ -16,6 +16,8 @@ mod products;
 mod robust;
 /// Watches.
 mod watches;
+/// Water and slopes.
+mod water;
 /// Ends of the world, shapes, sizes, starts, motions, and the wider contact law.
 mod wider;
 

@@ -29,6 +29,13 @@ pub enum Account {
     HostDamping,
     /// Lost in lattice collisions by restitution [J].
     Collision,
+    /// Work of flowing water on the grains: what its forces would do to grains that went along with it [J].
+    StreamWork,
+    /// Work of the pressure (and shear stress) in the water on the grains, and of water that begins or ends to move along
+    /// with them where they go through its surface [J].
+    Buoyancy,
+    /// Lost in drag: what the forces of the water take from motion relative to it [J].
+    Drag,
     /// Lost (or gained: negative) by rules of a lattice model that do not conserve energy: forgotten distance,
     /// turned directions, one-sided collisions [J].
     LatticeRules,
@@ -40,7 +47,7 @@ pub enum Account {
 
 impl Account {
     /// All accounts, in the order they are reported.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 14] = [
         Self::BaseWork,
         Self::ForceWork,
         Self::WallWork,
@@ -49,6 +56,9 @@ impl Account {
         Self::Rolling,
         Self::HostDamping,
         Self::Collision,
+        Self::StreamWork,
+        Self::Buoyancy,
+        Self::Drag,
         Self::LatticeRules,
         Self::HeavyBox,
         Self::Exchange,
@@ -64,6 +74,9 @@ impl Account {
             Self::Sliding => "sliding",
             Self::Rolling => "rolling",
             Self::HostDamping => "host damping",
+            Self::StreamWork => "stream work",
+            Self::Buoyancy => "buoyancy",
+            Self::Drag => "drag",
             Self::Collision => "collision",
             Self::LatticeRules => "lattice rules",
             Self::HeavyBox => "heavy box",
@@ -73,7 +86,10 @@ impl Account {
 
     /// Whether the row counts energy coming in (else: lost).
     pub fn is_work(self) -> bool {
-        matches!(self, Self::BaseWork | Self::ForceWork | Self::WallWork | Self::Exchange)
+        matches!(
+            self,
+            Self::BaseWork | Self::ForceWork | Self::WallWork | Self::StreamWork | Self::Buoyancy | Self::Exchange
+        )
     }
 }
 
@@ -94,11 +110,13 @@ pub struct Stocks {
     pub host_spring: f64,
     /// Kinetic and potential energy of walls that move by themselves: servos and free bodies.
     pub walls: f64,
+    /// Kinetic energy of the water that moves along with the grains: their added mass.
+    pub added_mass: f64,
 }
 
 impl Stocks {
     /// The terms with their names.
-    pub fn terms(&self) -> [(&'static str, f64); 7] {
+    pub fn terms(&self) -> [(&'static str, f64); 8] {
         [
             ("kinetic", self.kinetic),
             ("rotational", self.rotational),
@@ -107,6 +125,7 @@ impl Stocks {
             ("host kinetic", self.host_kinetic),
             ("host spring", self.host_spring),
             ("walls", self.walls),
+            ("added mass", self.added_mass),
         ]
     }
 
@@ -124,6 +143,8 @@ pub struct Ledger {
     pub gravity_impulse: [f64; 3],
     /// Impulse of walls on the grains since time 0 [N.s].
     pub wall_impulse: [f64; 3],
+    /// Impulse of the water on the grains since time 0, that on its added mass not counted [N.s].
+    pub water_impulse: [f64; 3],
     /// Momentum that grains brought which came in, less what those took that were removed [N.s].
     pub exchange_impulse: [f64; 3],
     /// Impulse that lattice rules created out of nothing [N.s].
@@ -176,6 +197,7 @@ impl Ledger {
                 - self.opening_momentum[i]
                 - self.gravity_impulse[i]
                 - self.wall_impulse[i]
+                - self.water_impulse[i]
                 - self.rule_impulse[i]
                 - self.exchange_impulse[i]
         })
@@ -191,6 +213,7 @@ impl Ledger {
         impulses.push(self.host_impulse);
         impulses.extend(self.opening_momentum);
         impulses.extend(self.exchange_impulse);
+        impulses.extend(self.water_impulse);
         state.put_real("ledger.impulses", impulses);
         state.put_real("ledger.opening", self.opening.terms().map(|(_, v)| v).to_vec());
     }
@@ -201,7 +224,7 @@ impl Ledger {
         let flows = state.real("ledger.flows")?.try_into().map_err(|_| missing())?;
         let p = state.real("ledger.impulses")?;
         let o = state.real("ledger.opening")?;
-        if p.len() != 16 || o.len() != 7 {
+        if p.len() != 19 || o.len() != 8 {
             return Err(missing());
         }
         Ok(Self {
@@ -212,6 +235,7 @@ impl Ledger {
             host_impulse: p[9],
             opening_momentum: [p[10], p[11], p[12]],
             exchange_impulse: [p[13], p[14], p[15]],
+            water_impulse: [p[16], p[17], p[18]],
             opening: Stocks {
                 kinetic: o[0],
                 rotational: o[1],
@@ -220,6 +244,7 @@ impl Ledger {
                 host_kinetic: o[4],
                 host_spring: o[5],
                 walls: o[6],
+                added_mass: o[7],
             },
         })
     }

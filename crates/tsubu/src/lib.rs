@@ -22,6 +22,7 @@ pub mod study;
 pub mod view;
 pub mod wall;
 pub mod watch;
+pub mod water;
 
 /// Version of the program, as written into summaries and checkpoints.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

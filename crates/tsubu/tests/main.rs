@@ -9,3 +9,4 @@ mod lattice;
 mod verify;
 mod wall;
 mod watch;
+mod water;

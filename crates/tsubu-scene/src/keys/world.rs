@@ -1,7 +1,7 @@
 //! The top of a scene, and its materials.
 
-use super::{Key, Kind, Word, contact, grains, hosts, methods, study, walls, watch};
-use crate::units::{DENSITY, NUMBER, PRESSURE, SPEED, SURFACE_ENERGY, TIME};
+use super::{Key, Kind, Word, contact, grains, hosts, methods, study, walls, watch, water};
+use crate::units::{ANGLE, DENSITY, NUMBER, PRESSURE, SPEED, SURFACE_ENERGY, TIME};
 
 /// The keys at the top of a scene, in the order of the plan.
 pub static SCENE: &[Key] = &[
@@ -18,6 +18,12 @@ pub static SCENE: &[Key] = &[
         "Gravitational acceleration: a number points down (along -z), a vector where it says",
     )
     .default("'9.8 m/s^2'"),
+    Key::new(
+        "slope",
+        Kind::Quantity(&ANGLE),
+        "Slope of the x axis, positive downwards: turns a gravity that is given as a number",
+    )
+    .optional(),
     Key::new("duration", Kind::Quantity(&TIME), "Simulated time").above(0.0),
     Key::new(
         "speed-scale",
@@ -54,6 +60,7 @@ pub static SCENE: &[Key] = &[
         "The vibrating structures",
     )
     .default("{}"),
+    Key::new("water", Kind::Table(water::WATER), "The water that the grains are in").optional(),
     Key::new("contact", Kind::Table(contact::CONTACT), "The contact law, a stack of parts").default("{}"),
     Key::new("dem", Kind::Table(methods::DEM), "What only the discrete element method reads").default("{}"),
     Key::new("lattice", Kind::Table(methods::LATTICE), "What only the lattice automaton reads").default("{}"),

@@ -4,6 +4,7 @@ mod grains;
 mod signals;
 mod walls;
 mod watch;
+mod water;
 
 use super::{explain, join, table};
 use crate::complaint::{Complaint, Source};
@@ -30,7 +31,9 @@ pub(crate) fn derive(
     sources: &mut Vec<Source>,
 ) -> Vec<Complaint> {
     let mut derive = Derive { root, files, sources, complaints: Vec::new() };
+    derive.slope(resolved);
     derive.particles(resolved);
+    derive.water(resolved);
     derive.walls(resolved);
     derive.oscillators(resolved);
     derive.signals(resolved);

@@ -3,16 +3,18 @@
 mod mesh;
 mod rest;
 mod verdict;
+mod water;
 
 pub use verdict::{Line, Verdict, check, human_time, verdict};
 
 use crate::contact::Table;
 use crate::dem::sizes;
 use crate::partner::Hosts;
-use tsubu_scene::plan::{GrainMotion, Plan, Shape, Signal, Start};
+use std::f64::consts::PI;
+use tsubu_scene::plan::{GrainMotion, Plan, Shape, Signal, Start, Water};
 
 /// Time step of DEM [s]: told, or the shortest contact time at the scene's speed scale, and under the weight of the bed, over
-/// the wanted steps per contact; shorter where a bed's dashpots ask for it.
+/// the wanted steps per contact; shorter where a bed's dashpots or the drag of water ask for it.
 pub fn time_step(plan: &Plan, table: &Table, hosts: &Hosts) -> f64 {
     plan.dem.time_step.unwrap_or_else(|| {
         let speed = speed_scale(plan, hosts);
@@ -23,7 +25,7 @@ pub fn time_step(plan: &Plan, table: &Table, hosts: &Hosts) -> f64 {
             let time = pair.contact_time(speed.max(pair.speed_of(depth)));
             (time / plan.dem.steps_per_contact).min(rest::longest_step(&pair, speed, depth))
         });
-        let dt = steps.fold(f64::INFINITY, f64::min);
+        let dt = steps.fold(water::longest_step(plan, hosts), f64::min);
         if dt.is_finite() { dt } else { shortest_period(hosts).min(plan.duration) / 200.0 }
     })
 }
@@ -68,6 +70,11 @@ impl Bodies {
 /// The kinds of bodies of a plan: groups that have grains, then walls.
 pub fn bodies(plan: &Plan, table: &Table, hosts: &Hosts) -> Bodies {
     let mut kinds = Vec::new();
+    // What an impact moves is the grain with its added mass.
+    let added = |diameter: f64| {
+        let displaced = |water: &Water| water.density * PI / 6.0 * diameter.powi(3);
+        plan.water.as_ref().map_or(0.0, |water| water.added_mass * displaced(water))
+    };
     for (name, group) in plan.particles.iter().filter(|(_, group)| group.count > 0) {
         let (smallest, largest) = (group.smallest_diameter(), group.largest_diameter());
         let free = matches!(group.motion, GrainMotion::Free {});
@@ -77,7 +84,7 @@ pub fn bodies(plan: &Plan, table: &Table, hosts: &Hosts) -> Bodies {
             material: table.material(&group.material),
             radius: 0.5 * smallest,
             largest: 0.5 * largest,
-            mass: if free { sizes::mass(group, smallest) } else { f64::INFINITY },
+            mass: if free { sizes::mass(group, smallest) + added(smallest) } else { f64::INFINITY },
         });
     }
     for wall in plan.walls.values() {
@@ -126,6 +133,10 @@ pub fn speed_scale(plan: &Plan, hosts: &Hosts) -> f64 {
         if let Some(motion) = &wall.motion {
             speed = speed.max(fastest(&motion.signal));
         }
+    }
+    // What the stream gives a grain it loses again in part before it hits.
+    if let Some(water) = water::water(plan) {
+        speed = speed.max(0.5 * water.fastest(water::largest(plan)));
     }
     for group in plan.particles.values() {
         match &group.start {

@@ -1,7 +1,7 @@
 //! The verdict: is this scene resolved well enough, and what will it cost?
 
 use super::rest::{self, IN_A_BED, IN_AN_IMPACT};
-use super::{bodies, mesh, shortest_period, speed_scale};
+use super::{bodies, mesh, shortest_period, speed_scale, water};
 use crate::bench::Bench;
 use crate::contact::{Pair, Table};
 use crate::engine::{self, Engine, Fault, OpenError};
@@ -141,7 +141,10 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         if plan.speed_scale.is_some() { "told by `speed-scale`" } else { "estimated; set `speed-scale` to tell it" };
     verdict.say(format!("speed scale {speed:.3} m/s ({origin})"));
     match plan.method {
-        Method::Dem => dem(&mut verdict, plan, hosts, dt, speed),
+        Method::Dem => {
+            dem(&mut verdict, plan, hosts, dt, speed);
+            water::judge(&mut verdict, plan, hosts, dt);
+        }
         Method::Lattice => lattice(&mut verdict, plan, dt, speed),
     }
     mesh::meshes(&mut verdict, plan);
@@ -227,7 +230,9 @@ fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
         damping_stable(verdict, plan, &label, &pair, dt, speed, depth);
     }
     for (name, group) in &plan.particles {
-        if group.count == 0 {
+        // A linear spring knows nothing of the modulus.
+        let hertz = matches!(plan.contact_of(&group.material, &group.material).normal, Normal::Hertz {});
+        if group.count == 0 || !hertz {
             continue;
         }
         let m = &plan.materials[&group.material];

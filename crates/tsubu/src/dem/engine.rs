@@ -7,6 +7,7 @@ use super::room;
 use super::sources::Sources;
 use super::step::Flows;
 use super::touch::{Sums, Touch};
+use super::wet::Wet;
 use crate::check;
 use crate::contact::Table;
 use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
@@ -16,6 +17,7 @@ use crate::partner::Hosts;
 use crate::state::Grains;
 use crate::view::{View, WallLoad, Wants};
 use crate::wall::{Mover, Wall};
+use crate::water::{self, Water};
 use glam::DVec3;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, State};
@@ -36,6 +38,7 @@ pub struct DemEngine {
     pub(super) touch: Touch,
     pub(super) sums: Sums,
     pub(super) sources: Sources,
+    pub(super) wet: Option<Wet>,
     pub(super) orientation: Orientation,
     // What the plan says.
     pub(super) table: Table,
@@ -64,6 +67,8 @@ pub struct DemEngine {
     pub(super) fixed: (DVec3, f64),
     /// Energy of contacts that a search has found gone [J].
     pub(super) released: f64,
+    /// What the water does at this moment.
+    pub(super) water_flows: water::Flows,
 }
 
 impl DemEngine {
@@ -85,6 +90,7 @@ impl DemEngine {
             periodic: _,
             removal: _,
             hosts: _,
+            water,
             contact,
             dem,
             lattice: _,
@@ -127,6 +133,7 @@ impl DemEngine {
             touch: Touch::default(),
             sums: Sums::default(),
             sources,
+            wet: water.as_ref().map(|water| Wet::new(Water::new(water, gravity))),
             orientation: Orientation::new(dem.orientation),
             dt: check::time_step(plan, &table, hosts),
             table,
@@ -148,6 +155,7 @@ impl DemEngine {
             host_forces: Vec::new(),
             fixed: Default::default(),
             released: 0.0,
+            water_flows: water::Flows::default(),
             grains,
         };
         engine.start();
@@ -161,6 +169,7 @@ impl DemEngine {
     /// Gives the first step what it needs.
     fn start(&mut self) {
         self.drive(0.0);
+        self.immerse();
         self.find();
         self.stand();
     }

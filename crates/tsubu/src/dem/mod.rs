@@ -17,5 +17,6 @@ pub mod sizes;
 mod sources;
 mod step;
 mod touch;
+mod wet;
 
 pub use engine::DemEngine;

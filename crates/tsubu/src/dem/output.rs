@@ -6,6 +6,7 @@ use crate::engine::Engine;
 use crate::partner::Hosts;
 use crate::state::Grains;
 use crate::view::{Columns, Contact, View, Wants};
+use crate::water::Flows;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use tsubu_frame::state::MissingSection;
@@ -26,18 +27,16 @@ impl DemEngine {
         frame.vector(Kind::Grain, "spin", "rad/s", vectors(&self.grains.spin));
         frame.scalar(Kind::Grain, "radius", "m", scalars(&self.grains.radius));
         frame.scalar(Kind::Grain, "mass", "kg", scalars(&self.grains.mass));
-        let force: Vec<DVec3> = (0..self.grains.len())
-            .map(|i| {
-                let pulled = if self.grains.inverse_mass[i] == 0.0 { DVec3::ZERO } else { self.gravity };
-                self.grains.mass[i] * (self.grains.acceleration[i] - pulled)
-            })
-            .collect();
+        let contacts = self.contact_list();
+        let force = self.contact_forces(&contacts);
         let turned: Option<Vec<_>> = order.iter().map(|&i| self.orientation.of(self.grains.id[i])).collect();
         if let Some(turned) = turned {
             frame.quaternion(Kind::Grain, "orientation", turned.iter().map(|q| [q.w, q.x, q.y, q.z]).collect());
         }
         frame.vector(Kind::Grain, "contact force", "N", vectors(&force));
-        let contacts = self.contact_list();
+        if self.wet.is_some() {
+            frame.vector(Kind::Grain, "water force", "N", vectors(&self.water_forces(&force)));
+        }
         let id = |i: usize| i64::from(self.grains.id[i]);
         // A wall is told as -1 less its number.
         let second = |c: &Contact| if c.wall { -1 - c.second as i64 } else { id(c.second) };
@@ -49,6 +48,34 @@ impl DemEngine {
         frame.scalar(Kind::Contact, "overlap", "m", contacts.iter().map(|c| c.overlap).collect());
         self.draw_walls(&mut frame);
         frame
+    }
+
+    /// What contacts do to every grain [N]. In water the acceleration does not tell, so the contacts are summed.
+    fn contact_forces(&self, contacts: &[Contact]) -> Vec<DVec3> {
+        let g = &self.grains;
+        if self.wet.is_none() {
+            let pull = |i: usize| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { self.gravity };
+            return (0..g.len()).map(|i| g.mass[i] * (g.acceleration[i] - pull(i))).collect();
+        }
+        let mut force = vec![DVec3::ZERO; g.len()];
+        for contact in contacts {
+            force[contact.first] += contact.force;
+            if !contact.wall {
+                force[contact.second] -= contact.force;
+            }
+        }
+        force
+    }
+
+    /// What the water does to every grain that forces move [N]: what gravity and contacts leave of its acceleration, that of
+    /// its added mass with it.
+    fn water_forces(&self, contact: &[DVec3]) -> Vec<DVec3> {
+        let g = &self.grains;
+        let rest = |i: usize| {
+            let all = (g.mass[i] + g.added_mass(i)) * g.acceleration[i];
+            all - g.mass[i] * self.gravity - contact[i]
+        };
+        (0..g.len()).map(|i| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { rest(i) }).collect()
     }
 
     /// What those see who look on. A pair that only the reach of the law holds near each other is no contact.
@@ -81,6 +108,9 @@ impl DemEngine {
         let mut reals = self.last_flows.powers.to_vec();
         reals.extend(self.last_flows.wall_force.to_array());
         reals.push(self.sums.stored);
+        let water = self.last_flows.water;
+        reals.extend([water.stream, water.pressure, water.lost]);
+        reals.extend(water.force.to_array());
         state.put_real("dem.flows", reals);
         let flat = |v: &[DVec3]| v.iter().flat_map(DVec3::to_array).collect::<Vec<_>>();
         state.put_real("dem.reference", flat(&self.candidates.reference));
@@ -110,12 +140,14 @@ impl DemEngine {
         self.orientation.load(state)?;
         self.sources.set_placed(state.integer("dem.streams")?);
         let flows = state.real("dem.flows")?;
-        if flows.len() != 8 {
+        if flows.len() != 14 {
             return Err(missing("dem.flows"));
         }
         self.last_flows.powers.copy_from_slice(&flows[..4]);
         self.last_flows.wall_force = DVec3::from_slice(&flows[4..7]);
         self.sums.stored = flows[7];
+        self.last_flows.water =
+            Flows { stream: flows[8], pressure: flows[9], lost: flows[10], force: DVec3::from_slice(&flows[11..]) };
         let reference = state.real("dem.reference")?;
         let places = state.real("dem.wall-reference")?;
         if reference.len() != 3 * self.grains.len() || places.len() != 7 * self.walls.len() {

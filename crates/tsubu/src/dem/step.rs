@@ -29,11 +29,13 @@ impl DemEngine {
         hosts.before(self.dt);
         self.move_walls(time, hosts);
         self.drive(time);
+        self.sink(ledger);
         if self.candidates.stale(&self.grains, &self.walls, self.search.skin) {
             self.check_finite()?;
             self.find();
         }
         self.touch_all();
+        self.soak();
         self.check_overlap()?;
         self.finish(self.dt, go_on);
         self.reactions(hosts, ledger);
@@ -95,6 +97,7 @@ impl DemEngine {
         self.touch_all();
         self.restore(kept);
         self.sums.stored = stored;
+        self.soak();
         self.finish(0.0, false);
         self.sum_wall_loads();
         for (wall, load) in self.walls.iter_mut().zip(&self.wall_loads) {
@@ -166,7 +169,12 @@ impl DemEngine {
         for (account, (old, new)) in accounts.into_iter().zip(self.last_flows.powers.into_iter().zip(now.powers)) {
             ledger.post(account, half * (old + new));
         }
+        let (old, new) = (self.last_flows.water, now.water);
+        ledger.post(Account::StreamWork, half * (old.stream + new.stream));
+        ledger.post(Account::Buoyancy, half * (old.pressure + new.pressure));
+        ledger.post(Account::Drag, half * (old.lost + new.lost));
         for axis in 0..3 {
+            ledger.water_impulse[axis] += half * (old.force + new.force)[axis];
             ledger.wall_impulse[axis] += half * (self.last_flows.wall_force + now.wall_force)[axis];
             ledger.gravity_impulse[axis] += self.dt * self.total_mass * self.gravity[axis];
         }
@@ -175,7 +183,7 @@ impl DemEngine {
 
     /// Powers and wall force of this time level.
     pub(super) fn flows(&self) -> Flows {
-        let mut flows = Flows::default();
+        let mut flows = Flows { water: self.water_flows, ..Flows::default() };
         flows.powers[..3].copy_from_slice(&self.sums.lost);
         for (wall, load) in self.walls.iter().zip(&self.wall_loads) {
             flows.wall_force -= load.force;
@@ -228,4 +236,5 @@ impl DemEngine {
 pub(super) struct Flows {
     pub powers: [f64; 4],
     pub wall_force: DVec3,
+    pub water: crate::water::Flows,
 }

@@ -81,6 +81,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         walls: _,
         periodic,
         removal,
+        water,
         hosts,
         contact,
         dem: _,
@@ -103,6 +104,9 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
     }
     if *periodic != plan::Periodic::default() {
         remarks.refuse("periodic", "the automaton's balls live in a closed box; use `method = \"dem\"`");
+    }
+    if water.is_some() {
+        remarks.refuse("water", "the automaton's balls fall in air; use `method = \"dem\"`");
     }
     if !removal.is_empty() {
         remarks.refuse("removal", "the automaton keeps its balls; use `method = \"dem\"`");

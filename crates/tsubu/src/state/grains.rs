@@ -55,17 +55,26 @@ impl Grains {
             if self.inverse_mass[i] == 0.0 {
                 continue;
             }
-            stocks.kinetic += 0.5 * self.mass[i] * self.velocity[i].length_squared();
+            let squared = self.velocity[i].length_squared();
+            stocks.kinetic += 0.5 * self.mass[i] * squared;
+            stocks.added_mass += 0.5 * self.added_mass(i) * squared;
             stocks.rotational += 0.5 * self.inertia[i] * self.spin[i].length_squared();
             stocks.potential -= self.mass[i] * gravity.dot(self.position[i] + self.wrapped[i]);
         }
         stocks
     }
 
-    /// Total momentum of the grains that forces move [N.s].
+    /// Mass of the water that moves along with a grain that forces move [kg]; without water an exact zero.
+    pub fn added_mass(&self, i: usize) -> f64 {
+        // The mass is one over its inverse only up to rounding.
+        let added = 1.0 / self.inverse_mass[i] - self.mass[i];
+        if added > 1e-12 * self.mass[i] { added } else { 0.0 }
+    }
+
+    /// Total momentum [N.s] of the grains that forces move, and of the water that moves along with them.
     pub fn momentum(&self) -> DVec3 {
         let moved = (0..self.len()).filter(|&i| self.inverse_mass[i] != 0.0);
-        moved.map(|i| self.mass[i] * self.velocity[i]).sum()
+        moved.map(|i| (self.mass[i] + self.added_mass(i)) * self.velocity[i]).sum()
     }
 
     /// Centre of mass of the grains that forces move, as if nothing had been wrapped [m]; zero where there are none.

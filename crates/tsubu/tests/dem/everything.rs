@@ -8,7 +8,7 @@ use tsubu_frame::State;
 
 /// A world that repeats along x and y: a rough frozen floor, two kinds of grains of distributed sizes that stick, roll and
 /// twist with resistance, a driven row, a turning paddle of triangles, a ball that falls freely, a lid that presses, a
-/// stream that comes and a region where grains go.
+/// stream of grains that comes, a region where grains go, and a stream of water with a surface.
 const EVERYTHING: &str = r#"
 title = "everything"
 dimension = 3
@@ -76,6 +76,12 @@ shape.plane = { point = [0, 0, "125 mm"], normal = "-z" }
 servo = { direction = "-z", force = "1 N", mass = "50 g", damping = "1 N s/m" }
 [removal.side.inside]
 region = { low = ["60 mm", 0, "10 mm"], high = ["64 mm", "4 mm", "20 mm"] }
+[water]
+density = "50 kg/m^3"
+viscosity = "2e-5 m^2/s"
+surface = "70 mm"
+drag.abraham = {}
+flow.log-law = { shear-velocity = "0.2 m/s", roughness = "2 mm", zero-level = "2 mm" }
 [contact]
 normal.hertz = {}
 damping.quarter = {}

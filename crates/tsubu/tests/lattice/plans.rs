@@ -56,6 +56,7 @@ pub fn plan(count: usize, mode: LatticeMode) -> Plan {
         periodic: Periodic::default(),
         removal: BTreeMap::new(),
         hosts: BTreeMap::new(),
+        water: None,
         contact: Contact {
             normal: Normal::Hertz {},
             damping: Damping::Quarter {},

@@ -1,0 +1,65 @@
+//! Water and what is in it.
+
+use super::Parts;
+use super::place::millimetres;
+use crate::complaint::Complaint;
+use crate::plan::{Flow, GrainShape, Water};
+use std::f64::consts::PI;
+
+pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
+    let Some(water) = parts.resolved.get("water").and_then(|water| water.clone().try_into::<Water>().ok()) else {
+        return;
+    };
+    let at = |keys: &[&str]| parts.root.locate(&[&["water"], keys].concat());
+    for (name, group) in &parts.particles {
+        let here = parts.root.locate(&["particles", name]);
+        if matches!(group.shape, GrainShape::Disc { .. }) {
+            complaints.push(
+                Complaint::new(format!("the grains `{name}` are discs; drag and buoyancy are those of spheres"))
+                    .at(&parts.root.locate(&["particles", name, "shape", "disc"]), "not in water")
+                    .also(&at(&[]), "there is water")
+                    .hint("write shape.sphere = {}: spheres whose centres stay in the plane"),
+            );
+            continue;
+        }
+        let density = group.mass / (PI / 6.0 * group.diameter.powi(3));
+        if density <= water.density && !water.float {
+            complaints.push(
+                Complaint::new(format!("the grains `{name}` are lighter than the water"))
+                    .at(&here, format!("{density:.6} kg/m^3 as spheres"))
+                    .also(&at(&["density"]), format!("{} kg/m^3", water.density))
+                    .hint("if they shall float write float = true in [water]"),
+            );
+        }
+    }
+    match &water.flow {
+        Flow::Still {} => {}
+        Flow::LogLaw { zero_level, .. } => {
+            if let Some(surface) = water.surface.filter(|surface| surface <= zero_level) {
+                complaints.push(
+                    Complaint::new("the stream has no depth")
+                        .at(&at(&["surface"]), format!("at z = {}", millimetres(surface)))
+                        .also(
+                            &at(&["flow", "log-law", "zero-level"]),
+                            format!("the bed is at z = {}", millimetres(*zero_level)),
+                        ),
+                );
+            }
+        }
+        Flow::Table { height, velocity } => {
+            if height.is_empty() || height.len() != velocity.len() {
+                complaints.push(
+                    Complaint::new("the profile of the stream needs as many velocities as heights").at(
+                        &at(&["flow", "table"]),
+                        format!("{} heights, {} velocities", height.len(), velocity.len()),
+                    ),
+                );
+            } else if let Some(k) = (1..height.len()).find(|&k| height[k] <= height[k - 1]) {
+                complaints.push(Complaint::new("the heights of the profile of the stream do not rise").at(
+                    &at(&["flow", "table", "height"]),
+                    format!("{} after {}", millimetres(height[k]), millimetres(height[k - 1])),
+                ));
+            }
+        }
+    }
+}

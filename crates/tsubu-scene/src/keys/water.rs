@@ -1,0 +1,87 @@
+//! The water that grains are in.
+
+use super::{Key, Kind, Variant, Word};
+use crate::units::{AREA_RATE, DENSITY, LENGTH, NUMBER, SPEED};
+
+pub(super) static WATER: &[Key] = &[
+    Key::new("density", Kind::Quantity(&DENSITY), "Density of the water, or of any other liquid or gas")
+        .default("'1000 kg/m^3'")
+        .above(0.0),
+    Key::new("viscosity", Kind::Quantity(&AREA_RATE), "Kinematic viscosity").default("'1e-6 m^2/s'").above(0.0),
+    Key::new("surface", Kind::Quantity(&LENGTH), "Height z up to which there is water")
+        .derived("zero-level + depth of a log-law with `depth`; otherwise there is water everywhere"),
+    Key::new(
+        "added-mass",
+        Kind::Quantity(&NUMBER),
+        "Water that moves along with a grain, as a share of what the grain displaces; 0.5 for a sphere, 0 for none",
+    )
+    .default("0.5")
+    .at_least(0.0),
+    Key::new("buoyancy", Kind::OneOf(BUOYANCY), "Which part of the stress in the water carries the grains")
+        .default("'vertical'"),
+    Key::new("float", Kind::Flag, "Grains may be lighter than the water").default("false"),
+    Key::new("flow", Kind::Choice(FLOW), "How the water moves").default("{ still = {} }"),
+    Key::new("drag", Kind::Choice(DRAG), "Resistance to motion through the water, by the drag coefficient")
+        .default("{ stokes-newton = {} }"),
+];
+
+static BUOYANCY: &[Word] = &[
+    Word {
+        name: "vertical",
+        about: "pressure and shear stress of a uniform stream: upwards against gravity, - rho V g",
+    },
+    Word { name: "normal", about: "pressure alone: normal to a stream along x, nothing along it" },
+];
+
+static FLOW: &[Variant] = &[
+    Variant { name: "still", about: "Water at rest", keys: &[] },
+    Variant {
+        name: "log-law",
+        about: "A stream along x over a rough bed: U = U* (8.5 + 5.75 log10(Z/k)), 0 where that is negative; Z = z - zero-level",
+        keys: &[
+            Key::new("shear-velocity", Kind::Quantity(&SPEED), "Shear velocity U*")
+                .above(0.0)
+                .derived("from `discharge`, or from `depth` and the slope: sqrt(g sin(slope) depth)")
+                .rivals(&["discharge"]),
+            Key::new("discharge", Kind::Quantity(&AREA_RATE), "Discharge of water per width, from which U* follows")
+                .above(0.0)
+                .optional()
+                .rivals(&["shear-velocity"]),
+            Key::new("depth", Kind::Quantity(&LENGTH), "Depth of the stream above the zero level")
+                .above(0.0)
+                .optional(),
+            Key::new("roughness", Kind::Quantity(&LENGTH), "Equivalent roughness k of the bed")
+                .above(0.0)
+                .derived("the mean diameter of the grains"),
+            Key::new(
+                "zero-level",
+                Kind::Quantity(&LENGTH),
+                "Height z where Z = 0: a quarter of a diameter below the crests of the bed",
+            )
+            .default("0"),
+        ],
+    },
+    Variant {
+        name: "table",
+        about: "A stream along x by straight lines between given points, constant outside",
+        keys: &[
+            Key::new("height", Kind::Quantities(&LENGTH), "Heights z, rising"),
+            Key::new("velocity", Kind::Quantities(&SPEED), "Velocities along x, as many"),
+        ],
+    },
+];
+
+static COEFFICIENT: Key =
+    Key::new("coefficient", Kind::Quantity(&NUMBER), "Coefficient of large grains").default("0.4").at_least(0.0);
+
+static DRAG: &[Variant] = &[
+    Variant { name: "none", about: "No drag", keys: &[] },
+    Variant { name: "constant", about: "C = coefficient", keys: &[COEFFICIENT] },
+    Variant { name: "stokes-newton", about: "C = coefficient + 24/Re", keys: &[COEFFICIENT] },
+    Variant {
+        name: "schiller-naumann",
+        about: "C = 24/Re (1 + 0.15 Re^0.687) up to Re = 1000, 0.44 above (Schiller and Naumann 1935)",
+        keys: &[],
+    },
+    Variant { name: "abraham", about: "C = (0.63 + 4.8/sqrt(Re))^2 (Dalla Valle 1948; Abraham 1970)", keys: &[] },
+];

@@ -1,0 +1,81 @@
+//! The water that grains are in.
+
+use serde::{Deserialize, Serialize};
+
+/// Water, or any other fluid, and what it does to grains.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Water {
+    /// Density rho [kg/m^3].
+    pub density: f64,
+    /// Kinematic viscosity nu [m^2/s].
+    pub viscosity: f64,
+    /// Height z up to which there is water [m]; `None`: everywhere.
+    pub surface: Option<f64>,
+    /// Added mass over the mass of the displaced water [-].
+    pub added_mass: f64,
+    /// Which stress carries the grains.
+    pub buoyancy: Buoyancy,
+    /// Grains may be lighter than the water.
+    pub float: bool,
+    /// How the water moves.
+    pub flow: Flow,
+    /// Drag coefficient.
+    pub drag: Drag,
+}
+
+/// Which part of the stress in the water carries the grains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Buoyancy {
+    /// Pressure and shear stress of a uniform stream, - rho V g.
+    Vertical,
+    /// Pressure alone, normal to the stream.
+    Normal,
+}
+
+/// How the water moves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Flow {
+    /// Not at all.
+    Still {},
+    /// U = U* (8.5 + 5.75 log10(Z/k)) along x, Z = z - zero level.
+    LogLaw {
+        /// U* [m/s].
+        shear_velocity: f64,
+        /// k [m].
+        roughness: f64,
+        /// Height z where Z = 0 [m].
+        zero_level: f64,
+    },
+    /// Straight lines between points, along x.
+    Table {
+        /// Heights z [m], rising.
+        height: Vec<f64>,
+        /// Velocities [m/s].
+        velocity: Vec<f64>,
+    },
+}
+
+/// The drag coefficient C against the Reynolds number Re = |U - u| d/nu; the force is C rho/2 (pi/4) d^2 |U - u| (U - u).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Drag {
+    /// C = 0.
+    None {},
+    /// C = coefficient.
+    Constant {
+        /// C [-].
+        coefficient: f64,
+    },
+    /// C = coefficient + 24/Re.
+    StokesNewton {
+        /// C of large Re [-].
+        coefficient: f64,
+    },
+    /// C = 24/Re (1 + 0.15 Re^0.687) up to Re = 1000, 0.44 above.
+    SchillerNaumann {},
+    /// C = (0.63 + 4.8/sqrt(Re))^2.
+    Abraham {},
+}

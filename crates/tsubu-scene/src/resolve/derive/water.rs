@@ -1,0 +1,153 @@
+//! The stream: what drives it, and what it flows over.
+
+use super::{Derive, table_at};
+use crate::complaint::Complaint;
+use toml::Value;
+
+/// What the log law's slope and its constant say: U = U* (8.5 + 5.75 log10(Z/k)).
+const CONSTANT: f64 = 8.5;
+const PER_DECADE: f64 = 5.75;
+
+impl Derive<'_> {
+    /// Turns gravity that was given as a number down the slope.
+    pub(super) fn slope(&mut self, resolved: &mut toml::Table) {
+        let Some(slope) = resolved.remove("slope").and_then(|slope| slope.as_float()) else { return };
+        let place = self.root.locate(&["slope"]);
+        if slope.abs() >= std::f64::consts::FRAC_PI_2 {
+            self.complain(
+                Complaint::new("the slope is too steep")
+                    .at(&place, format!("{:.4} deg", slope.to_degrees()))
+                    .hint("give less than 90 deg either way"),
+            );
+            return;
+        }
+        let Some(gravity) = resolved.get_mut("gravity").and_then(Value::as_array_mut) else { return };
+        let entries: Vec<f64> = gravity.iter().filter_map(Value::as_float).collect();
+        let &[x, y, z] = entries.as_slice() else { return };
+        if x != 0.0
+            || y != 0.0
+            || self.root.find(&["gravity"]).is_some_and(|typed| matches!(typed.value, crate::node::Value::List(_)))
+        {
+            self.complain(
+                Complaint::new("`slope` and a direction of gravity exclude each other")
+                    .at(&place, "turns gravity")
+                    .also(&self.root.locate(&["gravity"]), "has a direction of its own")
+                    .hint("give gravity as a number, or leave out `slope`"),
+            );
+            return;
+        }
+        gravity[0] = Value::Float(-z * slope.sin());
+        gravity[2] = Value::Float(z * slope.cos());
+    }
+
+    /// Shear velocity, roughness and surface of a stream.
+    pub(super) fn water(&mut self, resolved: &mut toml::Table) {
+        let diameter = mean_diameter(resolved);
+        let gravity: Vec<f64> = resolved
+            .get("gravity")
+            .and_then(Value::as_array)
+            .into_iter()
+            .flatten()
+            .filter_map(Value::as_float)
+            .collect();
+        let Some(water) = resolved.get_mut("water").and_then(Value::as_table_mut) else { return };
+        let path = ["water", "flow", "log-law"];
+        let Some(law) = water.get_mut("flow").and_then(|flow| flow.get_mut("log-law")).and_then(Value::as_table_mut)
+        else {
+            return;
+        };
+        let root = self.root;
+        let place = root.locate(&path);
+        let typed = |key: &str| root.find(&[path[0], path[1], path[2], key]).is_some();
+        let number = |law: &toml::Table, key: &str| law.get(key).and_then(Value::as_float);
+        if !law.contains_key("roughness") && !typed("roughness") {
+            if let Some(diameter) = diameter {
+                law.insert("roughness".into(), Value::Float(diameter));
+            } else {
+                self.complain(
+                    Complaint::new("the stream has no roughness")
+                        .at(&place, "needs `roughness`: there are no grains to take it from")
+                        .hint("roughness = \"2 mm\": the diameter of the grains of the bed"),
+                );
+            }
+        }
+        let depth = law.remove("depth").and_then(|depth| depth.as_float());
+        let discharge = law.remove("discharge").and_then(|discharge| discharge.as_float());
+        let roughness = number(law, "roughness");
+        if !typed("shear-velocity") && !typed("discharge") && !typed("depth") {
+            self.complain(
+                Complaint::new("nothing says how fast the stream is")
+                    .at(&place, "needs `shear-velocity`, `depth` or `discharge`")
+                    .hint("`depth`: on a slope, for example depth = \"2 cm\" with slope = \"3 deg\" at the top")
+                    .hint("`shear-velocity`: for example \"0.1 m/s\"")
+                    .hint("`discharge`: of water per width, together with `depth`"),
+            );
+        } else if typed("discharge") && !typed("depth") {
+            self.complain(
+                Complaint::new("a discharge tells the speed of a stream only together with its depth")
+                    .at(&self.root.locate(&[path[0], path[1], path[2], "discharge"]), "needs `depth` beside it"),
+            );
+        }
+        let found = match (number(law, "shear-velocity"), discharge, depth) {
+            (None, Some(discharge), Some(depth)) => roughness.map(|k| discharge / mean_speed(depth / k) / depth),
+            (None, None, Some(depth)) => {
+                let along = gravity.first().copied().unwrap_or(0.0);
+                // A slope that is wrong has its own complaint.
+                let steep = self.root.find(&["slope"]).is_some() && along == 0.0 && !self.complaints.is_empty();
+                if along <= 0.0 && !steep {
+                    self.complain(
+                        Complaint::new("the depth tells the speed of a stream only on a slope")
+                            .at(
+                                &self.root.locate(&[path[0], path[1], path[2], "depth"]),
+                                "nothing drives the water along x",
+                            )
+                            .hint("give slope = \"3 deg\" at the top, or `shear-velocity` or `discharge` here"),
+                    );
+                }
+                (along > 0.0).then(|| (along * depth).sqrt())
+            }
+            _ => None,
+        };
+        if let Some(found) = found {
+            law.insert("shear-velocity".into(), Value::Float(found));
+        }
+        let level = number(law, "zero-level");
+        if let (Some(level), Some(depth)) = (level, depth) {
+            water.entry("surface").or_insert(Value::Float(level + depth));
+        }
+    }
+}
+
+/// Mean over the depth of U/U* for a depth of `h` roughnesses: the integral of 8.5 + 5.75 log10(Z/k) from where it is zero.
+fn mean_speed(h: f64) -> f64 {
+    let b = PER_DECADE / std::f64::consts::LN_10;
+    let zero = (-CONSTANT / b).exp();
+    let integral = |z: f64| z * (CONSTANT - b + b * z.ln());
+    (integral(h.max(zero)) - integral(zero)) / h
+}
+
+/// Mean diameter of the grains by number.
+fn mean_diameter(resolved: &toml::Table) -> Option<f64> {
+    let groups = table_at(resolved, "particles")?.iter().filter_map(|(_, group)| {
+        let diameter = group.get("diameter")?.as_float()?;
+        let count = group.get("count")?.as_integer()? as f64;
+        (count > 0.0).then_some((count, count * diameter))
+    });
+    let (count, sum) = groups.fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1));
+    (count > 0.0).then(|| sum / count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::mean_speed;
+
+    /// The mean of the log law by Simpson's rule.
+    #[test]
+    fn the_mean_is_the_integral() {
+        let law = |z: f64| (8.5 + 5.75 * z.log10()).max(0.0);
+        let n = 1_000_000;
+        let h = 10.0;
+        let sum: f64 = (0..n).map(|i| law((f64::from(i) + 0.5) / f64::from(n) * h)).sum();
+        assert!((sum / f64::from(n) - mean_speed(h)).abs() < 1e-6 * mean_speed(h));
+    }
+}

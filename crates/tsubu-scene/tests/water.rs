@@ -1,0 +1,96 @@
+//! Water and slopes: what is meant, what follows, what is wrong.
+
+use crate::{complaint, read};
+use tsubu_scene::plan::{Drag, Flow};
+
+const STREAM: &str = r#"
+slope = "3 deg"
+duration = "1 s"
+
+[materials.quartz]
+young-modulus = "5 MPa"
+density = "2650 kg/m^3"
+
+[particles.sand]
+material = "quartz"
+count = 3
+diameter = "2 mm"
+start.at = { position = [[0, "1 mm"], ["3 mm", "1 mm"], ["6 mm", "1 mm"]] }
+
+[water]
+drag.schiller-naumann = {}
+flow.log-law = { depth = "2 cm" }
+"#;
+
+fn about(from: &str, to: &str) -> String {
+    assert!(STREAM.contains(from), "the scene has no `{from}`");
+    complaint(&STREAM.replacen(from, to, 1), &[])
+}
+
+#[test]
+fn shear_velocity_roughness_and_surface_follow() {
+    let scene = read(STREAM, &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let plan = scene.plan();
+    let (sin, cos) = 3f64.to_radians().sin_cos();
+    assert!((plan.gravity[0] - 9.8 * sin).abs() < 1e-12 && (plan.gravity[2] + 9.8 * cos).abs() < 1e-12);
+    let water = plan.water.as_ref().expect("water");
+    assert_eq!((water.density, water.viscosity, water.added_mass, water.surface), (1000.0, 1e-6, 0.5, Some(0.02)));
+    assert_eq!(water.drag, Drag::SchillerNaumann {});
+    let Flow::LogLaw { shear_velocity, roughness, zero_level } = water.flow else { panic!("{water:?}") };
+    assert!((shear_velocity - (9.8 * sin * 0.02).sqrt()).abs() < 1e-12);
+    assert_eq!((roughness, zero_level), (0.002, 0.0));
+    let again = read(&scene.resolved_toml(), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    assert_eq!(again.plan(), plan);
+    assert_eq!(again.resolved_toml(), scene.resolved_toml());
+}
+
+#[test]
+fn nothing_drives_the_stream() {
+    insta::assert_snapshot!(about("slope = \"3 deg\"", ""));
+    insta::assert_snapshot!(about("depth = \"2 cm\"", ""));
+    insta::assert_snapshot!(about("depth = \"2 cm\"", "discharge = \"0.01 m^2/s\""));
+}
+
+#[test]
+fn too_steep() {
+    insta::assert_snapshot!(about("3 deg", "95 deg"));
+}
+
+#[test]
+fn slope_and_a_direction_of_gravity() {
+    insta::assert_snapshot!(about("slope = \"3 deg\"", "slope = \"3 deg\"\ngravity = [1, -9]"));
+}
+
+#[test]
+fn depth_and_roughness_are_above_zero() {
+    insta::assert_snapshot!(about("depth = \"2 cm\"", "depth = \"-2 cm\", roughness = 0"));
+}
+
+#[test]
+fn wood_must_be_said_to_float() {
+    insta::assert_snapshot!(about("2650", "650"));
+    let scene = read(&STREAM.replace("2650", "650"), &["water.float=true"]);
+    assert!(scene.is_ok());
+}
+
+#[test]
+fn discs_do_not_swim() {
+    insta::assert_snapshot!(about("count = 3", "count = 3\nshape.disc = { thickness = \"1 mm\" }"));
+}
+
+#[test]
+fn a_profile_rises_and_is_paired() {
+    insta::assert_snapshot!(about(
+        "log-law = { depth = \"2 cm\" }",
+        "table = { height = [0, 2, 1], velocity = [0, 1, 2] }"
+    ));
+    insta::assert_snapshot!(about(
+        "log-law = { depth = \"2 cm\" }",
+        "table = { height = [0, 2], velocity = [0, 1, 2] }"
+    ));
+}
+
+#[test]
+fn the_surface_is_above_the_bed() {
+    insta::assert_snapshot!(about("[water]", "[water]\nsurface = \"-1 cm\""));
+}

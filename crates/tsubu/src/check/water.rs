@@ -1,0 +1,138 @@
+//! The verdict on grains in water: how fast drag answers, how fast grains sink, and whether the stream moves them.
+
+use super::{Verdict, speed_scale};
+use crate::partner::Hosts;
+use crate::water::Water;
+use glam::DVec3;
+use std::f64::consts::PI;
+use tsubu_scene::plan::{GrainMotion, Particles, Plan};
+
+/// Part of the drag relaxation time that a step may be: beyond it the drag of the last moment is not that of this one, and
+/// at two of them explicit steps blow up.
+pub const OF_RELAXATION: f64 = 0.1;
+
+/// Karman's constant, in the log law's 5.75 = ln(10)/0.40.
+const KARMAN: f64 = 0.40;
+
+/// A sphere of a group in the water of a scene.
+struct Sunk<'a> {
+    water: &'a Water,
+    diameter: f64,
+    /// Without added mass [kg].
+    mass: f64,
+}
+
+impl Sunk<'_> {
+    /// Mass that forces move [kg].
+    fn moved(&self) -> f64 {
+        self.mass + self.water.added_mass * self.displaced()
+    }
+
+    fn displaced(&self) -> f64 {
+        self.water.density * PI / 6.0 * self.diameter.powi(3)
+    }
+
+    /// Time in which drag takes a motion of this speed away, mass times speed over drag [s]; infinite without drag.
+    fn relaxation(&self, speed: f64) -> f64 {
+        self.moved() * speed / self.water.drag(0.5 * self.diameter, speed)
+    }
+
+    /// Speed at which drag carries the weight under water [m/s], by bisection; `None` without weight or drag.
+    fn terminal(&self, gravity: f64) -> Option<f64> {
+        let weight = (self.mass - self.displaced()).abs() * gravity;
+        let drag = |speed: f64| self.water.drag(0.5 * self.diameter, speed);
+        if weight <= 0.0 || drag(1.0) <= 0.0 {
+            return None;
+        }
+        let (mut low, mut high) = (0.0, 1e-9);
+        while drag(high) < weight {
+            (low, high) = (high, 2.0 * high);
+        }
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if drag(middle) < weight { low = middle } else { high = middle }
+        }
+        Some(high)
+    }
+}
+
+/// Groups that have grains which forces move, each with its smallest grain.
+fn sunk<'a>(plan: &'a Plan, water: &'a Water) -> impl Iterator<Item = (&'a String, &'a Particles, Sunk<'a>)> {
+    let moved = |group: &Particles| group.count > 0 && matches!(group.motion, GrainMotion::Free {});
+    let groups = plan.particles.iter().filter(move |(_, group)| moved(group));
+    groups.map(move |(name, group)| {
+        let diameter = group.smallest_diameter();
+        (name, group, Sunk { water, diameter, mass: group.mass * (diameter / group.diameter).powi(3) })
+    })
+}
+
+/// Fastest speed relative to the water [m/s].
+fn fastest(plan: &Plan, water: &Water, hosts: &Hosts) -> f64 {
+    speed_scale(plan, hosts).max(water.fastest(largest(plan)))
+}
+
+pub(super) fn largest(plan: &Plan) -> f64 {
+    plan.particles.values().map(Particles::largest_diameter).fold(0.0, f64::max)
+}
+
+/// Longest step that drag allows [s]; infinite in air.
+pub(super) fn longest_step(plan: &Plan, hosts: &Hosts) -> f64 {
+    let Some(water) = water(plan) else { return f64::INFINITY };
+    let speed = fastest(plan, &water, hosts);
+    let times = sunk(plan, &water).map(|(_, _, sunk)| OF_RELAXATION * sunk.relaxation(speed));
+    times.fold(f64::INFINITY, f64::min)
+}
+
+/// The water of a plan.
+pub(super) fn water(plan: &Plan) -> Option<Water> {
+    plan.water.as_ref().map(|water| Water::new(water, DVec3::from_array(plan.gravity)))
+}
+
+/// Judges the grains of a scene in its water.
+pub(super) fn judge(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64) {
+    let Some(water) = water(plan) else { return };
+    let speed = fastest(plan, &water, hosts);
+    let gravity = DVec3::from_array(plan.gravity).length();
+    for (name, group, sunk) in sunk(plan, &water) {
+        let time = sunk.relaxation(speed);
+        if time.is_finite() {
+            verdict.judge(
+                dt <= OF_RELAXATION * time * (1.0 + 1e-9),
+                format!(
+                    "{name} in water: drag takes a motion of {speed:.3} m/s away in {time:.3e} s, {:.0} steps (wanted: 10 or more, below 0.5 it blows up)",
+                    time / dt
+                ),
+                || format!("`dem.time-step` to {:.2e} s or less, or leave it out", OF_RELAXATION * time),
+            );
+        }
+        let terminal = sunk.terminal(gravity);
+        if let Some(terminal) = terminal {
+            let reynolds = terminal * sunk.diameter / water.viscosity;
+            let way = if sunk.mass < sunk.displaced() { "rises" } else { "sinks" };
+            verdict.say(format!("{name} in water: {way} at {terminal:.4} m/s in the end (Re = {reynolds:.3})"));
+        }
+        let Some(shear) = water.stream.shear_velocity() else { continue };
+        // At the mean grain, as in published transport rates.
+        let d = group.diameter;
+        let density = group.mass / (PI / 6.0 * d.powi(3));
+        let relative = density / water.density - 1.0;
+        if relative > 0.0 && gravity > 0.0 {
+            let shields = shear * shear / (relative * gravity * d);
+            let fate = match shields {
+                s if s < 0.045 => "it should lie still",
+                s if s < 1.0 => "it rolls and leaps",
+                _ => "it flows as a sheet",
+            };
+            verdict.say(format!(
+                "{name} in the stream: Shields number {shields:.3} (motion begins near 0.045: {fate}), U* = {shear:.4} m/s, U* d/nu = {:.0}",
+                shear * d / water.viscosity
+            ));
+        }
+        if let Some(terminal) = terminal {
+            let rouse = terminal / (KARMAN * shear);
+            let fate =
+                if rouse > 2.5 { "moves along the bed" } else { "turbulence would lift it: it is not in the model" };
+            verdict.say(format!("{name} in the stream: Rouse number {rouse:.2} ({fate})"));
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Grains in water: the forces of the water join those of the contacts.
+
+use super::engine::DemEngine;
+use super::touch::Block;
+use crate::contact::chunk::ROWS;
+use crate::find::candidates::{BLOCK, WORTH_THREADS};
+use crate::ledger::{Account, Ledger};
+use crate::state::Grains;
+use crate::water::{Flows, Parcel, Water};
+use glam::DVec3;
+use rayon::prelude::*;
+use std::sync::{Mutex, PoisonError};
+
+/// Water, and memory for every thread.
+#[derive(Debug)]
+pub(super) struct Wet {
+    pub water: Water,
+    scratch: Vec<Mutex<Parcel>>,
+    /// Of every block.
+    flows: Vec<Flows>,
+}
+
+impl Wet {
+    pub fn new(water: Water) -> Self {
+        Self { water, scratch: Vec::new(), flows: Vec::new() }
+    }
+
+    /// Adds the forces of the water to the loads of every block; returns what they do in all.
+    fn act(&mut self, grains: &Grains, blocks: &mut [Block], gravity: DVec3, held: bool) -> Flows {
+        let Self { water, scratch, flows } = self;
+        while scratch.len() < rayon::current_num_threads() {
+            scratch.push(Mutex::default());
+        }
+        flows.resize(blocks.len(), Flows::default());
+        let (water, scratch) = (&*water, &*scratch);
+        let work = |(number, (block, flows)): (usize, (&mut Block, &mut Flows))| {
+            let mine = rayon::current_thread_index().unwrap_or(0);
+            // Nobody else has this thread's parcel, so the lock is free.
+            let mut parcel = scratch[mine].lock().unwrap_or_else(PoisonError::into_inner);
+            let first = number * BLOCK;
+            *flows = block_of_grains(water, grains, first, block, &mut parcel, gravity, held);
+        };
+        let both = blocks.par_iter_mut().zip(flows.par_iter_mut());
+        if grains.len() >= WORTH_THREADS && rayon::current_num_threads() > 1 {
+            both.enumerate().with_max_len(1).for_each(work);
+        } else {
+            blocks.iter_mut().zip(flows.iter_mut()).enumerate().for_each(work);
+        }
+        let mut all = Flows::default();
+        for flows in flows {
+            all.add(flows);
+        }
+        all
+    }
+}
+
+/// The grains of one block, parcel by parcel.
+fn block_of_grains(
+    water: &Water,
+    grains: &Grains,
+    first: usize,
+    block: &mut Block,
+    parcel: &mut Parcel,
+    gravity: DVec3,
+    held: bool,
+) -> Flows {
+    let mut flows = Flows::default();
+    let last = (first + BLOCK).min(grains.len());
+    for begin in (first..last).step_by(ROWS) {
+        let n = ROWS.min(last - begin);
+        parcel.len = 0;
+        // Only what forces move: what frozen and driven grains feel is nobody's business.
+        let mut row = [0u16; ROWS];
+        for i in begin..begin + n {
+            if grains.inverse_mass[i] == 0.0 {
+                continue;
+            }
+            let r = parcel.len;
+            row[r] = (i - first) as u16;
+            parcel.height[r] = grains.position[i].z;
+            parcel.radius[r] = grains.radius[i];
+            for (k, (v, w)) in grains.velocity[i].to_array().into_iter().zip(grains.spin[i].to_array()).enumerate() {
+                parcel.velocity[k][r] = v;
+                parcel.spin[k][r] = w;
+            }
+            parcel.len += 1;
+        }
+        water.act(parcel, &mut flows, held);
+        for (r, own) in row.iter().take(parcel.len).enumerate() {
+            let load = &mut block.loads[*own as usize];
+            // The step adds gravity to the acceleration; the added mass, which it moves too, has no weight.
+            let added = grains.added_mass(first + *own as usize);
+            load.force += parcel.total(r) - added * gravity;
+        }
+    }
+    flows
+}
+
+impl DemEngine {
+    /// Gives every grain the added mass of where it is. Returns what the motion of that water has gained: energy [J] and
+    /// momentum [N.s].
+    pub(super) fn immerse(&mut self) -> (f64, DVec3) {
+        let Some(wet) = &self.wet else { return Default::default() };
+        let grains = &mut self.grains;
+        let (mut energy, mut momentum) = (0.0, DVec3::ZERO);
+        for i in 0..grains.len() {
+            if grains.inverse_mass[i] == 0.0 {
+                continue;
+            }
+            let added = wet.water.added_mass(grains.radius[i], grains.position[i].z);
+            let gained = (added - grains.added_mass(i)) * grains.velocity[i];
+            energy += 0.5 * gained.dot(grains.velocity[i]);
+            momentum += gained;
+            grains.inverse_mass[i] = 1.0 / (grains.mass[i] + added);
+        }
+        (energy, momentum)
+    }
+
+    /// The same within a step, where there is a surface to go through.
+    pub(super) fn sink(&mut self, ledger: &mut Ledger) {
+        if !self.wet.as_ref().is_some_and(|wet| wet.water.has_surface()) {
+            return;
+        }
+        let (energy, momentum) = self.immerse();
+        ledger.post(Account::Buoyancy, energy);
+        for (axis, impulse) in ledger.water_impulse.iter_mut().enumerate() {
+            *impulse += momentum[axis];
+        }
+    }
+
+    /// Adds the forces of the water to those of the contacts.
+    pub(super) fn soak(&mut self) {
+        let Some(wet) = &mut self.wet else { return };
+        self.water_flows = wet.act(&self.grains, &mut self.touch.blocks, self.gravity, self.walls_held);
+    }
+}

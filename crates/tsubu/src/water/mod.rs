@@ -1,0 +1,113 @@
+//! Water: how it moves, and what it does to grains.
+//!
+//! Forces are parts, one file each, as those of a contact law are: they act on columns of grains ([`Parcel`]), one after
+//! the other, and know nothing of threads, dimensions or books. Who owns the grains asks [`Water::act`] for the forces of a
+//! moment and gets the sums for the books with them.
+
+#![allow(clippy::inline_always, reason = "a call inside a row would end the vector code of its loop")]
+
+mod buoyancy;
+mod drag;
+mod parcel;
+mod part;
+mod stream;
+
+pub use parcel::{Flows, Parcel};
+pub use part::{Kind, Part};
+pub use stream::Stream;
+
+use buoyancy::Buoyancy;
+use drag::Drag;
+use glam::DVec3;
+use std::f64::consts::PI;
+use tsubu_scene::plan;
+
+/// The water of a scene.
+#[derive(Debug)]
+pub struct Water {
+    /// Density [kg/m^3].
+    pub density: f64,
+    /// Kinematic viscosity [m^2/s].
+    pub viscosity: f64,
+    /// Height up to which there is water [m]; infinite where there is no surface.
+    pub surface: f64,
+    /// Added mass over the mass of displaced water [-].
+    pub added_mass: f64,
+    /// How it moves.
+    pub stream: Stream,
+    parts: Vec<Box<dyn Part>>,
+}
+
+impl Water {
+    /// The water of a plan, under `gravity` [m/s^2].
+    pub fn new(plan: &plan::Water, gravity: DVec3) -> Self {
+        let mut parts: Vec<Box<dyn Part>> = vec![Box::new(Buoyancy::new(plan, gravity))];
+        if plan.drag != (plan::Drag::None {}) {
+            parts.push(Box::new(Drag::new(plan)));
+        }
+        Self {
+            density: plan.density,
+            viscosity: plan.viscosity,
+            surface: plan.surface.unwrap_or(f64::INFINITY),
+            added_mass: plan.added_mass,
+            stream: Stream::new(&plan.flow),
+            parts,
+        }
+    }
+
+    /// The parts that act.
+    pub fn parts(&self) -> impl Iterator<Item = &dyn Part> {
+        self.parts.iter().map(|part| &**part)
+    }
+
+    /// Mass of water that moves along with a grain of this radius [m] when it is at `height` z [m]: C rho V, V what is under
+    /// water [kg].
+    pub fn added_mass(&self, radius: f64, height: f64) -> f64 {
+        self.added_mass * self.density * 4.0 / 3.0 * PI * radius.powi(3) * under(self.surface, radius, height)
+    }
+
+    /// Drag of a sphere of this radius [m] in water that passes it at `speed` [m/s]: the size of all forces that go with the
+    /// motion relative to the water, in N.
+    pub fn drag(&self, radius: f64, speed: f64) -> f64 {
+        let mut parcel = Parcel { len: 1, ..Parcel::default() };
+        parcel.radius[0] = radius;
+        parcel.begin(f64::INFINITY);
+        parcel.flow[0][0] = speed;
+        parcel.slip();
+        for part in self.parts.iter().filter(|part| part.kind() == Kind::Relative) {
+            part.apply(&mut parcel);
+            parcel.post(Kind::Relative, &mut Flows::default());
+        }
+        parcel.total(0).length()
+    }
+
+    /// Fastest water that grains of this diameter [m] meet: at the surface, or ten diameters above the bed [m/s].
+    pub fn fastest(&self, diameter: f64) -> f64 {
+        self.stream.fastest(self.surface, diameter)
+    }
+
+    /// Whether what moves along with a grain depends on where the grain is.
+    pub fn has_surface(&self) -> bool {
+        self.surface.is_finite()
+    }
+
+    /// Forces and torques on the grains of a parcel, whose place, motion and size are filled in; adds their flows to `flows`.
+    /// In water that is held still (while grains settle before time 0) nothing flows.
+    pub fn act(&self, parcel: &mut Parcel, flows: &mut Flows, held: bool) {
+        parcel.begin(self.surface);
+        if !held {
+            self.stream.fill(parcel);
+        }
+        parcel.slip();
+        for part in &self.parts {
+            part.apply(parcel);
+            parcel.post(part.kind(), flows);
+        }
+    }
+}
+
+/// Share of a sphere's volume that is under a surface.
+pub(crate) fn under(surface: f64, radius: f64, height: f64) -> f64 {
+    let t = ((surface - height) / radius).clamp(-1.0, 1.0);
+    0.5 + 0.75 * t - 0.25 * t * t * t
+}

@@ -1,0 +1,184 @@
+//! A parcel: up to 128 grains in water as plain columns.
+
+use super::part::Kind;
+use crate::contact::chunk::{Column, ROWS, ZERO};
+use glam::DVec3;
+use multiversion::multiversion;
+use std::f64::consts::PI;
+
+const VECTOR: [Column; 3] = [ZERO; 3];
+
+/// Grains in water. The engine fills in what they are and how they move, the water how it moves there, the parts their
+/// forces.
+#[derive(Clone, Debug)]
+pub struct Parcel {
+    /// Rows in use; read it with [`Parcel::rows`].
+    pub len: usize,
+
+    /// Height z of the centre [m].
+    pub height: Column,
+    /// Radius [m].
+    pub radius: Column,
+    /// Velocity [m/s].
+    pub velocity: [Column; 3],
+    /// Spin [rad/s].
+    pub spin: [Column; 3],
+
+    /// Share of the grain that is under water [-].
+    pub wet: Column,
+    /// Volume under water [m^3].
+    pub volume: Column,
+    /// Velocity of the water at the centre, as it would be without the grain [m/s].
+    pub flow: [Column; 3],
+    /// Velocity of the water relative to the grain [m/s].
+    pub slip: [Column; 3],
+    /// Its size [m/s].
+    pub speed: Column,
+
+    /// Result: force of the part that acts [N].
+    pub force: [Column; 3],
+    /// Result: force of all parts so far [N].
+    pub total: [Column; 3],
+}
+
+/// What the water does to grains, summed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Flows {
+    /// Power of the pressure on the grains [W].
+    pub pressure: f64,
+    /// Power of the stream: forces times its velocity [W].
+    pub stream: f64,
+    /// Power lost: forces times the velocity of the water relative to the grains [W].
+    pub lost: f64,
+    /// Force on the grains [N].
+    pub force: DVec3,
+}
+
+impl Flows {
+    /// Adds other flows.
+    pub fn add(&mut self, other: &Self) {
+        self.pressure += other.pressure;
+        self.stream += other.stream;
+        self.lost += other.lost;
+        self.force += other.force;
+    }
+}
+
+impl Default for Parcel {
+    fn default() -> Self {
+        Self {
+            len: 0,
+            height: ZERO,
+            radius: ZERO,
+            velocity: VECTOR,
+            spin: VECTOR,
+            wet: ZERO,
+            volume: ZERO,
+            flow: VECTOR,
+            slip: VECTOR,
+            speed: ZERO,
+            force: VECTOR,
+            total: VECTOR,
+        }
+    }
+}
+
+impl Parcel {
+    /// Rows in use. The bound is said again for the compiler: loops up to it index columns without checks.
+    #[inline(always)]
+    pub fn rows(&self) -> usize {
+        self.len.min(ROWS)
+    }
+
+    /// Force of all parts on row `i` [N].
+    #[inline(always)]
+    pub fn total(&self, i: usize) -> DVec3 {
+        DVec3::new(self.total[0][i], self.total[1][i], self.total[2][i])
+    }
+
+    /// What is under water; still water and no force yet.
+    pub(super) fn begin(&mut self, surface: f64) {
+        begin(self, surface);
+    }
+
+    /// The motion of the water relative to the grains.
+    pub(super) fn slip(&mut self) {
+        slip(self);
+    }
+
+    /// Adds the force of a part to the total, and its work to the flows.
+    pub(super) fn post(&mut self, kind: Kind, flows: &mut Flows) {
+        let [x, y, z, with_grain, with_flow] = post(self);
+        match kind {
+            Kind::Pressure => flows.pressure += with_grain,
+            Kind::Relative => {
+                flows.stream += with_flow;
+                flows.lost += with_flow - with_grain;
+            }
+        }
+        flows.force += DVec3::new(x, y, z);
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn begin(p: &mut Parcel, surface: f64) {
+    let n = p.rows();
+    for i in 0..n {
+        let r = p.radius[i];
+        let t = ((surface - p.height[i]) / r).clamp(-1.0, 1.0);
+        let wet = 0.5 + 0.75 * t - 0.25 * t * t * t;
+        p.wet[i] = wet;
+        p.volume[i] = wet * (4.0 / 3.0 * PI) * (r * r * r);
+    }
+    for k in 0..3 {
+        p.flow[k][..n].fill(0.0);
+        p.total[k][..n].fill(0.0);
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn slip(p: &mut Parcel) {
+    for i in 0..p.rows() {
+        let [x, y, z] = [0, 1, 2].map(|k| p.flow[k][i] - p.velocity[k][i]);
+        p.slip[0][i] = x;
+        p.slip[1][i] = y;
+        p.slip[2][i] = z;
+        p.speed[i] = (x * x + y * y + z * z).sqrt();
+    }
+}
+
+/// Sums of the force, of its power with the grains' velocity, and with that of the water.
+#[multiversion(targets = "simd")]
+fn post(p: &mut Parcel) -> [f64; 5] {
+    let n = p.rows();
+    let mut sums = [0.0; 5];
+    for k in 0..3 {
+        let (force, total) = (&p.force[k], &mut p.total[k]);
+        let (velocity, flow) = (&p.velocity[k], &p.flow[k]);
+        // Eight partial sums, so that additions need not wait for one another.
+        let mut parts = [[0.0; 8]; 3];
+        let mut i = 0;
+        while i + 8 <= n {
+            for j in 0..8 {
+                let f = force[i + j];
+                total[i + j] += f;
+                parts[0][j] += f;
+                parts[1][j] += f * velocity[i + j];
+                parts[2][j] += f * flow[i + j];
+            }
+            i += 8;
+        }
+        while i < n {
+            let f = force[i];
+            total[i] += f;
+            parts[0][0] += f;
+            parts[1][0] += f * velocity[i];
+            parts[2][0] += f * flow[i];
+            i += 1;
+        }
+        sums[k] = parts[0].iter().sum();
+        sums[3] += parts[1].iter().sum::<f64>();
+        sums[4] += parts[2].iter().sum::<f64>();
+    }
+    sums
+}

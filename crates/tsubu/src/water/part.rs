@@ -1,0 +1,29 @@
+//! A part: one force of the water.
+
+use super::Parcel;
+use crate::contact::part::About;
+
+/// What becomes of the work of a force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// All of it is the grain's: pressure.
+    Pressure,
+    /// It goes with the motion relative to the water: to a grain that goes along with the stream it does the stream's work,
+    /// what is missing from that is lost.
+    Relative,
+}
+
+/// One force of the water on grains.
+///
+/// A part reads the columns of the parcel and writes its force (and torque, if it has one) into it. It knows nothing of
+/// other parts, of threads, or of the books.
+pub trait Part: Send + Sync + std::fmt::Debug {
+    /// Its text.
+    fn about(&self) -> &'static About;
+
+    /// What becomes of its work.
+    fn kind(&self) -> Kind;
+
+    /// Writes the force on every grain of the parcel.
+    fn apply(&self, parcel: &mut Parcel);
+}
