@@ -59,6 +59,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/powder.toml"),
     },
     Template {
+        name: "dam-break",
+        about: "a bed of grains leans on a gate that vanishes: the bed runs out and stops",
+        text: include_str!("../../../scenes/dam-break.toml"),
+    },
+    Template {
         name: "press",
         about: "a lid under constant pressure sinks onto a bed and stops",
         text: include_str!("../../../scenes/press.toml"),

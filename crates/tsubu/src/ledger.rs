@@ -43,11 +43,13 @@ pub enum Account {
     HeavyBox,
     /// Energy that grains brought which came in, less what those took that were removed [J].
     Exchange,
+    /// Energy that contacts held with walls when these vanished: negative, it goes with them [J].
+    Gates,
 }
 
 impl Account {
     /// All accounts, in the order they are reported.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::BaseWork,
         Self::ForceWork,
         Self::WallWork,
@@ -62,6 +64,7 @@ impl Account {
         Self::LatticeRules,
         Self::HeavyBox,
         Self::Exchange,
+        Self::Gates,
     ];
 
     /// Name in summaries and figures.
@@ -81,6 +84,7 @@ impl Account {
             Self::LatticeRules => "lattice rules",
             Self::HeavyBox => "heavy box",
             Self::Exchange => "grains in and out",
+            Self::Gates => "vanished walls",
         }
     }
 
@@ -88,7 +92,13 @@ impl Account {
     pub fn is_work(self) -> bool {
         matches!(
             self,
-            Self::BaseWork | Self::ForceWork | Self::WallWork | Self::StreamWork | Self::Buoyancy | Self::Exchange
+            Self::BaseWork
+                | Self::ForceWork
+                | Self::WallWork
+                | Self::StreamWork
+                | Self::Buoyancy
+                | Self::Exchange
+                | Self::Gates
         )
     }
 }

@@ -1,14 +1,14 @@
 //! Walls, and the ends of the world: their shapes, who moves them, where space repeats, where grains vanish.
 
 use super::{Family, Key, Kind, Variant, hosts};
-use crate::units::{AREA, DAMPING, FORCE, INERTIA, LENGTH, MASS, NUMBER, PRESSURE, SPEED, SPIN};
+use crate::units::{AREA, DAMPING, FORCE, INERTIA, LENGTH, MASS, NUMBER, PRESSURE, SPEED, SPIN, TIME};
 
 pub(super) static WALL: &[Key] = &[
     Key::new("material", Kind::Name(Family::Material), "Name of the material"),
     Key::new("shape", Kind::Choice(SHAPE), "Its geometry"),
     Key::new("host", Kind::Name(Family::Host), "The host that carries it")
         .optional()
-        .rivals(&["motion", "rotation", "servo", "body"]),
+        .rivals(&["motion", "rotation", "servo", "body", "until"]),
     Key::new("motion", Kind::Table(MOTION), "Prescribed motion, for example a shaker")
         .optional()
         .rivals(&["host", "servo", "body"]),
@@ -25,10 +25,14 @@ pub(super) static WALL: &[Key] = &[
         "A mass on a guide that a constant force pushes: M s'' = F - c s' + F_grains",
     )
     .optional()
-    .rivals(&["host", "motion", "rotation", "body"]),
+    .rivals(&["host", "motion", "rotation", "body", "until"]),
     Key::new("body", Kind::Table(BODY), "A free rigid body under gravity and the grains' forces")
         .optional()
-        .rivals(&["host", "motion", "rotation", "servo"]),
+        .rivals(&["host", "motion", "rotation", "servo", "until"]),
+    Key::new("until", Kind::Quantity(&TIME), "When it vanishes: a gate; while grains settle before time 0 it is there")
+        .above(0.0)
+        .optional()
+        .rivals(&["host", "servo", "body"]),
 ];
 
 const POINT: Key = Key::new("point", Kind::Vector(&LENGTH), "Centre of one end").default("'origin'");

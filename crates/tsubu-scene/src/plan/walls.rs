@@ -21,6 +21,8 @@ pub struct Wall {
     pub servo: Option<Servo>,
     /// A free rigid body under gravity and the grains' forces.
     pub body: Option<Body>,
+    /// When it vanishes [s]: a gate; not together with `host`, `servo` or `body`.
+    pub until: Option<f64>,
 }
 
 /// Turning about a fixed axis: right-handed angle against time.

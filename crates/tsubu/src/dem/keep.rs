@@ -60,7 +60,7 @@ impl DemEngine {
         for (n, (contact, history)) in names.iter().zip(history.chunks_exact_mut(width)).enumerate() {
             let law = &laws[contact.law as usize];
             let place = if contact.wall {
-                index(contact.first).map(|i| {
+                index(contact.first).filter(|_| !self.walls[contact.second as usize].gone()).map(|i| {
                     let key = WallKey { own: i % BLOCK as u32, wall: contact.second, patch: contact.patch };
                     walls[i as usize / BLOCK].push((key, n));
                 })

@@ -3,6 +3,7 @@
 mod drawn;
 pub mod engine;
 mod fill;
+mod gates;
 mod integrate;
 mod keep;
 mod memory;

@@ -137,6 +137,7 @@ impl DemEngine {
         self.grains = Grains::load("grains", grains as usize, state)?;
         self.total_mass = self.grains.moved_mass();
         (self.step, self.grain_steps, self.sums.contacts) = (step as u64, grain_steps as u64, contacts as usize);
+        self.place_gates();
         self.orientation.load(state)?;
         self.sources.set_placed(state.integer("dem.streams")?);
         let flows = state.real("dem.flows")?;

@@ -15,9 +15,9 @@ impl DemEngine {
     /// Moves everything by one time step. With `go_on` the grains have begun the next step when it ends: the first half of
     /// that step is done together with the second half of this one.
     pub(super) fn step(&mut self, hosts: &mut Hosts, ledger: &mut Ledger, go_on: bool) -> Result<(), Fault> {
-        // Grains come and go between steps, so a step before a look is done to its end.
-        let looks = self.looks(self.step + 1);
-        let go_on = go_on && !looks;
+        // Grains come and go, and gates open, between steps; a step before that is done to its end.
+        let (looks, opens) = (self.looks(self.step + 1), self.opens(self.step + 1));
+        let go_on = go_on && !looks && !opens;
         if !std::mem::replace(&mut self.begun, go_on) {
             let motion = self.motion(self.dt);
             integrate::before(&mut self.grains, &mut self.candidates, &mut self.reports, &motion);
@@ -43,6 +43,9 @@ impl DemEngine {
         self.close_books(ledger);
         if looks {
             self.come_and_go(ledger);
+        }
+        if opens {
+            self.open_gates(ledger);
         }
         Ok(())
     }
@@ -86,7 +89,7 @@ impl DemEngine {
         self.sums = sums;
     }
 
-    /// Forces, stocks and powers of a moment that no step has led to: at time 0, and after grains have gone.
+    /// Forces, stocks and powers of a moment that no step has led to: at time 0, and after grains or walls have gone.
     pub(super) fn stand(&mut self) {
         // Without time, bodies that adhere take hold of each other and springs stay as they are. Powers have no meaning then:
         // what snapping together sets free has gone before the books open.

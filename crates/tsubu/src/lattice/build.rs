@@ -166,7 +166,13 @@ fn casing<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Option<Casing<'a>> {
         return None;
     }
     let (name, wall) = plan.walls.iter().next()?;
-    let plan::Wall { material, shape, host, motion, rotation, servo, body } = wall;
+    let plan::Wall { material, shape, host, motion, rotation, servo, body, until } = wall;
+    if until.is_some() {
+        remarks.refuse(
+            format!("walls.{name}.until"),
+            "the automaton's balls live in a closed box; use `method = \"dem\"`",
+        );
+    }
     for (key, there) in [("rotation", rotation.is_some()), ("servo", servo.is_some()), ("body", body.is_some())] {
         if there {
             remarks.refuse(

@@ -55,6 +55,10 @@ pub struct Wall {
     pub mover: Mover,
     /// Prescribed turning, on top of `mover`.
     pub turning: Option<Turning>,
+    /// When it vanishes [s].
+    pub until: Option<f64>,
+    /// Whether it has vanished: nothing touches it then, and nobody sees it.
+    gone: bool,
     outline: Outline,
     /// In the plane y is an exact zero, whatever rounding says.
     in_plane: bool,
@@ -83,6 +87,8 @@ impl Wall {
             surface,
             mover,
             turning,
+            until: plan.until,
+            gone: false,
             outline,
             in_plane: dimension == 2,
         };
@@ -103,15 +109,35 @@ impl Wall {
         self.surface.elements()
     }
 
+    /// Whether it has vanished.
+    pub fn gone(&self) -> bool {
+        self.gone
+    }
+
+    /// Whether it should have vanished at `time` [s]. The end of the step that reaches the moment counts, whatever
+    /// rounding makes of the product of steps and step.
+    pub fn goes_by(&self, time: f64) -> bool {
+        self.until.is_some_and(|until| time >= until * (1.0 - 1e-9))
+    }
+
+    /// Makes it vanish, or brings it back, as `time` [s] wants. Candidates must be found again after that.
+    pub fn stand_or_go(&mut self, time: f64) {
+        self.gone = self.goes_by(time);
+    }
+
     /// Puts the elements whose distance from a point is below `reach` [m] into `out`, ascending.
     pub fn near(&self, centre: DVec3, reach: f64, out: &mut Vec<u32>) {
+        if self.gone {
+            out.clear();
+            return;
+        }
         self.surface.near(self.pose.to_own(centre), reach, out);
     }
 
     /// Whether a point lies within a drum, cone or shell; `None` beyond open ends, and for walls without an inside.
     /// A mesh may be anything, so it has none.
     pub fn encloses(&self, point: DVec3) -> Option<bool> {
-        self.surface.encloses(self.pose.to_own(point))
+        if self.gone { None } else { self.surface.encloses(self.pose.to_own(point)) }
     }
 
     /// The nearest point of an element to a point, both in the world.
@@ -240,7 +266,7 @@ impl Wall {
     /// Point and normal of a plane that stands alone: it has no end, and is drawn as large as the rest of a picture.
     pub fn lone_plane(&self) -> Option<(DVec3, DVec3)> {
         match &self.surface {
-            Surface::HalfSpaces { planes, .. } if planes.len() == 1 => {
+            Surface::HalfSpaces { planes, .. } if planes.len() == 1 && !self.gone => {
                 Some((self.pose.to_world(planes[0].point), self.pose.direction(planes[0].normal)))
             }
             _ => None,
@@ -249,7 +275,7 @@ impl Wall {
 
     /// Lines and triangles for pictures, where they are now.
     pub fn outline(&self) -> Outline {
-        self.outline.placed(&self.pose)
+        if self.gone { Outline::default() } else { self.outline.placed(&self.pose) }
     }
 
     /// Writes the state of a servo or body into a checkpoint; other walls have none.

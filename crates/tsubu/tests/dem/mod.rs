@@ -3,6 +3,7 @@
 mod books;
 mod come_and_go;
 mod everything;
+mod gates;
 mod orientation;
 mod pairs;
 mod place;

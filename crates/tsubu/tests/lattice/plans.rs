@@ -40,6 +40,7 @@ pub fn plan(count: usize, mode: LatticeMode) -> Plan {
         rotation: None,
         servo: None,
         body: None,
+        until: None,
     };
     Plan {
         title: "damper".into(),

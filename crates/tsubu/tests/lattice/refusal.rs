@@ -31,6 +31,9 @@ fn bad_plans_are_refused_with_all_reasons() {
     let mut bad = good();
     casing(&mut bad).shape = Shape::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
     assert!(message(&bad).contains("walls.casing.shape.plane: "), "{}", message(&bad));
+    let mut bad = good();
+    casing(&mut bad).until = Some(0.5);
+    assert!(message(&bad).contains("walls.casing.until: "), "{}", message(&bad));
     let bad = at(good(), vec![[0.0, 0.0, 0.02], [0.0, 0.0, 0.0201]], vec![]);
     assert!(message(&bad).contains("particles.balls.start.at.position[1]: "), "{}", message(&bad));
     let mut bad = coupled(good(), 1e-3, 1.0);

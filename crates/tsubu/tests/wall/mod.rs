@@ -57,7 +57,16 @@ impl Dice {
 
 /// A still wall of a shape in the plan's terms.
 pub fn plan_wall(shape: Shape) -> plan::Wall {
-    plan::Wall { material: "any".to_owned(), shape, host: None, motion: None, rotation: None, servo: None, body: None }
+    plan::Wall {
+        material: "any".to_owned(),
+        shape,
+        host: None,
+        motion: None,
+        rotation: None,
+        servo: None,
+        body: None,
+        until: None,
+    }
 }
 
 /// A wall in space without hosts or gravity.
