@@ -94,3 +94,18 @@ fn a_profile_rises_and_is_paired() {
 fn the_surface_is_above_the_bed() {
     insta::assert_snapshot!(about("[water]", "[water]\nsurface = \"-1 cm\""));
 }
+
+#[test]
+fn what_acts_on_spin_is_for_grains_that_spin() {
+    insta::assert_snapshot!(about(
+        "[water]",
+        "[contact]\nrotation = false\n\n[water]\ntorque.stokes = {}\nlift = [\"saffman\", \"magnus\"]"
+    ));
+}
+
+#[test]
+fn no_lift_is_counted_twice() {
+    insta::assert_snapshot!(about("[water]", "[water]\nlift = [\"saffman\", \"saffman-mei\"]"));
+    let scene = read(STREAM, &["water.lift=[]"]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    assert_eq!(scene.plan().water.as_ref().expect("water").lift, []);
+}

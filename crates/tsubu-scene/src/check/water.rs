@@ -3,7 +3,7 @@
 use super::Parts;
 use super::place::millimetres;
 use crate::complaint::Complaint;
-use crate::plan::{Flow, GrainShape, Water};
+use crate::plan::{Flow, GrainShape, Lift, Torque, Water};
 use std::f64::consts::PI;
 
 pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
@@ -32,6 +32,7 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
             );
         }
     }
+    turning(parts, &water, complaints);
     match &water.flow {
         Flow::Still {} => {}
         Flow::LogLaw { zero_level, .. } => {
@@ -60,6 +61,44 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
                     format!("{} after {}", millimetres(height[k]), millimetres(height[k - 1])),
                 ));
             }
+        }
+    }
+}
+
+/// What needs grains that spin, and lifts that exclude each other.
+fn turning(parts: &Parts<'_>, water: &Water, complaints: &mut Vec<Complaint>) {
+    let at = |keys: &[&str]| parts.root.locate(keys);
+    let contact = parts.resolved.get("contact").and_then(toml::Value::as_table);
+    let locked = contact.and_then(|contact| contact.get("rotation")).and_then(toml::Value::as_bool) == Some(false);
+    let torque = match water.torque {
+        Torque::None {} => None,
+        Torque::Stokes {} => Some("stokes"),
+        Torque::FiniteReynolds {} => Some("finite-reynolds"),
+    };
+    let torque = torque.map(|name| (format!("`water.torque.{name}`"), at(&["water", "torque", name])));
+    let lift = |lift: Lift| water.lift.contains(&lift);
+    let magnus = [(Lift::Magnus, "magnus"), (Lift::MagnusOesterleDinh, "magnus-oesterle-dinh")]
+        .into_iter()
+        .filter(|(word, _)| lift(*word))
+        .map(|(_, name)| (format!("`{name}` in `water.lift`"), at(&["water", "lift"])));
+    for (name, place) in torque.into_iter().chain(magnus).filter(|_| locked) {
+        complaints.push(
+            Complaint::new(format!("{name} is for grains that spin"))
+                .at(&place, "acts on spin")
+                .also(&at(&["contact", "rotation"]), "they do not")
+                .hint("leave it out, or write rotation = true in [contact]"),
+        );
+    }
+    for (slow, any, what, names) in [
+        (Lift::Saffman, Lift::SaffmanMei, "shear", ["saffman", "saffman-mei"]),
+        (Lift::Magnus, Lift::MagnusOesterleDinh, "spin", ["magnus", "magnus-oesterle-dinh"]),
+    ] {
+        if lift(slow) && lift(any) {
+            complaints.push(
+                Complaint::new(format!("the lift by {what} would be counted twice"))
+                    .at(&at(&["water", "lift"]), format!("`{}` is `{}`, corrected", names[1], names[0]))
+                    .hint(format!("leave one of them out; `{}` alone is for slow flow", names[0])),
+            );
         }
     }
 }

@@ -23,6 +23,9 @@ pub(super) static WATER: &[Key] = &[
     Key::new("flow", Kind::Choice(FLOW), "How the water moves").default("{ still = {} }"),
     Key::new("drag", Kind::Choice(DRAG), "Resistance to motion through the water, by the drag coefficient")
         .default("{ stokes-newton = {} }"),
+    Key::new("torque", Kind::Choice(TORQUE), "Resistance to spin; grains must spin, `contact.rotation`")
+        .default("{ none = {} }"),
+    Key::new("lift", Kind::SomeOf(LIFT), "Forces across the motion relative to the water").default("[]"),
 ];
 
 static BUOYANCY: &[Word] = &[
@@ -84,4 +87,27 @@ static DRAG: &[Variant] = &[
         keys: &[],
     },
     Variant { name: "abraham", about: "C = (0.63 + 4.8/sqrt(Re))^2 (Dalla Valle 1948; Abraham 1970)", keys: &[] },
+];
+
+static TORQUE: &[Variant] = &[
+    Variant { name: "none", about: "No torque: only contacts change the spin (Osada et al. 2004)", keys: &[] },
+    Variant { name: "stokes", about: "8 pi mu r^3 (Omega - w), Omega half the vorticity of the stream", keys: &[] },
+    Variant {
+        name: "finite-reynolds",
+        about: "the same, and rho/2 r^5 |Omega - w|^2 (12.9/sqrt(Re) + 128.4/Re) from Re = |Omega - w| d^2/nu = 32 on (Dennis, Singh and Ingham 1980)",
+        keys: &[],
+    },
+];
+
+static LIFT: &[Word] = &[
+    Word { name: "saffman", about: "by shear, in slow flow (Saffman 1965)" },
+    Word { name: "saffman-mei", about: "by shear, up to Re of 100 and more (Mei 1992); in place of `saffman`" },
+    Word {
+        name: "magnus",
+        about: "by spin, in slow flow (Rubinow and Keller 1961); grains must spin, `contact.rotation`",
+    },
+    Word {
+        name: "magnus-oesterle-dinh",
+        about: "by spin, up to Re of 140 and more (Oesterle and Dinh 1998); in place of `magnus`",
+    },
 ];

@@ -22,6 +22,10 @@ pub struct Water {
     pub flow: Flow,
     /// Drag coefficient.
     pub drag: Drag,
+    /// Torque on spin.
+    pub torque: Torque,
+    /// Forces across the motion relative to the water.
+    pub lift: Vec<Lift>,
 }
 
 /// Which part of the stress in the water carries the grains.
@@ -78,4 +82,30 @@ pub enum Drag {
     SchillerNaumann {},
     /// C = (0.63 + 4.8/sqrt(Re))^2.
     Abraham {},
+}
+
+/// The torque of the water on a grain that turns at another spin than it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Torque {
+    /// None.
+    None {},
+    /// 8 pi mu r^3 (Omega - w).
+    Stokes {},
+    /// The same beyond slow spin (Dennis, Singh and Ingham 1980).
+    FiniteReynolds {},
+}
+
+/// A force across the motion relative to the water.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Lift {
+    /// By shear, slow (Saffman 1965).
+    Saffman,
+    /// By shear, slow or fast (Mei 1992).
+    SaffmanMei,
+    /// By spin, slow (Rubinow and Keller 1961).
+    Magnus,
+    /// By spin, slow or fast (Oesterle and Dinh 1998).
+    MagnusOesterleDinh,
 }

@@ -2,7 +2,7 @@
 
 use super::Resolver;
 use crate::complaint::Complaint;
-use crate::keys::{Key, Kind};
+use crate::keys::{Key, Kind, Need};
 use crate::node::{Node, Value};
 
 impl Resolver<'_> {
@@ -19,7 +19,8 @@ impl Resolver<'_> {
             _ => None,
         })?;
         let (Value::List(nodes), Some(values)) = (&node.value, list.as_array()) else { return None };
-        if values.is_empty() {
+        // Where nothing is the default, nothing can be asked for.
+        if values.is_empty() && !matches!(key.need, Need::Default("[]")) {
             self.complain(
                 Complaint::new(format!("`{}` is an empty list", key.name)).at(&node.place, "nothing is asked for"),
             );

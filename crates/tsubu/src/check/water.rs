@@ -5,7 +5,7 @@ use crate::partner::Hosts;
 use crate::water::Water;
 use glam::DVec3;
 use std::f64::consts::PI;
-use tsubu_scene::plan::{GrainMotion, Particles, Plan};
+use tsubu_scene::plan::{self, GrainMotion, Particles, Plan, Torque};
 
 /// Part of the drag relaxation time that a step may be: beyond it the drag of the last moment is not that of this one, and
 /// at two of them explicit steps blow up.
@@ -35,6 +35,12 @@ impl Sunk<'_> {
     /// Time in which drag takes a motion of this speed away, mass times speed over drag [s]; infinite without drag.
     fn relaxation(&self, speed: f64) -> f64 {
         self.moved() * speed / self.water.drag(0.5 * self.diameter, speed)
+    }
+
+    /// Time in which the water takes this spin [rad/s] away, inertia times spin over torque [s]; infinite without torque.
+    fn spin_down(&self, spin: f64) -> f64 {
+        let radius = 0.5 * self.diameter;
+        0.4 * self.mass * radius * radius * spin / self.water.torque(radius, spin)
     }
 
     /// Speed at which drag carries the weight under water [m/s], by bisection; `None` without weight or drag.
@@ -75,12 +81,44 @@ pub(super) fn largest(plan: &Plan) -> f64 {
     plan.particles.values().map(Particles::largest_diameter).fold(0.0, f64::max)
 }
 
-/// Longest step that drag allows [s]; infinite in air.
+/// Longest step that drag and the torque on spin allow [s]; infinite in air.
 pub(super) fn longest_step(plan: &Plan, hosts: &Hosts) -> f64 {
     let Some(water) = water(plan) else { return f64::INFINITY };
     let speed = fastest(plan, &water, hosts);
-    let times = sunk(plan, &water).map(|(_, _, sunk)| OF_RELAXATION * sunk.relaxation(speed));
+    let times = sunk(plan, &water).map(|(_, _, sunk)| {
+        let turns = sunk.spin_down(rolling(&sunk, speed));
+        OF_RELAXATION * sunk.relaxation(speed).min(turns)
+    });
     times.fold(f64::INFINITY, f64::min)
+}
+
+/// Spin of a grain that rolls at this speed [rad/s].
+fn rolling(sunk: &Sunk, speed: f64) -> f64 {
+    2.0 * speed / sunk.diameter
+}
+
+/// Judges the step by the torque on spin, or tells what its absence means.
+fn turning(verdict: &mut Verdict, plan: &Plan, name: &str, sunk: &Sunk, speed: f64, dt: f64) {
+    let Some(told) = plan.water.as_ref().filter(|_| plan.contact.rotation) else { return };
+    let spin = rolling(sunk, speed);
+    if told.torque != (Torque::None {}) {
+        let time = sunk.spin_down(spin);
+        verdict.judge(
+            dt <= OF_RELAXATION * time * (1.0 + 1e-9),
+            format!(
+                "{name} in water: its torque takes a spin of {spin:.0} rad/s away in {time:.3e} s, {:.0} steps (wanted: 10 or more)",
+                time / dt
+            ),
+            || format!("`dem.time-step` to {:.2e} s or less, or leave it out", OF_RELAXATION * time),
+        );
+        return;
+    }
+    let turned = plan::Water { torque: Torque::FiniteReynolds {}, ..told.clone() };
+    let water = Water::new(&turned, DVec3::from_array(plan.gravity));
+    let time = Sunk { water: &water, ..*sunk }.spin_down(spin);
+    verdict.say(format!(
+        "{name} in water: nothing but contacts slows its spin; `water.torque.finite-reynolds = {{}}` would take {spin:.0} rad/s away in {time:.3e} s"
+    ));
 }
 
 /// The water of a plan.
@@ -105,6 +143,7 @@ pub(super) fn judge(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64) 
                 || format!("`dem.time-step` to {:.2e} s or less, or leave it out", OF_RELAXATION * time),
             );
         }
+        turning(verdict, plan, name, &sunk, speed, dt);
         let terminal = sunk.terminal(gravity);
         if let Some(terminal) = terminal {
             let reynolds = terminal * sunk.diameter / water.viscosity;

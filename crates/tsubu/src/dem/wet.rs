@@ -91,6 +91,9 @@ fn block_of_grains(
             // The step adds gravity to the acceleration; the added mass, which it moves too, has no weight.
             let added = grains.added_mass(first + *own as usize);
             load.force += parcel.total(r) - added * gravity;
+            if water.turns() {
+                load.torque += parcel.total_torque(r);
+            }
         }
     }
     flows

@@ -8,9 +8,12 @@
 
 mod buoyancy;
 mod drag;
+mod magnus;
 mod parcel;
 mod part;
+mod saffman;
 mod stream;
+mod torque;
 
 pub use parcel::{Flows, Parcel};
 pub use part::{Kind, Part};
@@ -19,7 +22,10 @@ pub use stream::Stream;
 use buoyancy::Buoyancy;
 use drag::Drag;
 use glam::DVec3;
+use magnus::Magnus;
+use saffman::Saffman;
 use std::f64::consts::PI;
+use torque::Torque;
 use tsubu_scene::plan;
 
 /// The water of a scene.
@@ -36,6 +42,8 @@ pub struct Water {
     /// How it moves.
     pub stream: Stream,
     parts: Vec<Box<dyn Part>>,
+    /// Whether a part reads spins or writes a torque.
+    turns: bool,
 }
 
 impl Water {
@@ -45,12 +53,24 @@ impl Water {
         if plan.drag != (plan::Drag::None {}) {
             parts.push(Box::new(Drag::new(plan)));
         }
+        for lift in &plan.lift {
+            parts.push(match lift {
+                plan::Lift::Saffman => Box::new(Saffman::new(plan, false)),
+                plan::Lift::SaffmanMei => Box::new(Saffman::new(plan, true)),
+                plan::Lift::Magnus => Box::new(Magnus::new(plan, false)),
+                plan::Lift::MagnusOesterleDinh => Box::new(Magnus::new(plan, true)),
+            });
+        }
+        if plan.torque != (plan::Torque::None {}) {
+            parts.push(Box::new(Torque::new(plan)));
+        }
         Self {
             density: plan.density,
             viscosity: plan.viscosity,
             surface: plan.surface.unwrap_or(f64::INFINITY),
             added_mass: plan.added_mass,
             stream: Stream::new(&plan.flow),
+            turns: parts.iter().any(|part| part.turns()),
             parts,
         }
     }
@@ -81,6 +101,25 @@ impl Water {
         parcel.total(0).length()
     }
 
+    /// Torque on a sphere of this radius [m] that turns at `spin` [rad/s] in water that does not: the size, in N.m.
+    pub fn torque(&self, radius: f64, spin: f64) -> f64 {
+        let mut parcel = Parcel { len: 1, ..Parcel::default() };
+        parcel.radius[0] = radius;
+        parcel.begin(f64::INFINITY);
+        parcel.flow_spin[0][0] = spin;
+        parcel.turn();
+        for part in self.parts.iter().filter(|part| part.kind() == Kind::Turning) {
+            part.apply(&mut parcel);
+            parcel.post(Kind::Turning, &mut Flows::default());
+        }
+        parcel.total_torque(0).length()
+    }
+
+    /// Whether it may turn grains.
+    pub fn turns(&self) -> bool {
+        self.turns
+    }
+
     /// Fastest water that grains of this diameter [m] meet: at the surface, or ten diameters above the bed [m/s].
     pub fn fastest(&self, diameter: f64) -> f64 {
         self.stream.fastest(self.surface, diameter)
@@ -99,6 +138,13 @@ impl Water {
             self.stream.fill(parcel);
         }
         parcel.slip();
+        if self.turns {
+            parcel.begin_turning();
+            if !held {
+                self.stream.fill_spin(parcel);
+            }
+            parcel.turn();
+        }
         for part in &self.parts {
             part.apply(parcel);
             parcel.post(part.kind(), flows);

@@ -34,11 +34,21 @@ pub struct Parcel {
     pub slip: [Column; 3],
     /// Its size [m/s].
     pub speed: Column,
+    /// Spin of the water at the centre, half its vorticity [rad/s]; this and the next two only where a part asks for spins.
+    pub flow_spin: [Column; 3],
+    /// Spin of the water relative to the grain [rad/s].
+    pub turn: [Column; 3],
+    /// Its size [rad/s].
+    pub turning: Column,
 
     /// Result: force of the part that acts [N].
     pub force: [Column; 3],
     /// Result: force of all parts so far [N].
     pub total: [Column; 3],
+    /// Result: torque of the part that acts [N.m].
+    pub torque: [Column; 3],
+    /// Result: torque of all parts so far [N.m].
+    pub total_torque: [Column; 3],
 }
 
 /// What the water does to grains, summed.
@@ -46,9 +56,9 @@ pub struct Parcel {
 pub struct Flows {
     /// Power of the pressure on the grains [W].
     pub pressure: f64,
-    /// Power of the stream: forces times its velocity [W].
+    /// Power of the stream: forces times its velocity, torques times its spin [W].
     pub stream: f64,
-    /// Power lost: forces times the velocity of the water relative to the grains [W].
+    /// Power lost: forces and torques times the motion of the water relative to the grains [W].
     pub lost: f64,
     /// Force on the grains [N].
     pub force: DVec3,
@@ -77,8 +87,13 @@ impl Default for Parcel {
             flow: VECTOR,
             slip: VECTOR,
             speed: ZERO,
+            flow_spin: VECTOR,
+            turn: VECTOR,
+            turning: ZERO,
             force: VECTOR,
             total: VECTOR,
+            torque: VECTOR,
+            total_torque: VECTOR,
         }
     }
 }
@@ -96,6 +111,12 @@ impl Parcel {
         DVec3::new(self.total[0][i], self.total[1][i], self.total[2][i])
     }
 
+    /// Torque of all parts on row `i` [N.m].
+    #[inline(always)]
+    pub fn total_torque(&self, i: usize) -> DVec3 {
+        DVec3::new(self.total_torque[0][i], self.total_torque[1][i], self.total_torque[2][i])
+    }
+
     /// What is under water; still water and no force yet.
     pub(super) fn begin(&mut self, surface: f64) {
         begin(self, surface);
@@ -103,20 +124,39 @@ impl Parcel {
 
     /// The motion of the water relative to the grains.
     pub(super) fn slip(&mut self) {
-        slip(self);
+        self.speed = relative(self.rows(), &self.flow, &self.velocity, &mut self.slip);
     }
 
-    /// Adds the force of a part to the total, and its work to the flows.
+    /// Water that does not turn, and no torque yet.
+    pub(super) fn begin_turning(&mut self) {
+        let n = self.rows();
+        for column in self.flow_spin.iter_mut().chain(&mut self.total_torque) {
+            column[..n].fill(0.0);
+        }
+    }
+
+    /// The spin of the water relative to the grains.
+    pub(super) fn turn(&mut self) {
+        self.turning = relative(self.rows(), &self.flow_spin, &self.spin, &mut self.turn);
+    }
+
+    /// Adds the force or torque of a part to the total, and its work to the flows.
     pub(super) fn post(&mut self, kind: Kind, flows: &mut Flows) {
-        let [x, y, z, with_grain, with_flow] = post(self);
+        let n = self.rows();
+        let [x, y, z, with_grain, with_flow] = match kind {
+            Kind::Pressure | Kind::Relative => post(n, &self.force, &mut self.total, [&self.velocity, &self.flow]),
+            Kind::Turning => post(n, &self.torque, &mut self.total_torque, [&self.spin, &self.flow_spin]),
+        };
         match kind {
             Kind::Pressure => flows.pressure += with_grain,
-            Kind::Relative => {
+            Kind::Relative | Kind::Turning => {
                 flows.stream += with_flow;
                 flows.lost += with_flow - with_grain;
             }
         }
-        flows.force += DVec3::new(x, y, z);
+        if kind != Kind::Turning {
+            flows.force += DVec3::new(x, y, z);
+        }
     }
 }
 
@@ -136,25 +176,28 @@ fn begin(p: &mut Parcel, surface: f64) {
     }
 }
 
+/// The motion of the water relative to the grains, and its size.
 #[multiversion(targets = "simd")]
-fn slip(p: &mut Parcel) {
-    for i in 0..p.rows() {
-        let [x, y, z] = [0, 1, 2].map(|k| p.flow[k][i] - p.velocity[k][i]);
-        p.slip[0][i] = x;
-        p.slip[1][i] = y;
-        p.slip[2][i] = z;
-        p.speed[i] = (x * x + y * y + z * z).sqrt();
+fn relative(n: usize, water: &[Column; 3], grain: &[Column; 3], relative: &mut [Column; 3]) -> Column {
+    let mut size = ZERO;
+    for i in 0..n.min(ROWS) {
+        let [x, y, z] = [0, 1, 2].map(|k| water[k][i] - grain[k][i]);
+        relative[0][i] = x;
+        relative[1][i] = y;
+        relative[2][i] = z;
+        size[i] = (x * x + y * y + z * z).sqrt();
     }
+    size
 }
 
-/// Sums of the force, of its power with the grains' velocity, and with that of the water.
+/// Sums of the force (or torque), of its power with the grains' motion, and with that of the water.
 #[multiversion(targets = "simd")]
-fn post(p: &mut Parcel) -> [f64; 5] {
-    let n = p.rows();
+fn post(n: usize, force: &[Column; 3], total: &mut [Column; 3], [grain, water]: [&[Column; 3]; 2]) -> [f64; 5] {
+    let n = n.min(ROWS);
     let mut sums = [0.0; 5];
     for k in 0..3 {
-        let (force, total) = (&p.force[k], &mut p.total[k]);
-        let (velocity, flow) = (&p.velocity[k], &p.flow[k]);
+        let (force, total) = (&force[k], &mut total[k]);
+        let (velocity, flow) = (&grain[k], &water[k]);
         // Eight partial sums, so that additions need not wait for one another.
         let mut parts = [[0.0; 8]; 3];
         let mut i = 0;

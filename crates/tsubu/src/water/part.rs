@@ -11,12 +11,14 @@ pub enum Kind {
     /// It goes with the motion relative to the water: to a grain that goes along with the stream it does the stream's work,
     /// what is missing from that is lost.
     Relative,
+    /// The same for a torque and the spin relative to that of the water; the part writes a torque and no force.
+    Turning,
 }
 
 /// One force of the water on grains.
 ///
-/// A part reads the columns of the parcel and writes its force (and torque, if it has one) into it. It knows nothing of
-/// other parts, of threads, or of the books.
+/// A part reads the columns of the parcel and writes its force (or its torque) into it. It knows nothing of other parts, of
+/// threads, or of the books.
 pub trait Part: Send + Sync + std::fmt::Debug {
     /// Its text.
     fn about(&self) -> &'static About;
@@ -24,6 +26,11 @@ pub trait Part: Send + Sync + std::fmt::Debug {
     /// What becomes of its work.
     fn kind(&self) -> Kind;
 
-    /// Writes the force on every grain of the parcel.
+    /// Whether it reads spins, of the grains or of the water, or writes a torque.
+    fn turns(&self) -> bool {
+        self.kind() == Kind::Turning
+    }
+
+    /// Writes the force or torque on every grain of the parcel.
     fn apply(&self, parcel: &mut Parcel);
 }

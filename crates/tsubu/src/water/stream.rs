@@ -1,6 +1,7 @@
 //! How the water moves where no grain disturbs it: a velocity along x that depends on the height.
 
 use super::Parcel;
+use std::f64::consts::LN_10;
 use tsubu_scene::plan::Flow;
 
 /// Slope and constant of the log law, U = U* (8.5 + 5.75 log10(Z/k)).
@@ -62,6 +63,32 @@ impl Stream {
                     velocity[k - 1] + share * (velocity[k] - velocity[k - 1])
                 }
             }
+        }
+    }
+
+    /// Rate of shear dU/dz at height `z` [1/s]; at a kink that of the straight line above it.
+    pub fn shear(&self, z: f64) -> f64 {
+        match self {
+            Self::Still => 0.0,
+            Self::LogLaw { shear_velocity, zero_level, .. } => {
+                let moves = self.velocity(z) > 0.0;
+                if moves { shear_velocity * PER_DECADE / (LN_10 * (z - zero_level)) } else { 0.0 }
+            }
+            Self::Table { height, velocity } => {
+                let k = height.partition_point(|h| *h <= z);
+                let between = k > 0 && k < height.len();
+                if between { (velocity[k] - velocity[k - 1]) / (height[k] - height[k - 1]) } else { 0.0 }
+            }
+        }
+    }
+
+    /// Spins of the water at the grains of a parcel: a stream along x that grows with z turns about y, from z to x.
+    pub(super) fn fill_spin(&self, parcel: &mut Parcel) {
+        if *self == Self::Still {
+            return;
+        }
+        for i in 0..parcel.rows() {
+            parcel.flow_spin[1][i] = 0.5 * self.shear(parcel.height[i]);
         }
     }
 

@@ -81,6 +81,8 @@ density = "50 kg/m^3"
 viscosity = "2e-5 m^2/s"
 surface = "70 mm"
 drag.abraham = {}
+torque.finite-reynolds = {}
+lift = ["saffman-mei", "magnus-oesterle-dinh"]
 flow.log-law = { shear-velocity = "0.2 m/s", roughness = "2 mm", zero-level = "2 mm" }
 [contact]
 normal.hertz = {}

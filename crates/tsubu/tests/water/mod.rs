@@ -1,8 +1,10 @@
 //! Grains in water by their outcome.
 
 mod float;
+mod lift;
 mod rise;
 mod settle;
+mod spin;
 mod stream;
 
 use crate::dem::open_text;
@@ -33,6 +35,13 @@ fn after(text: &str, changes: &[&str], seconds: f64) -> (Box<dyn Engine>, Ledger
     engine.advance(steps, &mut hosts, &mut ledger).unwrap();
     let missing = ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs();
     (engine, ledger, missing)
+}
+
+/// Spin of grain 0.
+fn spin(engine: &dyn Engine) -> DVec3 {
+    let view = engine.view(Wants::GRAINS);
+    let i = view.grains.id.iter().position(|id| *id == 0).unwrap();
+    view.grains.spin[i]
 }
 
 /// Place and velocity of grain 0.
