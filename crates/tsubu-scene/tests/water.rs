@@ -109,3 +109,14 @@ fn no_lift_is_counted_twice() {
     let scene = read(STREAM, &["water.lift=[]"]).unwrap_or_else(|wrong| panic!("{wrong}"));
     assert_eq!(scene.plan().water.as_ref().expect("water").lift, []);
 }
+
+#[test]
+fn turbulence_needs_a_log_law_and_a_time() {
+    let scene = read(STREAM, &["water.fluctuation={}"]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let water = scene.plan().water.as_ref().expect("water");
+    let (Flow::LogLaw { shear_velocity, .. }, Some(told)) = (&water.flow, water.fluctuation) else { panic!() };
+    assert!((told.time - 0.02 / (15.0 * shear_velocity)).abs() < 1e-12 && (told.strength - 1.0).abs() < 1e-12);
+    insta::assert_snapshot!(about("flow.log-law = { depth = \"2 cm\" }", "flow.still = {}\nfluctuation = {}"));
+    insta::assert_snapshot!(about("depth = \"2 cm\" }", "shear-velocity = 0.1 }\nfluctuation.strength = 2"));
+    insta::assert_snapshot!(about("[water]", "[water]\nfluctuation = { strength = -1, time = 0 }"));
+}

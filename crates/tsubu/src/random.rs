@@ -18,6 +18,8 @@ pub enum Purpose {
     Size = 5,
     /// Grains that come in during a run.
     Stream = 6,
+    /// Turbulent fluctuation of the water around a grain.
+    Fluctuation = 7,
 }
 
 const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];

@@ -1,7 +1,7 @@
 //! The water that grains are in.
 
 use super::{Key, Kind, Variant, Word};
-use crate::units::{AREA_RATE, DENSITY, LENGTH, NUMBER, SPEED};
+use crate::units::{AREA_RATE, DENSITY, LENGTH, NUMBER, SPEED, TIME};
 
 pub(super) static WATER: &[Key] = &[
     Key::new("density", Kind::Quantity(&DENSITY), "Density of the water, or of any other liquid or gas")
@@ -26,6 +26,21 @@ pub(super) static WATER: &[Key] = &[
     Key::new("torque", Kind::Choice(TORQUE), "Resistance to spin; grains must spin, `contact.rotation`")
         .default("{ none = {} }"),
     Key::new("lift", Kind::SomeOf(LIFT), "Forces across the motion relative to the water").default("[]"),
+    Key::new(
+        "fluctuation",
+        Kind::Table(FLUCTUATION),
+        "Turbulence of a log-law stream as grains on their way see it: a velocity that wanders, drawn for each grain",
+    )
+    .optional(),
+];
+
+static FLUCTUATION: &[Key] = &[
+    Key::new("strength", Kind::Quantity(&NUMBER), "Root-mean-square velocity in each direction over U*")
+        .default("1")
+        .above(0.0),
+    Key::new("time", Kind::Quantity(&TIME), "Lagrangian time: how long the water around a grain keeps its velocity")
+        .above(0.0)
+        .derived("depth/(15 strength^2 U*) below a surface: the diffusivity of a stream, 0.067 U* depth in the mean over the depth"),
 ];
 
 static BUOYANCY: &[Word] = &[

@@ -26,6 +26,18 @@ pub struct Water {
     pub torque: Torque,
     /// Forces across the motion relative to the water.
     pub lift: Vec<Lift>,
+    /// Turbulent fluctuation.
+    pub fluctuation: Option<Fluctuation>,
+}
+
+/// Turbulence as grains on their way see it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Fluctuation {
+    /// Root-mean-square velocity in each direction over the shear velocity [-].
+    pub strength: f64,
+    /// Lagrangian time: the integral of the correlation [s].
+    pub time: f64,
 }
 
 /// Which part of the stress in the water carries the grains.

@@ -85,11 +85,12 @@ pub(super) fn largest(plan: &Plan) -> f64 {
 pub(super) fn longest_step(plan: &Plan, hosts: &Hosts) -> f64 {
     let Some(water) = water(plan) else { return f64::INFINITY };
     let speed = fastest(plan, &water, hosts);
+    let gusts = plan.water.as_ref().and_then(|water| water.fluctuation).map_or(f64::INFINITY, |told| told.time);
     let times = sunk(plan, &water).map(|(_, _, sunk)| {
         let turns = sunk.spin_down(rolling(&sunk, speed));
         OF_RELAXATION * sunk.relaxation(speed).min(turns)
     });
-    times.fold(f64::INFINITY, f64::min)
+    times.fold(OF_RELAXATION * gusts, f64::min)
 }
 
 /// Spin of a grain that rolls at this speed [rad/s].
@@ -169,8 +170,11 @@ pub(super) fn judge(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64) 
         }
         if let Some(terminal) = terminal {
             let rouse = terminal / (KARMAN * shear);
-            let fate =
-                if rouse > 2.5 { "moves along the bed" } else { "turbulence would lift it: it is not in the model" };
+            let fate = match &water.fluctuation {
+                _ if rouse > 2.5 => "moves along the bed",
+                Some(_) => "turbulence lifts it",
+                None => "turbulence would lift it: `water.fluctuation` is not there",
+            };
             verdict.say(format!("{name} in the stream: Rouse number {rouse:.2} ({fate})"));
         }
     }

@@ -14,6 +14,7 @@ use crate::find::candidates::{List, WORTH_THREADS};
 use crate::state::Grains;
 use crate::view::{Contact, WallLoad};
 use crate::wall::{self, Wall};
+use crate::water::Gust;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -81,6 +82,8 @@ pub(super) struct Block {
     pub loads: Vec<Load>,
     pub walls: Vec<WallLoad>,
     pub sums: Sums,
+    /// What was drawn for the water around each of the own grains, where it fluctuates.
+    pub gusts: Vec<Gust>,
 }
 
 /// All blocks, and a chunk for every thread.
@@ -227,7 +230,7 @@ impl Touch {
 
 impl Block {
     fn evaluate(&mut self, scene: &Scene, list: &List, scratch: &mut Scratch) {
-        let Self { memory, loads, walls: wall_loads, sums } = self;
+        let Self { memory, loads, walls: wall_loads, sums, gusts: _ } = self;
         loads.fill(Load::default());
         wall_loads.fill(WallLoad::default());
         *sums = Sums::default();

@@ -3,10 +3,11 @@
 use super::engine::DemEngine;
 use super::touch::Block;
 use crate::contact::chunk::ROWS;
+use crate::engine::Engine;
 use crate::find::candidates::{BLOCK, WORTH_THREADS};
 use crate::ledger::{Account, Ledger};
 use crate::state::Grains;
-use crate::water::{Flows, Parcel, Water};
+use crate::water::{Flows, Gust, Parcel, Water};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -15,6 +16,8 @@ use std::sync::{Mutex, PoisonError};
 #[derive(Debug)]
 pub(super) struct Wet {
     pub water: Water,
+    /// The moment at which it acts [s].
+    time: f64,
     scratch: Vec<Mutex<Parcel>>,
     /// Of every block.
     flows: Vec<Flows>,
@@ -22,12 +25,12 @@ pub(super) struct Wet {
 
 impl Wet {
     pub fn new(water: Water) -> Self {
-        Self { water, scratch: Vec::new(), flows: Vec::new() }
+        Self { water, time: 0.0, scratch: Vec::new(), flows: Vec::new() }
     }
 
     /// Adds the forces of the water to the loads of every block; returns what they do in all.
     fn act(&mut self, grains: &Grains, blocks: &mut [Block], gravity: DVec3, held: bool) -> Flows {
-        let Self { water, scratch, flows } = self;
+        let Self { water, time, scratch, flows } = self;
         while scratch.len() < rayon::current_num_threads() {
             scratch.push(Mutex::default());
         }
@@ -37,6 +40,7 @@ impl Wet {
             let mine = rayon::current_thread_index().unwrap_or(0);
             // Nobody else has this thread's parcel, so the lock is free.
             let mut parcel = scratch[mine].lock().unwrap_or_else(PoisonError::into_inner);
+            parcel.time = *time;
             let first = number * BLOCK;
             *flows = block_of_grains(water, grains, first, block, &mut parcel, gravity, held);
         };
@@ -66,6 +70,9 @@ fn block_of_grains(
 ) -> Flows {
     let mut flows = Flows::default();
     let last = (first + BLOCK).min(grains.len());
+    if water.fluctuation.is_some() {
+        block.gusts.resize(BLOCK, Gust::default());
+    }
     for begin in (first..last).step_by(ROWS) {
         let n = ROWS.min(last - begin);
         parcel.len = 0;
@@ -82,6 +89,12 @@ fn block_of_grains(
             for (k, (v, w)) in grains.velocity[i].to_array().into_iter().zip(grains.spin[i].to_array()).enumerate() {
                 parcel.velocity[k][r] = v;
                 parcel.spin[k][r] = w;
+            }
+            if let Some(fluctuation) = &water.fluctuation {
+                let gust = fluctuation.at(&mut block.gusts[i - first], grains.id[i], parcel.time);
+                for (column, gust) in parcel.gust.iter_mut().zip(gust) {
+                    column[r] = gust;
+                }
             }
             parcel.len += 1;
         }
@@ -133,7 +146,9 @@ impl DemEngine {
 
     /// Adds the forces of the water to those of the contacts.
     pub(super) fn soak(&mut self) {
+        let time = self.time();
         let Some(wet) = &mut self.wet else { return };
+        wet.time = time;
         self.water_flows = wet.act(&self.grains, &mut self.touch.blocks, self.gravity, self.walls_held);
     }
 }

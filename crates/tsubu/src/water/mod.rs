@@ -8,6 +8,7 @@
 
 mod buoyancy;
 mod drag;
+mod fluctuation;
 mod magnus;
 mod parcel;
 mod part;
@@ -15,6 +16,7 @@ mod saffman;
 mod stream;
 mod torque;
 
+pub use fluctuation::{ABOUT as ABOUT_FLUCTUATION, Fluctuation, Gust};
 pub use parcel::{Flows, Parcel};
 pub use part::{Kind, Part};
 pub use stream::Stream;
@@ -41,6 +43,8 @@ pub struct Water {
     pub added_mass: f64,
     /// How it moves.
     pub stream: Stream,
+    /// Its turbulent fluctuation.
+    pub fluctuation: Option<Fluctuation>,
     parts: Vec<Box<dyn Part>>,
     /// Whether a part reads spins or writes a torque.
     turns: bool,
@@ -64,15 +68,27 @@ impl Water {
         if plan.torque != (plan::Torque::None {}) {
             parts.push(Box::new(Torque::new(plan)));
         }
+        let stream = Stream::new(&plan.flow);
+        let shear_velocity = stream.shear_velocity().unwrap_or_default();
         Self {
+            fluctuation: plan.fluctuation.as_ref().map(|told| Fluctuation::new(told, shear_velocity)),
             density: plan.density,
             viscosity: plan.viscosity,
             surface: plan.surface.unwrap_or(f64::INFINITY),
             added_mass: plan.added_mass,
-            stream: Stream::new(&plan.flow),
+            stream,
             turns: parts.iter().any(|part| part.turns()),
             parts,
         }
+    }
+
+    /// The same water with the random numbers of a scene; in the plane nothing fluctuates across.
+    #[must_use]
+    pub fn seeded(mut self, seed: u64, in_space: bool) -> Self {
+        if let Some(fluctuation) = &mut self.fluctuation {
+            (fluctuation.seed, fluctuation.in_space) = (seed, in_space);
+        }
+        self
     }
 
     /// The parts that act.
@@ -122,7 +138,8 @@ impl Water {
 
     /// Fastest water that grains of this diameter [m] meet: at the surface, or ten diameters above the bed [m/s].
     pub fn fastest(&self, diameter: f64) -> f64 {
-        self.stream.fastest(self.surface, diameter)
+        // A normal number is rarely beyond two.
+        self.stream.fastest(self.surface, diameter) + 2.0 * self.fluctuation.map_or(0.0, |fluctuation| fluctuation.rms)
     }
 
     /// Whether what moves along with a grain depends on where the grain is.
@@ -136,6 +153,9 @@ impl Water {
         parcel.begin(self.surface);
         if !held {
             self.stream.fill(parcel);
+            if let Some(fluctuation) = &self.fluctuation {
+                parcel.fluctuate(fluctuation.rms);
+            }
         }
         parcel.slip();
         if self.turns {

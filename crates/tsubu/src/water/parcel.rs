@@ -14,6 +14,8 @@ const VECTOR: [Column; 3] = [ZERO; 3];
 pub struct Parcel {
     /// Rows in use; read it with [`Parcel::rows`].
     pub len: usize,
+    /// The moment [s].
+    pub time: f64,
 
     /// Height z of the centre [m].
     pub height: Column,
@@ -23,6 +25,9 @@ pub struct Parcel {
     pub velocity: [Column; 3],
     /// Spin [rad/s].
     pub spin: [Column; 3],
+
+    /// Fluctuation of the water in units of its root-mean-square [-]; where there is one.
+    pub gust: [Column; 3],
 
     /// Share of the grain that is under water [-].
     pub wet: Column,
@@ -78,10 +83,12 @@ impl Default for Parcel {
     fn default() -> Self {
         Self {
             len: 0,
+            time: 0.0,
             height: ZERO,
             radius: ZERO,
             velocity: VECTOR,
             spin: VECTOR,
+            gust: VECTOR,
             wet: ZERO,
             volume: ZERO,
             flow: VECTOR,
@@ -120,6 +127,17 @@ impl Parcel {
     /// What is under water; still water and no force yet.
     pub(super) fn begin(&mut self, surface: f64) {
         begin(self, surface);
+    }
+
+    /// Adds the fluctuation to a stream along x. It is not stronger than the stream itself: among the grains of a bed, where
+    /// the stream ends, it ends too.
+    pub(super) fn fluctuate(&mut self, rms: f64) {
+        for i in 0..self.rows() {
+            let rms = rms.min(self.flow[0][i].abs());
+            for (flow, gust) in self.flow.iter_mut().zip(&self.gust) {
+                flow[i] += rms * gust[i];
+            }
+        }
     }
 
     /// The motion of the water relative to the grains.

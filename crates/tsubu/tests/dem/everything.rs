@@ -83,6 +83,7 @@ surface = "70 mm"
 drag.abraham = {}
 torque.finite-reynolds = {}
 lift = ["saffman-mei", "magnus-oesterle-dinh"]
+fluctuation = { time = "2 ms" }
 flow.log-law = { shear-velocity = "0.2 m/s", roughness = "2 mm", zero-level = "2 mm" }
 [contact]
 normal.hertz = {}

@@ -1,6 +1,7 @@
 //! Grains in water by their outcome.
 
 mod float;
+mod fluctuation;
 mod lift;
 mod rise;
 mod settle;

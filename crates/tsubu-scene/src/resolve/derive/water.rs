@@ -40,8 +40,54 @@ impl Derive<'_> {
         gravity[2] = Value::Float(z * slope.cos());
     }
 
-    /// Shear velocity, roughness and surface of a stream.
+    /// What follows from others in the water.
     pub(super) fn water(&mut self, resolved: &mut toml::Table) {
+        self.stream(resolved);
+        self.fluctuation(resolved);
+    }
+
+    /// How long the water around a grain keeps its velocity: with the variance of the fluctuation, what Rouse's parabola
+    /// k U* Z (1 - Z/h), k = 0.40, diffuses in the mean over the depth h.
+    fn fluctuation(&mut self, resolved: &mut toml::Table) {
+        let path = ["water", "fluctuation"];
+        if !self.typed(&path) {
+            return;
+        }
+        let place = self.root.locate(&path);
+        let Some(water) = resolved.get_mut("water").and_then(Value::as_table_mut) else { return };
+        let Some(law) = water.get("flow").and_then(|flow| flow.get("log-law")).and_then(Value::as_table) else {
+            let flow = self.root.locate(&["water", "flow"]);
+            self.complain(
+                Complaint::new("only a log-law stream fluctuates")
+                    .at(&place, "its strength is a share of the shear velocity")
+                    .also(&flow, "without `log-law`")
+                    .hint("leave `fluctuation` out, or write flow.log-law = { shear-velocity = \"0.1 m/s\" }"),
+            );
+            return;
+        };
+        let number = |table: &toml::Table, key: &str| table.get(key).and_then(Value::as_float);
+        let stream = number(law, "shear-velocity").zip(number(law, "zero-level"));
+        let depth = stream.and_then(|(_, level)| number(water, "surface").map(|surface| surface - level));
+        let Some(told) = water.get_mut("fluctuation").and_then(Value::as_table_mut) else { return };
+        if told.contains_key("time") || self.typed(&[path[0], path[1], "time"]) {
+            return;
+        }
+        match (depth.filter(|depth| *depth > 0.0), stream, number(told, "strength")) {
+            (Some(depth), Some((shear, _)), Some(strength)) => {
+                told.insert("time".into(), Value::Float(0.40 / 6.0 * depth / (strength * strength * shear)));
+            }
+            (None, Some(_), _) => self.complain(
+                Complaint::new("nothing says how long the water around a grain keeps its velocity")
+                    .at(&place, "needs `time`: the stream has no depth to take it from")
+                    .hint("`time`: for example \"0.05 s\"; below a depth h about h/(15 strength^2 U*)"),
+            ),
+            // What is wrong with the stream or the strength has its own complaint.
+            _ => {}
+        }
+    }
+
+    /// Shear velocity, roughness and surface of a stream.
+    fn stream(&mut self, resolved: &mut toml::Table) {
         let diameter = mean_diameter(resolved);
         let gravity: Vec<f64> = resolved
             .get("gravity")
