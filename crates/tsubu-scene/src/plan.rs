@@ -27,7 +27,7 @@ pub use methods::{Arithmetic, Collision, Dem, Integrator, Lattice, LatticeMode, 
 pub use study::{Claim, Output, Response, Sweep};
 pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall};
 pub use watch::{Axis, Kernel, Measure, Quantity, Watch};
-pub use water::{Buoyancy, Drag, Flow, Fluctuation, Lift, Torque, Water};
+pub use water::{Buoyancy, Drag, Flow, Fluctuation, Hindrance, Lift, StreamStart, Torque, Water};
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -73,4 +73,9 @@ pub static TEMPLATES: &[Template] = &[
         about: "a grain leaps along the bed of a stream: drag, buoyancy and added mass in a log-law flow",
         text: include_str!("../../../scenes/saltation.toml"),
     },
+    Template {
+        name: "bedload",
+        about: "a stream carries the upper grains of its bed along and is slowed by them: momentum both ways",
+        text: include_str!("../../../scenes/bedload.toml"),
+    },
 ];

@@ -103,6 +103,37 @@ fn what_acts_on_spin_is_for_grains_that_spin() {
     ));
 }
 
+/// The stream in layers.
+fn coupled(flow: &str) -> String {
+    STREAM.replace("log-law = { depth = \"2 cm\" }", flow)
+}
+
+#[test]
+fn layers_follow_from_the_world() {
+    let text = coupled("coupled = { bottom = 0, top = \"2 cm\" }") + "[periodic]\nx = [0, \"10 mm\"]\n";
+    let scene = read(&text, &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let flow = &scene.plan().water.as_ref().expect("water").flow;
+    let Flow::Coupled { layers: 20, area, roughness, .. } = flow else { panic!("{flow:?}") };
+    assert!((area - 0.01 * 0.002).abs() < 1e-15 && (roughness - 0.002).abs() < 1e-15);
+    assert_eq!(scene.plan().water.as_ref().expect("water").surface, Some(0.02));
+    let again = read(&scene.resolved_toml(), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    assert_eq!(again.plan(), scene.plan());
+}
+
+#[test]
+fn layers_need_an_area_and_a_depth() {
+    insta::assert_snapshot!(complaint(&coupled("coupled = { bottom = 0, top = \"2 cm\" }"), &[]));
+    insta::assert_snapshot!(complaint(&coupled("coupled = { bottom = 0, top = \"-2 cm\", area = \"1 cm^2\" }"), &[]));
+}
+
+#[test]
+fn grains_begin_below_the_lid() {
+    insta::assert_snapshot!(complaint(
+        &coupled("coupled = { bottom = \"-3 cm\", top = \"-2 cm\", area = \"1 cm^2\" }"),
+        &[]
+    ));
+}
+
 #[test]
 fn no_lift_is_counted_twice() {
     insta::assert_snapshot!(about("[water]", "[water]\nlift = [\"saffman\", \"saffman-mei\"]"));
@@ -119,4 +150,16 @@ fn turbulence_needs_a_log_law_and_a_time() {
     insta::assert_snapshot!(about("flow.log-law = { depth = \"2 cm\" }", "flow.still = {}\nfluctuation = {}"));
     insta::assert_snapshot!(about("depth = \"2 cm\" }", "shear-velocity = 0.1 }\nfluctuation.strength = 2"));
     insta::assert_snapshot!(about("[water]", "[water]\nfluctuation = { strength = -1, time = 0 }"));
+}
+
+#[test]
+fn a_level_stream_needs_a_drive() {
+    let level = coupled("coupled = { bottom = 0, top = \"2 cm\", area = \"1 cm^2\" }").replace("slope = \"3 deg\"", "");
+    insta::assert_snapshot!(complaint(&level, &[]));
+}
+
+#[test]
+fn a_crowd_needs_layers() {
+    insta::assert_snapshot!(about("drag.schiller-naumann = {}", "drag.gidaspow = {}"));
+    insta::assert_snapshot!(about("drag.schiller-naumann = {}", "hindrance.di-felice = {}"));
 }

@@ -29,13 +29,16 @@ pub enum Account {
     HostDamping,
     /// Lost in lattice collisions by restitution [J].
     Collision,
-    /// Work of flowing water on the grains: what its forces would do to grains that went along with it [J].
+    /// Work of flowing water on the grains: what its forces would do to grains that went along with it; where the stream is
+    /// part of the system, the work of what drives it [J].
     StreamWork,
     /// Work of the pressure (and shear stress) in the water on the grains, and of water that begins or ends to move along
     /// with them where they go through its surface [J].
     Buoyancy,
     /// Lost in drag: what the forces of the water take from motion relative to it [J].
     Drag,
+    /// Lost in the stream itself: in its stress, at its bottom, and where it mixes to make way for grains [J].
+    StreamFriction,
     /// Lost (or gained: negative) by rules of a lattice model that do not conserve energy: forgotten distance,
     /// turned directions, one-sided collisions [J].
     LatticeRules,
@@ -49,7 +52,7 @@ pub enum Account {
 
 impl Account {
     /// All accounts, in the order they are reported.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::BaseWork,
         Self::ForceWork,
         Self::WallWork,
@@ -61,6 +64,7 @@ impl Account {
         Self::StreamWork,
         Self::Buoyancy,
         Self::Drag,
+        Self::StreamFriction,
         Self::LatticeRules,
         Self::HeavyBox,
         Self::Exchange,
@@ -80,6 +84,7 @@ impl Account {
             Self::StreamWork => "stream work",
             Self::Buoyancy => "buoyancy",
             Self::Drag => "drag",
+            Self::StreamFriction => "stream friction",
             Self::Collision => "collision",
             Self::LatticeRules => "lattice rules",
             Self::HeavyBox => "heavy box",
@@ -122,11 +127,13 @@ pub struct Stocks {
     pub walls: f64,
     /// Kinetic energy of the water that moves along with the grains: their added mass.
     pub added_mass: f64,
+    /// Kinetic energy of a stream that the grains slow.
+    pub stream: f64,
 }
 
 impl Stocks {
     /// The terms with their names.
-    pub fn terms(&self) -> [(&'static str, f64); 8] {
+    pub fn terms(&self) -> [(&'static str, f64); 9] {
         [
             ("kinetic", self.kinetic),
             ("rotational", self.rotational),
@@ -136,6 +143,7 @@ impl Stocks {
             ("host spring", self.host_spring),
             ("walls", self.walls),
             ("added mass", self.added_mass),
+            ("stream", self.stream),
         ]
     }
 
@@ -193,7 +201,9 @@ impl Ledger {
     /// Residual over the energy turned over: the sum of all flows (absolute) and of the largest of the stocks' changes.
     pub fn residual_relative(&self, now: &Stocks) -> f64 {
         let flows: f64 = self.flows.iter().map(|f| f.abs()).sum();
-        let moving = now.kinetic.max(self.opening.kinetic) + now.host_kinetic.max(self.opening.host_kinetic);
+        let moving = now.kinetic.max(self.opening.kinetic)
+            + now.host_kinetic.max(self.opening.host_kinetic)
+            + (now.stream - self.opening.stream).abs();
         let change =
             (now.potential - self.opening.potential).abs().max((now.host_spring - self.opening.host_spring).abs());
         let turned_over = flows + moving + change;
@@ -234,7 +244,7 @@ impl Ledger {
         let flows = state.real("ledger.flows")?.try_into().map_err(|_| missing())?;
         let p = state.real("ledger.impulses")?;
         let o = state.real("ledger.opening")?;
-        if p.len() != 19 || o.len() != 8 {
+        if p.len() != 19 || o.len() != 9 {
             return Err(missing());
         }
         Ok(Self {
@@ -255,6 +265,7 @@ impl Ledger {
                 host_spring: o[5],
                 walls: o[6],
                 added_mass: o[7],
+                stream: o[8],
             },
         })
     }

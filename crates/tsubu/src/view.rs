@@ -1,6 +1,7 @@
 //! What an engine shows to those who look on: grains, contacts, loads on walls.
 
 use crate::find::grid::Ends;
+use crate::water::Water;
 use glam::DVec3;
 use std::borrow::Cow;
 
@@ -60,6 +61,8 @@ pub struct View<'a> {
     pub contacts: Vec<Contact>,
     /// Loads on the walls, in the order of their names; empty unless wanted.
     pub walls: Vec<WallLoad>,
+    /// The water that the grains are in.
+    pub water: Option<&'a Water>,
 }
 
 /// Columns of the grains.

@@ -3,7 +3,7 @@
 use super::Parts;
 use super::place::millimetres;
 use crate::complaint::Complaint;
-use crate::plan::{Flow, GrainShape, Lift, Torque, Water};
+use crate::plan::{Drag, Flow, GrainMotion, GrainShape, Hindrance, Lift, Start, Torque, Water};
 use std::f64::consts::PI;
 
 pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
@@ -33,8 +33,21 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
         }
     }
     turning(parts, &water, complaints);
+    crowd(&water, parts, complaints);
     match &water.flow {
         Flow::Still {} => {}
+        Flow::Coupled { bottom, top, shear_velocity, discharge, .. } => {
+            lid(parts, *bottom, *top, complaints);
+            let along = parts.resolved.get("gravity").and_then(|g| g.get(0)).and_then(toml::Value::as_float);
+            if shear_velocity.is_none() && discharge.is_none() && along.is_none_or(|along| along <= 0.0) {
+                complaints.push(
+                    Complaint::new("nothing drives the stream")
+                        .at(&at(&["flow", "coupled"]), "no slope, no `shear-velocity`, no `discharge`")
+                        .hint("give slope = \"3 deg\" at the top, or `shear-velocity` or `discharge` here"),
+                );
+            }
+        }
+        Flow::Column { bottom, top, .. } => lid(parts, *bottom, *top, complaints),
         Flow::LogLaw { zero_level, .. } => {
             if let Some(surface) = water.surface.filter(|surface| surface <= zero_level) {
                 complaints.push(
@@ -98,6 +111,50 @@ fn turning(parts: &Parts<'_>, water: &Water, complaints: &mut Vec<Complaint>) {
                 Complaint::new(format!("the lift by {what} would be counted twice"))
                     .at(&at(&["water", "lift"]), format!("`{}` is `{}`, corrected", names[1], names[0]))
                     .hint(format!("leave one of them out; `{}` alone is for slow flow", names[0])),
+            );
+        }
+    }
+}
+
+/// What a crowd of grains does to the drag needs to be known where the crowd is.
+fn crowd(water: &Water, parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
+    let at = |keys: &[&str]| parts.root.locate(&[&["water"], keys].concat());
+    let hinders = water.hindrance != (Hindrance::None {});
+    let crowded = matches!(water.drag, Drag::Gidaspow {});
+    let key = if crowded { "drag" } else { "hindrance" };
+    if (hinders || crowded) && water.flow.ends().is_none() {
+        complaints.push(
+            Complaint::new(format!("`{key}` asks how much room the grains leave to the water, which only layers know"))
+                .at(&at(&[key]), "needs layers")
+                .also(&at(&["flow"]), "has none")
+                .hint("use flow.coupled or flow.column"),
+        );
+    }
+    if hinders && crowded {
+        complaints.push(
+            Complaint::new("`drag.gidaspow` has the crowd in it; `hindrance` would count it twice")
+                .at(&at(&["hindrance"]), "leave it out"),
+        );
+    }
+}
+
+/// Grains that begin outside water that ends at a lid.
+fn lid(parts: &Parts<'_>, bottom: f64, top: f64, complaints: &mut Vec<Complaint>) {
+    for (name, group) in &parts.particles {
+        let Start::At { position, .. } = &group.start else { continue };
+        let r = 0.5 * group.diameter;
+        let free = matches!(group.motion, GrainMotion::Free {});
+        if let Some((k, p)) = position.iter().enumerate().find(|(_, p)| free && (p[2] - r > top || p[2] + r < bottom)) {
+            complaints.push(
+                Complaint::new(format!("a grain of `{name}` begins outside the water"))
+                    .at(
+                        &parts.root.locate(&["particles", name, "start", "at", "position", &k.to_string()]),
+                        format!("at z = {}", millimetres(p[2])),
+                    )
+                    .also(
+                        &parts.root.locate(&["water", "flow"]),
+                        format!("from z = {} to {}", millimetres(bottom), millimetres(top)),
+                    ),
             );
         }
     }

@@ -1,7 +1,7 @@
 //! The water that grains are in.
 
 use super::{Key, Kind, Variant, Word};
-use crate::units::{AREA_RATE, DENSITY, LENGTH, NUMBER, SPEED, TIME};
+use crate::units::{AREA as AREA_UNIT, AREA_RATE, DENSITY, LENGTH, NUMBER, SPEED, TIME};
 
 pub(super) static WATER: &[Key] = &[
     Key::new("density", Kind::Quantity(&DENSITY), "Density of the water, or of any other liquid or gas")
@@ -21,6 +21,12 @@ pub(super) static WATER: &[Key] = &[
         .default("'vertical'"),
     Key::new("float", Kind::Flag, "Grains may be lighter than the water").default("false"),
     Key::new("flow", Kind::Choice(FLOW), "How the water moves").default("{ still = {} }"),
+    Key::new(
+        "hindrance",
+        Kind::Choice(HINDRANCE),
+        "What neighbours add to the drag, by the share e that grains leave to the water in layers",
+    )
+    .default("{ none = {} }"),
     Key::new("drag", Kind::Choice(DRAG), "Resistance to motion through the water, by the drag coefficient")
         .default("{ stokes-newton = {} }"),
     Key::new("torque", Kind::Choice(TORQUE), "Resistance to spin; grains must spin, `contact.rotation`")
@@ -87,10 +93,80 @@ static FLOW: &[Variant] = &[
             Key::new("velocity", Kind::Quantities(&SPEED), "Velocities along x, as many"),
         ],
     },
+    Variant {
+        name: "coupled",
+        about: "A stream along x in layers, driven by the slope, slowed by its turbulent and viscous stress and by the grains: what they gain it loses",
+        keys: &[
+            BOTTOM,
+            TOP,
+            LAYERS,
+            AREA,
+            Key::new("roughness", Kind::Quantity(&LENGTH), "Equivalent roughness k of the bottom")
+                .above(0.0)
+                .derived("the mean diameter of the grains"),
+            Key::new(
+                "shear-velocity",
+                Kind::Quantity(&SPEED),
+                "Shear velocity that the drive would hold without grains; without it the slope drives",
+            )
+            .above(0.0)
+            .optional()
+            .rivals(&["discharge"]),
+            Key::new("discharge", Kind::Quantity(&AREA_RATE), "Discharge of water per width that is held")
+                .above(0.0)
+                .optional()
+                .rivals(&["shear-velocity"]),
+            Key::new("start", Kind::OneOf(START), "The stream at time 0").default("'log-law'"),
+        ],
+    },
+    Variant {
+        name: "column",
+        about: "Water that rises evenly through a column: its velocity is the superficial one over the share that grains leave it",
+        keys: &[
+            BOTTOM,
+            TOP,
+            LAYERS,
+            AREA,
+            Key::new("velocity", Kind::Quantity(&SPEED), "Superficial velocity upwards: discharge over plan area"),
+        ],
+    },
+];
+
+static BOTTOM: Key = Key::new("bottom", Kind::Quantity(&LENGTH), "Height z where the water begins");
+
+static TOP: Key = Key::new("top", Kind::Quantity(&LENGTH), "Height z where it ends");
+
+static LAYERS: Key = Key::new("layers", Kind::Whole, "Number of layers")
+    .at_least(2.0)
+    .at_most(1e5)
+    .derived("two for each mean diameter of the grains");
+
+static AREA: Key =
+    Key::new("area", Kind::Quantity(&AREA_UNIT), "Plan area of a layer, from which the share of the grains follows")
+        .above(0.0)
+        .derived("of the periodic world; in the plane its length times the mean diameter of the grains");
+
+static START: &[Word] = &[
+    Word { name: "log-law", about: "as the drive would have it without grains" },
+    Word { name: "still", about: "at rest" },
 ];
 
 static COEFFICIENT: Key =
     Key::new("coefficient", Kind::Quantity(&NUMBER), "Coefficient of large grains").default("0.4").at_least(0.0);
+
+static HINDRANCE: &[Variant] = &[
+    Variant { name: "none", about: "A grain alone", keys: &[] },
+    Variant {
+        name: "di-felice",
+        about: "Re with e |U - u|, force times e^(2 - b), b = 3.7 - 0.65 exp(-(1.5 - log10 Re)^2/2) (Di Felice 1994)",
+        keys: &[],
+    },
+    Variant {
+        name: "richardson-zaki",
+        about: "Force times e^-exponent (Richardson and Zaki 1954)",
+        keys: &[Key::new("exponent", Kind::Quantity(&NUMBER), "The exponent").default("3.1").at_least(0.0)],
+    },
+];
 
 static DRAG: &[Variant] = &[
     Variant { name: "none", about: "No drag", keys: &[] },
@@ -99,6 +175,11 @@ static DRAG: &[Variant] = &[
     Variant {
         name: "schiller-naumann",
         about: "C = 24/Re (1 + 0.15 Re^0.687) up to Re = 1000, 0.44 above (Schiller and Naumann 1935)",
+        keys: &[],
+    },
+    Variant {
+        name: "gidaspow",
+        about: "In a crowd: Ergun (1952) where grains leave less than 0.8 to the water, Wen and Yu (1966) above (Gidaspow 1994)",
         keys: &[],
     },
     Variant { name: "abraham", about: "C = (0.63 + 4.8/sqrt(Re))^2 (Dalla Valle 1948; Abraham 1970)", keys: &[] },

@@ -20,6 +20,8 @@ pub struct Water {
     pub float: bool,
     /// How the water moves.
     pub flow: Flow,
+    /// What neighbours add to the drag.
+    pub hindrance: Hindrance,
     /// Drag coefficient.
     pub drag: Drag,
     /// Torque on spin.
@@ -72,6 +74,73 @@ pub enum Flow {
         /// Velocities [m/s].
         velocity: Vec<f64>,
     },
+    /// Layers that give to the grains and take from them.
+    Coupled {
+        /// Height z where the water begins [m].
+        bottom: f64,
+        /// Height z where it ends [m]: a surface without stress that does not move.
+        top: f64,
+        /// Number of layers.
+        layers: usize,
+        /// Plan area of a layer [m^2].
+        area: f64,
+        /// Equivalent roughness of the bottom [m].
+        roughness: f64,
+        /// U* that the drive would hold without grains [m/s]; `None`: gravity along x drives.
+        shear_velocity: Option<f64>,
+        /// Discharge of water per width that is held [m^2/s].
+        discharge: Option<f64>,
+        /// The stream at time 0.
+        start: StreamStart,
+    },
+    /// Upwards with `velocity` over the share that grains leave to the water.
+    Column {
+        /// Height z where the column begins [m].
+        bottom: f64,
+        /// Height z where it ends [m].
+        top: f64,
+        /// Number of layers.
+        layers: usize,
+        /// Plan area [m^2].
+        area: f64,
+        /// Superficial velocity [m/s].
+        velocity: f64,
+    },
+}
+
+impl Flow {
+    /// Bottom and top [m] of a flow in layers.
+    pub fn ends(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Coupled { bottom, top, .. } | Self::Column { bottom, top, .. } => Some([*bottom, *top]),
+            Self::Still {} | Self::LogLaw { .. } | Self::Table { .. } => None,
+        }
+    }
+}
+
+/// A stream at time 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StreamStart {
+    /// The log law that the drive would hold without grains.
+    LogLaw,
+    /// At rest.
+    Still,
+}
+
+/// What the neighbours of a grain add to its drag; e is the share of the volume that grains leave to the water.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Hindrance {
+    /// Nothing.
+    None {},
+    /// Re with e |U - u|, force times e^(2 - b).
+    DiFelice {},
+    /// Force times e^-exponent.
+    RichardsonZaki {
+        /// The exponent [-].
+        exponent: f64,
+    },
 }
 
 /// The drag coefficient C against the Reynolds number Re = |U - u| d/nu; the force is C rho/2 (pi/4) d^2 |U - u| (U - u).
@@ -92,6 +161,8 @@ pub enum Drag {
     },
     /// C = 24/Re (1 + 0.15 Re^0.687) up to Re = 1000, 0.44 above.
     SchillerNaumann {},
+    /// Ergun's bed below e = 0.8, Wen and Yu's above.
+    Gidaspow {},
     /// C = (0.63 + 4.8/sqrt(Re))^2.
     Abraham {},
 }

@@ -2,7 +2,7 @@
 
 use super::{Verdict, speed_scale};
 use crate::partner::Hosts;
-use crate::water::Water;
+use crate::water::{Stream, Water};
 use glam::DVec3;
 use std::f64::consts::PI;
 use tsubu_scene::plan::{self, GrainMotion, Particles, Plan, Torque};
@@ -32,9 +32,14 @@ impl Sunk<'_> {
         self.water.density * PI / 6.0 * self.diameter.powi(3)
     }
 
-    /// Time in which drag takes a motion of this speed away, mass times speed over drag [s]; infinite without drag.
+    /// Time in which drag takes a motion of this speed away, mass times speed over drag [s]; infinite without drag. Where
+    /// grains slow the stream it is the water of a bed, half of the room there, that answers first; a crowd hinders tenfold.
     fn relaxation(&self, speed: f64) -> f64 {
-        self.moved() * speed / self.water.drag(0.5 * self.diameter, speed)
+        let mass = match self.water.stream {
+            Stream::Coupled(_) => self.displaced() / 10.0,
+            _ => self.moved(),
+        };
+        mass.min(self.moved()) * speed / self.water.drag(0.5 * self.diameter, speed)
     }
 
     /// Time in which the water takes this spin [rad/s] away, inertia times spin over torque [s]; infinite without torque.

@@ -170,6 +170,7 @@ impl DemEngine {
     fn start(&mut self) {
         self.drive(0.0);
         self.immerse();
+        self.make_room();
         self.find();
         self.stand();
     }
@@ -218,7 +219,8 @@ impl Engine for DemEngine {
 
     fn grain_stocks(&self) -> Stocks {
         let walls: f64 = self.walls.iter().map(|w| w.energy().0 + w.energy().1).sum();
-        Stocks { elastic: self.sums.stored, walls, ..self.grains.stocks(self.gravity) }
+        let stream = self.wet.as_ref().map_or(0.0, Wet::stream_energy);
+        Stocks { elastic: self.sums.stored, walls, stream, ..self.grains.stocks(self.gravity) }
     }
 
     fn momentum(&self) -> [f64; 3] {

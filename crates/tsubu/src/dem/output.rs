@@ -95,7 +95,8 @@ impl DemEngine {
         let mut contacts = if wants.contacts { self.contact_list() } else { Vec::new() };
         contacts.retain(|c| c.overlap > 0.0 || c.force != DVec3::ZERO);
         let walls = if wants.walls { self.wall_loads.clone() } else { Vec::new() };
-        View { time: self.time(), ends: self.search.ends, grains, contacts, walls }
+        let water = self.wet.as_ref().map(|wet| &wet.water);
+        View { time: self.time(), ends: self.search.ends, grains, contacts, walls, water }
     }
 
     /// Everything that the next step depends on.
@@ -109,7 +110,7 @@ impl DemEngine {
         reals.extend(self.last_flows.wall_force.to_array());
         reals.push(self.sums.stored);
         let water = self.last_flows.water;
-        reals.extend([water.stream, water.pressure, water.lost]);
+        reals.extend([water.stream, water.spun, water.pressure, water.carried, water.lost]);
         reals.extend(water.force.to_array());
         state.put_real("dem.flows", reals);
         let flat = |v: &[DVec3]| v.iter().flat_map(DVec3::to_array).collect::<Vec<_>>();
@@ -119,6 +120,9 @@ impl DemEngine {
         let drifts = self.candidates.drifts.of.iter();
         let drifts = drifts.flat_map(|d| d.offset.to_array().into_iter().chain(d.velocity.to_array()));
         state.put_real("dem.drifts", drifts.collect::<Vec<_>>());
+        if let Some(wet) = &self.wet {
+            wet.water.stream.save(state);
+        }
         for wall in &self.walls {
             wall.save(state);
         }
@@ -141,14 +145,15 @@ impl DemEngine {
         self.orientation.load(state)?;
         self.sources.set_placed(state.integer("dem.streams")?);
         let flows = state.real("dem.flows")?;
-        if flows.len() != 14 {
+        if flows.len() != 16 {
             return Err(missing("dem.flows"));
         }
         self.last_flows.powers.copy_from_slice(&flows[..4]);
         self.last_flows.wall_force = DVec3::from_slice(&flows[4..7]);
         self.sums.stored = flows[7];
-        self.last_flows.water =
-            Flows { stream: flows[8], pressure: flows[9], lost: flows[10], force: DVec3::from_slice(&flows[11..]) };
+        let [stream, spun, pressure, carried, lost] = [8, 9, 10, 11, 12].map(|k| flows[k]);
+        let force = DVec3::from_slice(&flows[13..]);
+        self.last_flows.water = Flows { stream, spun, pressure, carried, lost, force };
         let reference = state.real("dem.reference")?;
         let places = state.real("dem.wall-reference")?;
         if reference.len() != 3 * self.grains.len() || places.len() != 7 * self.walls.len() {
@@ -168,6 +173,9 @@ impl DemEngine {
             drift.velocity = DVec3::from_slice(&d[3..]);
         }
         self.fit();
+        if let Some(wet) = &mut self.wet {
+            wet.water.stream.load(state)?;
+        }
         let hosts = Hosts::default();
         let time = self.time();
         for wall in self.walls.iter_mut().filter(|w| w.host().is_none()) {

@@ -4,6 +4,7 @@ use super::engine::DemEngine;
 use super::integrate::{self, Motion};
 use super::memory::Kept;
 use super::touch::Scene;
+use super::wet::Wet;
 use crate::engine::{Engine, Fault};
 use crate::ledger::{Account, Ledger};
 use crate::partner::Hosts;
@@ -38,6 +39,7 @@ impl DemEngine {
         self.soak();
         self.check_overlap()?;
         self.finish(self.dt, go_on);
+        self.flow_on(ledger);
         self.reactions(hosts, ledger);
         hosts.after(time, self.dt, &self.host_forces, ledger);
         self.close_books(ledger);
@@ -101,6 +103,7 @@ impl DemEngine {
         self.restore(kept);
         self.sums.stored = stored;
         self.soak();
+        self.still_stream();
         self.finish(0.0, false);
         self.sum_wall_loads();
         for (wall, load) in self.walls.iter_mut().zip(&self.wall_loads) {
@@ -173,8 +176,14 @@ impl DemEngine {
             ledger.post(account, half * (old + new));
         }
         let (old, new) = (self.last_flows.water, now.water);
-        ledger.post(Account::StreamWork, half * (old.stream + new.stream));
         ledger.post(Account::Buoyancy, half * (old.pressure + new.pressure));
+        ledger.post(Account::StreamWork, half * (old.spun + new.spun));
+        if self.wet.as_ref().is_some_and(Wet::has_stream) {
+            // What the stream gives stays in the system. The pressure takes from it what it gives to grains along it.
+            ledger.post(Account::Buoyancy, -half * (old.carried + new.carried));
+        } else {
+            ledger.post(Account::StreamWork, half * (old.stream + new.stream));
+        }
         ledger.post(Account::Drag, half * (old.lost + new.lost));
         for axis in 0..3 {
             ledger.water_impulse[axis] += half * (old.force + new.force)[axis];

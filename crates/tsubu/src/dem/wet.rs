@@ -7,7 +7,7 @@ use crate::engine::Engine;
 use crate::find::candidates::{BLOCK, WORTH_THREADS};
 use crate::ledger::{Account, Ledger};
 use crate::state::Grains;
-use crate::water::{Flows, Gust, Parcel, Water};
+use crate::water::{EVERY, Flows, Gust, Parcel, Stream, Water};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -21,34 +21,56 @@ pub(super) struct Wet {
     scratch: Vec<Mutex<Parcel>>,
     /// Of every block.
     flows: Vec<Flows>,
+    /// Force along x on the grains of every layer of a stream [N], of every block.
+    taken: Vec<Vec<f64>>,
+    /// The same of all blocks.
+    total: Vec<f64>,
 }
 
 impl Wet {
     pub fn new(water: Water) -> Self {
-        Self { water, time: 0.0, scratch: Vec::new(), flows: Vec::new() }
+        let layers = if let Stream::Coupled(coupled) = &water.stream { coupled.layers.len() } else { 0 };
+        Self { water, time: 0.0, scratch: Vec::new(), flows: Vec::new(), taken: Vec::new(), total: vec![0.0; layers] }
+    }
+
+    /// Whether there is a stream that gives to the grains and takes from them.
+    pub fn has_stream(&self) -> bool {
+        matches!(self.water.stream, Stream::Coupled(_))
+    }
+
+    /// Its kinetic energy [J].
+    pub fn stream_energy(&self) -> f64 {
+        if let Stream::Coupled(coupled) = &self.water.stream { coupled.energy() } else { 0.0 }
     }
 
     /// Adds the forces of the water to the loads of every block; returns what they do in all.
     fn act(&mut self, grains: &Grains, blocks: &mut [Block], gravity: DVec3, held: bool) -> Flows {
-        let Self { water, time, scratch, flows } = self;
+        let Self { water, time, scratch, flows, taken, total } = self;
         while scratch.len() < rayon::current_num_threads() {
             scratch.push(Mutex::default());
         }
         flows.resize(blocks.len(), Flows::default());
+        taken.resize(blocks.len(), vec![0.0; total.len()]);
         let (water, scratch) = (&*water, &*scratch);
-        let work = |(number, (block, flows)): (usize, (&mut Block, &mut Flows))| {
+        let work = |(number, ((block, flows), taken)): (usize, ((&mut Block, &mut Flows), &mut Vec<f64>))| {
             let mine = rayon::current_thread_index().unwrap_or(0);
             // Nobody else has this thread's parcel, so the lock is free.
             let mut parcel = scratch[mine].lock().unwrap_or_else(PoisonError::into_inner);
             parcel.time = *time;
             let first = number * BLOCK;
-            *flows = block_of_grains(water, grains, first, block, &mut parcel, gravity, held);
+            *flows = block_of_grains(water, grains, first, block, &mut parcel, gravity, held, taken);
         };
-        let both = blocks.par_iter_mut().zip(flows.par_iter_mut());
         if grains.len() >= WORTH_THREADS && rayon::current_num_threads() > 1 {
-            both.enumerate().with_max_len(1).for_each(work);
+            let all = blocks.par_iter_mut().zip(flows.par_iter_mut()).zip(taken.par_iter_mut());
+            all.enumerate().with_max_len(1).for_each(work);
         } else {
-            blocks.iter_mut().zip(flows.iter_mut()).enumerate().for_each(work);
+            blocks.iter_mut().zip(flows.iter_mut()).zip(taken.iter_mut()).enumerate().for_each(work);
+        }
+        total.fill(0.0);
+        for taken in taken {
+            for (total, taken) in total.iter_mut().zip(taken) {
+                *total += *taken;
+            }
         }
         let mut all = Flows::default();
         for flows in flows {
@@ -59,6 +81,7 @@ impl Wet {
 }
 
 /// The grains of one block, parcel by parcel.
+#[expect(clippy::too_many_arguments, reason = "one call; a struct would be made and taken apart beside it")]
 fn block_of_grains(
     water: &Water,
     grains: &Grains,
@@ -67,8 +90,11 @@ fn block_of_grains(
     parcel: &mut Parcel,
     gravity: DVec3,
     held: bool,
+    taken: &mut [f64],
 ) -> Flows {
     let mut flows = Flows::default();
+    taken.fill(0.0);
+    let layers = if taken.is_empty() { None } else { water.stream.layers() };
     let last = (first + BLOCK).min(grains.len());
     if water.fluctuation.is_some() {
         block.gusts.resize(BLOCK, Gust::default());
@@ -106,6 +132,14 @@ fn block_of_grains(
             load.force += parcel.total(r) - added * gravity;
             if water.turns() {
                 load.torque += parcel.total_torque(r);
+            }
+        }
+        if let Some(layers) = layers {
+            for r in 0..parcel.len {
+                let (k, above, share) = layers.weights(parcel.height[r]);
+                let force = parcel.total[0][r];
+                taken[k] += force * (1.0 - share);
+                taken[above] += force * share;
             }
         }
     }
@@ -150,5 +184,46 @@ impl DemEngine {
         let Some(wet) = &mut self.wet else { return };
         wet.time = time;
         self.water_flows = wet.act(&self.grains, &mut self.touch.blocks, self.gravity, self.walls_held);
+    }
+
+    /// Moves the stream by a step, under what the grains have taken from it.
+    pub(super) fn flow_on(&mut self, ledger: &mut Ledger) {
+        let held = self.walls_held;
+        let Some(wet) = &mut self.wet else { return };
+        let looks = self.step.is_multiple_of(EVERY);
+        match &mut wet.water.stream {
+            Stream::Coupled(coupled) if !held => {
+                let mut turned = coupled.step(&wet.total, self.dt);
+                if looks {
+                    turned.lost += coupled.look(&self.grains.position, &self.grains.radius).lost;
+                }
+                ledger.post(Account::StreamWork, turned.work);
+                ledger.post(Account::StreamFriction, turned.lost);
+            }
+            Stream::Column { layers, .. } if looks => {
+                layers.open = layers.measure(&self.grains.position, &self.grains.radius);
+            }
+            _ => {}
+        }
+    }
+
+    /// The stream at a moment that no step has led to: grains stand where they stand.
+    pub(super) fn still_stream(&mut self) {
+        let Some(wet) = &mut self.wet else { return };
+        match &mut wet.water.stream {
+            Stream::Coupled(coupled) => coupled.stand(&wet.total),
+            Stream::Column { .. } | Stream::Still | Stream::LogLaw { .. } | Stream::Table { .. } => {}
+        }
+    }
+
+    /// Makes room for the grains in the layers of the water, before anything moves.
+    pub(super) fn make_room(&mut self) {
+        let Some(wet) = &mut self.wet else { return };
+        let (position, radius) = (&self.grains.position, &self.grains.radius);
+        match &mut wet.water.stream {
+            Stream::Coupled(coupled) => coupled.make_room(position, radius),
+            Stream::Column { layers, .. } => layers.open = layers.measure(position, radius),
+            Stream::Still | Stream::LogLaw { .. } | Stream::Table { .. } => {}
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Drag.
 
-use super::{Kind, Parcel, Part};
+use super::{Kind, Parcel, Part, hindrance};
 use crate::contact::part::About;
 use multiversion::multiversion;
 use std::f64::consts::PI;
@@ -11,11 +11,12 @@ static ABOUT: About = About {
     models: "Resistance of the water to a sphere that moves through it steadily.",
     formula: "F = C rho/2 (pi/4) d^2 |U - u| (U - u), Re = |U - u| d/nu; \
 constant: C; stokes-newton: C + 24/Re; schiller-naumann: 24/Re (1 + 0.15 Re^0.687), 0.44 above Re = 1000; \
-abraham: (0.63 + 4.8/sqrt(Re))^2",
+abraham: (0.63 + 4.8/sqrt(Re))^2; with neighbours times what `hindrance` says; gidaspow: Ergun's bed, Wen and Yu's suspension",
     symbols: "U velocity of the water [m/s], u of the grain [m/s], d diameter [m], rho density [kg/m^3], nu viscosity [m^2/s]",
     limits: "A sphere alone, far from walls, below the drag crisis (Re < 2e5); without the history force. A grain that is partly \
 above the surface has the share of its volume that is below.",
-    reference: "Osada, Shimizu and Wakai (2004), equations 10 and 11; Schiller and Naumann (1935); Dalla Valle (1948); Abraham (1970)",
+    reference: "Osada, Shimizu and Wakai (2004), equations 10 and 11; Schiller and Naumann (1935); Dalla Valle (1948); Abraham (1970); \
+Di Felice (1994); Richardson and Zaki (1954); Gidaspow (1994)",
 };
 
 /// Re above which Schiller and Naumann's sphere has 0.44.
@@ -25,13 +26,14 @@ const NEWTON: f64 = 1000.0;
 #[derive(Debug)]
 pub(super) struct Drag {
     law: plan::Drag,
+    hindrance: plan::Hindrance,
     density: f64,
     viscosity: f64,
 }
 
 impl Drag {
     pub fn new(plan: &plan::Water) -> Self {
-        Self { law: plan.drag, density: plan.density, viscosity: plan.viscosity }
+        Self { law: plan.drag, hindrance: plan.hindrance, density: plan.density, viscosity: plan.viscosity }
     }
 }
 
@@ -45,7 +47,7 @@ impl Part for Drag {
     }
 
     fn apply(&self, parcel: &mut Parcel) {
-        // C Re for small Re, C for large; in between what the law says.
+        hindrance::before(&self.hindrance, parcel);
         match self.law {
             plan::Drag::None {} => two_terms(parcel, self.density, 0.0, 0.0),
             plan::Drag::Constant { coefficient } => two_terms(parcel, self.density, coefficient, 0.0),
@@ -54,7 +56,9 @@ impl Part for Drag {
             }
             plan::Drag::SchillerNaumann {} => schiller_naumann(parcel, self.density, self.viscosity),
             plan::Drag::Abraham {} => abraham(parcel, self.density, self.viscosity),
+            plan::Drag::Gidaspow {} => hindrance::gidaspow(parcel, self.density, self.viscosity),
         }
+        hindrance::after(&self.hindrance, parcel, self.viscosity);
     }
 }
 

@@ -7,8 +7,11 @@
 #![allow(clippy::inline_always, reason = "a call inside a row would end the vector code of its loop")]
 
 mod buoyancy;
+mod coupled;
 mod drag;
 mod fluctuation;
+mod hindrance;
+mod layers;
 mod magnus;
 mod parcel;
 mod part;
@@ -16,7 +19,10 @@ mod saffman;
 mod stream;
 mod torque;
 
+pub(crate) use coupled::EVERY;
+pub use coupled::{Coupled, Turnover};
 pub use fluctuation::{ABOUT as ABOUT_FLUCTUATION, Fluctuation, Gust};
+pub use layers::Layers;
 pub use parcel::{Flows, Parcel};
 pub use part::{Kind, Part};
 pub use stream::Stream;
@@ -68,7 +74,7 @@ impl Water {
         if plan.torque != (plan::Torque::None {}) {
             parts.push(Box::new(Torque::new(plan)));
         }
-        let stream = Stream::new(&plan.flow);
+        let stream = Stream::new(plan, gravity.x);
         let shear_velocity = stream.shear_velocity().unwrap_or_default();
         Self {
             fluctuation: plan.fluctuation.as_ref().map(|told| Fluctuation::new(told, shear_velocity)),

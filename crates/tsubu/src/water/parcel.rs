@@ -33,6 +33,8 @@ pub struct Parcel {
     pub wet: Column,
     /// Volume under water [m^3].
     pub volume: Column,
+    /// Share of the volume that the grains around leave to the water [-].
+    pub open: Column,
     /// Velocity of the water at the centre, as it would be without the grain [m/s].
     pub flow: [Column; 3],
     /// Velocity of the water relative to the grain [m/s].
@@ -61,8 +63,12 @@ pub struct Parcel {
 pub struct Flows {
     /// Power of the pressure on the grains [W].
     pub pressure: f64,
-    /// Power of the stream: forces times its velocity, torques times its spin [W].
+    /// Power of the pressure with the velocity of the water: what a stream that is part of the system loses by it [W].
+    pub carried: f64,
+    /// Power of the stream: forces times its velocity [W].
     pub stream: f64,
+    /// Power of its spin: torques times it [W]. No stream is charged with it: what turns grains is below what layers know.
+    pub spun: f64,
     /// Power lost: forces and torques times the motion of the water relative to the grains [W].
     pub lost: f64,
     /// Force on the grains [N].
@@ -73,7 +79,9 @@ impl Flows {
     /// Adds other flows.
     pub fn add(&mut self, other: &Self) {
         self.pressure += other.pressure;
+        self.carried += other.carried;
         self.stream += other.stream;
+        self.spun += other.spun;
         self.lost += other.lost;
         self.force += other.force;
     }
@@ -91,6 +99,7 @@ impl Default for Parcel {
             gust: VECTOR,
             wet: ZERO,
             volume: ZERO,
+            open: ZERO,
             flow: VECTOR,
             slip: VECTOR,
             speed: ZERO,
@@ -166,9 +175,13 @@ impl Parcel {
             Kind::Turning => post(n, &self.torque, &mut self.total_torque, [&self.spin, &self.flow_spin]),
         };
         match kind {
-            Kind::Pressure => flows.pressure += with_grain,
+            Kind::Pressure => {
+                flows.pressure += with_grain;
+                flows.carried += with_flow;
+            }
             Kind::Relative | Kind::Turning => {
-                flows.stream += with_flow;
+                let stream = if kind == Kind::Turning { &mut flows.spun } else { &mut flows.stream };
+                *stream += with_flow;
                 flows.lost += with_flow - with_grain;
             }
         }
@@ -188,6 +201,7 @@ fn begin(p: &mut Parcel, surface: f64) {
         p.wet[i] = wet;
         p.volume[i] = wet * (4.0 / 3.0 * PI) * (r * r * r);
     }
+    p.open[..n].fill(1.0);
     for k in 0..3 {
         p.flow[k][..n].fill(0.0);
         p.total[k][..n].fill(0.0);

@@ -1,15 +1,18 @@
-//! How the water moves where no grain disturbs it: a velocity along x that depends on the height.
+//! How the water moves: a velocity that depends on the height.
 
-use super::Parcel;
+use super::coupled::{Coupled, Setting};
+use super::{Layers, Parcel};
 use std::f64::consts::LN_10;
-use tsubu_scene::plan::Flow;
+use tsubu_frame::State;
+use tsubu_frame::state::MissingSection;
+use tsubu_scene::plan::{Flow, StreamStart, Water};
 
 /// Slope and constant of the log law, U = U* (8.5 + 5.75 log10(Z/k)).
-const CONSTANT: f64 = 8.5;
-const PER_DECADE: f64 = 5.75;
+pub(super) const CONSTANT: f64 = 8.5;
+pub(super) const PER_DECADE: f64 = 5.75;
 
-/// A stream along x.
-#[derive(Clone, Debug, PartialEq)]
+/// A flow: along x, or upwards.
+#[derive(Clone, Debug)]
 pub enum Stream {
     /// Water at rest.
     Still,
@@ -30,23 +33,58 @@ pub enum Stream {
         /// Velocities [m/s].
         velocity: Vec<f64>,
     },
+    /// Layers that give to the grains and take from them.
+    Coupled(Box<Coupled>),
+    /// Upwards with a superficial velocity over the share that grains leave.
+    Column {
+        /// Where the layers are.
+        layers: Layers,
+        /// Superficial velocity [m/s].
+        velocity: f64,
+    },
 }
 
 impl Stream {
-    pub(super) fn new(plan: &Flow) -> Self {
-        match plan.clone() {
+    /// The flow of a plan; `gravity` along x [m/s^2].
+    pub(super) fn new(plan: &Water, gravity: f64) -> Self {
+        match plan.flow.clone() {
             Flow::Still {} => Self::Still,
             Flow::LogLaw { shear_velocity, roughness, zero_level } => {
                 Self::LogLaw { shear_velocity, roughness, zero_level }
             }
             Flow::Table { height, velocity } => Self::Table { height, velocity },
+            Flow::Coupled { bottom, top, layers, area, roughness, shear_velocity, discharge, start } => {
+                let setting = Setting {
+                    density: plan.density,
+                    viscosity: plan.viscosity,
+                    roughness,
+                    gravity,
+                    shear_velocity,
+                    discharge,
+                    still: start == StreamStart::Still,
+                };
+                Self::Coupled(Box::new(Coupled::new(Layers::new(bottom, top, layers, area), &setting)))
+            }
+            Flow::Column { bottom, top, layers, area, velocity } => {
+                Self::Column { layers: Layers::new(bottom, top, layers, area), velocity }
+            }
+        }
+    }
+
+    /// The layers, where there are some.
+    pub fn layers(&self) -> Option<&Layers> {
+        match self {
+            Self::Coupled(coupled) => Some(&coupled.layers),
+            Self::Column { layers, .. } => Some(layers),
+            Self::Still | Self::LogLaw { .. } | Self::Table { .. } => None,
         }
     }
 
     /// Velocity along x at height `z` [m/s].
     pub fn velocity(&self, z: f64) -> f64 {
         match self {
-            Self::Still => 0.0,
+            Self::Still | Self::Column { .. } => 0.0,
+            Self::Coupled(coupled) => coupled.ahead(z),
             Self::LogLaw { shear_velocity, roughness, zero_level } => {
                 // A height below zero has no logarithm; the velocity is zero well above it already.
                 let depth = ((z - zero_level) / roughness).max(1e-3);
@@ -69,7 +107,8 @@ impl Stream {
     /// Rate of shear dU/dz at height `z` [1/s]; at a kink that of the straight line above it.
     pub fn shear(&self, z: f64) -> f64 {
         match self {
-            Self::Still => 0.0,
+            Self::Still | Self::Column { .. } => 0.0,
+            Self::Coupled(coupled) => coupled.shear(z),
             Self::LogLaw { shear_velocity, zero_level, .. } => {
                 let moves = self.velocity(z) > 0.0;
                 if moves { shear_velocity * PER_DECADE / (LN_10 * (z - zero_level)) } else { 0.0 }
@@ -84,7 +123,7 @@ impl Stream {
 
     /// Spins of the water at the grains of a parcel: a stream along x that grows with z turns about y, from z to x.
     pub(super) fn fill_spin(&self, parcel: &mut Parcel) {
-        if *self == Self::Still {
+        if matches!(self, Self::Still | Self::Column { .. }) {
             return;
         }
         for i in 0..parcel.rows() {
@@ -92,13 +131,26 @@ impl Stream {
         }
     }
 
-    /// Velocities at the grains of a parcel.
+    /// Velocities at the grains of a parcel, and the share that grains leave to the water there.
     pub(super) fn fill(&self, parcel: &mut Parcel) {
-        if *self == Self::Still {
-            return;
+        let n = parcel.rows();
+        if let Some(layers) = self.layers() {
+            for i in 0..n {
+                parcel.open[i] = layers.read(&layers.open, parcel.height[i]);
+            }
         }
-        for i in 0..parcel.rows() {
-            parcel.flow[0][i] = self.velocity(parcel.height[i]);
+        match self {
+            Self::Still => {}
+            Self::Column { velocity, .. } => {
+                for i in 0..n {
+                    parcel.flow[2][i] = velocity / parcel.open[i];
+                }
+            }
+            Self::LogLaw { .. } | Self::Table { .. } | Self::Coupled(_) => {
+                for i in 0..n {
+                    parcel.flow[0][i] = self.velocity(parcel.height[i]);
+                }
+            }
         }
     }
 
@@ -106,6 +158,11 @@ impl Stream {
     pub(super) fn fastest(&self, surface: f64, diameter: f64) -> f64 {
         match self {
             Self::Still => 0.0,
+            Self::Column { layers, velocity } => {
+                let least = layers.open.iter().copied().fold(1.0, f64::min);
+                velocity.abs() / least
+            }
+            Self::Coupled(coupled) => coupled.velocity.iter().fold(0.0, |most, v| v.abs().max(most)),
             Self::LogLaw { zero_level, .. } => {
                 let near = zero_level + 10.0 * diameter;
                 self.velocity(if surface.is_finite() { surface } else { near })
@@ -114,11 +171,37 @@ impl Stream {
         }
     }
 
+    /// Writes what the next step depends on into a checkpoint.
+    pub(crate) fn save(&self, state: &mut State) {
+        match self {
+            Self::Coupled(coupled) => coupled.save(state),
+            Self::Column { layers, .. } => state.put_real("water.stream", layers.open.clone()),
+            Self::Still | Self::LogLaw { .. } | Self::Table { .. } => {}
+        }
+    }
+
+    /// Takes it back.
+    pub(crate) fn load(&mut self, state: &State) -> Result<(), MissingSection> {
+        match self {
+            Self::Coupled(coupled) => coupled.load(state),
+            Self::Column { layers, .. } => {
+                let open = state.real("water.stream")?;
+                if open.len() != layers.len() {
+                    return Err(MissingSection { name: "water.stream".to_owned(), kind: "real" });
+                }
+                layers.open.copy_from_slice(open);
+                Ok(())
+            }
+            Self::Still | Self::LogLaw { .. } | Self::Table { .. } => Ok(()),
+        }
+    }
+
     /// Shear velocity [m/s], where there is one.
     pub fn shear_velocity(&self) -> Option<f64> {
         match self {
             Self::LogLaw { shear_velocity, .. } => Some(*shear_velocity),
-            Self::Still | Self::Table { .. } => None,
+            Self::Coupled(coupled) => Some(coupled.bottom_shear_velocity()),
+            Self::Still | Self::Table { .. } | Self::Column { .. } => None,
         }
     }
 }

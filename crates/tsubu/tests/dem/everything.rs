@@ -79,12 +79,11 @@ region = { low = ["60 mm", 0, "10 mm"], high = ["64 mm", "4 mm", "20 mm"] }
 [water]
 density = "50 kg/m^3"
 viscosity = "2e-5 m^2/s"
-surface = "70 mm"
 drag.abraham = {}
 torque.finite-reynolds = {}
 lift = ["saffman-mei", "magnus-oesterle-dinh"]
-fluctuation = { time = "2 ms" }
-flow.log-law = { shear-velocity = "0.2 m/s", roughness = "2 mm", zero-level = "2 mm" }
+hindrance.di-felice = {}
+flow.coupled = { bottom = 0, top = "70 mm", shear-velocity = "0.2 m/s" }
 [contact]
 normal.hertz = {}
 damping.quarter = {}

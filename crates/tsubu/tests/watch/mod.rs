@@ -46,7 +46,7 @@ pub fn view(balls: &[Ball], contacts: Vec<Contact>, ends: [Option<[f64; 2]>; 3])
         group: balls.iter().map(|b| b.group).collect(),
         id: (0..balls.len() as u32).collect(),
     };
-    View { time: 0.0, ends, grains, contacts, walls: Vec::new() }
+    View { time: 0.0, ends, grains, contacts, walls: Vec::new(), water: None }
 }
 
 /// Every pair that touches, also across periodic ends, pressed together with `force` [N].

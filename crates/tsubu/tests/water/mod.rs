@@ -1,5 +1,6 @@
 //! Grains in water by their outcome.
 
+mod coupled;
 mod float;
 mod fluctuation;
 mod lift;

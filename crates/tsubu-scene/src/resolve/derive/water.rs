@@ -89,6 +89,7 @@ impl Derive<'_> {
     /// Shear velocity, roughness and surface of a stream.
     fn stream(&mut self, resolved: &mut toml::Table) {
         let diameter = mean_diameter(resolved);
+        self.layers(resolved, diameter);
         let gravity: Vec<f64> = resolved
             .get("gravity")
             .and_then(Value::as_array)
@@ -160,6 +161,71 @@ impl Derive<'_> {
         let level = number(law, "zero-level");
         if let (Some(level), Some(depth)) = (level, depth) {
             water.entry("surface").or_insert(Value::Float(level + depth));
+        }
+    }
+}
+
+impl Derive<'_> {
+    /// Layers of a flow: how many, how large, over which roughness.
+    fn layers(&mut self, resolved: &mut toml::Table, diameter: Option<f64>) {
+        let length = |axis: &str| {
+            let ends = resolved.get("periodic")?.get(axis)?.as_array()?;
+            Some(ends.last()?.as_float()? - ends.first()?.as_float()?)
+        };
+        let across = if super::is_space(resolved) { length("y") } else { diameter };
+        let area = length("x").zip(across).map(|(a, b)| a * b);
+        let root = self.root;
+        let Some(water) = resolved.get_mut("water").and_then(Value::as_table_mut) else { return };
+        let Some(flow) = water.get_mut("flow").and_then(Value::as_table_mut) else { return };
+        for kind in ["coupled", "column"] {
+            let Some(flow) = flow.get_mut(kind).and_then(Value::as_table_mut) else { continue };
+            let path = ["water", "flow", kind];
+            let typed = |key: &str| root.find(&[path[0], path[1], path[2], key]).is_some();
+            let number = |key: &str| flow.get(key).and_then(Value::as_float);
+            let (bottom, top) = (number("bottom"), number("top"));
+            if let (Some(bottom), Some(top)) = (bottom, top)
+                && top <= bottom
+            {
+                self.complain(
+                    Complaint::new("the water has no depth")
+                        .at(&root.locate(&[path[0], path[1], path[2], "top"]), "not above `bottom`"),
+                );
+                continue;
+            }
+            if !typed("layers")
+                && let (Some(bottom), Some(top), Some(diameter)) = (bottom, top, diameter)
+            {
+                let layers = (2.0 * (top - bottom) / diameter).round().clamp(2.0, 1e5) as i64;
+                flow.insert("layers".into(), Value::Integer(layers));
+            }
+            if !typed("area")
+                && let Some(area) = area
+            {
+                flow.insert("area".into(), Value::Float(area));
+            }
+            let rough = kind == "coupled";
+            if rough
+                && !typed("roughness")
+                && let Some(diameter) = diameter
+            {
+                flow.insert("roughness".into(), Value::Float(diameter));
+            }
+            for (key, wanted, why) in [
+                ("layers", true, "there are no grains to take them from"),
+                ("area", true, "the world is not periodic along x (and y)"),
+                ("roughness", rough, "there are no grains to take it from"),
+            ] {
+                if wanted && !flow.contains_key(key) && !typed(key) {
+                    self.complain(
+                        Complaint::new(format!("missing key `{key}` in [water.flow.{kind}]"))
+                            .at(&root.locate(&path), format!("needs `{key}`: {why}")),
+                    );
+                }
+            }
+            if let Some(top) = top {
+                water.entry("surface").or_insert(Value::Float(top));
+            }
+            return;
         }
     }
 }

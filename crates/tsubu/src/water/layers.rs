@@ -1,0 +1,78 @@
+//! Layers: equal slices of the height, and how much of each the grains leave to the water.
+
+use super::under;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Smallest share that grains are taken to leave to the water: in the plane deep overlaps could leave less than nothing.
+const LEAST: f64 = 0.1;
+
+/// Equal layers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layers {
+    /// Height z where they begin [m].
+    pub bottom: f64,
+    /// Thickness of one [m].
+    pub thickness: f64,
+    /// Plan area [m^2].
+    pub area: f64,
+    /// Share of every layer that is water [-].
+    pub open: Vec<f64>,
+}
+
+impl Layers {
+    /// Layers without grains.
+    pub fn new(bottom: f64, top: f64, count: usize, area: f64) -> Self {
+        Self { bottom, thickness: (top - bottom) / count as f64, area, open: vec![1.0; count] }
+    }
+
+    /// Number of layers.
+    pub fn len(&self) -> usize {
+        self.open.len()
+    }
+
+    /// Whether there are none; never so in a plan.
+    pub fn is_empty(&self) -> bool {
+        self.open.is_empty()
+    }
+
+    /// Height of the middle of layer `k` [m].
+    pub fn middle(&self, k: usize) -> f64 {
+        self.bottom + (k as f64 + 0.5) * self.thickness
+    }
+
+    /// The two layers whose middles are below and above a height, and the share of the upper one; beyond the outer middles
+    /// the outer layer alone. What a grain reads with these shares it also gives back with them.
+    #[inline]
+    pub fn weights(&self, z: f64) -> (usize, usize, f64) {
+        let last = self.len() - 1;
+        let at = ((z - self.bottom) / self.thickness - 0.5).clamp(0.0, last as f64);
+        let k = (at as usize).min(last);
+        (k, (k + 1).min(last), at - k as f64)
+    }
+
+    /// A column of layers read at a height.
+    #[inline]
+    pub fn read(&self, column: &[f64], z: f64) -> f64 {
+        let (k, above, share) = self.weights(z);
+        column[k] * (1.0 - share) + column[above] * share
+    }
+
+    /// What grains leave to the water: one minus the volumes of the spheres, cut by the layers, over the volume of a layer.
+    pub fn measure(&self, position: &[DVec3], radius: &[f64]) -> Vec<f64> {
+        let mut filled = vec![0.0; self.len()];
+        for (p, r) in position.iter().zip(radius) {
+            let volume = 4.0 / 3.0 * PI * r.powi(3);
+            let layer = |z: f64| ((z - self.bottom) / self.thickness).floor().clamp(0.0, self.len() as f64) as usize;
+            let (first, last) = (layer(p.z - r), layer(p.z + r).min(self.len() - 1));
+            let mut below = under(self.bottom + first as f64 * self.thickness, *r, p.z);
+            for (k, filled) in filled.iter_mut().enumerate().take(last + 1).skip(first) {
+                let next = under(self.bottom + (k + 1) as f64 * self.thickness, *r, p.z);
+                *filled += (next - below) * volume;
+                below = next;
+            }
+        }
+        let layer = self.area * self.thickness;
+        filled.iter().map(|filled| (1.0 - filled / layer).max(LEAST)).collect()
+    }
+}
