@@ -1,4 +1,4 @@
-//! What watches have seen: numbers over time, profiles at a few times, paths of grains, fields as maps.
+//! What watches have seen: numbers over time, profiles at a few times, paths of grains, single events, fields as maps.
 
 use serde::Deserialize;
 use tsubu_frame::summary::read_json;
@@ -131,6 +131,7 @@ impl Entry {
     fn of_table(&self, source: &mut Source, table: &Table) -> Vec<Block> {
         match (self.kind.as_str(), self.coordinates.len()) {
             ("track", _) => self.paths(source, table),
+            ("hops", _) => self.events(source, table),
             (_, 1) => self.profiles(source, table),
             (_, 2) => self.maps(source, table),
             _ => Vec::new(),
@@ -196,6 +197,39 @@ impl Entry {
             }
             figure.height = 240;
             blocks.extend(source.figure(&self.file(&format!("{label} paths")), &figure, &self.caption(&label)));
+        }
+        blocks
+    }
+
+    /// Values of single events over time; the first value is the time at which one began. A colour a grain if they are few.
+    fn events(&self, source: &mut Source, table: &Table) -> Vec<Block> {
+        let (times, ids) = (numbers(table, 2), numbers(table, 1));
+        let mut names = ids.clone();
+        names.sort_by(f64::total_cmp);
+        names.dedup();
+        let few = (2..=PATHS).contains(&names.len());
+        let mut blocks = Vec::new();
+        for (k, header) in self.values.iter().enumerate().skip(1) {
+            let values = numbers(table, 2 + k);
+            if !says_something(&values) {
+                continue;
+            }
+            let axis = Axis::from_header(header);
+            let label = axis.label.clone();
+            let mut figure = Figure::new("", Axis::new(split_unit(&self.values[0]).0, "s"), axis);
+            let points = |of: &dyn Fn(f64) -> bool| {
+                (0..values.len()).filter(|row| of(ids[*row])).map(|row| (times[row], values[row])).collect()
+            };
+            if few {
+                for name in &names {
+                    let points = points(&|id| id == *name);
+                    figure = figure.with(Series::line(format!("grain {name}"), points).styled(Style::Points));
+                }
+            } else {
+                figure = figure.with(Series::line("", points(&|_| true)).styled(Style::Points));
+            }
+            figure.height = 240;
+            blocks.extend(source.figure(&self.file(&format!("{label} events")), &figure, &self.caption(&label)));
         }
         blocks
     }

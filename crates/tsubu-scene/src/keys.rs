@@ -166,6 +166,8 @@ pub enum Need {
     Word(&'static str),
     /// The value follows from others, as the text says.
     Derived(&'static str),
+    /// The same as `Derived`; typing the word leaves it out.
+    DerivedOrWord(&'static str, &'static str),
 }
 
 /// Which numbers are allowed.
@@ -227,6 +229,14 @@ impl Range {
 }
 
 impl Key {
+    /// The word that can stand in place of a value.
+    pub const fn word_instead(&self) -> Option<&'static str> {
+        match self.need {
+            Need::Word(word) | Need::DerivedOrWord(_, word) => Some(word),
+            _ => None,
+        }
+    }
+
     /// A required key without limits.
     pub const fn new(name: &'static str, kind: Kind, about: &'static str) -> Self {
         Self { name, kind, need: Need::Required, range: Range::ANY, rivals: &[], about }
@@ -246,6 +256,10 @@ impl Key {
 
     const fn derived(self, text: &'static str) -> Self {
         Self { need: Need::Derived(text), ..self }
+    }
+
+    const fn derived_or_word(self, text: &'static str, word: &'static str) -> Self {
+        Self { need: Need::DerivedOrWord(text, word), ..self }
     }
 
     const fn rivals(self, rivals: &'static [&'static str]) -> Self {

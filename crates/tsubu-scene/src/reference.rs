@@ -168,7 +168,7 @@ fn default(key: &Key) -> String {
         Need::Default("{}" | "[]" | "''") => "empty".to_string(),
         Need::Default(text) => format!("`{}`", text.replace('\'', "\"")),
         Need::Word(word) => format!("`\"{word}\"`"),
-        Need::Derived(text) => text.to_string(),
+        Need::Derived(text) | Need::DerivedOrWord(text, _) => text.to_string(),
     }
 }
 
@@ -197,7 +197,7 @@ pub(crate) fn describe(key: &Key) -> String {
         _ => String::new(),
     };
     let default = match key.need {
-        Need::Derived(text) => format!("; default: {text}"),
+        Need::Derived(text) | Need::DerivedOrWord(text, _) => format!("; default: {text}"),
         Need::Word(word) => format!("; default: \"{word}\""),
         _ => String::new(),
     };

@@ -78,7 +78,7 @@ impl Resolver<'_> {
                         }
                         None
                     }
-                    Need::Optional | Need::Word(_) | Need::Derived(_) => None,
+                    Need::Optional | Need::Word(_) | Need::Derived(_) | Need::DerivedOrWord(..) => None,
                 }
             };
             if let Some(value) = value {

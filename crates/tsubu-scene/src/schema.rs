@@ -36,7 +36,7 @@ fn table(keys: &'static [Key], about: &str) -> Value {
 
 fn property(key: &'static Key) -> Value {
     let mut schema = kind(key);
-    if let Need::Word(word) = key.need {
+    if let Some(word) = key.word_instead() {
         schema = json!({ "anyOf": [{ "const": word }, schema] });
     }
     schema["description"] = json!(crate::reference::describe(key));

@@ -34,6 +34,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/impact-damper.toml"),
     },
     Template {
+        name: "hops",
+        about: "a grain hops along a floor: height, length, restitution and contact time of every hop",
+        text: include_str!("../../../scenes/hops.toml"),
+    },
+    Template {
         name: "ring-down",
         about: "a box on a spring let go with balls inside: damping from the decay",
         text: include_str!("../../../scenes/ring-down.toml"),

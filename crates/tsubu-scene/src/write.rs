@@ -27,7 +27,7 @@ fn keys_of(out: &mut String, keys: &'static [Key], table: &toml::Table, path: &s
     for key in keys {
         match (table.get(key.name), key.kind) {
             (None, _) => {
-                if let Need::Word(word) = key.need {
+                if let Some(word) = key.word_instead() {
                     let _ = writeln!(out, "{} = {}", key.name, quote(word));
                 }
             }

@@ -29,8 +29,8 @@ fn times_and_the_region_follow_from_the_scene() {
     );
     let (name, layers) = &all[1];
     assert_eq!(all[0].0, "late");
-    assert_eq!((all[0].1.from, all[0].1.every, all[0].1.until), (0.5, 0.005, Some(0.7)));
-    assert_eq!((name.as_str(), layers.from, layers.until, layers.every), ("layers", 0.0, None, 0.001));
+    assert_eq!((all[0].1.from, all[0].1.every, all[0].1.until), (0.5, Some(0.005), Some(0.7)));
+    assert_eq!((name.as_str(), layers.from, layers.until, layers.every), ("layers", 0.0, None, Some(0.001)));
     let Measure::Profile { axis: Axis::Z, bins: 20, quantities, region } = &layers.measure else {
         panic!("{layers:?}")
     };
@@ -60,14 +60,32 @@ segregation.cell = \"12 mm\"
 wall-load = {{ wall = \"box\", area = \"1 cm^2\", direction = \"-z\" }}
 [watch.i]
 track.ids = [0, 22]
+[watch.j]
+hops = {{ bed = [\"walls\", \"free-grains\"], group = \"more\", along = \"-x\", lowest = \"1 mm\", most = 30 }}
 "
     );
     let all = watches(&text);
-    assert_eq!(all.len(), 9);
+    assert_eq!(all.len(), 10);
     let Measure::Slope { centre, .. } = all[1].1.measure else { panic!("a slope") };
     assert_eq!(centre, 0.01);
     let Measure::Segregation { groups, .. } = &all[6].1.measure else { panic!("segregation") };
     assert_eq!(groups, &["balls", "more"].map(String::from));
+}
+
+/// Hops are looked at in every step unless the scene says how often; others are if it asks for it.
+#[test]
+fn a_watch_can_look_at_every_step() {
+    let all = watches(
+        "[watch.a]\nhops = {}\n[watch.b]\nevery = \"1 us\"\nhops = {}\n[watch.c]\nevery = \"step\"\nfabric = {}\n[watch.d]\nfabric = {}",
+    );
+    let every: Vec<Option<f64>> = all.iter().map(|(_, watch)| watch.every).collect();
+    assert_eq!(every, [None, Some(1e-6), None, Some(0.001)]);
+}
+
+#[test]
+fn hops_that_nobody_could_see() {
+    let text = "[watch.a]\nevery = \"steps\"\nhops = { most = 0, lowest = \"-1 mm\" }\n[watch.b]\nhops = { bed = [], up = \"x\" }\n[watch.c]\nhops = { bed = [\"sand\"] }\n[watch.d]\nhops.along = [1, 0.1]\n[watch.e]\nhops.bed = [\"fixed-grains\"]";
+    insta::assert_snapshot!(about(text));
 }
 
 #[test]

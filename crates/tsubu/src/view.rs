@@ -5,40 +5,54 @@ use crate::water::Water;
 use glam::DVec3;
 use std::borrow::Cow;
 
+/// How much of the contacts somebody wants to see.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Contacts {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// Who overlaps whom, where and how deeply; forces are zero. Cheap enough for every step.
+    Places,
+    /// All of it; it costs about a step to make.
+    Forces,
+}
+
 /// What somebody wants to see beside the grains, or what an engine can show beside them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wants {
     /// Spins of the grains.
     pub spins: bool,
-    /// The list of contacts; it costs about a step to make.
-    pub contacts: bool,
+    /// The list of contacts.
+    pub contacts: Contacts,
     /// Forces and torques on the walls.
     pub walls: bool,
 }
 
 impl Wants {
     /// Grains alone, spins not looked at.
-    pub const GRAINS: Self = Self { spins: false, contacts: false, walls: false };
+    pub const GRAINS: Self = Self { spins: false, contacts: Contacts::Nothing, walls: false };
+    /// Grains, and which of them touch.
+    pub const TOUCHES: Self = Self { contacts: Contacts::Places, ..Self::GRAINS };
     /// Grains and their contacts.
-    pub const CONTACTS: Self = Self { contacts: true, ..Self::GRAINS };
+    pub const CONTACTS: Self = Self { contacts: Contacts::Forces, ..Self::GRAINS };
     /// Forces and torques on the walls.
     pub const WALLS: Self = Self { walls: true, ..Self::GRAINS };
     /// Everything.
-    pub const ALL: Self = Self { spins: true, contacts: true, walls: true };
+    pub const ALL: Self = Self { spins: true, contacts: Contacts::Forces, walls: true };
 
     /// What either wants.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self {
             spins: self.spins || other.spins,
-            contacts: self.contacts || other.contacts,
+            contacts: self.contacts.max(other.contacts),
             walls: self.walls || other.walls,
         }
     }
 
     /// What of this `offered` does not have, in words; `None` if it has all.
     pub fn missing(self, offered: Self) -> Option<&'static str> {
-        if self.contacts && !offered.contacts {
+        if self.contacts > offered.contacts {
             Some("a list of contacts")
         } else if self.walls && !offered.walls {
             Some("forces on walls")
@@ -57,7 +71,8 @@ pub struct View<'a> {
     pub ends: Ends,
     /// The grains, in an order of the engine's own.
     pub grains: Columns<'a>,
-    /// Touching pairs; empty unless wanted.
+    /// Touching pairs; empty unless wanted. Those who want places alone may be shown forces too, and then also pairs that
+    /// adhere over a gap.
     pub contacts: Vec<Contact>,
     /// Loads on the walls, in the order of their names; empty unless wanted.
     pub walls: Vec<WallLoad>,
@@ -151,6 +166,18 @@ impl View<'_> {
             }
         }
         p
+    }
+
+    /// Of every grain, whether it overlaps another grain or a wall.
+    pub fn overlapping(&self) -> Vec<bool> {
+        let mut overlapping = vec![false; self.len()];
+        for contact in self.contacts.iter().filter(|c| c.overlap > 0.0) {
+            overlapping[contact.first] = true;
+            if !contact.wall {
+                overlapping[contact.second] = true;
+            }
+        }
+        overlapping
     }
 
     /// Centre of a grain between the periodic ends.

@@ -17,6 +17,8 @@ const INDEX: &str = r#"[
    "coordinates": ["x [m]", "z [m]"], "values": ["density [kg/m^2]"]},
   {"name": "some", "kind": "track", "about": "", "scalars": [], "file": "watch/some.csv",
    "coordinates": ["id [-]"], "values": ["position z [m]"]},
+  {"name": "sand", "kind": "hops", "about": "", "scalars": [], "file": "watch/sand.csv",
+   "coordinates": ["id [-]"], "values": ["start [s]", "height [m]", "restitution [-]"]},
   {"name": "out", "kind": "discharge", "about": "",
    "scalars": ["out passed mass [kg]", "out force x [N]", "out force z [N]", "out rate [1/s]"], "file": null,
    "coordinates": [], "values": []}
@@ -53,6 +55,11 @@ fn watched(dir: &Path) {
             some.push([t, id, id * t].map(Cell::Number));
         }
     }
+    let mut sand = Table::new(["time [s]", "id [-]", "start [s]", "height [m]", "restitution [-]"]);
+    for (time, id, start, height) in [(1.0, 4.0, 0.5, 0.01), (1.5, 9.0, 0.2, 0.02), (2.0, 4.0, 1.1, 0.005)] {
+        sand.push([time, id, start, height, f64::NAN].map(Cell::Number));
+    }
+    sand.write(&dir.join("watch/sand.csv")).unwrap();
     layers.write(&dir.join("watch/layers.csv")).unwrap();
     field.write(&dir.join("watch/field.csv")).unwrap();
     some.write(&dir.join("watch/some.csv")).unwrap();
@@ -86,6 +93,7 @@ fn what_watches_saw_is_drawn() {
             "layers (profile): solid fraction",
             "field (coarse grain): density, mean over time",
             "some (track): position z",
+            "sand (hops): height",
             "out (discharge): passed mass",
             "out (discharge): force",
             "out (discharge): rate",
@@ -98,6 +106,8 @@ fn what_watches_saw_is_drawn() {
         ("watch_layers_solid_fraction_profile.svg", "t = 2 s"),
         ("watch_layers_solid_fraction_profile.svg", "mean over time"),
         ("watch_some_position_z_paths.svg", "grain 7"),
+        ("watch_sand_height_events.svg", "grain 9"),
+        ("watch_sand_height_events.svg", "start"),
         ("watch_out_force.svg", "force z"),
     ] {
         assert!(figure(name).contains(said), "{name}: {said}");
@@ -116,7 +126,7 @@ fn damaged_tables_of_watches_become_notes() {
     fixture::text(dir.path(), "watch/field.csv", "time [s],x [m]\n1\n");
     let page = build(dir.path()).unwrap();
     assert!(page.to_html().contains("watch/field.csv"));
-    assert!(captions(section(&page, "Watches")).len() == 5);
+    assert!(captions(section(&page, "Watches")).len() == 6);
     fixture::text(dir.path(), "watch/index.json", "[{");
     assert!(section(&build(dir.path()).unwrap(), "Watches").is_empty());
 }

@@ -5,7 +5,7 @@ use super::place::Room;
 use super::{Parts, named};
 use crate::complaint::Complaint;
 use crate::keys::WATCHES;
-use crate::plan::{Axis, Measure, Region, Watch};
+use crate::plan::{Axis, Bed, GrainMotion, Measure, Particles, Region, Vector, Watch};
 use crate::suggest;
 
 /// More points than this are a slip, not a field.
@@ -120,6 +120,7 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
                 );
             }
         }
+        Measure::Hops { bed, along, up, .. } => hops(parts, name, bed, [*along, *up], complaints),
         Measure::WallLoad { area: None, direction: Some(_), .. } => complaints.push(
             Complaint::new("a `direction` is of no use without an `area`")
                 .at(&at("direction"), "says how the pressure acts")
@@ -141,6 +142,33 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
             }
         }
         _ => {}
+    }
+}
+
+/// Hops need a bed, and a way along it.
+fn hops(parts: &Parts<'_>, name: &str, bed: &[Bed], [along, up]: [Vector; 2], complaints: &mut Vec<Complaint>) {
+    let at = |key: &str| parts.root.locate(&["watch", name, "hops", key]);
+    let cosine: f64 = along.iter().zip(up).map(|(a, b)| a * b).sum();
+    if cosine.abs() > 1e-3 {
+        let key = if parts.root.find(&["watch", name, "hops", "along"]).is_some() { "along" } else { "up" };
+        complaints.push(
+            Complaint::new(format!("`along` and `up` of the watch `{name}` are not at right angles"))
+                .at(&at(key), format!("{:.1} degrees apart", cosine.clamp(-1.0, 1.0).acos().to_degrees()))
+                .hint("`along` is \"x\" and `up` is \"z\" where they are not given"),
+        );
+    }
+    let fixed = |group: &Particles| !matches!(group.motion, GrainMotion::Free {});
+    let there = |kind: &Bed| match kind {
+        Bed::Walls => !parts.walls.is_empty(),
+        Bed::FixedGrains => parts.particles.values().any(fixed),
+        Bed::FreeGrains => true,
+    };
+    if !parts.incomplete && !bed.iter().any(there) {
+        complaints.push(
+            Complaint::new(format!("the watch `{name}` has no bed that grains could hop on"))
+                .at(&at("bed"), "there is none of this in the scene")
+                .hint("walls, grains with `motion.frozen = {}`, or `bed = [\"free-grains\"]`"),
+        );
     }
 }
 

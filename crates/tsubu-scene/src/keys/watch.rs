@@ -9,6 +9,7 @@ pub(crate) const KINDS: &[&str] = &[
     "coarse-grain",
     "slope",
     "discharge",
+    "hops",
     "coordination",
     "fabric",
     "forces",
@@ -24,9 +25,9 @@ const fn kind(name: &'static str, keys: &'static [Key], about: &'static str) -> 
 pub(super) static WATCH: &[Key] = &[
     Key::new("from", Kind::Quantity(&TIME), "When the first look is taken").default("0").at_least(0.0),
     Key::new("until", Kind::Quantity(&TIME), "After this no look is taken").above(0.0).word("end"),
-    Key::new("every", Kind::Quantity(&TIME), "Simulated time between looks")
+    Key::new("every", Kind::Quantity(&TIME), "Simulated time between looks, or \"step\": at every step")
         .above(0.0)
-        .derived("`output.history-interval`"),
+        .derived_or_word("`output.history-interval`; of `hops` every step", "step"),
     kind("profile", PROFILE, "Averages in slices across an axis: solid fraction, velocity, temperature, coordination"),
     kind(
         "coarse-grain",
@@ -35,6 +36,11 @@ pub(super) static WATCH: &[Key] = &[
     ),
     kind("slope", SLOPE, "Slope of the free surface, and the angle of a heap, by least squares"),
     kind("discharge", DISCHARGE, "Grains and mass that have passed a plane, less those that came back, and the rate"),
+    kind(
+        "hops",
+        HOPS,
+        "Hops over a bed, from touch to touch: height, length, times, impact, restitution, contact time",
+    ),
     kind("coordination", COORDINATION, "Contacts per grain, with and without rattlers"),
     kind("fabric", FABRIC, "Fabric tensor of the contact normals, its deviator and principal direction"),
     kind("forces", FORCES, "Distribution of normal contact forces, and the share of contacts in force chains"),
@@ -125,6 +131,21 @@ static DISCHARGE: &[Key] = &[
     Key::new("point", Kind::Vector(&LENGTH), "A point on the plane").default("'origin'"),
     Key::new("normal", Kind::Direction, "Direction in which grains pass").default("'-z'"),
     Key::new("group", Kind::Name(Family::Group), "Only the grains of this group").optional(),
+];
+
+static BED: &[Word] = &[
+    Word { name: "walls", about: "walls of any shape" },
+    Word { name: "fixed-grains", about: "frozen and driven grains" },
+    Word { name: "free-grains", about: "grains that forces move" },
+];
+
+static HOPS: &[Key] = &[
+    Key::new("bed", Kind::SomeOf(BED), "What a grain must touch to be on the bed").default("['walls', 'fixed-grains']"),
+    Key::new("group", Kind::Name(Family::Group), "Only the grains of this group").optional(),
+    Key::new("along", Kind::Direction, "Direction in which hops are long").default("'x'"),
+    Key::new("up", Kind::Direction, "Direction in which hops are high, away from the bed").default("'z'"),
+    Key::new("lowest", Kind::Quantity(&LENGTH), "Lower hops are not counted").default("0").at_least(0.0),
+    Key::new("most", Kind::Whole, "After so many hops nothing is counted any more").at_least(1.0).optional(),
 ];
 
 static COORDINATION: &[Key] = &[

@@ -12,8 +12,9 @@ pub struct Watch {
     /// After this no look is taken [s]; `None`: to the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub until: Option<f64>,
-    /// Time between looks [s].
-    pub every: f64,
+    /// Time between looks [s]; `None`: a look at every step.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub every: Option<f64>,
     /// What is measured.
     #[serde(flatten)]
     pub measure: Measure,
@@ -70,6 +71,21 @@ pub enum Measure {
         normal: Vector,
         /// Only grains of this group.
         group: Option<String>,
+    },
+    /// Hops of grains over a bed.
+    Hops {
+        /// What a grain must touch to be on the bed.
+        bed: Vec<Bed>,
+        /// Only grains of this group.
+        group: Option<String>,
+        /// Unit direction in which hops are long.
+        along: Vector,
+        /// Unit direction in which hops are high.
+        up: Vector,
+        /// Lower hops are not counted [m].
+        lowest: f64,
+        /// After so many hops nothing is written any more.
+        most: Option<usize>,
     },
     /// Contacts per grain.
     Coordination {
@@ -131,6 +147,7 @@ impl Measure {
             Self::CoarseGrain { .. } => "coarse-grain",
             Self::Slope { .. } => "slope",
             Self::Discharge { .. } => "discharge",
+            Self::Hops { .. } => "hops",
             Self::Coordination { .. } => "coordination",
             Self::Fabric { .. } => "fabric",
             Self::Forces { .. } => "forces",
@@ -150,7 +167,7 @@ impl Measure {
             | Self::Fabric { region, .. }
             | Self::Forces { region, .. }
             | Self::Segregation { region, .. } => region.as_ref(),
-            Self::Discharge { .. } | Self::WallLoad { .. } | Self::Track { .. } => None,
+            Self::Discharge { .. } | Self::Hops { .. } | Self::WallLoad { .. } | Self::Track { .. } => None,
         }
     }
 }
@@ -191,6 +208,18 @@ pub enum Quantity {
     GranularTemperature,
     /// Contacts per grain.
     Coordination,
+}
+
+/// What the bed is that grains hop on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Bed {
+    /// Walls.
+    Walls,
+    /// Frozen and driven grains.
+    FixedGrains,
+    /// Grains that forces move.
+    FreeGrains,
 }
 
 /// How a grain is smeared out into a field.

@@ -3,7 +3,7 @@
 use super::Resolver;
 use super::vector::vector_value;
 use crate::complaint::Complaint;
-use crate::keys::{Family, Key, Kind, Need, Word};
+use crate::keys::{Family, Key, Kind, Word};
 use crate::node::{Node, Value};
 use crate::suggest;
 use crate::units::{self, ACCELERATION, Dimension, ENERGY_DENSITY, FORCE, NUMBER, SPIN};
@@ -13,7 +13,7 @@ const MOST_RATIOS: f64 = 10_000.0;
 
 impl Resolver<'_> {
     pub(super) fn leaf(&mut self, key: &'static Key, node: &Node) -> Option<toml::Value> {
-        if let (Need::Word(word), Value::Text(text)) = (key.need, &node.value)
+        if let (Some(word), Value::Text(text)) = (key.word_instead(), &node.value)
             && text == word
         {
             return None;
@@ -89,10 +89,7 @@ impl Resolver<'_> {
                 Ok(value) => Some(value),
                 Err(error) => {
                     let title = format!("`{}`: {}", key.name, error.title);
-                    let word = match key.need {
-                        Need::Word(word) => vec![format!("or the word \"{word}\"")],
-                        _ => Vec::new(),
-                    };
+                    let word = key.word_instead().map(|word| format!("or the word \"{word}\""));
                     self.complain(Complaint::new(title).at(&node.place, error.label).hints(error.hints).hints(word));
                     None
                 }

@@ -18,6 +18,7 @@ pub mod sizes;
 mod sources;
 mod step;
 mod touch;
+mod touches;
 mod wet;
 
 pub use engine::DemEngine;

@@ -5,7 +5,7 @@ use super::memory::{Kept, Name};
 use crate::engine::Engine;
 use crate::partner::Hosts;
 use crate::state::Grains;
-use crate::view::{Columns, Contact, View, Wants};
+use crate::view::{Columns, Contact, Contacts, View, Wants};
 use crate::water::Flows;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -92,7 +92,11 @@ impl DemEngine {
             group: (&g.group).into(),
             id: (&g.id).into(),
         };
-        let mut contacts = if wants.contacts { self.contact_list() } else { Vec::new() };
+        let mut contacts = match wants.contacts {
+            Contacts::Nothing => Vec::new(),
+            Contacts::Places => self.touches(),
+            Contacts::Forces => self.contact_list(),
+        };
         contacts.retain(|c| c.overlap > 0.0 || c.force != DVec3::ZERO);
         let walls = if wants.walls { self.wall_loads.clone() } else { Vec::new() };
         let water = self.wet.as_ref().map(|wet| &wet.water);

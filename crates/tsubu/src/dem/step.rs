@@ -123,6 +123,11 @@ impl DemEngine {
         self.touch.contacts(&self.scene())
     }
 
+    /// The same without forces, for those who look at every step.
+    pub(super) fn touches(&self) -> Vec<Contact> {
+        super::touches::touches(&self.scene())
+    }
+
     /// Accelerations from contact forces and gravity; completes the velocities for a step `dt` (0: leaves them).
     pub(super) fn finish(&mut self, dt: f64, go_on: bool) {
         let motion = self.motion(dt);

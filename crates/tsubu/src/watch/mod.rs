@@ -6,9 +6,11 @@
 
 mod coarse_grain;
 mod coordination;
+mod course;
 mod discharge;
 mod fabric;
 mod forces;
+mod hops;
 pub mod kernel;
 mod means;
 mod points;
@@ -90,6 +92,7 @@ pub fn open(measure: &Measure, plan: &Plan) -> Box<dyn Watch> {
             group.as_ref().map(|name| group_number(plan, name)),
             DVec3::from_array(plan.gravity),
         )),
+        Measure::Hops { .. } => Box::new(hops::Hops::new(measure, plan)),
         Measure::Coordination { fewest, walls, region } => Box::new(coordination::Coordination {
             fewest: *fewest,
             walls: *walls,
@@ -120,11 +123,12 @@ pub fn open(measure: &Measure, plan: &Plan) -> Box<dyn Watch> {
 }
 
 /// Every kind of watch with its text, for the book.
-pub const ABOUT: [(&str, &str); 10] = [
+pub const ABOUT: [(&str, &str); 11] = [
     ("profile", profile::ABOUT),
     ("coarse-grain", coarse_grain::ABOUT),
     ("slope", slope::ABOUT),
     ("discharge", discharge::ABOUT),
+    ("hops", hops::ABOUT),
     ("coordination", coordination::ABOUT),
     ("fabric", fabric::ABOUT),
     ("forces", forces::ABOUT),

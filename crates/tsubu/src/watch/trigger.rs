@@ -14,7 +14,7 @@ pub struct Trigger {
 impl Trigger {
     /// The trigger of a watch in a run with steps of `dt` [s].
     pub fn new(watch: &plan::Watch, dt: f64) -> Self {
-        Self { from: watch.from, every: watch.every, until: watch.until.unwrap_or(f64::INFINITY), dt }
+        Self { from: watch.from, every: watch.every.unwrap_or(dt), until: watch.until.unwrap_or(f64::INFINITY), dt }
     }
 
     /// The first look at step `now` or later; `u64::MAX` if there is none any more.

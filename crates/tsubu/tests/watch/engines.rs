@@ -2,13 +2,14 @@
 
 use super::near;
 use crate::dem::open_text;
+use glam::DVec3;
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use tsubu::engine::{self, OpenError};
 use tsubu::partner::Hosts;
 use tsubu::run::{Watcher, run};
-use tsubu::view::Wants;
+use tsubu::view::{Contact, Wants};
 use tsubu_frame::{Existing, ResultValue, Summary, Table};
 use tsubu_scene::Scene;
 
@@ -45,6 +46,30 @@ fn a_contact_across_the_end_knows_the_image() {
     assert!(near((shown.grains.radius[pair.first] - 0.5 * pair.overlap).abs(), (pair.position - a).length(), 1e-12));
     let held: Vec<bool> = (0..shown.len()).map(|i| !shown.free(i)).collect();
     assert_eq!((held, &*shown.grains.group), (vec![false, false, true], &[0, 0, 1][..]));
+}
+
+/// Places alone are those of the list with forces, across the end, of walls and of a bed in several blocks.
+#[test]
+fn places_alone_are_the_same_places() {
+    let compare = |text: &str, time: f64| {
+        let (mut engine, mut hosts, mut ledger) = open_text(text, &[]);
+        engine.advance((time / engine.time_step()) as u64, &mut hosts, &mut ledger).unwrap();
+        let (all, places) = (engine.view(Wants::CONTACTS).contacts, engine.view(Wants::TOUCHES).contacts);
+        let name = |c: &Contact| (c.first, c.second, c.wall);
+        assert_eq!(all.iter().map(name).collect::<Vec<_>>(), places.iter().map(name).collect::<Vec<_>>());
+        for (a, b) in all.iter().zip(&places) {
+            assert!(near(a.overlap, b.overlap, 1e-9) && (a.normal - b.normal).length() < 1e-12);
+            assert!((a.position - b.position).length() < 1e-12 && (a.between - b.between).length() < 1e-12);
+            assert_eq!(b.force, DVec3::ZERO);
+        }
+        all.len()
+    };
+    assert_eq!(compare(TWO, 0.0), 1);
+    let many = BOX
+        .replace("10 m/s^2", "100 m/s^2")
+        .replace("count = 20", "count = 1500")
+        .replace("{ width = \"60 mm\", height = \"60 mm\" }", "{ width = \"300 mm\", height = \"300 mm\" }");
+    assert!(compare(&many, 0.03) > 500);
 }
 
 /// A ball at rest beside the origin: its weight and the torque of it are on the floor.
@@ -95,7 +120,7 @@ until = "10 ms"
 track.ids = [3]
 "#;
 
-fn done(text: &str, changes: &[&str], folder: &Path) -> Summary {
+pub fn done(text: &str, changes: &[&str], folder: &Path) -> Summary {
     let changes: Vec<String> = changes.iter().map(|c| (*c).to_owned()).collect();
     let scene = Scene::parse("test", text, Path::new("."), &changes).unwrap_or_else(|wrong| panic!("{wrong}"));
     let watcher = Watcher { interrupted: &AtomicBool::new(false), progress: &|_| {} };

@@ -4,6 +4,7 @@ mod coarse_grain;
 mod contacts;
 mod counts;
 mod engines;
+mod hops;
 mod hydrostatic;
 mod kernel;
 mod profile;

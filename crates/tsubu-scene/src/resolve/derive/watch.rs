@@ -16,7 +16,9 @@ impl Derive<'_> {
         let inside = inside_of_the_box(resolved);
         let walls = table_at(resolved, "walls").cloned().unwrap_or_default();
         for (name, watch) in tables_in(resolved, "watch") {
-            if let Some(interval) = interval.clone()
+            // Of hops the contact is to be seen, which is a few steps long.
+            if !watch.contains_key("hops")
+                && let Some(interval) = interval.clone()
                 && !self.typed(&["watch", &name, "every"])
             {
                 watch.entry("every").or_insert(interval);
