@@ -26,7 +26,7 @@ pub use hosts::{Host, Mode, Signal, Structure};
 pub use methods::{Arithmetic, Collision, Dem, Integrator, Lattice, LatticeMode, ObliqueGravity};
 pub use study::{Claim, Output, Response, Sweep};
 pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall};
-pub use watch::{Axis, Bed, Kernel, Measure, Quantity, Watch};
+pub use watch::{Axis, Bed, Heading, Kernel, Measure, Quantity, Watch, submerged};
 pub use water::{Buoyancy, Drag, Flow, Fluctuation, Hindrance, Lift, StreamStart, Torque, Water};
 
 use serde::{Deserialize, Serialize};

@@ -34,6 +34,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/impact-damper.toml"),
     },
     Template {
+        name: "rock-slide",
+        about: "rock slides down a slope and runs out over a plain: front, Heim's angle, deposit",
+        text: include_str!("../../../scenes/rock-slide.toml"),
+    },
+    Template {
         name: "hops",
         about: "a grain hops along a floor: height, length, restitution and contact time of every hop",
         text: include_str!("../../../scenes/hops.toml"),

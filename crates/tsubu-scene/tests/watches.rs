@@ -62,10 +62,16 @@ wall-load = {{ wall = \"box\", area = \"1 cm^2\", direction = \"-z\" }}
 track.ids = [0, 22]
 [watch.j]
 hops = {{ bed = [\"walls\", \"free-grains\"], group = \"more\", along = \"-x\", lowest = \"1 mm\", most = 30 }}
+[watch.k]
+bedload = {{ group = \"more\", width = \"6 mm\", moving-speed = \"2 cm/s\", fluid-density = 1000 }}
+[watch.l]
+run-out = {{ direction = \"-x\", share = \"95 %\", bins = 7 }}
 "
     );
     let all = watches(&text);
-    assert_eq!(all.len(), 10);
+    assert_eq!(all.len(), 12);
+    let Measure::Bedload { resting_speed, .. } = all[10].1.measure else { panic!("bedload") };
+    assert_eq!(resting_speed, 0.01);
     let Measure::Slope { centre, .. } = all[1].1.measure else { panic!("a slope") };
     assert_eq!(centre, 0.01);
     let Measure::Segregation { groups, .. } = &all[6].1.measure else { panic!("segregation") };
@@ -86,6 +92,14 @@ fn a_watch_can_look_at_every_step() {
 fn hops_that_nobody_could_see() {
     let text = "[watch.a]\nevery = \"steps\"\nhops = { most = 0, lowest = \"-1 mm\" }\n[watch.b]\nhops = { bed = [], up = \"x\" }\n[watch.c]\nhops = { bed = [\"sand\"] }\n[watch.d]\nhops.along = [1, 0.1]\n[watch.e]\nhops.bed = [\"fixed-grains\"]";
     insta::assert_snapshot!(about(text));
+}
+
+#[test]
+fn transport_that_cannot_be() {
+    let text = "[watch.a]\nbedload = { axis = \"y\", moving-speed = \"1 mm/s\", resting-speed = \"2 mm/s\" }\n[watch.b]\nbedload = { width = 0, fluid-density = \"20000 kg/m^3\" }\n[watch.c]\nbedload = { moving-speed = 0, group = \"bals\" }\n[watch.d]\nrun-out = { direction = \"y\", share = 1.5, bins = 0 }\n[watch.e]\nrun-out.direction = \"z\"";
+    insta::assert_snapshot!(about(text));
+    let weightless = "[watch.a]\nbedload.fluid-density = 1000";
+    insta::assert_snapshot!(complaint(&with(weightless), &["gravity=0"]));
 }
 
 #[test]

@@ -104,6 +104,13 @@ every = "7 ms"
 track.ids = [0, 7]
 [watch.box]
 wall-load.wall = "box"
+[watch.sand]
+hops.bed = ["walls", "free-grains"]
+[watch.load]
+bedload = {}
+[watch.out]
+every = "20 ms"
+run-out = {}
 "#;
 
 #[test]
@@ -115,7 +122,7 @@ fn watches_killed_and_resumed_say_the_same() {
     signal(&child, "KILL");
     assert_eq!(child.wait().unwrap().code(), None, "the run ended before it could be killed");
     desk.done(&format!("run balls.toml {LONG} -o cut -q --resume"));
-    for name in ["layers", "field", "chains", "some"] {
+    for name in ["layers", "field", "chains", "some", "sand", "out"] {
         let file = format!("watch/{name}.csv");
         assert_eq!(desk.read(&format!("whole/{file}")), desk.read(&format!("cut/{file}")), "{file}");
     }

@@ -5,7 +5,7 @@ use super::place::Room;
 use super::{Parts, named};
 use crate::complaint::Complaint;
 use crate::keys::WATCHES;
-use crate::plan::{Axis, Bed, GrainMotion, Measure, Particles, Region, Vector, Watch};
+use crate::plan::{self, Axis, Bed, GrainMotion, Measure, Particles, Region, Vector, Watch};
 use crate::suggest;
 
 /// More points than this are a slip, not a field.
@@ -105,6 +105,11 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
     let at = |key: &str| parts.root.locate(&["watch", name, kind, key]);
     match measure {
         Measure::Profile { axis, .. } | Measure::Slope { axis, .. } => no_y(parts, &[*axis], &at("axis"), complaints),
+        Measure::RunOut { direction, .. } => no_y(parts, &[direction.axis()], &at("direction"), complaints),
+        Measure::Bedload { axis, .. } => {
+            no_y(parts, &[*axis], &at("axis"), complaints);
+            bedload(parts, name, measure, complaints);
+        }
         Measure::CoarseGrain { axes, points, .. } => {
             no_y(parts, axes, &at("axes"), complaints);
             let all = points.iter().try_fold(1usize, |product, n| product.checked_mul(*n));
@@ -142,6 +147,43 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
             }
         }
         _ => {}
+    }
+}
+
+/// Speeds in their order, and a fluid that grains sink in.
+fn bedload(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Vec<Complaint>) {
+    let Measure::Bedload { group, width, moving_speed, resting_speed, fluid_density, .. } = measure else { return };
+    let at = |key: &str| parts.root.locate(&["watch", name, "bedload", key]);
+    if resting_speed > moving_speed {
+        complaints.push(
+            Complaint::new(format!("grains of the watch `{name}` would come to rest faster than they begin to move"))
+                .at(&at("resting-speed"), format!("above `moving-speed` = {moving_speed} m/s"))
+                .hint("the lower the `resting-speed`, the longer a grain that slows down counts as moving"),
+        );
+    }
+    if width.is_some() && parts.space() {
+        complaints.push(
+            Complaint::new("a `width` of the bed is of no use in space")
+                .at(&at("width"), "the scene has dimension 3")
+                .hint("leave it out: grains are spheres, and the region has a width"),
+        );
+    }
+    let Some(fluid) = fluid_density else { return };
+    let no_gravity = |g: &toml::Value| g.as_array().is_some_and(|g| g.iter().all(|g| g.as_float() == Some(0.0)));
+    if parts.resolved.get("gravity").is_some_and(no_gravity) {
+        complaints.push(
+            Complaint::new("without gravity there is no Einstein number")
+                .at(&at("fluid-density"), "asks for it")
+                .hint("leave `fluid-density` out"),
+        );
+    }
+    let (density, _) = plan::submerged(parts.particles.iter(), group.as_deref());
+    if !parts.incomplete && density <= *fluid {
+        complaints.push(
+            Complaint::new(format!("the grains of the watch `{name}` are lighter than the fluid"))
+                .at(&at("fluid-density"), format!("the grains have {density:.0} kg/m^3"))
+                .hint("the Einstein number is of grains that sink"),
+        );
     }
 }
 

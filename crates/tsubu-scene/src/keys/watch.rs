@@ -1,7 +1,7 @@
 //! Watches: what is looked at while a scene runs, and when.
 
 use super::{Family, Key, Kind, Word, walls};
-use crate::units::{AREA, LENGTH, NUMBER, TIME};
+use crate::units::{AREA, DENSITY, LENGTH, NUMBER, SPEED, TIME};
 
 /// A watch has exactly one of these tables.
 pub(crate) const KINDS: &[&str] = &[
@@ -10,6 +10,8 @@ pub(crate) const KINDS: &[&str] = &[
     "slope",
     "discharge",
     "hops",
+    "bedload",
+    "run-out",
     "coordination",
     "fabric",
     "forces",
@@ -28,7 +30,11 @@ pub(super) static WATCH: &[Key] = &[
     Key::new("every", Kind::Quantity(&TIME), "Simulated time between looks, or \"step\": at every step")
         .above(0.0)
         .derived_or_word("`output.history-interval`; of `hops` every step", "step"),
-    kind("profile", PROFILE, "Averages in slices across an axis: solid fraction, velocity, temperature, coordination"),
+    kind(
+        "profile",
+        PROFILE,
+        "Averages in slices across an axis: solid fraction, velocity, temperature, coordination, spin",
+    ),
     kind(
         "coarse-grain",
         COARSE_GRAIN,
@@ -41,6 +47,8 @@ pub(super) static WATCH: &[Key] = &[
         HOPS,
         "Hops over a bed, from touch to touch: height, length, times, impact, restitution, contact time",
     ),
+    kind("bedload", BEDLOAD, "Transport of grains along a bed, its fluctuation, and grains that start and stop"),
+    kind("run-out", RUN_OUT, "Front, travel and fall of the centre of mass, and the deposit"),
     kind("coordination", COORDINATION, "Contacts per grain, with and without rattlers"),
     kind("fabric", FABRIC, "Fabric tensor of the contact normals, its deviator and principal direction"),
     kind("forces", FORCES, "Distribution of normal contact forces, and the share of contacts in force chains"),
@@ -75,6 +83,7 @@ static QUANTITIES: &[Word] = &[
     Word { name: "velocity", about: "mean velocity, by mass" },
     Word { name: "granular-temperature", about: "mean square of a component of the velocity about the mean" },
     Word { name: "coordination", about: "contacts per grain, those with walls among them" },
+    Word { name: "spin", about: "mean spin, by moment of inertia" },
 ];
 
 static KERNEL: &[Word] = &[
@@ -146,6 +155,46 @@ static HOPS: &[Key] = &[
     Key::new("up", Kind::Direction, "Direction in which hops are high, away from the bed").default("'z'"),
     Key::new("lowest", Kind::Quantity(&LENGTH), "Lower hops are not counted").default("0").at_least(0.0),
     Key::new("most", Kind::Whole, "After so many hops nothing is counted any more").at_least(1.0).optional(),
+];
+
+static BEDLOAD: &[Key] = &[
+    Key::new("axis", Kind::OneOf(ACROSS), "Horizontal axis of the transport").default("'x'"),
+    REGION.derived(INSIDE_THE_BOX),
+    Key::new("group", Kind::Name(Family::Group), "Only the grains of this group").optional(),
+    Key::new(
+        "width",
+        Kind::Quantity(&LENGTH),
+        "In the plane: the grains are spheres in a bed of this width; without it they are discs",
+    )
+    .above(0.0)
+    .optional(),
+    Key::new("moving-speed", Kind::Quantity(&SPEED), "A grain that is faster begins to move")
+        .default("'10 mm/s'")
+        .above(0.0),
+    Key::new("resting-speed", Kind::Quantity(&SPEED), "A moving grain that is slower has come to rest")
+        .at_least(0.0)
+        .derived("half of `moving-speed`"),
+    Key::new("fluid-density", Kind::Quantity(&DENSITY), "Density of the fluid; gives the Einstein number")
+        .above(0.0)
+        .optional(),
+];
+
+static HEADINGS: &[Word] = &[
+    Word { name: "x", about: "to the right" },
+    Word { name: "-x", about: "to the left" },
+    Word { name: "y", about: "into the picture, only in space" },
+    Word { name: "-y", about: "out of the picture, only in space" },
+];
+
+static RUN_OUT: &[Key] = &[
+    Key::new("direction", Kind::OneOf(HEADINGS), "Where the grains run").default("'x'"),
+    Key::new("share", Kind::Quantity(&NUMBER), "Share of the mass that is behind the mass front")
+        .default("0.99")
+        .above(0.0)
+        .at_most(1.0),
+    Key::new("bins", Kind::Whole, "Columns of the deposit").default("40").at_least(1.0).at_most(1e5),
+    Key::new("group", Kind::Name(Family::Group), "Only the grains of this group").optional(),
+    REGION.derived(INSIDE_THE_BOX),
 ];
 
 static COORDINATION: &[Key] = &[

@@ -1,6 +1,6 @@
 //! Watches: what is looked at while a scene runs, and when.
 
-use super::{Region, Vector};
+use super::{GrainMotion, Particles, Region, Vector};
 use serde::{Deserialize, Serialize};
 
 /// A watch: when it looks, and at what.
@@ -87,6 +87,36 @@ pub enum Measure {
         /// After so many hops nothing is written any more.
         most: Option<usize>,
     },
+    /// Transport of grains along a bed.
+    Bedload {
+        /// Horizontal axis.
+        axis: Axis,
+        /// Where; its plan area is what the transport is over.
+        region: Region,
+        /// Only grains of this group.
+        group: Option<String>,
+        /// In the plane: grains are spheres in a bed of this width [m]; `None`: discs.
+        width: Option<f64>,
+        /// A grain that is faster begins to move [m/s].
+        moving_speed: f64,
+        /// A moving grain that is slower has come to rest [m/s].
+        resting_speed: f64,
+        /// Density of the fluid, for the Einstein number [kg/m^3].
+        fluid_density: Option<f64>,
+    },
+    /// Front, travel and deposit.
+    RunOut {
+        /// Where the grains run.
+        direction: Heading,
+        /// Share of the mass behind the mass front [-].
+        share: f64,
+        /// Columns of the deposit.
+        bins: usize,
+        /// Only grains of this group.
+        group: Option<String>,
+        /// Where the deposit is.
+        region: Region,
+    },
     /// Contacts per grain.
     Coordination {
         /// Grains with fewer contacts are rattlers.
@@ -148,6 +178,8 @@ impl Measure {
             Self::Slope { .. } => "slope",
             Self::Discharge { .. } => "discharge",
             Self::Hops { .. } => "hops",
+            Self::Bedload { .. } => "bedload",
+            Self::RunOut { .. } => "run-out",
             Self::Coordination { .. } => "coordination",
             Self::Fabric { .. } => "fabric",
             Self::Forces { .. } => "forces",
@@ -160,9 +192,11 @@ impl Measure {
     /// The region it looks at, if it is not everywhere.
     pub const fn region(&self) -> Option<&Region> {
         match self {
-            Self::Profile { region, .. } | Self::CoarseGrain { region, .. } | Self::Slope { region, .. } => {
-                Some(region)
-            }
+            Self::Profile { region, .. }
+            | Self::CoarseGrain { region, .. }
+            | Self::Slope { region, .. }
+            | Self::Bedload { region, .. }
+            | Self::RunOut { region, .. } => Some(region),
             Self::Coordination { region, .. }
             | Self::Fabric { region, .. }
             | Self::Forces { region, .. }
@@ -196,6 +230,41 @@ impl Axis {
     }
 }
 
+/// A horizontal axis, and which way along it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Heading {
+    /// To the right.
+    #[serde(rename = "x")]
+    X,
+    /// To the left.
+    #[serde(rename = "-x")]
+    MinusX,
+    /// Into the picture.
+    #[serde(rename = "y")]
+    Y,
+    /// Out of the picture.
+    #[serde(rename = "-y")]
+    MinusY,
+}
+
+impl Heading {
+    /// The axis.
+    pub const fn axis(self) -> Axis {
+        match self {
+            Self::X | Self::MinusX => Axis::X,
+            Self::Y | Self::MinusY => Axis::Y,
+        }
+    }
+
+    /// 1 along the axis, -1 against it.
+    pub const fn sign(self) -> f64 {
+        match self {
+            Self::X | Self::Y => 1.0,
+            Self::MinusX | Self::MinusY => -1.0,
+        }
+    }
+}
+
 /// What a profile averages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -208,6 +277,24 @@ pub enum Quantity {
     GranularTemperature,
     /// Contacts per grain.
     Coordination,
+    /// Mean spin by moment of inertia.
+    Spin,
+}
+
+/// Mean density [kg/m^3] and diameter [m] of the free grains, of one group or of all: mass over volume, and by number. Not
+/// numbers where there are none.
+pub fn submerged<'a>(groups: impl Iterator<Item = (&'a String, &'a Particles)>, only: Option<&str>) -> (f64, f64) {
+    let (mut number, mut mass, mut volume, mut diameters) = (0.0, 0.0, 0.0, 0.0);
+    for (_, group) in groups.filter(|(name, group)| {
+        matches!(group.motion, GrainMotion::Free {}) && only.is_none_or(|only| only == name.as_str())
+    }) {
+        let count = group.count as f64;
+        number += count;
+        mass += count * group.mass;
+        volume += count * group.shape.mass(1.0, group.diameter);
+        diameters += count * group.diameter;
+    }
+    (mass / volume, diameters / number)
 }
 
 /// What the bed is that grains hop on.

@@ -4,6 +4,7 @@
 //! [`Watches`] are those of a run: when they look ([`Trigger`]), where their rows go, what their means are, and what of
 //! them a checkpoint holds. One file a watch; each says what it measures, in which units, after whom, and where it ends.
 
+mod bedload;
 mod coarse_grain;
 mod coordination;
 mod course;
@@ -16,8 +17,10 @@ mod means;
 mod points;
 mod profile;
 mod run;
+mod run_out;
 mod segregation;
 mod slope;
+mod surface;
 mod track;
 mod trigger;
 mod wall_load;
@@ -92,6 +95,8 @@ pub fn open(measure: &Measure, plan: &Plan) -> Box<dyn Watch> {
             group.as_ref().map(|name| group_number(plan, name)),
             DVec3::from_array(plan.gravity),
         )),
+        Measure::Bedload { .. } => Box::new(bedload::Bedload::new(measure, plan)),
+        Measure::RunOut { .. } => Box::new(run_out::RunOut::new(measure, plan)),
         Measure::Hops { .. } => Box::new(hops::Hops::new(measure, plan)),
         Measure::Coordination { fewest, walls, region } => Box::new(coordination::Coordination {
             fewest: *fewest,
@@ -123,12 +128,14 @@ pub fn open(measure: &Measure, plan: &Plan) -> Box<dyn Watch> {
 }
 
 /// Every kind of watch with its text, for the book.
-pub const ABOUT: [(&str, &str); 11] = [
+pub const ABOUT: [(&str, &str); 13] = [
     ("profile", profile::ABOUT),
     ("coarse-grain", coarse_grain::ABOUT),
     ("slope", slope::ABOUT),
     ("discharge", discharge::ABOUT),
     ("hops", hops::ABOUT),
+    ("bedload", bedload::ABOUT),
+    ("run-out", run_out::ABOUT),
     ("coordination", coordination::ABOUT),
     ("fabric", fabric::ABOUT),
     ("forces", forces::ABOUT),

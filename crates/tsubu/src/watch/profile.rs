@@ -12,10 +12,12 @@ solid fraction        sum s V / volume of the slice; in the plane areas         
 velocity              V = sum s m v / sum s m                                               [m/s]
 granular temperature  sum s m |v - V|^2 / (D sum s m), D the dimension                      [m^2/s^2]
 coordination          sum s z / sum s, z all contacts of a grain, those with walls among them [-]
-Frozen and driven grains fill space, but are left out of the other three. The history has the same for the whole region;
+spin                  W = sum s m r^2 w / sum s m r^2: by moment of inertia; in the plane about y  [rad/s]
+Frozen and driven grains fill space, but are left out of the others. The history has the same for the whole region;
 its temperature is the mean over slices by mass.
 Source: averages as in any textbook; the cut of a sphere by a plane in closed form. Limits: overlaps count twice; the
-region is still, also where the box moves.";
+region is still, also where the box moves. Stresses in slices, of contacts (Love and Weber) and of fluctuations, are those of
+`coarse-grain` with `axes = [\"z\"]`.";
 
 /// Averages in slices.
 #[derive(Clone, Debug)]
@@ -41,6 +43,8 @@ struct Bin {
     momentum: DVec3,
     squares: f64,
     contacts: f64,
+    inertia: f64,
+    turning: DVec3,
 }
 
 impl Bin {
@@ -51,6 +55,8 @@ impl Bin {
         self.momentum += other.momentum;
         self.squares += other.squares;
         self.contacts += other.contacts;
+        self.inertia += other.inertia;
+        self.turning += other.turning;
     }
 }
 
@@ -76,6 +82,11 @@ impl Profile {
 
     fn asks(&self, what: Quantity) -> bool {
         self.quantities.contains(&what)
+    }
+
+    /// Axes that grains turn about.
+    fn turns(&self) -> Axes {
+        if self.axes.len() == 3 { self.axes } else { &[1] }
     }
 
     /// Calls `visit(bin, grain, share)` for every slice that a grain is in.
@@ -113,6 +124,7 @@ impl Profile {
                 Quantity::Velocity => values.extend(self.axes.iter().map(|&a| bin.momentum[a] / bin.mass)),
                 Quantity::GranularTemperature => values.push(bin.squares / (self.axes.len() as f64 * bin.mass)),
                 Quantity::Coordination => values.push(bin.contacts / bin.shares),
+                Quantity::Spin => values.extend(self.turns().iter().map(|&a| bin.turning[a] / bin.inertia)),
             }
         }
         values
@@ -135,7 +147,8 @@ impl Watch for Profile {
     }
 
     fn wants(&self) -> Wants {
-        if self.asks(Quantity::Coordination) { Wants::CONTACTS } else { Wants::GRAINS }
+        let wants = if self.asks(Quantity::Coordination) { Wants::CONTACTS } else { Wants::GRAINS };
+        Wants { spins: self.asks(Quantity::Spin), ..wants }
     }
 
     fn scalars(&self) -> Vec<String> {
@@ -146,6 +159,7 @@ impl Watch for Profile {
                 Quantity::Velocity => names.extend(self.axes.iter().map(|&a| format!("velocity {} [m/s]", LETTERS[a]))),
                 Quantity::GranularTemperature => names.push("granular temperature [m^2/s^2]".to_owned()),
                 Quantity::Coordination => names.push("coordination [-]".to_owned()),
+                Quantity::Spin => names.extend(self.turns().iter().map(|&a| format!("spin {} [rad/s]", LETTERS[a]))),
             }
         }
         names
@@ -169,6 +183,9 @@ impl Watch for Profile {
                 bin.shares += share;
                 bin.mass += share * g.mass[i];
                 bin.momentum += share * g.mass[i] * g.velocity[i];
+                let inertia = share * g.mass[i] * r * r;
+                bin.inertia += inertia;
+                bin.turning += inertia * g.spin[i];
                 bin.contacts += share * contacts.get(i).map_or(0.0, |z| f64::from(*z));
             }
         });

@@ -1,6 +1,7 @@
 //! The free surface.
 
-use super::{Inside, Sample, Sheet, Watch, mean};
+use super::surface::Surface;
+use super::{Sample, Sheet, Watch, mean};
 use crate::view::{View, Wants};
 use tsubu_scene::plan::{Axis, Measure, Plan};
 
@@ -20,13 +21,10 @@ to a radius above the mean surface, which changes its height but not its slope. 
 #[derive(Clone, Debug)]
 pub(super) struct Slope {
     axis: Axis,
-    low: f64,
-    width: f64,
-    bins: usize,
     share: f64,
     centre: f64,
     touching: bool,
-    region: Inside,
+    surface: Surface,
 }
 
 impl Slope {
@@ -34,37 +32,17 @@ impl Slope {
         let Measure::Slope { axis, bins, share, centre, touching, region } = measure else {
             unreachable!("another kind of watch")
         };
-        let (low, high) = (region.low[axis.index()], region.high[axis.index()]);
-        Self {
-            axis: *axis,
-            low,
-            width: high - low,
-            bins: *bins,
-            share: *share,
-            centre: *centre,
-            touching: *touching,
-            region: Inside::new(Some(region), plan),
-        }
+        let surface = Surface::new(*axis, *bins, region, plan);
+        Self { axis: *axis, share: *share, centre: *centre, touching: *touching, surface }
     }
 
-    /// Middle of a column.
-    fn middle(&self, k: usize) -> f64 {
-        self.low + (k as f64 + 0.5) * self.width / self.bins as f64
-    }
-
-    /// Height of every column; not a number where it is empty.
-    fn heights(&self, view: &View) -> Vec<f64> {
-        let contacts = if self.touching { view.touching(true) } else { vec![1; view.len()] };
-        let mut heights = vec![f64::NAN; self.bins];
-        for (i, z) in contacts.iter().enumerate() {
-            let p = view.place(i);
-            if (*z > 0 || !view.free(i)) && self.region.holds(p) {
-                let k = (p[self.axis.index()] - self.low) / self.width * self.bins as f64;
-                let height = &mut heights[(k as usize).min(self.bins - 1)];
-                *height = height.max(p.z + view.grains.radius[i]);
-            }
+    /// Middle and height of every column; not a number where it is empty.
+    fn columns(&self, view: &View) -> Vec<(f64, f64)> {
+        if !self.touching {
+            return self.surface.columns(view, |_| true);
         }
-        heights
+        let contacts = view.touching(true);
+        self.surface.columns(view, |i| contacts[i] > 0 || !view.free(i))
     }
 }
 
@@ -95,14 +73,13 @@ impl Watch for Slope {
     }
 
     fn take(&mut self, view: &View) -> Sample {
-        let heights = self.heights(view);
-        let half = 0.5 * self.share * self.width * (1.0 + 1e-9);
-        let middle = self.low + 0.5 * self.width;
-        let columns = heights.iter().enumerate().map(|(k, z)| (self.middle(k), *z));
+        let columns = self.columns(view);
+        let half = 0.5 * self.share * self.surface.width * (1.0 + 1e-9);
+        let middle = self.surface.low + 0.5 * self.surface.width;
         let seen: Vec<(f64, f64)> =
-            columns.clone().filter(|(x, z)| (x - middle).abs() <= half && z.is_finite()).collect();
+            columns.iter().copied().filter(|(x, z)| (x - middle).abs() <= half && z.is_finite()).collect();
         let flanks: Vec<(f64, f64)> = seen.iter().map(|(x, z)| ((x - self.centre).abs(), *z)).collect();
         let scalars = vec![line(&seen).atan(), (-line(&flanks)).atan(), mean(seen.iter().map(|p| p.1))];
-        Sample { scalars, rows: columns.map(|(x, z)| vec![x, z]).collect() }
+        Sample { scalars, rows: columns.into_iter().map(|(x, z)| vec![x, z]).collect() }
     }
 }

@@ -9,6 +9,7 @@ mod hydrostatic;
 mod kernel;
 mod profile;
 mod slope;
+mod transport;
 
 use glam::DVec3;
 use std::path::Path;

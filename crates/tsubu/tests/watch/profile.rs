@@ -74,3 +74,25 @@ fn coordination_is_that_of_the_lattice() {
     let sample = once(&mut *profile, &view(&balls, touching(&balls, [None; 3], 1.0), ends));
     assert!(scalar(&*profile, &sample, "coordination") < 3.5, "the control: no contacts across the ends");
 }
+
+/// Large grains weigh more in the mean spin, as m r^2; frozen ones not at all.
+#[test]
+fn spins_are_weighed_by_inertia() {
+    let region = "region = { low = [0, 0], high = [4, 4] }";
+    let text = format!("profile = {{ bins = 2, quantities = [\"spin\"], {region} }}");
+    let mut balls =
+        [ball(1.0, 0.0, 1.0, 0.1), ball(2.0, 0.0, 1.0, 0.2), ball(3.0, 0.0, 1.0, 0.1), ball(1.0, 0.0, 3.0, 0.1)];
+    (balls[1].mass, balls[2].free) = (8.0, false);
+    let mut shown = view(&balls, Vec::new(), [None; 3]);
+    shown.grains.spin = [3.0, -1.0, 100.0, 5.0].map(|w| DVec3::new(0.0, w, 0.0)).to_vec().into();
+    let mut profile = watch(2, &text);
+    assert!(profile.wants().spins);
+    let sample = once(&mut *profile, &shown);
+    let spins = column(&*profile, &sample, "spin y");
+    let exact = (0.01 * 3.0 - 0.32) / (0.01 + 0.32);
+    assert!(near(spins[0], exact, 1e-12) && near(spins[1], 5.0, 1e-12), "{spins:?}");
+    assert!(!near(spins[0], 1.0, 0.1), "the control: not the plain mean");
+    let mut space = watch(3, &text.replace("[0, 0]", "[0, -1, 0]").replace("[4, 4]", "[4, 1, 4]"));
+    let sample = once(&mut *space, &shown);
+    assert!(near(scalar(&*space, &sample, "spin y"), (0.01 * 8.0 - 0.32) / 0.34, 1e-12));
+}

@@ -6,7 +6,7 @@ use crate::suggest;
 use toml::Value;
 
 /// Watches that need a region.
-const IN_A_REGION: [&str; 3] = ["profile", "coarse-grain", "slope"];
+const IN_A_REGION: [&str; 5] = ["profile", "coarse-grain", "slope", "bedload", "run-out"];
 
 impl Derive<'_> {
     pub(super) fn watches(&mut self, resolved: &mut toml::Table) {
@@ -30,6 +30,12 @@ impl Derive<'_> {
             }
             if let Some(slope) = watch.get_mut("slope").and_then(Value::as_table_mut) {
                 centre(slope);
+            }
+            if let Some(bedload) = watch.get_mut("bedload").and_then(Value::as_table_mut)
+                && let Some(speed) = bedload.get("moving-speed").and_then(Value::as_float)
+                && !self.typed(&["watch", &name, "bedload", "resting-speed"])
+            {
+                bedload.entry("resting-speed").or_insert(Value::Float(0.5 * speed));
             }
             if let Some(segregation) = watch.get_mut("segregation").and_then(Value::as_table_mut) {
                 self.groups(segregation, &["watch", &name, "segregation"], &groups);

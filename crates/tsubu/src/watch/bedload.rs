@@ -1,0 +1,184 @@
+//! What grains carry along a bed, and how many start and stop.
+
+use super::{Inside, Sample, Watch, axes, group_number};
+use crate::view::{View, Wants};
+use glam::DVec3;
+use std::f64::consts::PI;
+use tsubu_frame::State;
+use tsubu_frame::state::MissingSection;
+use tsubu_scene::plan::{self, Axis, Measure, Plan};
+
+pub(super) const ABOUT: &str = "\
+Transport of grains along a horizontal axis over the plan area A of a region, by free grains whose centres are in it.
+transport rate        q = sum V u / A, V the volume of a grain, u its velocity along the axis      [m^2/s]
+mean transport rate   of the looks so far                                                          [m^2/s]
+fluctuation           standard deviation of q over the looks so far                                [m^2/s]
+moving grains         number of those that move                                                    [-]
+moving speed          mean of u over them, by volume                                               [m/s]
+started, stopped      grains that began to move, or came to rest, since the last look              [-]
+entrainment           started over A and the time since the last look                              [1/(m^2.s)]
+deposition            stopped over the same                                                        [1/(m^2.s)]
+Einstein number       q / sqrt((s - 1) g d^3), s the density of the grains over `fluid-density`     [-]
+A grain moves from the look on at which it is faster than `moving-speed`, until it is slower than `resting-speed`: a grain
+that rocks in its pocket between the two does not start again and again. It counts where it is when that is seen; one that
+is new, or comes into the region moving, has not started.
+In the plane A is a length and V the area of the disc, so q is again per width; with `width` grains are spheres in a bed of
+that width, V = pi d^3 / 6 / width. Entrainment is per length then. Density and d of the Einstein number are means over the
+free groups, or of the one that is asked for, as the scene tells them.
+Source: q as in Ancey et al. 2008 (J. Fluid Mech. 595, 83); Einstein 1950. Limits: q is of volumes without voids; a grain
+that starts and stops between two looks is not seen; entrainment depends on the two speeds, so tell them with it.";
+
+/// Sums up volumes on their way.
+#[derive(Clone, Debug)]
+pub(super) struct Bedload {
+    axis: usize,
+    region: Inside,
+    /// Plan area of the region [m^2], in the plane its length [m].
+    area: f64,
+    group: Option<u32>,
+    /// In the plane: width of the bed [m], if grains are spheres.
+    width: Option<f64>,
+    flat: bool,
+    /// Speeds at which a grain begins and ceases to move [m/s].
+    speeds: [f64; 2],
+    /// sqrt((s - 1) g d^3), if the Einstein number is asked for [m^2/s].
+    scale: Option<f64>,
+    /// Whether a grain moves, by its number; nobody knows before it has been seen.
+    moves: Vec<Option<bool>>,
+    last: f64,
+    /// Number, mean, and sum of squares about the mean, of the rates so far (Welford 1962).
+    rates: [f64; 3],
+}
+
+impl Bedload {
+    pub fn new(measure: &Measure, plan: &Plan) -> Self {
+        let Measure::Bedload { axis, region, group, width, moving_speed, resting_speed, fluid_density } = measure
+        else {
+            unreachable!("another kind of watch")
+        };
+        let (density, diameter) = plan::submerged(plan.particles.iter(), group.as_deref());
+        let gravity = DVec3::from_array(plan.gravity).length();
+        let size = |a: usize| region.high[a] - region.low[a];
+        Self {
+            axis: axis.index(),
+            region: Inside::new(Some(region), plan),
+            area: axes(plan).iter().filter(|&&a| a != Axis::Z.index()).map(|&a| size(a)).product(),
+            group: group.as_ref().map(|name| group_number(plan, name)),
+            width: *width,
+            flat: plan.dimension == 2,
+            speeds: [*moving_speed, *resting_speed],
+            scale: fluid_density.map(|fluid| ((density / fluid - 1.0) * gravity * diameter.powi(3)).sqrt()),
+            moves: Vec::new(),
+            last: f64::NAN,
+            rates: [0.0; 3],
+        }
+    }
+
+    fn volume(&self, radius: f64) -> f64 {
+        if self.flat && self.width.is_none() {
+            PI * radius * radius
+        } else {
+            4.0 / 3.0 * PI * radius.powi(3) / self.width.unwrap_or(1.0)
+        }
+    }
+
+    /// Whether the grain moves now, and whether it did before.
+    fn moves(&mut self, id: u32, speed: f64) -> (bool, Option<bool>) {
+        let id = id as usize;
+        if self.moves.len() <= id {
+            self.moves.resize(id + 1, None);
+        }
+        let before = self.moves[id];
+        let now = speed > if before == Some(true) { self.speeds[1] } else { self.speeds[0] };
+        self.moves[id] = Some(now);
+        (now, before)
+    }
+
+    fn remember(&mut self, rate: f64) {
+        let [count, mean, squares] = &mut self.rates;
+        *count += 1.0;
+        let before = rate - *mean;
+        *mean += before / *count;
+        *squares += before * (rate - *mean);
+    }
+}
+
+impl Watch for Bedload {
+    fn about(&self) -> &'static str {
+        ABOUT
+    }
+
+    fn wants(&self) -> Wants {
+        Wants::GRAINS
+    }
+
+    fn scalars(&self) -> Vec<String> {
+        let per = if self.flat { "1/(m.s)" } else { "1/(m^2.s)" };
+        let mut names: Vec<String> = [
+            "transport rate [m^2/s]",
+            "mean transport rate [m^2/s]",
+            "fluctuation [m^2/s]",
+            "moving grains [-]",
+            "moving speed [m/s]",
+            "started [-]",
+            "stopped [-]",
+        ]
+        .map(String::from)
+        .to_vec();
+        names.extend([format!("entrainment [{per}]"), format!("deposition [{per}]")]);
+        names.extend(self.scale.map(|_| "Einstein number [-]".to_owned()));
+        names
+    }
+
+    fn take(&mut self, view: &View) -> Sample {
+        let g = &view.grains;
+        let (mut flux, mut carried, mut carrying) = (0.0, 0.0, 0.0);
+        let (mut moving, mut started, mut stopped) = (0.0, 0.0, 0.0);
+        for i in 0..view.len() {
+            if !view.free(i) || self.group.is_some_and(|group| g.group[i] != group) {
+                continue;
+            }
+            let (r, u) = (g.radius[i], g.velocity[i][self.axis]);
+            let (now, before) = self.moves(g.id[i], g.velocity[i].length());
+            if !self.region.holds(view.place(i)) {
+                continue;
+            }
+            let volume = self.volume(r);
+            flux += volume * u;
+            if now {
+                moving += 1.0;
+                carried += volume * u;
+                carrying += volume;
+            }
+            started += f64::from(u8::from(now && before == Some(false)));
+            stopped += f64::from(u8::from(!now && before == Some(true)));
+        }
+        let rate = flux / self.area;
+        self.remember(rate);
+        let [count, mean, squares] = self.rates;
+        let elapsed = view.time - std::mem::replace(&mut self.last, view.time);
+        let per = 1.0 / (self.area * elapsed);
+        let mut scalars = vec![rate, mean, (squares / count).sqrt(), moving, carried / carrying, started, stopped];
+        scalars.extend([started * per, stopped * per]);
+        scalars.extend(self.scale.map(|scale| rate / scale));
+        Sample { scalars, rows: Vec::new() }
+    }
+
+    fn save(&self, name: &str, state: &mut State) {
+        let moves = self.moves.iter().map(|m| m.map_or(-1, i64::from)).collect::<Vec<_>>();
+        state.put_integer(&format!("{name}.moves"), moves);
+        state.put_real(&format!("{name}.rates"), [&[self.last], self.rates.as_slice()].concat());
+    }
+
+    fn load(&mut self, name: &str, state: &State) -> Result<(), MissingSection> {
+        let key = format!("{name}.rates");
+        let &[last, ref rates @ ..] = state.real(&key)? else {
+            return Err(MissingSection { name: key, kind: "real" });
+        };
+        self.rates = rates.try_into().map_err(|_| MissingSection { name: key, kind: "real" })?;
+        self.last = last;
+        let known = |m: &i64| (*m >= 0).then_some(*m == 1);
+        self.moves = state.integer(&format!("{name}.moves"))?.iter().map(known).collect();
+        Ok(())
+    }
+}
