@@ -25,12 +25,18 @@ const CLOSED_FORMS: &[&str] = &[
     "q-model",
     "rebound-on-steel",
     "starts-to-roll",
+    "contact-time",
+    "damped-contact",
+    "overlap-band",
+    "pushed-row",
 ];
 
 /// The quick cases that take a few seconds pass.
 #[test]
 fn quick_cases_pass() {
-    for name in ["restitution", "drop-dem", "drop-lattice", "lump", "figure-9"].iter().chain(CLOSED_FORMS) {
+    for name in
+        ["restitution", "drop-dem", "drop-lattice", "lump", "figure-9", "bed-at-rest"].iter().chain(CLOSED_FORMS)
+    {
         for case in chosen(&[(*name).to_owned()], false).unwrap() {
             for claim in case.claims().unwrap() {
                 assert!(

@@ -19,6 +19,7 @@ mod open_dem_benchmark;
 mod outlet;
 mod random_loads;
 mod rolling;
+mod sediment_2004;
 mod shapes;
 mod silo;
 mod stack;
@@ -88,10 +89,19 @@ pub static CASES: &[Case] = &[
     quick("added-mass", "damper", "V-65, A-7.1: a bed at rest is an added mass", host::added_mass),
     quick("ring-down", "damper", "loss factor with balls, driven and ringing down", host::loss_factor_with_grains),
     quick("figure-9", "damper-2003", "A-F9, A-F10: shaken box, landing and lift-off", damper_2003::figure_9),
+    quick("contact-time", "sediment-2004", "B-F4, B-F12: contact time against stiffness", sediment_2004::contact_time),
+    quick("damped-contact", "sediment-2004", "B-F5: contact time with damping", sediment_2004::damped),
+    quick("overlap-band", "sediment-2004", "B-F8, B-F11: overlap, and the band of stiffness", sediment_2004::overlap),
+    quick("bed-at-rest", "sediment-2004", "B-F9, B-F10: 42 grains come to rest, or do not", sediment_2004::settling),
+    quick("pushed-row", "sediment-2004", "B-F22: a row of grains as a rod", sediment_2004::rod),
     long("beverloo", "dem-benchmarks", "V-31: discharge through a slot, in the plane", outlet::beverloo),
     long("janssen", "dem-benchmarks", "V-32: pressure in a silo, in the plane", silo::janssen),
     long("chute", "dem-benchmarks", "V-35, V-36: flow down a rough slope", chute::silbert),
     long("brazil-nut", "dem-benchmarks", "V-38: a large grain rises in a shaken bed", brazil_nut::brazil_nut),
+    long("dam-break", "sediment-2004", "B-F19: slopes after a dam break", sediment_2004::dam_break),
+    long("dam-break-rolling", "sediment-2004", "B-F19, B-F23: rolling friction", sediment_2004::dam_break_rolling),
+    long("avalanche", "sediment-2004", "B-F13 to B-F16: rock at 40 degrees", sediment_2004::avalanche),
+    long("avalanche-stiff", "sediment-2004", "the same with contacts of 0.1 ms", sediment_2004::avalanche_stiff),
     long("figure-3a", "damper-2003", "A-F3a: response by DEM, literal law", damper_2003::figure_3a),
     long("figure-3b", "damper-2003", "A-F3b: the same with more wall friction", damper_2003::figure_3b),
     long("figure-3-extended", "damper-2003", "A-F3: response by DEM, extended law", damper_2003::figure_3_extended),
