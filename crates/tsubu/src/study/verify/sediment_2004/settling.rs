@@ -90,7 +90,7 @@ pub(in super::super) fn settling(spoiler: f64) -> Result<Vec<Claim>, String> {
         claims.push(Claim::judge(gates[0].name.clone(), gates[0].value, Some(0.5), None, gains));
         claims.push(refused(&format!("{} N/cm, forward differences, 10 steps", stiffness / 100.0), &gates, 2));
     }
-    // A little above, the bed boils within what its weight allows; the hard one has had ten times as many contacts to calm down.
+    // A little above, the soft bed boils and the hard one nearly rests, which is the paper's picture.
     let source = "about half vibrate at 1 N/cm, none at 100 N/cm (Osada 2004, figures 9, 10)";
     let near = Way { integrator: FORWARD, steps: 12 };
     for (stiffness, least, most) in [(SOFT, Some(0.5), None), (HARD, None, Some(0.25))] {
