@@ -19,7 +19,7 @@ mod watch;
 mod water;
 
 pub use contact::{
-    Cohesion, Contact, Damping, Material, MaterialPair, MindlinForm, Normal, Rolling, Tangential, Twisting,
+    Cohesion, Contact, Damping, Film, Material, MaterialPair, MindlinForm, Normal, Rolling, Tangential, Twisting,
 };
 pub use grains::{GrainMotion, GrainShape, GrainTable, Particles, Periodic, Region, Removal, Size, Start};
 pub use hosts::{Host, Mode, Signal, Structure};

@@ -74,6 +74,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/dam-break.toml"),
     },
     Template {
+        name: "wet-rebound",
+        about: "a ball hits a wall in oil: what the film between them leaves of its speed",
+        text: include_str!("../../../scenes/wet-rebound.toml"),
+    },
+    Template {
         name: "press",
         about: "a lid under constant pressure sinks onto a bed and stops",
         text: include_str!("../../../scenes/press.toml"),

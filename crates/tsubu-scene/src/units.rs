@@ -57,6 +57,7 @@ dimensions! {
     SLOWNESS "an inverse speed" "s/m" [-1, 0, 1, 0] ["s/m", "s/mm"] ["0.5 s/m"] "Inverse speeds."
     LOAD_RATE "a rate of force" "N/s" [1, 1, -3, 0] ["N/s", "kN/s", "N/ms"] ["2 N/s"] "Forces that grow."
     ENERGY_DENSITY "an energy density" "J/m^3" [-1, 1, -2, 0] ["J/m^3", "kJ/m^3", "Pa", "kPa"] ["300 kJ/m^3"] "Energy densities."
+    VISCOSITY "a viscosity" "Pa s" [-1, 1, -1, 0] ["Pa s", "mPa s", "kg/(m s)"] ["1 mPa s"] "Viscosities, mass per length and time."
     SURFACE_ENERGY "a surface energy" "J/m^2" [0, 1, -2, 0] ["J/m^2", "mJ/m^2"] ["50 mJ/m^2"] "Surface energies."
 }
 

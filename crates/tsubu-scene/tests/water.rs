@@ -1,7 +1,7 @@
 //! Water and slopes: what is meant, what follows, what is wrong.
 
 use crate::{complaint, read};
-use tsubu_scene::plan::{Drag, Flow};
+use tsubu_scene::plan::{Drag, Film, Flow};
 
 const STREAM: &str = r#"
 slope = "3 deg"
@@ -162,4 +162,19 @@ fn a_level_stream_needs_a_drive() {
 fn a_crowd_needs_layers() {
     insta::assert_snapshot!(about("drag.schiller-naumann = {}", "drag.gidaspow = {}"));
     insta::assert_snapshot!(about("drag.schiller-naumann = {}", "hindrance.di-felice = {}"));
+}
+
+#[test]
+fn a_film_is_of_something() {
+    let scene = read(STREAM, &["contact.film={lubrication={}}"]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let wanted = Film::Lubrication { roughness: 2e-6, reach: 2e-4, viscosity: 1e-3, in_contact: false };
+    assert_eq!(scene.plan().contact.film, wanted);
+    let again = read(&scene.resolved_toml(), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    assert_eq!(again.plan(), scene.plan());
+    let dry = STREAM.split("[water]").next().expect("a head").replace("slope = \"3 deg\"", "");
+    insta::assert_snapshot!(complaint(&format!("{dry}[contact]\nfilm.lubrication = {{}}\n"), &[]));
+    insta::assert_snapshot!(about(
+        "[water]",
+        "[contact]\nfilm.lubrication = { roughness = \"1 mm\", viscosity = -1 }\n[water]"
+    ));
 }

@@ -1,7 +1,7 @@
 //! The contact law: one choice for each part of the stack.
 
 use super::{Key, Kind, Variant, Word};
-use crate::units::{DAMPING as DASHPOT, FORCE, NUMBER, RATE, SLOWNESS, SPEED, SPIN, STIFFNESS};
+use crate::units::{DAMPING as DASHPOT, FORCE, LENGTH, NUMBER, RATE, SLOWNESS, SPEED, SPIN, STIFFNESS, VISCOSITY};
 
 pub(super) static CONTACT: &[Key] = &[
     NORMAL_FORCE.default("{ hertz = {} }"),
@@ -11,6 +11,7 @@ pub(super) static CONTACT: &[Key] = &[
     ROLLING_RESISTANCE.default("{ none = {} }"),
     TWISTING_RESISTANCE.default("{ none = {} }"),
     COHESIVE_FORCE.default("{ none = {} }"),
+    FILM_BETWEEN.default("{ none = {} }"),
     Key::new("rotation", Kind::Flag, "Whether grains spin").default("true"),
 ];
 
@@ -23,6 +24,7 @@ pub(super) static OF_A_PAIR: &[Key] = &[
     ROLLING_RESISTANCE.derived(AS_IN_THE_SCENE),
     TWISTING_RESISTANCE.derived(AS_IN_THE_SCENE),
     COHESIVE_FORCE.derived(AS_IN_THE_SCENE),
+    FILM_BETWEEN.derived(AS_IN_THE_SCENE),
 ];
 
 const AS_IN_THE_SCENE: &str = "as in `[contact]`";
@@ -40,6 +42,7 @@ const ROLLING_RESISTANCE: Key = Key::new("rolling", Kind::Choice(ROLLING), "Roll
 const TWISTING_RESISTANCE: Key =
     Key::new("twisting", Kind::Choice(TWISTING), "Resistance against turning about the normal");
 const COHESIVE_FORCE: Key = Key::new("cohesion", Kind::Choice(COHESION), "Attraction between bodies in contact");
+const FILM_BETWEEN: Key = Key::new("film", Kind::Choice(FILM), "Liquid between bodies that are near, touching or not");
 
 static NORMAL: &[Variant] = &[
     Variant { name: "hertz", about: "k d^(3/2), k from the materials", keys: &[] },
@@ -214,4 +217,25 @@ static COHESION: &[Variant] = &[
         keys: &[],
     },
     Variant { name: "constant", about: "The materials' `cohesion` (a force) in every contact", keys: &[] },
+];
+
+static FILM: &[Variant] = &[
+    Variant { name: "none", about: "No film", keys: &[] },
+    Variant {
+        name: "lubrication",
+        about: "6 pi mu R*^2 v/h against bodies that near or part at v over a gap h, as the liquid must flow (Reynolds 1886)",
+        keys: &[
+            Key::new("roughness", Kind::Quantity(&LENGTH), "Gap below which the film gets no stiffer")
+                .above(0.0)
+                .derived("a thousandth of the smallest diameter"),
+            Key::new("reach", Kind::Quantity(&LENGTH), "Gap beyond which the film is not counted")
+                .above(0.0)
+                .derived("a tenth of the smallest diameter"),
+            Key::new("viscosity", Kind::Quantity(&VISCOSITY), "Viscosity mu of the liquid")
+                .above(0.0)
+                .derived("density times viscosity of `[water]`"),
+            Key::new("in-contact", Kind::Flag, "Let the film go on, at the roughness, while the bodies touch")
+                .default("false"),
+        ],
+    },
 ];

@@ -66,6 +66,8 @@ pub struct Contact {
     pub twisting: Twisting,
     /// Attraction.
     pub cohesion: Cohesion,
+    /// Liquid between bodies that are near.
+    pub film: Film,
     /// Whether grains spin.
     pub rotation: bool,
 }
@@ -220,4 +222,23 @@ pub enum Cohesion {
     Sjkr {},
     /// The same force in every contact.
     Constant {},
+}
+
+/// Liquid between bodies that are near.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum Film {
+    /// None.
+    None {},
+    /// f_n = 6 pi mu R*^2 v/max(h, roughness), h the gap.
+    Lubrication {
+        /// Gap at which it grows no more [m].
+        roughness: f64,
+        /// Gap beyond which it is not counted [m].
+        reach: f64,
+        /// mu [Pa.s].
+        viscosity: f64,
+        /// Whether it goes on while the bodies touch.
+        in_contact: bool,
+    },
 }

@@ -1,5 +1,6 @@
 //! Values that follow from others: masses from densities, counts from positions, tables from files.
 
+mod films;
 mod grains;
 mod signals;
 mod walls;
@@ -37,6 +38,7 @@ pub(crate) fn derive(
     derive.walls(resolved);
     derive.oscillators(resolved);
     derive.signals(resolved);
+    derive.films(resolved);
     settings(resolved, root);
     derive.watches(resolved);
     derive.response(resolved);

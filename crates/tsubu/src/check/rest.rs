@@ -15,6 +15,10 @@ pub(super) const IN_A_BED: f64 = 0.2;
 /// Largest dashpot number of a single impact: a dashpot that takes half of the momentum in a step is not resolved.
 pub(super) const IN_AN_IMPACT: f64 = 0.5;
 
+/// Largest number c dt / m* of a film of liquid, whose force ends at touch: a force that comes or goes within a step with the number
+/// n leaves n^2/6 of the energy unexplained, here less than 0.03 %.
+pub(super) const IN_A_FILM: f64 = 0.04;
+
 /// Weight [N] that rests on one of the lowest grains, if all free grains of the scene lie in one bed: that of the grains in a
 /// column as wide as the grain. The bed is as wide as its box or its periodic ends; without them it is as wide as high.
 fn weight_on(plan: &Plan, group: &Particles, diameter: f64) -> f64 {
@@ -46,8 +50,9 @@ pub(super) fn overlap(plan: &Plan, pair: &Pair, lowest: &Kind) -> f64 {
     group.map_or(0.0, |group| pair.overlap_under(weight_on(plan, group, 2.0 * lowest.radius)))
 }
 
-/// Longest step [s] at which the dashpot of a pair is stable and resolved, with impacts at `speed` and `depth` the overlap at rest.
+/// Longest step [s] at which the dashpot of a pair, and the film between them, is stable and resolved, with impacts at `speed` and `depth` the overlap at rest.
 pub(super) fn longest_step(pair: &Pair, speed: f64, depth: f64) -> f64 {
     let longest = |number: f64, depth: f64| number * pair.mass / pair.dashpot(depth);
-    longest(IN_A_BED, depth).min(longest(IN_AN_IMPACT, pair.largest_overlap(speed)))
+    let film = IN_A_FILM * pair.mass / pair.film;
+    longest(IN_A_BED, depth).min(longest(IN_AN_IMPACT, pair.largest_overlap(speed))).min(film)
 }

@@ -1,6 +1,6 @@
 //! The verdict: is this scene resolved well enough, and what will it cost?
 
-use super::rest::{self, IN_A_BED, IN_AN_IMPACT};
+use super::rest::{self, IN_A_BED, IN_A_FILM, IN_AN_IMPACT};
 use super::{bodies, mesh, shortest_period, speed_scale, water};
 use crate::bench::Bench;
 use crate::contact::{Pair, Table};
@@ -228,6 +228,7 @@ fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
             );
         }
         damping_stable(verdict, plan, &label, &pair, dt, speed, depth);
+        film(verdict, &label, &pair, dt, speed);
     }
     for (name, group) in &plan.particles {
         // A linear spring knows nothing of the modulus.
@@ -289,6 +290,30 @@ fn damping_stable(
             || "`dem.integrator = \"velocity-verlet\"`".to_owned(),
         );
     }
+}
+
+/// The film of liquid between bodies: whether the step can bear it where it is thinnest, and what it leaves of an impact.
+fn film(verdict: &mut Verdict, label: &str, pair: &Pair, dt: f64, speed: f64) {
+    if pair.film == 0.0 {
+        return;
+    }
+    let number = pair.film * dt / pair.mass;
+    let stopped = pair.film_takes / pair.mass;
+    let fate = if stopped < speed {
+        format!("it takes {:.1} % of an approach at {speed:.3} m/s", 100.0 * stopped / speed)
+    } else {
+        format!("it stops an approach at {speed:.3} m/s before touch")
+    };
+    verdict.judge(
+        number <= IN_A_FILM * (1.0 + 1e-9),
+        format!("{label}: film number c dt / m* = {number:.3} at its roughness (limit {IN_A_FILM}); {fate}"),
+        || {
+            let longest = IN_A_FILM * pair.mass / pair.film;
+            format!(
+                "`dem.time-step` to {longest:.2e} s or less, or leave it out; or `contact.film.lubrication.roughness`"
+            )
+        },
+    );
 }
 
 fn stiffness_key(plan: &Plan, material: &str, other: &str) -> String {

@@ -5,11 +5,12 @@ use super::part::{Needs, Part, Slot, Stage};
 use super::root::most;
 use super::table::{Constants, Pair};
 use super::{
-    cohesion_constant, contact_width, coulomb, dashpot, dmt, epsd, hertz, hooke, jkr, mindlin, rolling_constant,
+    cohesion_constant, contact_width, coulomb, dashpot, dmt, epsd, hertz, hooke, jkr, lubrication, mindlin,
+    rolling_constant,
 };
 use super::{rolling_spring, rolling_viscous, sjkr, spring, twisting_sliding, twisting_spring, viscous};
 use multiversion::multiversion;
-use tsubu_scene::plan::{Cohesion, Contact, Damping, Normal, Rolling, Tangential, Twisting};
+use tsubu_scene::plan::{Cohesion, Contact, Damping, Film, Normal, Rolling, Tangential, Twisting};
 
 /// Parts in the order of their stages.
 #[derive(Debug)]
@@ -33,6 +34,7 @@ impl Law {
             tangential(&contact.tangential),
             rolling(&contact.rolling),
             twisting(&contact.twisting),
+            film(contact),
         ];
         Self::of(parts.into_iter().flatten().collect())
     }
@@ -166,6 +168,16 @@ fn twisting(twisting: &Twisting) -> Option<Box<dyn Part>> {
         Twisting::None {} => None,
         Twisting::Sliding { smoothing_spin } => Some(Box::new(twisting_sliding::part(smoothing_spin))),
         Twisting::Spring {} => Some(Box::new(twisting_spring::TwistingSpring)),
+    }
+}
+
+fn film(contact: &Contact) -> Option<Box<dyn Part>> {
+    match contact.film {
+        Film::None {} => None,
+        Film::Lubrication { roughness, reach, viscosity, in_contact } => {
+            let beside_damping = contact.damping != Damping::None {};
+            Some(Box::new(lubrication::Lubrication { roughness, reach, viscosity, in_contact, beside_damping }))
+        }
     }
 }
 

@@ -33,6 +33,7 @@ mod epsd;
 mod hertz;
 mod hooke;
 mod jkr;
+mod lubrication;
 mod mindlin;
 mod rolling_constant;
 mod rolling_spring;

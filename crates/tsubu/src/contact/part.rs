@@ -35,6 +35,8 @@ pub enum Stage {
     Rolling,
     /// Resistance against spin about the normal.
     Twisting,
+    /// Liquid between the bodies: last, as friction does not see what it bears.
+    Film,
 }
 
 /// What a part wants from the engine.

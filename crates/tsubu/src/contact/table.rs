@@ -45,6 +45,10 @@ pub struct Pair {
     pub damping: f64,
     /// q, set by the damping part [-].
     pub damping_exponent: f64,
+    /// Largest dashpot of a film of liquid [N.s/m]; zero without one.
+    pub film: f64,
+    /// Momentum that the film takes from an approach from its reach to touch, whatever its speed [N.s].
+    pub film_takes: f64,
 }
 
 impl Pair {

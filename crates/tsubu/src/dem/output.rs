@@ -157,7 +157,7 @@ impl DemEngine {
         self.sums.stored = flows[7];
         let [stream, spun, pressure, carried, lost] = [8, 9, 10, 11, 12].map(|k| flows[k]);
         let force = DVec3::from_slice(&flows[13..]);
-        self.last_flows.water = Flows { stream, spun, pressure, carried, lost, force };
+        self.last_flows.water = Flows { pressure, carried, stream, spun, lost, force };
         let reference = state.real("dem.reference")?;
         let places = state.real("dem.wall-reference")?;
         if reference.len() != 3 * self.grains.len() || places.len() != 7 * self.walls.len() {

@@ -204,7 +204,8 @@ impl Touch {
         let mut contacts = Vec::new();
         for (block, list) in self.blocks.iter().zip(&scene.candidates.lists) {
             let mut take = |rows: &Rows, wall: bool| {
-                for r in 0..rows.chunk.rows() {
+                // What is only near, within the reach of a law, is no contact.
+                for r in (0..rows.chunk.rows()).filter(|&r| rows.chunk.disc[r] > 0.0) {
                     let first = list.first + rows.first[r] as usize;
                     let second = if wall { rows.second[r] as usize } else { list.grain(rows.second[r]) };
                     contacts.push(Contact {

@@ -257,12 +257,24 @@ fn refuse_group(name: &str, group: &plan::Particles, remarks: &mut Remarks) {
 /// What of the contact law the automaton leaves out; of that of a pair of materials, given with its number and the scene's
 /// law, only what the scene's does not have.
 fn remark_contact(contact: &plan::Contact, pair: Option<(usize, &plan::Contact)>, plan: &Plan, remarks: &mut Remarks) {
-    let plan::Contact { normal: _, damping: _, attraction: _, tangential, rolling, twisting: _, cohesion, rotation } =
-        contact;
+    let plan::Contact {
+        normal: _,
+        damping: _,
+        attraction: _,
+        tangential,
+        rolling,
+        twisting: _,
+        cohesion,
+        film,
+        rotation,
+    } = contact;
     let key = |part: &str| pair.map_or_else(|| part.to_owned(), |(index, _)| format!("material-pair.{index}.{part}"));
     let scene = pair.map(|(_, scene)| scene);
     if !matches!(cohesion, plan::Cohesion::None {}) && scene.is_none_or(|scene| scene.cohesion != *cohesion) {
         remarks.approximate(key("contact.cohesion"), "the automaton knows no cohesion");
+    }
+    if !matches!(film, plan::Film::None {}) && scene.is_none_or(|scene| scene.film != *film) {
+        remarks.approximate(key("contact.film"), "the automaton's balls are dry");
     }
     let slides = matches!(tangential, Tangential::None {}) || plan.materials.values().all(|m| m.friction <= 0.0);
     if !slides && scene.is_none_or(|scene| scene.tangential != *tangential) {

@@ -3,6 +3,7 @@
 
 mod adhesion;
 mod cycle;
+mod film;
 mod frame;
 mod impact;
 mod oblique;

@@ -3,7 +3,7 @@
 use super::{Subject, constants};
 use std::sync::LazyLock;
 use tsubu::contact::Law;
-use tsubu_scene::plan::{Cohesion, Contact, Damping, MindlinForm, Normal, Rolling, Tangential, Twisting};
+use tsubu_scene::plan::{Cohesion, Contact, Damping, Film, MindlinForm, Normal, Rolling, Tangential, Twisting};
 
 /// Hertz and nothing else.
 pub fn hertz() -> Contact {
@@ -15,6 +15,7 @@ pub fn hertz() -> Contact {
         rolling: Rolling::None {},
         twisting: Twisting::None {},
         cohesion: Cohesion::None {},
+        film: Film::None {},
         rotation: true,
     }
 }
@@ -100,6 +101,7 @@ fn stacks() -> Vec<(usize, Contact)> {
                                     rolling: rolling.clone(),
                                     twisting: twisting.clone(),
                                     cohesion,
+                                    film: Film::None {},
                                     rotation: true,
                                 };
                                 if !refused(&contact) {

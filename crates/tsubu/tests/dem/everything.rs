@@ -88,6 +88,7 @@ flow.coupled = { bottom = 0, top = "70 mm", shear-velocity = "0.2 m/s" }
 normal.hertz = {}
 damping.quarter = {}
 cohesion.dmt = {}
+film.lubrication = { reach = "0.05 mm" }
 tangential.mindlin = {}
 rolling.epsd = {}
 twisting.spring = {}

@@ -66,6 +66,7 @@ pub fn plan(count: usize, mode: LatticeMode) -> Plan {
             rolling: Rolling::None {},
             twisting: Twisting::None {},
             cohesion: Cohesion::None {},
+            film: Film::None {},
             rotation: false,
         },
         dem: Dem {

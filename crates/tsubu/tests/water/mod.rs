@@ -1,6 +1,7 @@
 //! Grains in water by their outcome.
 
 mod coupled;
+mod film;
 mod float;
 mod fluctuation;
 mod lift;
