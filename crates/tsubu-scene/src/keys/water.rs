@@ -139,7 +139,7 @@ static TOP: Key = Key::new("top", Kind::Quantity(&LENGTH), "Height z where it en
 static LAYERS: Key = Key::new("layers", Kind::Whole, "Number of layers")
     .at_least(2.0)
     .at_most(1e5)
-    .derived("two for each mean diameter of the grains");
+    .derived("of a stream two for each mean diameter of the grains, of a column one for three diameters");
 
 static AREA: Key =
     Key::new("area", Kind::Quantity(&AREA_UNIT), "Plan area of a layer, from which the share of the grains follows")

@@ -1,5 +1,6 @@
 //! Verification: every claim re-run by one command.
 
+mod bedload;
 mod beds;
 mod bench;
 mod brazil_nut;
@@ -24,6 +25,7 @@ mod shapes;
 mod silo;
 mod stack;
 mod throw;
+mod water;
 
 use tsubu_frame::Claim;
 
@@ -94,6 +96,13 @@ pub static CASES: &[Case] = &[
     quick("overlap-band", "sediment-2004", "B-F8, B-F11: overlap, and the band of stiffness", sediment_2004::overlap),
     quick("bed-at-rest", "sediment-2004", "B-F9, B-F10: 42 grains come to rest, or do not", sediment_2004::settling),
     quick("pushed-row", "sediment-2004", "B-F22: a row of grains as a rod", sediment_2004::rod),
+    quick("settling", "water", "V-50: terminal speeds by four drag laws", water::settling),
+    quick("released", "water", "V-55: the begin of a fall, with added mass", water::released),
+    quick("packed-column", "water", "V-52: Ergun's loss of pressure", water::packed),
+    long("bedload", "water", "V-57: transport rates of a coupled stream", bedload::rates),
+    quick("saltation", "sediment-2004", "B-F6, B-F7: a leaping grain, contact times and hops", sediment_2004::saltation),
+    long("saltation-softest", "sediment-2004", "B-F6: the softest contacts", sediment_2004::softest),
+    quick("saltation-spin", "sediment-2004", "B-F20, B-F21: the same with spin", sediment_2004::spinning),
     long("beverloo", "dem-benchmarks", "V-31: discharge through a slot, in the plane", outlet::beverloo),
     long("janssen", "dem-benchmarks", "V-32: pressure in a silo, in the plane", silo::janssen),
     long("chute", "dem-benchmarks", "V-35, V-36: flow down a rough slope", chute::silbert),

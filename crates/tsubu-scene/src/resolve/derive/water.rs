@@ -195,7 +195,9 @@ impl Derive<'_> {
             if !typed("layers")
                 && let (Some(bottom), Some(top), Some(diameter)) = (bottom, top, diameter)
             {
-                let layers = (2.0 * (top - bottom) / diameter).round().clamp(2.0, 1e5) as i64;
+                // A stream changes within a grain above its bed. In a crowd an average over less than three grains is none.
+                let per_grain = if kind == "coupled" { 2.0 } else { 1.0 / 3.0 };
+                let layers = (per_grain * (top - bottom) / diameter).round().clamp(2.0, 1e5) as i64;
                 flow.insert("layers".into(), Value::Integer(layers));
             }
             if !typed("area")

@@ -1,15 +1,17 @@
-//! Osada 2004: sediment as grains of a discrete element model. What needs no water.
+//! Osada 2004: sediment as grains of a discrete element model.
 
 mod avalanche;
 mod contact;
 mod dam_break;
 mod rod;
+mod saltation;
 mod settling;
 
 pub(super) use avalanche::{avalanche, avalanche_stiff};
 pub(super) use contact::{contact_time, damped, overlap};
 pub(super) use dam_break::{dam_break, dam_break_rolling};
 pub(super) use rod::rod;
+pub(super) use saltation::{saltation, softest, spinning};
 pub(super) use settling::settling;
 
 use super::bench::Rig;

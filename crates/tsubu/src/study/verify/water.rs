@@ -1,0 +1,149 @@
+//! Single grains and packed beds in water.
+
+use super::bench::{Rig, near, refused, vectors, within};
+use crate::view::Wants;
+use crate::water::Layers;
+use std::f64::consts::PI;
+use tsubu_frame::{Claim, Kind};
+
+/// A grain of quartz in space.
+fn quartz(diameter: f64, drag: &str, rest: &str) -> String {
+    format!(
+        r#"
+        dimension = 3
+        duration = "10 s"
+        speed-scale = "1 m/s"
+        [materials.quartz]
+        young-modulus = "5 MPa"
+        density = "2650 kg/m^3"
+        [particles.grain]
+        material = "quartz"
+        diameter = {diameter}
+        start.at = {{ position = [[0, 0, 0]] }}
+        [water]
+        drag = {{ {drag} = {{}} }}
+        {rest}
+        "#
+    )
+}
+
+/// Speed at which a grain sinks after some time [m/s].
+fn sunk(diameter: f64, drag: &str, rest: &str, seconds: f64, spoiler: f64) -> Result<f64, String> {
+    let mut rig = Rig::new(&quartz(diameter, drag, rest), spoiler)?;
+    rig.until(seconds)?;
+    Ok(-rig.vector("velocity", 0).z)
+}
+
+/// Speed at which C(Re) v^2 = 4/3 (s-1) g d, by fixed-point iteration.
+fn terminal(d: f64, coefficient: impl Fn(f64) -> f64) -> f64 {
+    let mut v: f64 = 0.1;
+    for _ in 0..10_000 {
+        v = 0.5 * (v + (4.0 / 3.0 * 1.65 * 9.8 * d / coefficient(v * d / 1e-6)).sqrt());
+    }
+    v
+}
+
+/// V-50: terminal speeds, 0.1 %.
+pub(super) fn settling(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let schiller = |re: f64| if re > 1000.0 { 0.44 } else { 24.0 / re * (1.0 + 0.15 * re.powf(0.687)) };
+    let mut claims = Vec::new();
+    for d in [0.2e-3, 0.5e-3, 1e-3, 2e-3, 5e-3, 10e-3] {
+        let seconds = if d < 1.5e-3 { 0.6 } else { 3.0 };
+        let laws: [(&str, f64); 3] = [
+            ("schiller-naumann", terminal(d, schiller)),
+            ("stokes-newton", terminal(d, |re| 0.4 + 24.0 / re)),
+            ("abraham", terminal(d, |re| (0.63 + 4.8 / re.sqrt()).powi(2))),
+        ];
+        for (law, wanted) in laws {
+            let found = sunk(d, law, "", seconds, spoiler)?;
+            claims.push(near(
+                format!("quartz of {} mm sinks, {law} [m/s]", d * 1e3),
+                found,
+                wanted,
+                1e-3,
+                "C(Re) v^2 = 4/3 (s-1) g d (V-50)",
+            ));
+        }
+    }
+    let light = sunk(2e-3, "schiller-naumann", "density = 950", 3.0, spoiler)?;
+    let gates = [near("", light, terminal(2e-3, schiller), 1e-3, "")];
+    claims.push(refused("water lighter by 5 %", &gates, 1));
+    Ok(claims)
+}
+
+/// V-55: (s-1) g/(s + 1/2).
+pub(super) fn released(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let begin = |rest: &str| Ok::<f64, String>(sunk(2e-3, "none", rest, 1e-3, spoiler)? / 1e-3);
+    let gate =
+        |name: &str, value: f64| near(name, value, 1.65 * 9.8 / 3.15, 5e-3, "Batchelor 1967: (s-1) g/(s + 1/2) (V-55)");
+    let mut claims = vec![gate("quartz let go in still water [m/s^2]", begin("")?)];
+    claims.push(refused("no added mass", &[gate("", begin("added-mass = 0")?)], 1));
+    Ok(claims)
+}
+
+/// A column of settled beads that water rises through [m/s]: share of the volume that is water, and loss of pressure over length
+/// [Pa/m], in the middle of the bed.
+fn column(velocity: f64, spoiler: f64) -> Result<(f64, f64), String> {
+    let text = format!(
+        r#"
+        dimension = 3
+        duration = "1 s"
+        speed-scale = "0.3 m/s"
+        [materials.glass]
+        young-modulus = "5 MPa"
+        density = "2500 kg/m^3"
+        restitution = 0.3
+        [particles.beads]
+        material = "glass"
+        count = 600
+        diameter = "2 mm"
+        start.rows = {{ spacing = 1.02, jitter = 1, region = {{ low = [0, 0, 0], high = ["10 mm", "10 mm", "110 mm"] }} }}
+        [walls.floor]
+        material = "glass"
+        shape.plane = {{ normal = "z" }}
+        [periodic]
+        x = [0, "10 mm"]
+        y = [0, "10 mm"]
+        [water]
+        drag.gidaspow = {{}}
+        flow.column = {{ bottom = 0, top = "120 mm", velocity = {velocity} }}
+        "#
+    );
+    let mut rig = Rig::new(&text, spoiler)?;
+    rig.until(1.2)?;
+    let (low, high) = (0.008, 0.020);
+    let view = rig.engine.view(Wants::GRAINS);
+    let open = Layers::new(low, high, 1, 1e-4).measure(&view.grains.position, &view.grains.radius)[0];
+    let frame = rig.frame();
+    let volume = 4.0 / 3.0 * PI * 1e-9;
+    let force = vectors(&frame, Kind::Grain, "water force");
+    let place = vectors(&frame, Kind::Grain, "position");
+    let inside = place.iter().zip(&force).filter(|(p, _)| (low..high).contains(&p.z));
+    let drags: Vec<f64> = inside.map(|(_, f)| f.z - 1000.0 * 9.8 * volume).collect();
+    Ok((open, (1.0 - open) * drags.iter().sum::<f64>() / drags.len() as f64 / volume))
+}
+
+/// V-52: the forces on the beads add up to Ergun's loss, 3 %.
+pub(super) fn packed(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let ergun = |e: f64, u: f64| {
+        let (mu, rho, d) = (1e-3, 1000.0, 2e-3f64);
+        150.0 * mu * (1.0 - e).powi(2) * u / (e.powi(3) * d * d) + 1.75 * rho * (1.0 - e) * u * u / (e.powi(3) * d)
+    };
+    let mut claims = Vec::new();
+    for u in [2e-3, 8e-3, 15e-3] {
+        let (open, loss) = column(u, spoiler)?;
+        let name = |what: &str| format!("packed column, {} mm/s: {what}", u * 1e3);
+        let gate =
+            |u: f64| near(name("loss of pressure over Ergun's"), loss / ergun(open, u), 1.0, 0.03, "Ergun 1952 (V-52)");
+        claims.push(gate(u));
+        claims.push(within(name("void fraction"), open, 0.42, 0.05, "loose random packings of spheres"));
+        if u > 10e-3 {
+            claims.push(refused(
+                "the velocity between the grains in place of the superficial one",
+                &[gate(u / open)],
+                1,
+            ));
+        }
+    }
+    Ok(claims)
+}
