@@ -110,6 +110,17 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
             no_y(parts, &[*axis], &at("axis"), complaints);
             bedload(parts, name, measure, complaints);
         }
+        Measure::Stream {} => {
+            let layered = parts.resolved.get("water").and_then(|water| water.get("flow"));
+            if layered.is_none_or(|flow| flow.get("coupled").is_none() && flow.get("column").is_none()) {
+                complaints.push(
+                    Complaint::new(format!("the watch `{name}` has no layers of water to look at")).at(
+                        &parts.root.locate(&["watch", name, kind]),
+                        "needs water.flow.coupled or water.flow.column",
+                    ),
+                );
+            }
+        }
         Measure::CoarseGrain { axes, points, .. } => {
             no_y(parts, axes, &at("axes"), complaints);
             let all = points.iter().try_fold(1usize, |product, n| product.checked_mul(*n));

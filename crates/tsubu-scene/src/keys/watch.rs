@@ -17,6 +17,7 @@ pub(crate) const KINDS: &[&str] = &[
     "forces",
     "segregation",
     "wall-load",
+    "stream",
     "track",
 ];
 
@@ -58,6 +59,7 @@ pub(super) static WATCH: &[Key] = &[
         "How well two groups are mixed: Lacey index, and the height of one over the other",
     ),
     kind("wall-load", WALL_LOAD, "Force and torque of the grains on a wall, and its pressure"),
+    kind("stream", &[], "The layers of the water: velocity, share of water, discharge, shear velocity"),
     kind("track", TRACK, "Position, velocity and spin of some grains; positions go on across periodic ends"),
 ];
 

@@ -162,6 +162,8 @@ pub enum Measure {
         /// Unit direction in which the pressure acts on the wall.
         direction: Option<Vector>,
     },
+    /// The layers of the water.
+    Stream {},
     /// Single grains.
     Track {
         /// Their numbers.
@@ -185,6 +187,7 @@ impl Measure {
             Self::Forces { .. } => "forces",
             Self::Segregation { .. } => "segregation",
             Self::WallLoad { .. } => "wall-load",
+            Self::Stream {} => "stream",
             Self::Track { .. } => "track",
         }
     }
@@ -201,7 +204,11 @@ impl Measure {
             | Self::Fabric { region, .. }
             | Self::Forces { region, .. }
             | Self::Segregation { region, .. } => region.as_ref(),
-            Self::Discharge { .. } | Self::Hops { .. } | Self::WallLoad { .. } | Self::Track { .. } => None,
+            Self::Discharge { .. }
+            | Self::Hops { .. }
+            | Self::WallLoad { .. }
+            | Self::Stream {}
+            | Self::Track { .. } => None,
         }
     }
 }

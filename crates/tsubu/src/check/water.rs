@@ -5,7 +5,7 @@ use crate::partner::Hosts;
 use crate::water::{Stream, Water};
 use glam::DVec3;
 use std::f64::consts::PI;
-use tsubu_scene::plan::{self, GrainMotion, Particles, Plan, Torque};
+use tsubu_scene::plan::{self, GrainMotion, Normal, Particles, Plan, Torque};
 
 /// Part of the drag relaxation time that a step may be: beyond it the drag of the last moment is not that of this one, and
 /// at two of them explicit steps blow up.
@@ -150,6 +150,7 @@ pub(super) fn judge(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64) 
             );
         }
         turning(verdict, plan, name, &sunk, speed, dt);
+        contacts(verdict, plan, (name, group), &sunk, time);
         let terminal = sunk.terminal(gravity);
         if let Some(terminal) = terminal {
             let reynolds = terminal * sunk.diameter / water.viscosity;
@@ -183,4 +184,53 @@ pub(super) fn judge(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64) 
             verdict.say(format!("{name} in the stream: Rouse number {rouse:.2} ({fate})"));
         }
     }
+}
+
+/// Overlaps over the diameter between which Osada et al. (2004) want contacts to be: above, grains tremble and sink into one
+/// another; below, the run only gets longer.
+const WINDOW: [f64; 2] = [0.01, 0.001];
+
+/// What the stiffness does to grains in water: the window of Osada et al. (2004), the contact time beside the times of drag and of a
+/// hop, and what another stiffness would cost. `drag`: time of the drag [s].
+fn contacts(verdict: &mut Verdict, plan: &Plan, (name, group): (&String, &Particles), sunk: &Sunk, drag: f64) {
+    let law = plan.contact_of(&group.material, &group.material);
+    let Normal::Hooke { stiffness } = law.normal else { return };
+    let hosts = Hosts::default();
+    let speed = speed_scale(plan, &hosts);
+    let (m, d) = (sunk.moved(), sunk.diameter);
+    // Against a fixed grain and without damping, d = v sqrt(m/k).
+    let [softest, stiffest] = WINDOW.map(|overlap| m * (speed / (overlap * d)).powi(2));
+    let [longest, shortest] = WINDOW.map(|overlap| PI * overlap * d / speed);
+    let place = match stiffness {
+        k if k < softest => "softer than that: grains sink into one another",
+        k if k > stiffest => "stiffer than that: safe, only slower",
+        _ => "inside",
+    };
+    verdict.judge(
+        stiffness >= softest,
+        format!(
+            "{name} in water: stiffness {stiffness:.3e} N/m; the window of overlap / d from 0.001 to 0.01 at {speed:.3} m/s is {softest:.3e} to {stiffest:.3e} N/m: {place}"
+        ),
+        || format!("`contact.normal.hooke.stiffness` to {softest:.2e} N/m or more"),
+    );
+    verdict.say(format!(
+        "{name} in water: the window is one decade of contact time, {shortest:.2e} to {longest:.2e} s: two contact times a hundred apart, as in the avalanche of Osada et al. (2004), are never both inside"
+    ));
+    let contact = PI * (m / stiffness).sqrt();
+    let gravity = DVec3::from_array(plan.gravity).length();
+    let weight = (1.0 - sunk.displaced() / sunk.mass) * gravity * sunk.mass / m;
+    let hop = if weight > 0.0 { 2.0 * speed / weight } else { f64::INFINITY };
+    verdict.judge(
+        contact <= 0.1 * drag.min(hop),
+        format!(
+            "{name} in water: contact time {contact:.2e} s, {:.2} % of the drag's {drag:.2e} s and {:.2} % of a hop's {hop:.2e} s (wanted: 10 % or less)",
+            100.0 * contact / drag,
+            100.0 * contact / hop
+        ),
+        || "a stiffer `contact.normal.hooke.stiffness`: the stream changes during a contact".to_owned(),
+    );
+    verdict.say(
+        "stiffness and cost: ten times stiffer takes 3.2 times as long, ten times softer a third of the time"
+            .to_owned(),
+    );
 }

@@ -20,6 +20,7 @@ mod run;
 mod run_out;
 mod segregation;
 mod slope;
+mod stream;
 mod surface;
 mod track;
 mod trigger;
@@ -123,12 +124,16 @@ pub fn open(measure: &Measure, plan: &Plan) -> Box<dyn Watch> {
             pressed: area.zip(*direction).map(|(area, along)| (area, DVec3::from_array(along))),
             axes: axes(plan),
         }),
+        Measure::Stream {} => {
+            let column = plan.water.as_ref().is_some_and(|water| matches!(water.flow, plan::Flow::Column { .. }));
+            Box::new(stream::Layered { along: !column })
+        }
         Measure::Track { ids } => Box::new(track::Track { ids: ids.clone(), axes: axes(plan) }),
     }
 }
 
 /// Every kind of watch with its text, for the book.
-pub const ABOUT: [(&str, &str); 13] = [
+pub const ABOUT: [(&str, &str); 14] = [
     ("profile", profile::ABOUT),
     ("coarse-grain", coarse_grain::ABOUT),
     ("slope", slope::ABOUT),
@@ -141,6 +146,7 @@ pub const ABOUT: [(&str, &str); 13] = [
     ("forces", forces::ABOUT),
     ("segregation", segregation::ABOUT),
     ("wall-load", wall_load::ABOUT),
+    ("stream", stream::ABOUT),
     ("track", track::ABOUT),
 ];
 

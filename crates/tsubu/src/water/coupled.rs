@@ -8,10 +8,10 @@
 //! get from the water, all of it: what they gain the water loses. The stress at a face is turbulent or, where
 //! that is less, viscous,
 //!
-//! t = rho max(nu, l^2 |dU/dz|) dU/dz,      l = 0.40 sqrt(1 - Z/H) x integral of (1 - (1-e)/0.61) dZ
+//! t = rho max(nu, l^2 |dU/dz|) dU/dz,      l = 0.40 s sqrt(1 - s/S),  s = integral of (1 - (1-e)/0.61) dZ
 //!
-//! with Prandtl's mixing length l, which grains shorten (Li and Sawamoto 1995) and the surface ends: without grains the log
-//! law over the whole depth H. Between two middles l grows nearly evenly, so the difference of U is dU/dz times h over the
+//! with Prandtl's mixing length l, which grains shorten (Li and Sawamoto 1995) and the surface, where s = S, ends: without grains
+//! the log law over the whole depth. Between two middles l grows nearly evenly, so the difference of U is dU/dz times h over the
 //! logarithmic mean of l: with it the discrete stream has the log law without error. The bottom drags with
 //! rho (0.40 / ln(Z0/z0))^2 U0^2 at the lowest middle Z0, z0 = k exp(-8.5 x 0.40) (Nikuradse 1933). The top is a lid
 //! without stress. Stresses are taken at the end of the step, with the viscosity of its begin. Over a rough bottom the log law
@@ -269,18 +269,20 @@ impl Coupled {
     fn stiffness(&mut self) {
         let n = self.layers.len();
         let h = self.layers.thickness;
+        let mixing = |open: f64| (1.0 - (1.0 - open) / PACKED).max(0.0) * h;
+        let depth: f64 = self.layers.open.iter().map(|open| mixing(*open)).sum();
         let mut below = 0.0;
         let mut last = 0.0;
         for k in 0..n {
-            let mixing = (1.0 - (1.0 - self.layers.open[k]) / PACKED).max(0.0) * h;
-            let length = karman() * (below + 0.5 * mixing);
+            let here = mixing(self.layers.open[k]);
+            let length = karman() * (below + 0.5 * here);
             if k > 0 {
-                let surface = 1.0 - k as f64 / n as f64;
+                let surface = 1.0 - below / depth;
                 let slope = logarithmic_mean(last, length) / h;
                 let shear = (self.velocity[k] - self.velocity[k - 1]).abs();
                 self.stiff[k - 1] = self.density * (self.viscosity / h).max(surface * slope * slope * shear);
             }
-            below += mixing;
+            below += here;
             last = length;
         }
     }

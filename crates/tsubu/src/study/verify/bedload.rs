@@ -105,11 +105,9 @@ pub(super) fn rates(spoiler: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     for slope in [0.025, 0.06, 0.12] {
         let found = transport(slope, true, spoiler)?;
-        println!("{slope} {found:?} {:?}", published(found[0]));
         claims.push(gate(found, "bedload"));
     }
     let wrong = transport(0.06, false, spoiler)?;
-    println!("one-way {wrong:?}");
     claims.push(refused("a stream that grains do not slow, down to the bottom of the bed", &[gate(wrong, "")], 1));
     Ok(claims)
 }
