@@ -100,7 +100,12 @@ pub static CASES: &[Case] = &[
     quick("released", "water", "V-55: the begin of a fall, with added mass", water::released),
     quick("packed-column", "water", "V-52: Ergun's loss of pressure", water::packed),
     long("bedload", "water", "V-57: transport rates of a coupled stream", bedload::rates),
-    quick("saltation", "sediment-2004", "B-F6, B-F7: a leaping grain, contact times and hops", sediment_2004::saltation),
+    quick(
+        "saltation",
+        "sediment-2004",
+        "B-F6, B-F7: a leaping grain, contact times and hops",
+        sediment_2004::saltation,
+    ),
     long("saltation-softest", "sediment-2004", "B-F6: the softest contacts", sediment_2004::softest),
     quick("saltation-spin", "sediment-2004", "B-F20, B-F21: the same with spin", sediment_2004::spinning),
     long("beverloo", "dem-benchmarks", "V-31: discharge through a slot, in the plane", outlet::beverloo),

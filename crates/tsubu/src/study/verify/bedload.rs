@@ -13,15 +13,13 @@ const S: f64 = 2.65;
 const LONG: f64 = 24.0;
 const WIDE: f64 = 6.0;
 const DEEP: f64 = 5.0;
-/// Depth of water over the bed, in diameters.
-const WATER: f64 = 8.0;
 /// Looks begin and end [s].
 const FROM: f64 = 1.5;
 const UNTIL: f64 = 5.0;
 
-/// What a stream over its bed comes to: Shields number at the bed and the rate over sqrt((s-1) g d^3), both measured.
-fn transport(slope: f64, coupled: bool, spoiler: f64) -> Result<[f64; 2], String> {
-    let height = (DEEP + WATER) * D;
+/// What a stream of a slope [rad] and a depth of water over its bed, in diameters, comes to: Shields number at the bed and the rate over sqrt((s-1) g d^3), both measured.
+fn transport([slope, water]: [f64; 2], coupled: bool, spoiler: f64) -> Result<[f64; 2], String> {
+    let height = (DEEP + water) * D;
     let flow = if coupled {
         format!("flow.coupled = {{ bottom = 0, top = {height} }}\nhindrance.richardson-zaki = {{}}")
     } else {
@@ -103,11 +101,11 @@ pub(super) fn rates(spoiler: f64) -> Result<Vec<Claim>, String> {
         Claim::judge(name, rate, Some(0.5 * low), Some(2.0 * high), source)
     };
     let mut claims = Vec::new();
-    for slope in [0.025, 0.06, 0.12] {
-        let found = transport(slope, true, spoiler)?;
+    for stream in [[0.025, 8.0], [0.06, 8.0], [0.06, 15.0]] {
+        let found = transport(stream, true, spoiler)?;
         claims.push(gate(found, "bedload"));
     }
-    let wrong = transport(0.06, false, spoiler)?;
+    let wrong = transport([0.06, 8.0], false, spoiler)?;
     claims.push(refused("a stream that grains do not slow, down to the bottom of the bed", &[gate(wrong, "")], 1));
     Ok(claims)
 }

@@ -123,7 +123,7 @@ fn contact_claim(stiffness: f64, found: &Leaps) -> Claim {
 }
 
 /// B-F6, B-F7: contact times follow the stiffness, hops do not while grains overlap little; published hops.
-pub(super) fn saltation(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn saltation(spoiler: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     for stiffness in [1e3, 1e5] {
         claims.push(contact_claim(stiffness, &leaps(stiffness, LOCKED, HOPS, spoiler)?));
@@ -156,7 +156,7 @@ pub(super) fn saltation(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// B-F6 at its softest: in a contact of 1 ms the grain goes on by half a diameter, so that the bed's grain lets it go early.
-pub(super) fn softest(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn softest(spoiler: f64) -> Result<Vec<Claim>, String> {
     let found = leaps(100.0, LOCKED, MANY, spoiler)?;
     let source = "why the contact ends early";
     let moved = found.contact * found.speed / D;
@@ -174,7 +174,7 @@ pub(super) fn softest(spoiler: f64) -> Result<Vec<Claim>, String> {
 
 /// B-F20, B-F21: free to spin, grains leap higher and farther, friction holds them half as much, and they spin up to what rolling
 /// would have; the torque of the water, which the paper leaves out, takes most of the spin away.
-pub(super) fn spinning(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn spinning(spoiler: f64) -> Result<Vec<Claim>, String> {
     let run = |changes: &[&str]| leaps(1e4, changes, MANY, spoiler);
     let (locked, free, wet) = (run(LOCKED)?, run(FREE)?, run(IN_WATER)?);
     let source = "Osada et al. 2004, figures 20 and 21";
