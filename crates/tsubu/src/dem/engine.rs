@@ -169,7 +169,7 @@ impl DemEngine {
     /// Gives the first step what it needs.
     fn start(&mut self) {
         self.drive(0.0);
-        self.immerse();
+        self.immerse(f64::INFINITY);
         self.make_room();
         self.find();
         self.stand();

@@ -2,7 +2,7 @@
 
 use super::engine::DemEngine;
 use super::touch::Block;
-use crate::contact::chunk::ROWS;
+use crate::contact::chunk::{Chunk, ROWS};
 use crate::engine::Engine;
 use crate::find::candidates::{BLOCK, WORTH_THREADS};
 use crate::ledger::{Account, Ledger};
@@ -95,6 +95,7 @@ fn block_of_grains(
     let mut flows = Flows::default();
     taken.fill(0.0);
     let layers = if taken.is_empty() { None } else { water.stream.layers() };
+    let turns = water.turns();
     let last = (first + BLOCK).min(grains.len());
     if water.fluctuation.is_some() {
         block.gusts.resize(BLOCK, Gust::default());
@@ -112,9 +113,12 @@ fn block_of_grains(
             row[r] = (i - first) as u16;
             parcel.height[r] = grains.position[i].z;
             parcel.radius[r] = grains.radius[i];
-            for (k, (v, w)) in grains.velocity[i].to_array().into_iter().zip(grains.spin[i].to_array()).enumerate() {
-                parcel.velocity[k][r] = v;
-                parcel.spin[k][r] = w;
+            let v = grains.velocity[i];
+            parcel.velocity[0][r] = v.x;
+            parcel.velocity[1][r] = v.y;
+            parcel.velocity[2][r] = v.z;
+            if turns {
+                Chunk::set(&mut parcel.spin, r, grains.spin[i]);
             }
             if let Some(fluctuation) = &water.fluctuation {
                 let gust = fluctuation.at(&mut block.gusts[i - first], grains.id[i], parcel.time);
@@ -125,15 +129,6 @@ fn block_of_grains(
             parcel.len += 1;
         }
         water.act(parcel, &mut flows, held);
-        for (r, own) in row.iter().take(parcel.len).enumerate() {
-            let load = &mut block.loads[*own as usize];
-            // The step adds gravity to the acceleration; the added mass, which it moves too, has no weight.
-            let added = grains.added_mass(first + *own as usize);
-            load.force += parcel.total(r) - added * gravity;
-            if water.turns() {
-                load.torque += parcel.total_torque(r);
-            }
-        }
         if let Some(layers) = layers {
             for r in 0..parcel.len {
                 let (k, above, share) = layers.weights(parcel.height[r]);
@@ -142,19 +137,30 @@ fn block_of_grains(
                 taken[above] += force * share;
             }
         }
+        // The step adds gravity to the acceleration; the added mass, which it moves too, has no weight.
+        parcel.weigh(water.added_mass * water.density, gravity);
+        for (r, own) in row.iter().take(parcel.len).enumerate() {
+            let load = &mut block.loads[*own as usize];
+            load.force += parcel.total(r);
+            if turns {
+                load.torque += parcel.total_torque(r);
+            }
+        }
     }
     flows
 }
 
 impl DemEngine {
-    /// Gives every grain the added mass of where it is. Returns what the motion of that water has gained: energy [J] and
+    /// Gives every grain that is not `deep`er than so many radii below the surface the added mass of where it is. Returns what the motion of that water has gained: energy [J] and
     /// momentum [N.s].
-    pub(super) fn immerse(&mut self) -> (f64, DVec3) {
+    pub(super) fn immerse(&mut self, deep: f64) -> (f64, DVec3) {
         let Some(wet) = &self.wet else { return Default::default() };
         let grains = &mut self.grains;
         let (mut energy, mut momentum) = (0.0, DVec3::ZERO);
+        let surface = wet.water.surface;
         for i in 0..grains.len() {
-            if grains.inverse_mass[i] == 0.0 {
+            let under = surface - grains.position[i].z > deep * grains.radius[i];
+            if under || grains.inverse_mass[i] == 0.0 {
                 continue;
             }
             let added = wet.water.added_mass(grains.radius[i], grains.position[i].z);
@@ -171,7 +177,8 @@ impl DemEngine {
         if !self.wet.as_ref().is_some_and(|wet| wet.water.has_surface()) {
             return;
         }
-        let (energy, momentum) = self.immerse();
+        // Whatever is two radii down now has been under water in the last step as well.
+        let (energy, momentum) = self.immerse(2.0);
         ledger.post(Account::Buoyancy, energy);
         for (axis, impulse) in ledger.water_impulse.iter_mut().enumerate() {
             *impulse += momentum[axis];

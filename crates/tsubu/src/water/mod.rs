@@ -12,6 +12,7 @@ mod drag;
 mod fluctuation;
 mod hindrance;
 mod layers;
+mod logarithm;
 mod magnus;
 mod parcel;
 mod part;
@@ -51,6 +52,8 @@ pub struct Water {
     pub stream: Stream,
     /// Its turbulent fluctuation.
     pub fluctuation: Option<Fluctuation>,
+    /// Whether the share that grains leave to the water matters to the forces.
+    crowd: bool,
     parts: Vec<Box<dyn Part>>,
     /// Whether a part reads spins or writes a torque.
     turns: bool,
@@ -82,6 +85,9 @@ impl Water {
             viscosity: plan.viscosity,
             surface: plan.surface.unwrap_or(f64::INFINITY),
             added_mass: plan.added_mass,
+            crowd: plan.hindrance != (plan::Hindrance::None {})
+                || plan.drag == (plan::Drag::Gidaspow {})
+                || matches!(stream, Stream::Column { .. }),
             stream,
             turns: parts.iter().any(|part| part.turns()),
             parts,
@@ -158,7 +164,7 @@ impl Water {
     pub fn act(&self, parcel: &mut Parcel, flows: &mut Flows, held: bool) {
         parcel.begin(self.surface);
         if !held {
-            self.stream.fill(parcel);
+            self.stream.fill(parcel, self.crowd);
             if let Some(fluctuation) = &self.fluctuation {
                 parcel.fluctuate(fluctuation.rms);
             }

@@ -154,6 +154,16 @@ impl Parcel {
         self.speed = relative(self.rows(), &self.flow, &self.velocity, &mut self.slip);
     }
 
+    /// Takes the weight of the added mass, `density` of it in a wet volume, from the total.
+    pub(crate) fn weigh(&mut self, density: f64, gravity: DVec3) {
+        let n = self.rows();
+        for (total, gravity) in self.total.iter_mut().zip(gravity.to_array()) {
+            for (total, volume) in total[..n].iter_mut().zip(&self.volume[..n]) {
+                *total -= density * gravity * volume;
+            }
+        }
+    }
+
     /// Water that does not turn, and no torque yet.
     pub(super) fn begin_turning(&mut self) {
         let n = self.rows();

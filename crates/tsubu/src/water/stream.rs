@@ -1,7 +1,9 @@
 //! How the water moves: a velocity that depends on the height.
 
 use super::coupled::{Coupled, Setting};
+use super::logarithm::ln;
 use super::{Layers, Parcel};
+use multiversion::multiversion;
 use std::f64::consts::LN_10;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
@@ -86,9 +88,7 @@ impl Stream {
             Self::Still | Self::Column { .. } => 0.0,
             Self::Coupled(coupled) => coupled.ahead(z),
             Self::LogLaw { shear_velocity, roughness, zero_level } => {
-                // A height below zero has no logarithm; the velocity is zero well above it already.
-                let depth = ((z - zero_level) / roughness).max(1e-3);
-                (shear_velocity * (CONSTANT + PER_DECADE * depth.log10())).max(0.0)
+                log_law(z - zero_level, *shear_velocity, *roughness)
             }
             Self::Table { height, velocity } => {
                 let k = height.partition_point(|h| *h <= z);
@@ -131,10 +131,10 @@ impl Stream {
         }
     }
 
-    /// Velocities at the grains of a parcel, and the share that grains leave to the water there.
-    pub(super) fn fill(&self, parcel: &mut Parcel) {
+    /// Velocities at the grains of a parcel, and if it is a `crowd` the share that grains leave to the water there.
+    pub(super) fn fill(&self, parcel: &mut Parcel, crowd: bool) {
         let n = parcel.rows();
-        if let Some(layers) = self.layers() {
+        if let Some(layers) = self.layers().filter(|_| crowd) {
             for i in 0..n {
                 parcel.open[i] = layers.read(&layers.open, parcel.height[i]);
             }
@@ -146,7 +146,10 @@ impl Stream {
                     parcel.flow[2][i] = velocity / parcel.open[i];
                 }
             }
-            Self::LogLaw { .. } | Self::Table { .. } | Self::Coupled(_) => {
+            Self::LogLaw { shear_velocity, roughness, zero_level } => {
+                log_laws(parcel, *shear_velocity, *roughness, *zero_level);
+            }
+            Self::Table { .. } | Self::Coupled(_) => {
                 for i in 0..n {
                     parcel.flow[0][i] = self.velocity(parcel.height[i]);
                 }
@@ -203,5 +206,20 @@ impl Stream {
             Self::Coupled(coupled) => Some(coupled.bottom_shear_velocity()),
             Self::Still | Self::Table { .. } | Self::Column { .. } => None,
         }
+    }
+}
+
+/// The log law at a height above its zero level.
+#[inline(always)]
+fn log_law(height: f64, shear_velocity: f64, roughness: f64) -> f64 {
+    // A height below zero has no logarithm; the velocity is zero well above it already.
+    let depth = (height / roughness).max(1e-3);
+    (shear_velocity * (CONSTANT + PER_DECADE / LN_10 * ln(depth))).max(0.0)
+}
+
+#[multiversion(targets = "simd")]
+fn log_laws(p: &mut Parcel, shear_velocity: f64, roughness: f64, zero_level: f64) {
+    for i in 0..p.rows() {
+        p.flow[0][i] = log_law(p.height[i] - zero_level, shear_velocity, roughness);
     }
 }
