@@ -183,6 +183,7 @@ impl DemEngine {
         let (old, new) = (self.last_flows.water, now.water);
         ledger.post(Account::Buoyancy, half * (old.pressure + new.pressure));
         ledger.post(Account::StreamWork, half * (old.spun + new.spun));
+        ledger.post(Account::WallWork, -half * (old.held + new.held));
         if self.wet.as_ref().is_some_and(Wet::has_stream) {
             // What the stream gives stays in the system. The pressure takes from it what it gives to grains along it.
             ledger.post(Account::Buoyancy, -half * (old.carried + new.carried));

@@ -100,13 +100,15 @@ fn block_of_grains(
     if water.fluctuation.is_some() {
         block.gusts.resize(BLOCK, Gust::default());
     }
-    for begin in (first..last).step_by(ROWS) {
+    // What fixed grains feel is nobody's business but that of a stream, which they slow as well.
+    let mut on_fixed = Flows::default();
+    let kinds: &[bool] = if layers.is_some() { &[false, true] } else { &[false] };
+    for (begin, &fixed) in (first..last).step_by(ROWS).flat_map(|begin| kinds.iter().map(move |fixed| (begin, fixed))) {
         let n = ROWS.min(last - begin);
         parcel.len = 0;
-        // Only what forces move: what frozen and driven grains feel is nobody's business.
         let mut row = [0u16; ROWS];
         for i in begin..begin + n {
-            if grains.inverse_mass[i] == 0.0 {
+            if (grains.inverse_mass[i] == 0.0) != fixed {
                 continue;
             }
             let r = parcel.len;
@@ -128,7 +130,7 @@ fn block_of_grains(
             }
             parcel.len += 1;
         }
-        water.act(parcel, &mut flows, held);
+        water.act(parcel, if fixed { &mut on_fixed } else { &mut flows }, held);
         if let Some(layers) = layers {
             for r in 0..parcel.len {
                 let (k, above, share) = layers.weights(parcel.height[r]);
@@ -136,6 +138,9 @@ fn block_of_grains(
                 taken[k] += force * (1.0 - share);
                 taken[above] += force * share;
             }
+        }
+        if fixed {
+            continue;
         }
         // The step adds gravity to the acceleration; the added mass, which it moves too, has no weight.
         parcel.weigh(water.added_mass * water.density, gravity);
@@ -147,6 +152,7 @@ fn block_of_grains(
             }
         }
     }
+    flows.add_fixed(&on_fixed);
     flows
 }
 

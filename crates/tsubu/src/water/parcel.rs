@@ -71,6 +71,8 @@ pub struct Flows {
     pub spun: f64,
     /// Power lost: forces and torques times the motion of the water relative to the grains [W].
     pub lost: f64,
+    /// Power that goes to those who hold or drive grains which forces do not move [W].
+    pub held: f64,
     /// Force on the grains [N].
     pub force: DVec3,
 }
@@ -83,7 +85,16 @@ impl Flows {
         self.stream += other.stream;
         self.spun += other.spun;
         self.lost += other.lost;
+        self.held += other.held;
         self.force += other.force;
+    }
+
+    /// Adds what the water does to grains that forces do not move: what it loses by them, and what their holders get.
+    pub(crate) fn add_fixed(&mut self, other: &Self) {
+        self.carried += other.carried;
+        self.spun += other.spun;
+        self.lost += other.lost;
+        self.held += other.pressure + other.stream + other.spun - other.lost;
     }
 }
 
