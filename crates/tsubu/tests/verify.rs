@@ -31,12 +31,14 @@ const CLOSED_FORMS: &[&str] = &[
     "pushed-row",
 ];
 
+/// Single grains and packed columns in water.
+const IN_WATER: &[&str] = &["settling", "released", "packed-column"];
+
 /// The quick cases that take a few seconds pass.
 #[test]
 fn quick_cases_pass() {
-    for name in
-        ["restitution", "drop-dem", "drop-lattice", "lump", "figure-9", "bed-at-rest"].iter().chain(CLOSED_FORMS)
-    {
+    let others = ["restitution", "drop-dem", "drop-lattice", "lump", "figure-9", "bed-at-rest", "fluidised"];
+    for name in others.iter().chain(IN_WATER).chain(CLOSED_FORMS) {
         for case in chosen(&[(*name).to_owned()], false).unwrap() {
             for claim in case.claims().unwrap() {
                 assert!(
@@ -52,8 +54,8 @@ fn quick_cases_pass() {
 /// With the constants of the law changed by 5 % the study's claims fail.
 #[test]
 fn claims_can_fail() {
-    for name in ["restitution", "drop-dem", "drop-lattice"] {
-        let case = CASES.iter().find(|c| c.name == name).unwrap();
+    for name in ["restitution", "drop-dem", "drop-lattice"].iter().chain(IN_WATER) {
+        let case = CASES.iter().find(|c| c.name == *name).unwrap();
         let claims = (case.run)(0.95).unwrap();
         assert!(claims.iter().any(|c| !c.pass), "{name}: nothing noticed a law wrong by 5 %");
     }

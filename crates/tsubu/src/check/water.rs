@@ -82,6 +82,7 @@ fn fastest(plan: &Plan, water: &Water, hosts: &Hosts) -> f64 {
     speed_scale(plan, hosts).max(water.fastest(largest(plan)))
 }
 
+/// Diameter of the largest grain [m].
 pub(super) fn largest(plan: &Plan) -> f64 {
     plan.particles.values().map(Particles::largest_diameter).fold(0.0, f64::max)
 }
@@ -150,7 +151,7 @@ pub(super) fn judge(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64) 
             );
         }
         turning(verdict, plan, name, &sunk, speed, dt);
-        contacts(verdict, plan, (name, group), &sunk, time);
+        contacts(verdict, (plan, hosts), (name, group), &sunk, time);
         let terminal = sunk.terminal(gravity);
         if let Some(terminal) = terminal {
             let reynolds = terminal * sunk.diameter / water.viscosity;
@@ -192,11 +193,16 @@ const WINDOW: [f64; 2] = [0.01, 0.001];
 
 /// What the stiffness does to grains in water: the window of Osada et al. (2004), the contact time beside the times of drag and of a
 /// hop, and what another stiffness would cost. `drag`: time of the drag [s].
-fn contacts(verdict: &mut Verdict, plan: &Plan, (name, group): (&String, &Particles), sunk: &Sunk, drag: f64) {
+fn contacts(
+    verdict: &mut Verdict,
+    (plan, hosts): (&Plan, &Hosts),
+    (name, group): (&String, &Particles),
+    sunk: &Sunk,
+    drag: f64,
+) {
     let law = plan.contact_of(&group.material, &group.material);
     let Normal::Hooke { stiffness } = law.normal else { return };
-    let hosts = Hosts::default();
-    let speed = speed_scale(plan, &hosts);
+    let speed = speed_scale(plan, hosts);
     let (m, d) = (sunk.moved(), sunk.diameter);
     // Against a fixed grain and without damping, d = v sqrt(m/k).
     let [softest, stiffest] = WINDOW.map(|overlap| m * (speed / (overlap * d)).powi(2));

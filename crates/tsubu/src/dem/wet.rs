@@ -157,8 +157,8 @@ fn block_of_grains(
 }
 
 impl DemEngine {
-    /// Gives every grain that is not `deep`er than so many radii below the surface the added mass of where it is. Returns what the motion of that water has gained: energy [J] and
-    /// momentum [N.s].
+    /// Gives every grain the added mass of where it is, but those `deep` radii and more below the surface. Returns what the
+    /// motion of that water has gained: energy [J] and momentum [N.s].
     pub(super) fn immerse(&mut self, deep: f64) -> (f64, DVec3) {
         let Some(wet) = &self.wet else { return Default::default() };
         let grains = &mut self.grains;

@@ -2,5 +2,6 @@
 
 pub mod columns;
 pub mod grains;
+pub(crate) mod sphere;
 
 pub use grains::{Grain, Grains};

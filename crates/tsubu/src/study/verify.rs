@@ -99,6 +99,7 @@ pub static CASES: &[Case] = &[
     quick("settling", "water", "V-50: terminal speeds by four drag laws", water::settling),
     quick("released", "water", "V-55: the begin of a fall, with added mass", water::released),
     quick("packed-column", "water", "V-52: Ergun's loss of pressure", water::packed),
+    quick("fluidised", "water", "V-53: water that carries its bed", water::fluidised),
     long("bedload", "water", "V-57: transport rates of a coupled stream", bedload::rates),
     quick(
         "saltation",

@@ -1,6 +1,7 @@
 //! What grains carry along a bed, and how many start and stop.
 
 use super::{Inside, Sample, Watch, axes, group_number};
+use crate::state::sphere;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -78,7 +79,7 @@ impl Bedload {
         if self.flat && self.width.is_none() {
             PI * radius * radius
         } else {
-            4.0 / 3.0 * PI * radius.powi(3) / self.width.unwrap_or(1.0)
+            sphere::volume(radius) / self.width.unwrap_or(1.0)
         }
     }
 

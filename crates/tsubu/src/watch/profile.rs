@@ -1,6 +1,7 @@
 //! Averages in slices across an axis.
 
 use super::{Axes, Inside, LETTERS, Sample, Sheet, Watch, axes};
+use crate::state::sphere;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use tsubu_scene::plan::{Axis, Measure, Plan, Quantity};
@@ -133,11 +134,11 @@ impl Profile {
 
 /// Share of a sphere's volume, or of a disc's area, below a plane at `t` radii above its centre.
 fn below(t: f64, flat: bool) -> f64 {
-    let t = t.clamp(-1.0, 1.0);
     if flat {
+        let t = t.clamp(-1.0, 1.0);
         0.5 + (t * (1.0 - t * t).sqrt() + t.asin()) / std::f64::consts::PI
     } else {
-        0.5 + 0.75 * t - 0.25 * t.powi(3)
+        sphere::below(t)
     }
 }
 
@@ -177,8 +178,7 @@ impl Watch for Profile {
         bins.fill(Bin::default());
         self.slices(view, |k, i, share| {
             let (bin, r) = (&mut bins[k], g.radius[i]);
-            bin.filled +=
-                share * if self.axes.len() == 2 { r * r } else { 4.0 / 3.0 * r.powi(3) } * std::f64::consts::PI;
+            bin.filled += share * if self.axes.len() == 2 { std::f64::consts::PI * r * r } else { sphere::volume(r) };
             if view.free(i) {
                 bin.shares += share;
                 bin.mass += share * g.mass[i];

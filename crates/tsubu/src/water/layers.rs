@@ -1,8 +1,7 @@
 //! Layers: equal slices of the height, and how much of each the grains leave to the water.
 
-use super::under;
+use crate::state::sphere;
 use glam::DVec3;
-use std::f64::consts::PI;
 
 /// Smallest share that grains are taken to leave to the water: in the plane deep overlaps could leave less than nothing.
 const LEAST: f64 = 0.1;
@@ -62,12 +61,13 @@ impl Layers {
     pub fn measure(&self, position: &[DVec3], radius: &[f64]) -> Vec<f64> {
         let mut filled = vec![0.0; self.len()];
         for (p, r) in position.iter().zip(radius) {
-            let volume = 4.0 / 3.0 * PI * r.powi(3);
+            let volume = sphere::volume(*r);
+            let under = |level: f64| sphere::below((level - p.z) / r);
             let layer = |z: f64| ((z - self.bottom) / self.thickness).floor().clamp(0.0, self.len() as f64) as usize;
             let (first, last) = (layer(p.z - r), layer(p.z + r).min(self.len() - 1));
-            let mut below = under(self.bottom + first as f64 * self.thickness, *r, p.z);
+            let mut below = under(self.bottom + first as f64 * self.thickness);
             for (k, filled) in filled.iter_mut().enumerate().take(last + 1).skip(first) {
-                let next = under(self.bottom + (k + 1) as f64 * self.thickness, *r, p.z);
+                let next = under(self.bottom + (k + 1) as f64 * self.thickness);
                 *filled += (next - below) * volume;
                 below = next;
             }

@@ -28,12 +28,12 @@ pub use parcel::{Flows, Parcel};
 pub use part::{Kind, Part};
 pub use stream::Stream;
 
+use crate::state::sphere;
 use buoyancy::Buoyancy;
 use drag::Drag;
 use glam::DVec3;
 use magnus::Magnus;
 use saffman::Saffman;
-use std::f64::consts::PI;
 use torque::Torque;
 use tsubu_scene::plan;
 
@@ -111,7 +111,7 @@ impl Water {
     /// Mass of water that moves along with a grain of this radius [m] when it is at `height` z [m]: C rho V, V what is under
     /// water [kg].
     pub fn added_mass(&self, radius: f64, height: f64) -> f64 {
-        self.added_mass * self.density * 4.0 / 3.0 * PI * radius.powi(3) * under(self.surface, radius, height)
+        self.added_mass * self.density * sphere::volume(radius) * sphere::below((self.surface - height) / radius)
     }
 
     /// Drag of a sphere of this radius [m] in water that passes it at `speed` [m/s]: the size of all forces that go with the
@@ -182,10 +182,4 @@ impl Water {
             parcel.post(part.kind(), flows);
         }
     }
-}
-
-/// Share of a sphere's volume that is under a surface.
-pub(crate) fn under(surface: f64, radius: f64, height: f64) -> f64 {
-    let t = ((surface - height) / radius).clamp(-1.0, 1.0);
-    0.5 + 0.75 * t - 0.25 * t * t * t
 }

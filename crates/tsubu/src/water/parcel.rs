@@ -2,9 +2,9 @@
 
 use super::part::Kind;
 use crate::contact::chunk::{Column, ROWS, ZERO};
+use crate::state::sphere;
 use glam::DVec3;
 use multiversion::multiversion;
-use std::f64::consts::PI;
 
 const VECTOR: [Column; 3] = [ZERO; 3];
 
@@ -217,10 +217,8 @@ fn begin(p: &mut Parcel, surface: f64) {
     let n = p.rows();
     for i in 0..n {
         let r = p.radius[i];
-        let t = ((surface - p.height[i]) / r).clamp(-1.0, 1.0);
-        let wet = 0.5 + 0.75 * t - 0.25 * t * t * t;
-        p.wet[i] = wet;
-        p.volume[i] = wet * (4.0 / 3.0 * PI) * (r * r * r);
+        p.wet[i] = sphere::below((surface - p.height[i]) / r);
+        p.volume[i] = p.wet[i] * sphere::volume(r);
     }
     p.open[..n].fill(1.0);
     for k in 0..3 {

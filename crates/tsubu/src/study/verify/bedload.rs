@@ -1,9 +1,9 @@
 //! Transport by a stream that the grains slow (V-57).
 
 use super::bench::{Rig, refused};
+use crate::state::sphere;
 use crate::view::Wants;
 use crate::water::Stream;
-use std::f64::consts::PI;
 use tsubu_frame::Claim;
 
 /// Diameter of the grains [m], and density over that of water.
@@ -74,8 +74,7 @@ fn transport([slope, water]: [f64; 2], coupled: bool, spoiler: f64) -> Result<[f
         rig.until(time)?;
         let view = rig.engine.view(Wants::GRAINS);
         let free = (0..view.len()).filter(|&i| view.free(i));
-        rate += free.map(|i| 4.0 / 3.0 * PI * view.grains.radius[i].powi(3) * view.grains.velocity[i].x).sum::<f64>()
-            / area;
+        rate += free.map(|i| sphere::volume(view.grains.radius[i]) * view.grains.velocity[i].x).sum::<f64>() / area;
         looks += 1.0;
     }
     // The stress at the top of the bed is the weight of the water above it along the slope.

@@ -41,9 +41,12 @@ pub(super) fn spoiled_materials(text: &str, factor: f64) -> Result<Vec<String>, 
     Ok(changes)
 }
 
-/// Multiplies by the spoiler what [`spoil`] leaves alone as well: friction of every kind, surface energy.
+/// Multiplies by the spoiler what [`spoil`] leaves alone as well: friction of every kind, surface energy, density of water.
 fn spoil_all(plan: &mut Plan, factor: f64) {
     spoil(plan, factor);
+    if let Some(water) = &mut plan.water {
+        water.density *= factor;
+    }
     for m in plan.materials.values_mut() {
         for value in [&mut m.friction, &mut m.rolling_friction, &mut m.twisting_friction, &mut m.surface_energy] {
             *value *= factor;
