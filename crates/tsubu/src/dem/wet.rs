@@ -16,21 +16,34 @@ use std::sync::{Mutex, PoisonError};
 #[derive(Debug)]
 pub(super) struct Wet {
     pub water: Water,
-    /// The moment at which it acts [s].
-    time: f64,
     scratch: Vec<Mutex<Parcel>>,
     /// Of every block.
-    flows: Vec<Flows>,
-    /// Force along x on the grains of every layer of a stream [N], of every block.
-    taken: Vec<Vec<f64>>,
-    /// The same of all blocks.
-    total: Vec<f64>,
+    effects: Vec<Effect>,
+    /// Force along x on the grains of every layer of a stream [N].
+    taken: Vec<f64>,
+}
+
+/// What one block does to the water.
+#[derive(Debug)]
+struct Effect {
+    flows: Flows,
+    /// Force along x on its grains, by layers of a stream [N].
+    taken: Vec<f64>,
+}
+
+/// When the water acts, and on what.
+struct Moment<'a> {
+    grains: &'a Grains,
+    gravity: DVec3,
+    time: f64,
+    /// Whether the water is held still.
+    held: bool,
 }
 
 impl Wet {
     pub fn new(water: Water) -> Self {
         let layers = if let Stream::Coupled(coupled) = &water.stream { coupled.layers.len() } else { 0 };
-        Self { water, time: 0.0, scratch: Vec::new(), flows: Vec::new(), taken: Vec::new(), total: vec![0.0; layers] }
+        Self { water, scratch: Vec::new(), effects: Vec::new(), taken: vec![0.0; layers] }
     }
 
     /// Whether there is a stream that gives to the grains and takes from them.
@@ -44,116 +57,106 @@ impl Wet {
     }
 
     /// Adds the forces of the water to the loads of every block; returns what they do in all.
-    fn act(&mut self, grains: &Grains, blocks: &mut [Block], gravity: DVec3, held: bool) -> Flows {
-        let Self { water, time, scratch, flows, taken, total } = self;
+    fn act(&mut self, moment: &Moment, blocks: &mut [Block]) -> Flows {
+        let Self { water, scratch, effects, taken } = self;
         while scratch.len() < rayon::current_num_threads() {
             scratch.push(Mutex::default());
         }
-        flows.resize(blocks.len(), Flows::default());
-        taken.resize(blocks.len(), vec![0.0; total.len()]);
+        effects.resize_with(blocks.len(), || Effect { flows: Flows::default(), taken: vec![0.0; taken.len()] });
         let (water, scratch) = (&*water, &*scratch);
-        let work = |(number, ((block, flows), taken)): (usize, ((&mut Block, &mut Flows), &mut Vec<f64>))| {
+        let work = |(number, (block, effect)): (usize, (&mut Block, &mut Effect))| {
             let mine = rayon::current_thread_index().unwrap_or(0);
             // Nobody else has this thread's parcel, so the lock is free.
             let mut parcel = scratch[mine].lock().unwrap_or_else(PoisonError::into_inner);
-            parcel.time = *time;
-            let first = number * BLOCK;
-            *flows = block_of_grains(water, grains, first, block, &mut parcel, gravity, held, taken);
+            block_of_grains(water, moment, number * BLOCK, block, effect, &mut parcel);
         };
-        if grains.len() >= WORTH_THREADS && rayon::current_num_threads() > 1 {
-            let all = blocks.par_iter_mut().zip(flows.par_iter_mut()).zip(taken.par_iter_mut());
-            all.enumerate().with_max_len(1).for_each(work);
+        if moment.grains.len() >= WORTH_THREADS && rayon::current_num_threads() > 1 {
+            blocks.par_iter_mut().zip(effects.par_iter_mut()).enumerate().with_max_len(1).for_each(work);
         } else {
-            blocks.iter_mut().zip(flows.iter_mut()).zip(taken.iter_mut()).enumerate().for_each(work);
+            blocks.iter_mut().zip(effects.iter_mut()).enumerate().for_each(work);
         }
-        total.fill(0.0);
-        for taken in taken {
-            for (total, taken) in total.iter_mut().zip(taken) {
-                *total += *taken;
+        taken.fill(0.0);
+        let mut flows = Flows::default();
+        for effect in effects {
+            flows.add(&effect.flows);
+            for (taken, effect) in taken.iter_mut().zip(&effect.taken) {
+                *taken += effect;
             }
         }
-        let mut all = Flows::default();
-        for flows in flows {
-            all.add(flows);
-        }
-        all
+        flows
     }
 }
 
-/// The grains of one block, parcel by parcel.
-#[expect(clippy::too_many_arguments, reason = "one call; a struct would be made and taken apart beside it")]
+/// The grains of one block, parcel by parcel: those that forces move, then the others. What fixed grains feel is nobody's
+/// business but that of a stream, which they slow as well.
 fn block_of_grains(
     water: &Water,
-    grains: &Grains,
+    moment: &Moment,
     first: usize,
     block: &mut Block,
+    effect: &mut Effect,
     parcel: &mut Parcel,
-    gravity: DVec3,
-    held: bool,
-    taken: &mut [f64],
-) -> Flows {
-    let mut flows = Flows::default();
-    taken.fill(0.0);
-    let layers = if taken.is_empty() { None } else { water.stream.layers() };
-    let turns = water.turns();
+) {
+    let grains = moment.grains;
+    let (turns, slows) = (water.turns(), !effect.taken.is_empty());
     let last = (first + BLOCK).min(grains.len());
     if water.fluctuation.is_some() {
         block.gusts.resize(BLOCK, Gust::default());
     }
-    // What fixed grains feel is nobody's business but that of a stream, which they slow as well.
+    effect.flows = Flows::default();
+    effect.taken.fill(0.0);
     let mut on_fixed = Flows::default();
-    let kinds: &[bool] = if layers.is_some() { &[false, true] } else { &[false] };
-    for (begin, &fixed) in (first..last).step_by(ROWS).flat_map(|begin| kinds.iter().map(move |fixed| (begin, fixed))) {
-        let n = ROWS.min(last - begin);
-        parcel.len = 0;
-        let mut row = [0u16; ROWS];
-        for i in begin..begin + n {
-            if (grains.inverse_mass[i] == 0.0) != fixed {
+    let mut left = last - first;
+    for fixed in [false, true] {
+        if left == 0 || fixed && !slows {
+            break;
+        }
+        let mut rest = (first..last).filter(|i| (grains.inverse_mass[*i] == 0.0) == fixed);
+        loop {
+            let mut row = [0u16; ROWS];
+            parcel.len = 0;
+            for (r, i) in rest.by_ref().take(ROWS).enumerate() {
+                row[r] = (i - first) as u16;
+                parcel.height[r] = grains.position[i].z;
+                parcel.radius[r] = grains.radius[i];
+                let v = grains.velocity[i];
+                parcel.velocity[0][r] = v.x;
+                parcel.velocity[1][r] = v.y;
+                parcel.velocity[2][r] = v.z;
+                if turns {
+                    Chunk::set(&mut parcel.spin, r, grains.spin[i]);
+                }
+                if let Some(fluctuation) = &water.fluctuation {
+                    let gust = fluctuation.at(&mut block.gusts[i - first], grains.id[i], moment.time);
+                    for (column, gust) in parcel.gust.iter_mut().zip(gust) {
+                        column[r] = gust;
+                    }
+                }
+                parcel.len = r + 1;
+            }
+            if parcel.len == 0 {
+                break;
+            }
+            left -= parcel.len;
+            water.act(parcel, if fixed { &mut on_fixed } else { &mut effect.flows }, moment.held);
+            if slows {
+                parcel.give(&mut effect.taken);
+            }
+            if fixed {
                 continue;
             }
-            let r = parcel.len;
-            row[r] = (i - first) as u16;
-            parcel.height[r] = grains.position[i].z;
-            parcel.radius[r] = grains.radius[i];
-            let v = grains.velocity[i];
-            parcel.velocity[0][r] = v.x;
-            parcel.velocity[1][r] = v.y;
-            parcel.velocity[2][r] = v.z;
-            if turns {
-                Chunk::set(&mut parcel.spin, r, grains.spin[i]);
-            }
-            if let Some(fluctuation) = &water.fluctuation {
-                let gust = fluctuation.at(&mut block.gusts[i - first], grains.id[i], parcel.time);
-                for (column, gust) in parcel.gust.iter_mut().zip(gust) {
-                    column[r] = gust;
+            // The step adds gravity to the acceleration; the added mass, which it moves too, has no weight.
+            parcel.weigh(water.added_mass * water.density, moment.gravity);
+            for (r, own) in row.iter().take(parcel.len).enumerate() {
+                let load = &mut block.loads[*own as usize];
+                load.force += parcel.total(r);
+                if turns {
+                    load.torque += parcel.total_torque(r);
                 }
-            }
-            parcel.len += 1;
-        }
-        water.act(parcel, if fixed { &mut on_fixed } else { &mut flows }, held);
-        if let Some(layers) = layers {
-            for r in 0..parcel.len {
-                let (k, above, share) = layers.weights(parcel.height[r]);
-                let force = parcel.total[0][r];
-                taken[k] += force * (1.0 - share);
-                taken[above] += force * share;
-            }
-        }
-        if fixed {
-            continue;
-        }
-        // The step adds gravity to the acceleration; the added mass, which it moves too, has no weight.
-        parcel.weigh(water.added_mass * water.density, gravity);
-        for (r, own) in row.iter().take(parcel.len).enumerate() {
-            let load = &mut block.loads[*own as usize];
-            load.force += parcel.total(r);
-            if turns {
-                load.torque += parcel.total_torque(r);
             }
         }
     }
-    flows.add_fixed(&on_fixed);
-    flows
+    effect.flows.add_fixed(&on_fixed);
 }
 
 impl DemEngine {
@@ -195,8 +198,8 @@ impl DemEngine {
     pub(super) fn soak(&mut self) {
         let time = self.time();
         let Some(wet) = &mut self.wet else { return };
-        wet.time = time;
-        self.water_flows = wet.act(&self.grains, &mut self.touch.blocks, self.gravity, self.walls_held);
+        let moment = Moment { grains: &self.grains, gravity: self.gravity, time, held: self.walls_held };
+        self.water_flows = wet.act(&moment, &mut self.touch.blocks);
     }
 
     /// Moves the stream by a step, under what the grains have taken from it.
@@ -206,7 +209,7 @@ impl DemEngine {
         let looks = self.step.is_multiple_of(EVERY);
         match &mut wet.water.stream {
             Stream::Coupled(coupled) if !held => {
-                let mut turned = coupled.step(&wet.total, self.dt);
+                let mut turned = coupled.step(&wet.taken, self.dt);
                 if looks {
                     turned.lost += coupled.look(&self.grains.position, &self.grains.radius).lost;
                 }
@@ -224,7 +227,7 @@ impl DemEngine {
     pub(super) fn still_stream(&mut self) {
         let Some(wet) = &mut self.wet else { return };
         match &mut wet.water.stream {
-            Stream::Coupled(coupled) => coupled.stand(&wet.total),
+            Stream::Coupled(coupled) => coupled.stand(&wet.taken),
             Stream::Column { .. } | Stream::Still | Stream::LogLaw { .. } | Stream::Table { .. } => {}
         }
     }

@@ -163,15 +163,9 @@ impl Coupled {
         self.layers.area * (0..self.layers.len()).map(|k| self.mass(k) * self.velocity[k]).sum::<f64>()
     }
 
-    /// Velocity that grains at a height meet in the next step [m/s].
-    pub fn ahead(&self, z: f64) -> f64 {
-        self.layers.read(&self.ahead, z)
-    }
-
-    /// Rate of shear dU/dz that grains at a height meet: that of the straight line between two middles [1/s].
-    pub fn shear(&self, z: f64) -> f64 {
-        let (k, above, _) = self.layers.weights(z);
-        (self.ahead[above] - self.ahead[k]) / self.layers.thickness
+    /// Velocity of every layer that grains meet in the next step [m/s].
+    pub fn ahead(&self) -> &[f64] {
+        &self.ahead
     }
 
     /// Kinetic energy of the stream [J].

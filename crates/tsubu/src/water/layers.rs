@@ -1,7 +1,9 @@
 //! Layers: equal slices of the height, and how much of each the grains leave to the water.
 
+use super::Parcel;
 use crate::state::sphere;
 use glam::DVec3;
+use multiversion::multiversion;
 
 /// Smallest share that grains are taken to leave to the water: in the plane deep overlaps could leave less than nothing.
 const LEAST: f64 = 0.1;
@@ -40,21 +42,10 @@ impl Layers {
         self.bottom + (k as f64 + 0.5) * self.thickness
     }
 
-    /// The two layers whose middles are below and above a height, and the share of the upper one; beyond the outer middles
-    /// the outer layer alone. What a grain reads with these shares it also gives back with them.
-    #[inline]
-    pub fn weights(&self, z: f64) -> (usize, usize, f64) {
-        let last = self.len() - 1;
-        let at = ((z - self.bottom) / self.thickness - 0.5).clamp(0.0, last as f64);
-        let k = (at as usize).min(last);
-        (k, (k + 1).min(last), at - k as f64)
-    }
-
-    /// A column of layers read at a height.
-    #[inline]
-    pub fn read(&self, column: &[f64], z: f64) -> f64 {
-        let (k, above, share) = self.weights(z);
-        column[k] * (1.0 - share) + column[above] * share
+    /// Finds for every grain of a parcel the two layers whose middles are below and above it, and the share of the upper one;
+    /// beyond the outer middles the outer layer alone. What a grain reads with these shares it also gives back with them.
+    pub(super) fn find(&self, parcel: &mut Parcel) {
+        find(parcel, self.bottom, self.thickness, self.len() as f64 - 1.0);
     }
 
     /// What grains leave to the water: one minus the volumes of the spheres, cut by the layers, over the volume of a layer.
@@ -74,5 +65,16 @@ impl Layers {
         }
         let layer = self.area * self.thickness;
         filled.iter().map(|filled| (1.0 - filled / layer).max(LEAST)).collect()
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn find(p: &mut Parcel, bottom: f64, thickness: f64, last: f64) {
+    for i in 0..p.rows() {
+        let at = ((p.height[i] - bottom) / thickness - 0.5).clamp(0.0, last);
+        // There are two layers or more.
+        let below = at.min(last - 1.0) as i32;
+        p.layer[i] = below;
+        p.share[i] = at - f64::from(below);
     }
 }

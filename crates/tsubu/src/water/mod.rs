@@ -163,18 +163,20 @@ impl Water {
     /// In water that is held still (while grains settle before time 0) nothing flows.
     pub fn act(&self, parcel: &mut Parcel, flows: &mut Flows, held: bool) {
         parcel.begin(self.surface);
+        if self.turns {
+            parcel.begin_turning();
+        }
+        if let Some(layers) = self.stream.layers() {
+            layers.find(parcel);
+        }
         if !held {
-            self.stream.fill(parcel, self.crowd);
+            self.stream.fill(parcel, self.crowd, self.turns);
             if let Some(fluctuation) = &self.fluctuation {
                 parcel.fluctuate(fluctuation.rms);
             }
         }
         parcel.slip();
         if self.turns {
-            parcel.begin_turning();
-            if !held {
-                self.stream.fill_spin(parcel);
-            }
             parcel.turn();
         }
         for part in &self.parts {

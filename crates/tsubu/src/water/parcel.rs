@@ -14,8 +14,6 @@ const VECTOR: [Column; 3] = [ZERO; 3];
 pub struct Parcel {
     /// Rows in use; read it with [`Parcel::rows`].
     pub len: usize,
-    /// The moment [s].
-    pub time: f64,
 
     /// Height z of the centre [m].
     pub height: Column,
@@ -33,6 +31,10 @@ pub struct Parcel {
     pub wet: Column,
     /// Volume under water [m^3].
     pub volume: Column,
+    /// The layer whose middle is below the centre; this and the next only where the water has layers.
+    pub layer: [i32; ROWS],
+    /// What the layer above counts for, of 1 [-].
+    pub share: Column,
     /// Share of the volume that the grains around leave to the water [-].
     pub open: Column,
     /// Velocity of the water at the centre, as it would be without the grain [m/s].
@@ -102,7 +104,6 @@ impl Default for Parcel {
     fn default() -> Self {
         Self {
             len: 0,
-            time: 0.0,
             height: ZERO,
             radius: ZERO,
             velocity: VECTOR,
@@ -110,6 +111,8 @@ impl Default for Parcel {
             gust: VECTOR,
             wet: ZERO,
             volume: ZERO,
+            layer: [0; ROWS],
+            share: ZERO,
             open: ZERO,
             flow: VECTOR,
             slip: VECTOR,
@@ -130,6 +133,22 @@ impl Parcel {
     #[inline(always)]
     pub fn rows(&self) -> usize {
         self.len.min(ROWS)
+    }
+
+    /// A column of layers read at row `i`.
+    #[inline(always)]
+    pub(super) fn read(&self, column: &[f64], i: usize) -> f64 {
+        let (k, share) = (self.layer[i] as usize, self.share[i]);
+        column[k] * (1.0 - share) + column[k + 1] * share
+    }
+
+    /// Adds the forces along x [N] to a column of layers, with the shares that the layers are read with.
+    pub(crate) fn give(&self, column: &mut [f64]) {
+        for i in 0..self.rows() {
+            let (k, share, force) = (self.layer[i] as usize, self.share[i], self.total[0][i]);
+            column[k] += force * (1.0 - share);
+            column[k + 1] += force * share;
+        }
     }
 
     /// Force of all parts on row `i` [N].

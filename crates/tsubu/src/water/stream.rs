@@ -82,61 +82,13 @@ impl Stream {
         }
     }
 
-    /// Velocity along x at height `z` [m/s].
-    pub fn velocity(&self, z: f64) -> f64 {
-        match self {
-            Self::Still | Self::Column { .. } => 0.0,
-            Self::Coupled(coupled) => coupled.ahead(z),
-            Self::LogLaw { shear_velocity, roughness, zero_level } => {
-                log_law(z - zero_level, *shear_velocity, *roughness)
-            }
-            Self::Table { height, velocity } => {
-                let k = height.partition_point(|h| *h <= z);
-                if k == 0 {
-                    velocity[0]
-                } else if k == height.len() {
-                    velocity[k - 1]
-                } else {
-                    let share = (z - height[k - 1]) / (height[k] - height[k - 1]);
-                    velocity[k - 1] + share * (velocity[k] - velocity[k - 1])
-                }
-            }
-        }
-    }
-
-    /// Rate of shear dU/dz at height `z` [1/s]; at a kink that of the straight line above it.
-    pub fn shear(&self, z: f64) -> f64 {
-        match self {
-            Self::Still | Self::Column { .. } => 0.0,
-            Self::Coupled(coupled) => coupled.shear(z),
-            Self::LogLaw { shear_velocity, zero_level, .. } => {
-                let moves = self.velocity(z) > 0.0;
-                if moves { shear_velocity * PER_DECADE / (LN_10 * (z - zero_level)) } else { 0.0 }
-            }
-            Self::Table { height, velocity } => {
-                let k = height.partition_point(|h| *h <= z);
-                let between = k > 0 && k < height.len();
-                if between { (velocity[k] - velocity[k - 1]) / (height[k] - height[k - 1]) } else { 0.0 }
-            }
-        }
-    }
-
-    /// Spins of the water at the grains of a parcel: a stream along x that grows with z turns about y, from z to x.
-    pub(super) fn fill_spin(&self, parcel: &mut Parcel) {
-        if matches!(self, Self::Still | Self::Column { .. }) {
-            return;
-        }
-        for i in 0..parcel.rows() {
-            parcel.flow_spin[1][i] = 0.5 * self.shear(parcel.height[i]);
-        }
-    }
-
-    /// Velocities at the grains of a parcel, and if it is a `crowd` the share that grains leave to the water there.
-    pub(super) fn fill(&self, parcel: &mut Parcel, crowd: bool) {
+    /// Velocities at the grains of a parcel; if it is a `crowd` the share that grains leave to the water there, and if it
+    /// `turns` the spins of the water: a stream along x that grows with z turns about y, from z to x.
+    pub(super) fn fill(&self, parcel: &mut Parcel, crowd: bool, turns: bool) {
         let n = parcel.rows();
         if let Some(layers) = self.layers().filter(|_| crowd) {
             for i in 0..n {
-                parcel.open[i] = layers.read(&layers.open, parcel.height[i]);
+                parcel.open[i] = parcel.read(&layers.open, i);
             }
         }
         match self {
@@ -148,10 +100,29 @@ impl Stream {
             }
             Self::LogLaw { shear_velocity, roughness, zero_level } => {
                 log_laws(parcel, *shear_velocity, *roughness, *zero_level);
+                for i in (0..n).filter(|_| turns) {
+                    let moves = parcel.flow[0][i] > 0.0;
+                    let shear = shear_velocity * PER_DECADE / (LN_10 * (parcel.height[i] - zero_level));
+                    parcel.flow_spin[1][i] = if moves { 0.5 * shear } else { 0.0 };
+                }
             }
-            Self::Table { .. } | Self::Coupled(_) => {
+            Self::Table { height, velocity } => {
                 for i in 0..n {
-                    parcel.flow[0][i] = self.velocity(parcel.height[i]);
+                    let (flow, shear) = between(height, velocity, parcel.height[i]);
+                    parcel.flow[0][i] = flow;
+                    if turns {
+                        parcel.flow_spin[1][i] = 0.5 * shear;
+                    }
+                }
+            }
+            Self::Coupled(coupled) => {
+                let ahead = coupled.ahead();
+                for i in 0..n {
+                    parcel.flow[0][i] = parcel.read(ahead, i);
+                }
+                for i in (0..n).filter(|_| turns) {
+                    let k = parcel.layer[i] as usize;
+                    parcel.flow_spin[1][i] = 0.5 * (ahead[k + 1] - ahead[k]) / coupled.layers.thickness;
                 }
             }
         }
@@ -166,9 +137,9 @@ impl Stream {
                 velocity.abs() / least
             }
             Self::Coupled(coupled) => coupled.velocity.iter().fold(0.0, |most, v| v.abs().max(most)),
-            Self::LogLaw { zero_level, .. } => {
-                let near = zero_level + 10.0 * diameter;
-                self.velocity(if surface.is_finite() { surface } else { near })
+            Self::LogLaw { shear_velocity, roughness, zero_level } => {
+                let height = if surface.is_finite() { surface - zero_level } else { 10.0 * diameter };
+                log_law(height, *shear_velocity, *roughness)
             }
             Self::Table { velocity, .. } => velocity.iter().fold(0.0, |most, v| v.abs().max(most)),
         }
@@ -206,6 +177,19 @@ impl Stream {
             Self::Coupled(coupled) => Some(coupled.bottom_shear_velocity()),
             Self::Still | Self::Table { .. } | Self::Column { .. } => None,
         }
+    }
+}
+
+/// Velocity [m/s] and rate of shear [1/s] at height `z` between points; at a kink those of the line above it.
+fn between(height: &[f64], velocity: &[f64], z: f64) -> (f64, f64) {
+    let k = height.partition_point(|h| *h <= z);
+    if k == 0 {
+        (velocity[0], 0.0)
+    } else if k == height.len() {
+        (velocity[k - 1], 0.0)
+    } else {
+        let shear = (velocity[k] - velocity[k - 1]) / (height[k] - height[k - 1]);
+        (velocity[k - 1] + (z - height[k - 1]) * shear, shear)
     }
 }
 
