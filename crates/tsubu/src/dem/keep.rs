@@ -16,12 +16,10 @@ impl DemEngine {
         }
         for (block, list) in self.touch.blocks.iter().zip(&self.candidates.lists) {
             for (law, memory) in (0..).zip(&block.memory) {
-                let mut own = 0;
                 for (c, &k) in memory.pairs.keys.iter().enumerate() {
-                    while list.start[own + 1] <= k {
-                        own += 1;
-                    }
-                    let (first, second) = (id[list.first + own], id[list.grain(list.pairs[k as usize])]);
+                    let pair = list.pairs[k as usize];
+                    let (first, second) =
+                        (id[list.first + pair.own as usize], id[list.at[pair.place as usize] as usize]);
                     kept.push(Name { first, second, wall: false, patch: 0, law }, memory.pairs.of(c), width);
                 }
                 for (c, key) in memory.walls.keys.iter().enumerate() {
@@ -106,7 +104,7 @@ impl DemEngine {
         let list = &self.candidates.lists[block];
         let own = i as usize % BLOCK;
         let range = list.start[own] as usize..list.start[own + 1] as usize;
-        let k = list.pairs[range.clone()].iter().position(|&place| list.grain(place) == j as usize)?;
+        let k = list.pairs[range.clone()].iter().position(|pair| list.at[pair.place as usize] == j)?;
         Some((block, (range.start + k) as u32))
     }
 }

@@ -4,6 +4,7 @@ use super::sieve::{Hit, Spheres};
 use crate::contact::Table;
 use crate::contact::chunk::{Chunk, Column, ROWS, ZERO};
 use crate::find::candidates::List;
+use crate::state::Grains;
 use glam::DVec3;
 use multiversion::multiversion;
 
@@ -61,8 +62,16 @@ impl Rows {
     }
 
     /// Takes pairs of touching grains: what the geometry pass reads.
-    pub fn gather(&mut self, hits: &[Hit], list: &List, spheres: &Spheres, table: &Table, rotation: bool) {
-        gather(self, hits, &list.pairs, spheres, table, rotation);
+    pub fn gather(
+        &mut self,
+        hits: &[Hit],
+        grains: &Grains,
+        list: &List,
+        spheres: &Spheres,
+        table: &Table,
+        rotation: bool,
+    ) {
+        gather(self, hits, grains, list, spheres, table, rotation);
     }
 
     /// Fills the constants of the materials; nothing to do where all rows are of the pair that is already there.
@@ -116,10 +125,18 @@ impl Rows {
 }
 
 #[multiversion(targets = "simd")]
-fn gather(rows: &mut Rows, hits: &[Hit], pairs: &[u32], spheres: &Spheres, table: &Table, rotation: bool) {
+fn gather(
+    rows: &mut Rows,
+    hits: &[Hit],
+    grains: &Grains,
+    list: &List,
+    spheres: &Spheres,
+    table: &Table,
+    rotation: bool,
+) {
     rows.chunk.len = hits.len().min(ROWS);
     for (r, hit) in hits.iter().enumerate().take(ROWS) {
-        let place = pairs[hit.candidate as usize];
+        let place = list.pairs[hit.candidate as usize].place;
         rows.first[r] = hit.own;
         rows.second[r] = place;
         let (a, b) = (spheres.at(hit.own), spheres.at(place));
@@ -128,17 +145,14 @@ fn gather(rows: &mut Rows, hits: &[Hit], pairs: &[u32], spheres: &Spheres, table
         }
         rows.radius[0][r] = a[3];
         rows.radius[1][r] = b[3];
-        let (a, b) = (spheres.motion(hit.own), spheres.motion(place));
-        for k in 0..3 {
-            rows.relative[k][r] = a.velocity[k] - b.velocity[k];
-        }
-        rows.inverse_mass[r] = a.inverse_mass + b.inverse_mass;
-        rows.material[r] = table.index(a.material, b.material);
+        let (i, j) = (list.first + hit.own as usize, list.at[place as usize] as usize);
+        let relative = grains.velocity[i] - grains.velocity[j];
+        Chunk::set(&mut rows.relative, r, relative);
+        rows.inverse_mass[r] = grains.inverse_mass[i] + grains.inverse_mass[j];
+        rows.material[r] = table.index(grains.material[i], grains.material[j]);
         if rotation {
-            for k in 0..3 {
-                rows.spin[0][k][r] = a.spin[k];
-                rows.spin[1][k][r] = b.spin[k];
-            }
+            Chunk::set(&mut rows.spin[0], r, grains.spin[i]);
+            Chunk::set(&mut rows.spin[1], r, grains.spin[j]);
         }
     }
 }

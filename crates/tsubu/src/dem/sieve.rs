@@ -5,32 +5,17 @@
 //! would have to guess (guessing wrong took a third of the time of a settled bed).
 
 use crate::contact::Table;
-use crate::find::candidates::List;
+use crate::find::candidates::{List, Pair};
 use crate::find::grid::HERE;
 use crate::state::Grains;
 use glam::DVec3;
 use multiversion::multiversion;
-
-/// How a grain moves, in one line of the cache.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-pub(super) struct Motion {
-    /// Velocity [m/s].
-    pub velocity: [f64; 3],
-    /// One over the mass [1/kg].
-    pub inverse_mass: f64,
-    /// Spin [rad/s].
-    pub spin: [f64; 3],
-    /// Number of the material.
-    pub material: u32,
-}
 
 /// Every grain that a block sees, by place.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Spheres {
     /// Centre and radius [m].
     places: Vec<[f64; 4]>,
-    motions: Vec<Motion>,
 }
 
 impl Spheres {
@@ -38,14 +23,8 @@ impl Spheres {
     pub fn place(&mut self, grains: &Grains, list: &List, shifts: &[DVec3]) {
         let own = list.first..list.first + list.own;
         let (p, r) = (&grains.position, &grains.radius);
-        let motion = |i: usize| Motion {
-            velocity: grains.velocity[i].to_array(),
-            inverse_mass: grains.inverse_mass[i],
-            spin: grains.spin[i].to_array(),
-            material: grains.material[i],
-        };
         self.places.clear();
-        self.places.extend(p[own.clone()].iter().zip(&r[own.clone()]).map(|(p, r)| [p.x, p.y, p.z, *r]));
+        self.places.extend(p[own.clone()].iter().zip(&r[own]).map(|(p, r)| [p.x, p.y, p.z, *r]));
         self.places.extend(list.halo.iter().map(|h| {
             let mut p = p[h.grain as usize];
             if h.image != HERE {
@@ -53,21 +32,12 @@ impl Spheres {
             }
             [p.x, p.y, p.z, r[h.grain as usize]]
         }));
-        self.motions.clear();
-        self.motions.extend(own.map(motion));
-        self.motions.extend(list.halo.iter().map(|h| motion(h.grain as usize)));
     }
 
     /// Centre and radius at a place [m].
     #[inline]
     pub fn at(&self, place: u32) -> [f64; 4] {
         self.places[place as usize]
-    }
-
-    /// Motion at a place.
-    #[inline]
-    pub fn motion(&self, place: u32) -> &Motion {
-        &self.motions[place as usize]
     }
 }
 
@@ -95,17 +65,18 @@ impl Hits {
         if self.room.len() < list.pairs.len() + 1 {
             self.room.resize(list.pairs.len() + 1, Hit::default());
         }
-        self.count = sieve(&list.start, &list.pairs, &spheres.places, reach, &mut self.room);
+        self.count = sieve(&list.pairs, &spheres.places, reach, &mut self.room);
     }
 
     /// Parts what was found by the law of the pair. What is beyond the reach of its own law goes: laws that end with the overlap
     /// are not asked about pairs that do not touch.
-    pub fn part(&mut self, list: &List, spheres: &Spheres, table: &Table, reaches: &[f64]) {
+    pub fn part(&mut self, grains: &Grains, list: &List, spheres: &Spheres, table: &Table, reaches: &[f64]) {
         self.parted.resize_with(reaches.len(), Vec::new);
         self.parted.iter_mut().for_each(Vec::clear);
         for hit in &self.room[..self.count] {
-            let place = list.pairs[hit.candidate as usize];
-            let law = table.law(table.index(spheres.motion(hit.own).material, spheres.motion(place).material));
+            let place = list.pairs[hit.candidate as usize].place;
+            let material = |place: u32| grains.material[list.at[place as usize] as usize];
+            let law = table.law(table.index(material(hit.own), material(place)));
             if near(&spheres.at(hit.own), &spheres.at(place), reaches[law]) {
                 self.parted[law].push(*hit);
             }
@@ -126,18 +97,14 @@ fn near(a: &[f64; 4], b: &[f64; 4], reach: f64) -> bool {
 }
 
 #[multiversion(targets = "simd")]
-fn sieve(start: &[u32], pairs: &[u32], spheres: &[[f64; 4]], reach: f64, hits: &mut [Hit]) -> usize {
+fn sieve(pairs: &[Pair], spheres: &[[f64; 4]], reach: f64, hits: &mut [Hit]) -> usize {
     let mut count = 0;
-    for (own, ends) in start.windows(2).enumerate() {
-        let [x, y, z, r] = spheres[own];
-        let r = r + reach;
-        for k in ends[0] as usize..ends[1] as usize {
-            let other = &spheres[pairs[k] as usize];
-            let (dx, dy, dz, limit) = (other[0] - x, other[1] - y, other[2] - z, other[3] + r);
-            let touching = dx * dx + dy * dy + dz * dz < limit * limit;
-            hits[count] = Hit { own: own as u32, candidate: k as u32 };
-            count += usize::from(touching);
-        }
+    for (k, pair) in pairs.iter().enumerate() {
+        let ([x, y, z, r], other) = (spheres[pair.own as usize], &spheres[pair.place as usize]);
+        let (dx, dy, dz, limit) = (other[0] - x, other[1] - y, other[2] - z, other[3] + (r + reach));
+        let touching = dx * dx + dy * dy + dz * dz < limit * limit;
+        hits[count] = Hit { own: pair.own, candidate: k as u32 };
+        count += usize::from(touching);
     }
     count
 }

@@ -207,7 +207,7 @@ impl Touch {
                 // What is only near, within the reach of a law, is no contact.
                 for r in (0..rows.chunk.rows()).filter(|&r| rows.chunk.disc[r] > 0.0) {
                     let first = list.first + rows.first[r] as usize;
-                    let second = if wall { rows.second[r] as usize } else { list.grain(rows.second[r]) };
+                    let second = if wall { rows.second[r] as usize } else { list.at[rows.second[r] as usize] as usize };
                     contacts.push(Contact {
                         first,
                         second,
@@ -258,14 +258,14 @@ fn pairs(
     spheres.place(scene.grains, list, &scene.candidates.shifts);
     hits.sieve(list, spheres, scene.reach);
     if scene.reaches.len() > 1 {
-        hits.part(list, spheres, scene.table, scene.reaches);
+        hits.part(scene.grains, list, spheres, scene.table, scene.reaches);
     }
     for (k, (law, (memory, rows))) in scene.table.laws().iter().zip(memory.iter_mut().zip(rows)).enumerate() {
         let width = law.width();
         let mut cursor = 0;
         let mut released = 0.0;
         for hits in hits.under(k).chunks(ROWS) {
-            rows.gather(hits, list, spheres, scene.table, scene.rotation);
+            rows.gather(hits, scene.grains, list, spheres, scene.table, scene.rotation);
             rows.spheres(scene.rotation);
             if width > 0 {
                 for (hit, old) in hits.iter().zip(&mut *old) {

@@ -19,7 +19,7 @@ pub(super) fn touches(scene: &Scene) -> Vec<Contact> {
         spheres.place(g, list, &scene.candidates.shifts);
         hits.sieve(list, &spheres, 0.0);
         for hit in hits.under(0) {
-            let place = list.pairs[hit.candidate as usize];
+            let place = list.pairs[hit.candidate as usize].place;
             let ([ax, ay, az, a], [bx, by, bz, b]) = (spheres.at(hit.own), spheres.at(place));
             let between = DVec3::new(bx - ax, by - ay, bz - az);
             let overlap = a + b - between.length();
@@ -27,7 +27,7 @@ pub(super) fn touches(scene: &Scene) -> Vec<Contact> {
             let first = list.first + hit.own as usize;
             contacts.push(Contact {
                 first,
-                second: list.grain(place),
+                second: list.at[place as usize] as usize,
                 wall: false,
                 position: g.position[first] + normal * (a - 0.5 * overlap),
                 between,

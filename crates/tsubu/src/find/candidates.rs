@@ -9,7 +9,7 @@
 //! ones near it and for large ones farther away, never the other way round.
 
 use super::drift::Drifts;
-use super::grid::{Ends, Grid, HERE, Numbering, shift};
+use super::grid::{Ends, Grid, HERE, Image, Met, Numbering, shift};
 use crate::state::Grains;
 use crate::wall::{Pose, Wall};
 use glam::DVec3;
@@ -27,13 +27,13 @@ const SMALL: usize = 96;
 /// Up to this ratio of sizes one grid is faster than two.
 const ONE_LEVEL: f64 = 2.5;
 
-/// A grain as one of its periodic images.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Image {
-    /// Index of the grain.
-    pub grain: u32,
-    /// Which image of it; see [`shift`].
-    pub image: u32,
+/// Two grains that may touch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Pair {
+    /// First grain, counted from the first of the block.
+    pub own: u32,
+    /// Place of the second grain: own grains first, then the halo.
+    pub place: u32,
 }
 
 /// A wall element near a grain.
@@ -67,16 +67,20 @@ pub struct List {
     pub own: usize,
     /// First pair of every own grain; one more than grains.
     pub start: Vec<u32>,
-    /// Places of the second grains: own grains first, then the halo.
-    pub pairs: Vec<u32>,
+    /// In the order of their first grains.
+    pub pairs: Vec<Pair>,
     /// What appears in `pairs` besides own grains: grains of other blocks, and images across a periodic end; rising.
     pub halo: Vec<Image>,
+    /// Index of the grain at each place.
+    pub at: Vec<u32>,
     /// Wall elements near own grains, sorted.
     pub walls: Vec<WallCandidate>,
     /// What other blocks hold for own grains, by grain and then in the order of the blocks.
     pub incoming: Vec<Incoming>,
     near: Vec<u32>,
-    met: Vec<Image>,
+    met: Met,
+    /// Second grains of all pairs.
+    seconds: Vec<Image>,
 }
 
 /// Candidate lists of all blocks, and where everything was when they were made.
@@ -166,14 +170,14 @@ impl Candidates {
             list.clear();
             for own in 0..list.own {
                 let i = list.first + own;
-                let begin = list.met.len();
+                let begin = list.seconds.len();
                 if small {
                     self.later(list, grains, search, i);
                 } else {
                     self.neighbours(list, grains, search, i);
                 }
-                list.met[begin..].sort_unstable();
-                list.start.push(list.met.len() as u32);
+                list.seconds[begin..].sort_unstable();
+                list.start.push(list.seconds.len() as u32);
                 list.near_walls(walls, own as u32, self.reference[i], grains.radius[i] + search.skin + search.reach);
             }
             list.place();
@@ -230,12 +234,12 @@ impl Candidates {
         let reach = grains.radius[i] + search.skin + search.reach;
         let moves = grains.inverse_mass[i] > 0.0;
         for (higher, grid) in self.levels.iter().enumerate().skip(level) {
-            grid.near(self.reference[i], reach, &self.shifts, |j, image| {
-                // Two grains that nothing moves need not be watched.
-                if (higher > level || j as usize > i) && (moves || grains.inverse_mass[j as usize] > 0.0) {
-                    list.met.push(Image { grain: j, image });
-                }
-            });
+            let from = if higher > level { 0 } else { i as u32 + 1 };
+            list.met.clear();
+            grid.near(self.reference[i], reach, &self.shifts, from, &mut list.met);
+            // Two grains that nothing moves need not be watched.
+            let watched = |m: &&Image| moves || grains.inverse_mass[m.grain as usize] > 0.0;
+            list.seconds.extend(list.met.found().iter().filter(watched));
         }
     }
 
@@ -245,7 +249,7 @@ impl Candidates {
             let limit = grains.radius[i] + grains.radius[j] + search.skin + search.reach;
             let near = self.reference[i].distance_squared(self.reference[j]) < limit * limit;
             if near && grains.inverse_mass[i] + grains.inverse_mass[j] > 0.0 {
-                list.met.push(Image { grain: j as u32, image: HERE });
+                list.seconds.push(Image { grain: j as u32, image: HERE });
             }
         }
     }
@@ -254,7 +258,7 @@ impl Candidates {
 impl List {
     fn clear(&mut self) {
         self.pairs.clear();
-        self.met.clear();
+        self.seconds.clear();
         self.walls.clear();
         self.halo.clear();
         self.incoming.clear();
@@ -274,19 +278,17 @@ impl List {
     fn place(&mut self) {
         let inside = self.first as u32..(self.first + self.own) as u32;
         let own = |c: &Image| c.image == HERE && inside.contains(&c.grain);
-        self.halo.extend(self.met.iter().filter(|c| !own(c)));
+        self.halo.extend(self.seconds.iter().filter(|c| !own(c)));
         self.halo.sort_unstable();
         self.halo.dedup();
+        self.at.clear();
+        self.at.extend(inside.clone().chain(self.halo.iter().map(|h| h.grain)));
         let place = |c: &Image| {
             if own(c) { c.grain - inside.start } else { self.own as u32 + self.halo.partition_point(|h| h < c) as u32 }
         };
-        self.pairs.extend(self.met.iter().map(place));
-    }
-
-    /// The grain at a place.
-    #[inline]
-    pub fn grain(&self, place: u32) -> usize {
-        let place = place as usize;
-        if place < self.own { self.first + place } else { self.halo[place - self.own].grain as usize }
+        for (grain, ends) in (0..).zip(self.start.windows(2)) {
+            let seconds = &self.seconds[ends[0] as usize..ends[1] as usize];
+            self.pairs.extend(seconds.iter().map(|second| Pair { own: grain, place: place(second) }));
+        }
     }
 }

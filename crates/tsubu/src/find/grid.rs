@@ -29,6 +29,52 @@ pub enum Numbering {
     Lumps,
 }
 
+/// A grain as one of its periodic images.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Image {
+    /// Index of the grain.
+    pub grain: u32,
+    /// Which image of it; see [`shift`].
+    pub image: u32,
+}
+
+/// Grains found near a point. There is more room than grains: what is looked at is written down before it is known whether
+/// it stays, for a branch that goes either way costs more.
+#[derive(Clone, Debug, Default)]
+pub struct Met {
+    room: Vec<Image>,
+    count: usize,
+}
+
+impl Met {
+    /// Forgets all.
+    pub fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// What was found.
+    pub fn found(&self) -> &[Image] {
+        &self.room[..self.count]
+    }
+
+    #[inline]
+    fn meet(&mut self, spheres: &[[f64; 4]], members: &[u32], from: u32, image: u32, (p, reach): (DVec3, f64)) {
+        if self.room.len() < self.count + members.len() {
+            self.room.resize(2 * (self.count + members.len()), Image::default());
+        }
+        let room = &mut self.room[self.count..];
+        let mut count = 0;
+        for (sphere, &grain) in spheres.iter().zip(members) {
+            let (dx, dy, dz) = (sphere[0] - p.x, sphere[1] - p.y, sphere[2] - p.z);
+            let limit = sphere[3] + reach;
+            let near = usize::from(dx * dx + dy * dy + dz * dz < limit * limit);
+            room[count] = Image { grain, image };
+            count += near & usize::from(grain >= from);
+        }
+        self.count += count;
+    }
+}
+
 /// Indices sorted by cell.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
@@ -126,32 +172,26 @@ impl Grid {
         &self.members
     }
 
-    /// Calls `meet(member, image)` for every member whose surface is nearer to a point than `reach` [m], which must not be
-    /// above the cells' size less the member's radius. `image` is where the member is met, shifted by `shifts[image]`.
+    /// Finds every member numbered `from` or higher whose surface is nearer to a point than `reach` [m], which must not be
+    /// above the cells' size less the member's radius. An image is met where `shifts` puts it.
     #[inline]
-    pub fn near(&self, p: DVec3, reach: f64, shifts: &[DVec3], mut meet: impl FnMut(u32, u32)) {
+    pub fn near(&self, p: DVec3, reach: f64, shifts: &[DVec3], from: u32, met: &mut Met) {
         if self.members.is_empty() {
             return;
         }
         let at = self.place(p);
-        let [rx, ry, rz]: [_; 3] = std::array::from_fn(|axis| self.runs(axis, at[axis]));
-        for (zs, iz) in rz.into_iter().flatten() {
-            for z in zs[0]..=zs[1] {
-                for (ys, iy) in ry.into_iter().flatten() {
-                    for y in ys[0]..=ys[1] {
-                        for (xs, ix) in rx.into_iter().flatten() {
+        let (rx, ry, rz) = (self.runs(0, at[0]), self.runs(1, at[1]), self.runs(2, at[2]));
+        for &(zs, iz) in &rz {
+            for z in zs[0]..zs[1] {
+                for &(ys, iy) in &ry {
+                    for y in ys[0]..ys[1] {
+                        for &(xs, ix) in rx.iter().filter(|(xs, _)| xs[0] < xs[1]) {
                             let image = 9 * iz + 3 * iy + ix;
                             let p = if image == HERE { p } else { p - shifts[image as usize] };
                             // Neighbours along x lie side by side.
                             let first = self.start[self.number([xs[0], y, z])] as usize;
-                            let last = self.start[self.number([xs[1], y, z]) + 1] as usize;
-                            for (sphere, &member) in self.spheres[first..last].iter().zip(&self.members[first..last]) {
-                                let (dx, dy, dz) = (sphere[0] - p.x, sphere[1] - p.y, sphere[2] - p.z);
-                                let limit = sphere[3] + reach;
-                                if dx * dx + dy * dy + dz * dz < limit * limit {
-                                    meet(member, image);
-                                }
-                            }
+                            let last = self.start[self.number([xs[1] - 1, y, z]) + 1] as usize;
+                            met.meet(&self.spheres[first..last], &self.members[first..last], from, image, (p, reach));
                         }
                     }
                 }
@@ -159,14 +199,13 @@ impl Grid {
         }
     }
 
-    /// The cells before, at and after `k` along an axis, in runs, each with the image it is met in.
-    fn runs(&self, axis: usize, k: usize) -> [Option<([usize; 2], u32)>; 3] {
+    /// The cells before, at and after `k` along an axis, in runs from and to, each with the image it is met in.
+    fn runs(&self, axis: usize, k: usize) -> [([usize; 2], u32); 3] {
         let n = self.extent[axis];
         let wrap = self.wraps[axis];
-        let here = [k.saturating_sub(1), (k + 1).min(n - 1)];
-        let before = (wrap && k == 0).then_some(([n - 1, n - 1], 0));
-        let after = (wrap && k + 1 == n).then_some(([0, 0], 2));
-        [before, Some((here, 1)), after]
+        let before = if wrap && k == 0 { [n - 1, n] } else { [0, 0] };
+        let after = if wrap && k + 1 == n { [0, 1] } else { [0, 0] };
+        [(before, 0), ([k.saturating_sub(1), (k + 2).min(n)], 1), (after, 2)]
     }
 
     fn place(&self, p: DVec3) -> [usize; 3] {
