@@ -1,7 +1,7 @@
 //! Water and slopes: what is meant, what follows, what is wrong.
 
 use crate::{complaint, read};
-use tsubu_scene::plan::{Drag, Film, Flow};
+use tsubu_scene::plan::{Drag, Film, Flow, Lid};
 
 const STREAM: &str = r#"
 slope = "3 deg"
@@ -118,6 +118,24 @@ fn layers_follow_from_the_world() {
     assert_eq!(scene.plan().water.as_ref().expect("water").surface, Some(0.02));
     let again = read(&scene.resolved_toml(), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
     assert_eq!(again.plan(), scene.plan());
+}
+
+/// A reach that is fed is as long as the periodic world; a coupled stream fluctuates for a time that its depth and its drive tell.
+#[test]
+fn a_free_surface_and_its_reach() {
+    let text = coupled("coupled = { bottom = 0, top = \"2 cm\", lid = \"free\", discharge = 0.01 }")
+        + "fluctuation = {}\n[periodic]\nx = [0, \"10 mm\"]\n";
+    let scene = read(&text, &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let water = scene.plan().water.as_ref().expect("water");
+    let Flow::Coupled { lid: Lid::Free, reach: Some(reach), .. } = water.flow else { panic!("{water:?}") };
+    assert!((reach - 0.01).abs() < 1e-15);
+    let shear = (9.8 * 3f64.to_radians().sin() * 0.02).sqrt();
+    assert!((water.fluctuation.expect("fluctuation").time - 0.02 / (15.0 * shear)).abs() < 1e-12);
+    let again = read(&scene.resolved_toml(), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    assert_eq!(again.plan(), scene.plan());
+    let beyond = text.replace("[water]", "[water]\nsurface = \"3 cm\"").replace("slope = \"3 deg\"", "");
+    insta::assert_snapshot!(complaint(&beyond.replace("[periodic]\nx = [0, \"10 mm\"]\n", ""), &[]));
+    insta::assert_snapshot!(complaint(&beyond, &[]));
 }
 
 #[test]

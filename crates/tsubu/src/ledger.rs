@@ -37,7 +37,8 @@ pub enum Account {
     Buoyancy,
     /// Lost in drag: what the forces of the water take from motion relative to it [J].
     Drag,
-    /// Lost in the stream itself: in its stress, at its bottom, and where it mixes to make way for grains [J].
+    /// Lost in the stream itself: in its stress, at its bottom, and where it mixes to make way for grains; less what its
+    /// turbulence does to grains [J].
     StreamFriction,
     /// Lost (or gained: negative) by rules of a lattice model that do not conserve energy: forgotten distance,
     /// turned directions, one-sided collisions [J].

@@ -3,7 +3,7 @@
 use super::Parts;
 use super::place::millimetres;
 use crate::complaint::Complaint;
-use crate::plan::{Drag, Flow, GrainMotion, GrainShape, Hindrance, Lift, Start, Torque, Water};
+use crate::plan::{Drag, Flow, GrainMotion, GrainShape, Hindrance, Lid, Lift, Start, Torque, Water};
 use std::f64::consts::PI;
 
 pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
@@ -36,9 +36,13 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
     crowd(&water, parts, complaints);
     match &water.flow {
         Flow::Still {} => {}
-        Flow::Coupled { bottom, top, shear_velocity, discharge, .. } => {
-            lid(parts, *bottom, *top, complaints);
+        Flow::Coupled { bottom, top, shear_velocity, discharge, lid: ends, .. } => {
             let along = parts.resolved.get("gravity").and_then(|g| g.get(0)).and_then(toml::Value::as_float);
+            if *ends == Lid::Free {
+                free_surface(parts, &water, along, complaints);
+            } else {
+                lid(parts, *bottom, *top, complaints);
+            }
             if shear_velocity.is_none() && discharge.is_none() && along.is_none_or(|along| along <= 0.0) {
                 complaints.push(
                     Complaint::new("nothing drives the stream")
@@ -134,6 +138,28 @@ fn crowd(water: &Water, parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
         complaints.push(
             Complaint::new("`drag.gidaspow` has the crowd in it; `hindrance` would count it twice")
                 .at(&at(&["hindrance"]), "leave it out"),
+        );
+    }
+}
+
+/// What does not go with a surface that finds its level.
+fn free_surface(parts: &Parts<'_>, water: &Water, along: Option<f64>, complaints: &mut Vec<Complaint>) {
+    let at = |keys: &[&str]| parts.root.locate(&[&["water"], keys].concat());
+    let Flow::Coupled { top, discharge, .. } = water.flow else { return };
+    if water.surface != Some(top) {
+        complaints.push(
+            Complaint::new("a free surface is where the water ends, and begins at `top`")
+                .at(&at(&["surface"]), "another surface")
+                .also(&at(&["flow", "coupled", "lid"]), "finds its level")
+                .hint("leave out `surface`"),
+        );
+    }
+    if discharge.is_some() && along.is_none_or(|along| along <= 0.0) {
+        complaints.push(
+            Complaint::new("with a free surface nothing but the slope drives what the discharge brings")
+                .at(&at(&["flow", "coupled", "discharge"]), "comes in")
+                .also(&at(&["flow", "coupled", "lid"]), "no pressure along the stream")
+                .hint("give slope = \"3 deg\" at the top, or lid = \"rigid\""),
         );
     }
 }

@@ -35,7 +35,7 @@ pub(super) static WATER: &[Key] = &[
     Key::new(
         "fluctuation",
         Kind::Table(FLUCTUATION),
-        "Turbulence of a log-law stream as grains on their way see it: a velocity that wanders, drawn for each grain",
+        "Turbulence of a log-law or coupled stream as grains on their way see it: a velocity that wanders, drawn for each grain",
     )
     .optional(),
 ];
@@ -46,7 +46,7 @@ static FLUCTUATION: &[Key] = &[
         .above(0.0),
     Key::new("time", Kind::Quantity(&TIME), "Lagrangian time: how long the water around a grain keeps its velocity")
         .above(0.0)
-        .derived("depth/(15 strength^2 U*) below a surface: the diffusivity of a stream, 0.067 U* depth in the mean over the depth"),
+        .derived("depth/(15 strength^2 U*) below a surface: the diffusivity of a stream, 0.067 U* depth in the mean over the depth; of a coupled stream from `bottom` to `top` at time 0, U* what drives it"),
 ];
 
 static BUOYANCY: &[Word] = &[
@@ -112,10 +112,22 @@ static FLOW: &[Variant] = &[
             .above(0.0)
             .optional()
             .rivals(&["discharge"]),
-            Key::new("discharge", Kind::Quantity(&AREA_RATE), "Discharge of water per width that is held")
-                .above(0.0)
-                .optional()
-                .rivals(&["shear-velocity"]),
+            Key::new(
+                "discharge",
+                Kind::Quantity(&AREA_RATE),
+                "Discharge of water per width: held below a rigid lid; with a free surface what comes in, and the slope drives",
+            )
+            .above(0.0)
+            .optional()
+            .rivals(&["shear-velocity"]),
+            Key::new("lid", Kind::OneOf(LID), "What ends the stream above").default("'rigid'"),
+            Key::new(
+                "reach",
+                Kind::Quantity(&LENGTH),
+                "With a free surface and a `discharge`: length of the reach that it feeds, and that keeps what does not flow out",
+            )
+            .above(0.0)
+            .derived("the length of the periodic world along x"),
             Key::new("start", Kind::OneOf(START), "The stream at time 0").default("'log-law'"),
         ],
     },
@@ -145,6 +157,11 @@ static AREA: Key =
     Key::new("area", Kind::Quantity(&AREA_UNIT), "Plan area of a layer, from which the share of the grains follows")
         .above(0.0)
         .derived("of the periodic world; in the plane its length times the mean diameter of the grains");
+
+static LID: &[Word] = &[
+    Word { name: "rigid", about: "a lid at `top` that stays there" },
+    Word { name: "free", about: "a surface, at `top` at time 0, that rises and falls: the volume of water is kept" },
+];
 
 static START: &[Word] = &[
     Word { name: "log-law", about: "as the drive would have it without grains" },

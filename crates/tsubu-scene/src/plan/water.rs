@@ -78,7 +78,7 @@ pub enum Flow {
     Coupled {
         /// Height z where the water begins [m].
         bottom: f64,
-        /// Height z where it ends [m]: a surface without stress that does not move.
+        /// Height z where it ends [m], without stress: always, or at time 0.
         top: f64,
         /// Number of layers.
         layers: usize,
@@ -88,8 +88,12 @@ pub enum Flow {
         roughness: f64,
         /// U* that the drive would hold without grains [m/s]; `None`: gravity along x drives.
         shear_velocity: Option<f64>,
-        /// Discharge of water per width that is held [m^2/s].
+        /// Discharge of water per width that is held, or feeds a reach with a free surface [m^2/s].
         discharge: Option<f64>,
+        /// Whether the surface finds its level.
+        lid: Lid,
+        /// Length of a reach with a free surface that is fed [m].
+        reach: Option<f64>,
         /// The stream at time 0.
         start: StreamStart,
     },
@@ -116,6 +120,16 @@ impl Flow {
             Self::Still {} | Self::LogLaw { .. } | Self::Table { .. } => None,
         }
     }
+}
+
+/// What ends a stream above.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Lid {
+    /// A lid that stays where it is.
+    Rigid,
+    /// A surface that finds its level.
+    Free,
 }
 
 /// A stream at time 0.

@@ -114,7 +114,7 @@ impl DemEngine {
         reals.extend(self.last_flows.wall_force.to_array());
         reals.push(self.sums.stored);
         let water = self.last_flows.water;
-        reals.extend([water.stream, water.spun, water.pressure, water.carried, water.lost, water.held]);
+        reals.extend([water.stream, water.spun, water.pressure, water.carried, water.gust, water.lost, water.held]);
         reals.extend(water.force.to_array());
         state.put_real("dem.flows", reals);
         let flat = |v: &[DVec3]| v.iter().flat_map(DVec3::to_array).collect::<Vec<_>>();
@@ -149,15 +149,15 @@ impl DemEngine {
         self.orientation.load(state)?;
         self.sources.set_placed(state.integer("dem.streams")?);
         let flows = state.real("dem.flows")?;
-        if flows.len() != 17 {
+        if flows.len() != 18 {
             return Err(missing("dem.flows"));
         }
         self.last_flows.powers.copy_from_slice(&flows[..4]);
         self.last_flows.wall_force = DVec3::from_slice(&flows[4..7]);
         self.sums.stored = flows[7];
-        let [stream, spun, pressure, carried, lost, held] = [8, 9, 10, 11, 12, 13].map(|k| flows[k]);
-        let force = DVec3::from_slice(&flows[14..]);
-        self.last_flows.water = Flows { pressure, carried, stream, spun, lost, held, force };
+        let [stream, spun, pressure, carried, gust, lost, held] = [8, 9, 10, 11, 12, 13, 14].map(|k| flows[k]);
+        let force = DVec3::from_slice(&flows[15..]);
+        self.last_flows.water = Flows { pressure, carried, stream, spun, gust, lost, held, force };
         let reference = state.real("dem.reference")?;
         let places = state.real("dem.wall-reference")?;
         if reference.len() != 3 * self.grains.len() || places.len() != 7 * self.walls.len() {

@@ -187,6 +187,7 @@ impl DemEngine {
         if self.wet.as_ref().is_some_and(Wet::has_stream) {
             // What the stream gives stays in the system. The pressure takes from it what it gives to grains along it.
             ledger.post(Account::Buoyancy, -half * (old.carried + new.carried));
+            ledger.post(Account::StreamFriction, -half * (old.gust + new.gust));
         } else {
             ledger.post(Account::StreamWork, half * (old.stream + new.stream));
         }

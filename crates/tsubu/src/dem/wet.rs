@@ -140,6 +140,10 @@ fn block_of_grains(
             left -= parcel.len;
             water.act(parcel, if fixed { &mut on_fixed } else { &mut effect.flows }, moment.held);
             if slows {
+                if water.fluctuation.is_some() && !moment.held {
+                    let flows = if fixed { &mut on_fixed } else { &mut effect.flows };
+                    flows.gust += parcel.gust_power();
+                }
                 parcel.give(&mut effect.taken);
             }
             if fixed {
@@ -166,7 +170,7 @@ impl DemEngine {
         let Some(wet) = &self.wet else { return Default::default() };
         let grains = &mut self.grains;
         let (mut energy, mut momentum) = (0.0, DVec3::ZERO);
-        let surface = wet.water.surface;
+        let surface = wet.water.surface();
         for i in 0..grains.len() {
             let under = surface - grains.position[i].z > deep * grains.radius[i];
             if under || grains.inverse_mass[i] == 0.0 {
@@ -211,7 +215,9 @@ impl DemEngine {
             Stream::Coupled(coupled) if !held => {
                 let mut turned = coupled.step(&wet.taken, self.dt);
                 if looks {
-                    turned.lost += coupled.look(&self.grains.position, &self.grains.radius).lost;
+                    let seconds = EVERY as f64 * self.dt;
+                    let mixed = coupled.look(&self.grains.position, &self.grains.radius, seconds);
+                    (turned.work, turned.lost) = (turned.work + mixed.work, turned.lost + mixed.lost);
                 }
                 ledger.post(Account::StreamWork, turned.work);
                 ledger.post(Account::StreamFriction, turned.lost);

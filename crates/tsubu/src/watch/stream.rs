@@ -12,6 +12,7 @@ and of the whole
 discharge         of water per width of a stream; of a column per plan area     [m^2/s] or [m/s]
 mean velocity     discharge over the depth of water, sum of shares times thickness [m/s]
 shear velocity    sqrt(stress at the bottom over density), of a stream          [m/s]
+level             height z where a stream ends: its lid, or its free surface    [m]
 Limits: as those of the layers; velocities are those of the last step, shares are measured every 50 steps.";
 
 /// Reads the layers of the water.
@@ -32,8 +33,8 @@ impl Watch for Layered {
 
     fn scalars(&self) -> Vec<String> {
         let discharge = if self.along { "discharge [m^2/s]" } else { "discharge [m/s]" };
-        let rest = ["mean velocity [m/s]", "shear velocity [m/s]"];
-        [discharge].into_iter().chain(rest.into_iter().take(if self.along { 2 } else { 1 })).map(String::from).collect()
+        let rest = ["mean velocity [m/s]", "shear velocity [m/s]", "level [m]"];
+        [discharge].into_iter().chain(rest.into_iter().take(if self.along { 3 } else { 1 })).map(String::from).collect()
     }
 
     fn sheet(&self) -> Option<Sheet> {
@@ -53,7 +54,7 @@ impl Watch for Layered {
         let depth: f64 = layers.open.iter().map(|open| open * layers.thickness).sum();
         let mean = (0..layers.len()).map(|k| velocity(k) * layers.open[k] * layers.thickness).sum::<f64>() / depth;
         let scalars = match stream {
-            Stream::Coupled(coupled) => vec![coupled.discharge(), mean, coupled.bottom_shear_velocity()],
+            Stream::Coupled(coupled) => vec![coupled.discharge(), mean, coupled.bottom_shear_velocity(), layers.top()],
             Stream::Column { velocity, .. } => vec![*velocity, mean],
             Stream::Still | Stream::LogLaw { .. } | Stream::Table { .. } => Vec::new(),
         };

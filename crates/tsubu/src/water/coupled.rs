@@ -13,12 +13,16 @@
 //! with Prandtl's mixing length l, which grains shorten (Li and Sawamoto 1995) and the surface, where s = S, ends: without grains
 //! the log law over the whole depth. Between two middles l grows nearly evenly, so the difference of U is dU/dz times h over the
 //! logarithmic mean of l: with it the discrete stream has the log law without error. The bottom drags with
-//! rho (0.40 / ln(Z0/z0))^2 U0^2 at the lowest middle Z0, z0 = k exp(-8.5 x 0.40) (Nikuradse 1933). The top is a lid
-//! without stress. Stresses are taken at the end of the step, with the viscosity of its begin. Over a rough bottom the log law
+//! rho (0.40 / ln(Z0/z0))^2 U0^2 at the lowest middle Z0, z0 = k exp(-8.5 x 0.40) (Nikuradse 1933). The top, a lid or
+//! a free surface, has no stress. Stresses are taken at the end of the step, with the viscosity of its begin. Over a rough bottom the log law
 //! has the viscosity in it already, so the two kinds of stress are not added.
 //!
 //! Grains read the velocity that the last two steps foretell for the end of the present one: with the old one the books of
 //! energy would be of first order in the step.
+
+mod level;
+
+pub use level::Top;
 
 use super::Layers;
 use super::stream::{CONSTANT, PER_DECADE};
@@ -40,7 +44,7 @@ pub(crate) const EVERY: u64 = 50;
 pub struct Turnover {
     /// Work of what drives it [J].
     pub work: f64,
-    /// Lost in its own stress and at the bottom [J].
+    /// Lost in its own stress, at the bottom and in mixing [J].
     pub lost: f64,
 }
 
@@ -55,13 +59,18 @@ pub struct Coupled {
     ahead: Vec<f64>,
     /// Force of the water on the grains of every layer at the last time level, along x [N].
     taken: Vec<f64>,
+    /// U* of the turbulent stress in every layer [m/s].
+    turbulent: Vec<f64>,
+    /// What ends it above.
+    top: Top,
+    /// Volume of water over the plan area that a free surface keeps [m].
+    volume: f64,
     density: f64,
     viscosity: f64,
     /// Height above the bottom where the log law is zero [m].
     rough: f64,
     /// What drives it [m/s^2].
     drive: f64,
-    discharge: Option<f64>,
     /// Impulses since time 0 [N.s]: of the drive, of the bottom, on the grains.
     pub impulses: [f64; 3],
     // Scratch.
@@ -83,8 +92,8 @@ pub struct Setting {
     pub gravity: f64,
     /// U* that the drive would hold without grains [m/s].
     pub shear_velocity: Option<f64>,
-    /// Discharge per width that is held [m^2/s].
-    pub discharge: Option<f64>,
+    /// What ends it above.
+    pub top: Top,
     /// Whether it begins at rest.
     pub still: bool,
 }
@@ -99,19 +108,20 @@ impl Coupled {
     pub fn new(layers: Layers, setting: &Setting) -> Self {
         let n = layers.len();
         let depth = n as f64 * layers.thickness;
+        // What holds a discharge is found step by step; the slope, if there is one, drives as well.
         let drive = setting.shear_velocity.map_or(setting.gravity, |shear| shear * shear / depth);
         let rough = setting.roughness * (-CONSTANT * karman()).exp();
-        // What holds a discharge is found step by step; the slope, if there is one, drives as well.
-        let drive = if setting.discharge.is_some() { setting.gravity } else { drive };
         let mut stream = Self {
             velocity: vec![0.0; n],
             ahead: vec![0.0; n],
             taken: vec![0.0; n],
+            turbulent: vec![0.0; n],
+            top: setting.top,
+            volume: layers.volume(),
             density: setting.density,
             viscosity: setting.viscosity,
             rough,
             drive,
-            discharge: setting.discharge,
             impulses: [0.0; 3],
             next: vec![0.0; n],
             upper: vec![0.0; n],
@@ -135,7 +145,7 @@ impl Coupled {
         };
         let shape: Vec<f64> = (0..n).map(law).collect();
         let through: f64 = shape.iter().zip(&self.layers.open).map(|(u, e)| u * e * h).sum();
-        let scale = match self.discharge {
+        let scale = match self.top.discharge() {
             Some(discharge) if through > 0.0 => discharge / through,
             _ => (self.drive.max(0.0) * (n - bed) as f64 * h).sqrt(),
         };
@@ -143,11 +153,14 @@ impl Coupled {
             *velocity = scale * u;
         }
         self.ahead.copy_from_slice(&self.velocity);
+        self.stiffness();
+        self.feel_turbulence();
     }
 
     /// Makes room for grains before anything moves.
     pub fn make_room(&mut self, position: &[DVec3], radius: &[f64]) {
         self.layers.open = self.layers.measure(position, radius);
+        self.volume = self.layers.volume();
         if self.velocity.iter().any(|u| *u != 0.0) {
             self.begin();
         }
@@ -155,7 +168,7 @@ impl Coupled {
 
     /// Mass of the water in layer `k` over the plan area [kg/m^2].
     fn mass(&self, k: usize) -> f64 {
-        self.density * self.layers.open[k] * self.layers.thickness
+        self.density * self.layers.water(k)
     }
 
     /// Momentum of the stream along x [N.s].
@@ -176,13 +189,22 @@ impl Coupled {
 
     /// Discharge of water per width [m^2/s].
     pub fn discharge(&self) -> f64 {
-        let parts = self.velocity.iter().zip(&self.layers.open).map(|(u, e)| u * e * self.layers.thickness);
-        parts.sum()
+        self.velocity.iter().enumerate().map(|(k, u)| u * self.layers.water(k)).sum()
     }
 
     /// U* at the bottom, from its stress [m/s].
     pub fn bottom_shear_velocity(&self) -> f64 {
         self.bottom_factor().sqrt() * self.velocity[0].abs()
+    }
+
+    /// U* of the turbulent stress in every layer: what its fluctuation is measured by [m/s].
+    pub fn turbulence(&self) -> &[f64] {
+        &self.turbulent
+    }
+
+    /// Largest of it [m/s].
+    pub fn most_turbulent(&self) -> f64 {
+        self.turbulent.iter().copied().fold(0.0, f64::max)
     }
 
     /// (0.40 / ln(Z0/z0))^2 of the lowest middle; a bottom rougher than the layer is thick is as rough as that.
@@ -244,15 +266,15 @@ impl Coupled {
         }
         std::mem::swap(&mut self.velocity, &mut self.next);
         self.taken.copy_from_slice(taken);
+        self.feel_turbulence();
         turnover
     }
 
     /// Adds what the held discharge misses to all layers alike [m/s].
     fn hold(&mut self) -> f64 {
-        let Some(wanted) = self.discharge else { return 0.0 };
-        let (h, open) = (self.layers.thickness, &self.layers.open);
-        let now: f64 = self.next.iter().zip(open).map(|(u, e)| u * e * h).sum();
-        let missing = (wanted - now) / (h * open.iter().sum::<f64>());
+        let Top::Lid { discharge: Some(wanted) } = self.top else { return 0.0 };
+        let now: f64 = self.next.iter().enumerate().map(|(k, u)| u * self.layers.water(k)).sum();
+        let missing = (wanted - now) / self.layers.volume();
         for u in &mut self.next {
             *u += missing;
         }
@@ -281,35 +303,21 @@ impl Coupled {
         }
     }
 
-    /// Looks where the grains are. Water makes way for them along z and takes its momentum with it.
-    #[expect(clippy::needless_range_loop, reason = "a grid: all columns at the same index")]
-    pub fn look(&mut self, position: &[DVec3], radius: &[f64]) -> Turnover {
-        let open = self.layers.measure(position, radius);
-        let before = self.energy();
-        let scale = self.density * self.layers.thickness;
-        let mut momentum: Vec<f64> = (0..open.len()).map(|k| self.mass(k) * self.velocity[k]).collect();
-        // Volume over area and thickness that goes up through the upper face of each layer.
-        let mut up = 0.0;
-        for k in 0..open.len() {
-            up += self.layers.open[k] - open[k];
-            if k + 1 < open.len() {
-                let carried = scale * up * self.velocity[if up > 0.0 { k } else { k + 1 }];
-                momentum[k] -= carried;
-                momentum[k + 1] += carried;
+    /// U* of the turbulent stress in every layer, the mean of those at its faces. Where viscosity has the stress, as among grains
+    /// of a bed, there is no turbulence.
+    fn feel_turbulence(&mut self) {
+        let n = self.layers.len();
+        let viscous = self.density * self.viscosity / self.layers.thickness;
+        let mut below = self.bottom_shear_velocity();
+        for k in 0..n {
+            let above = if k + 1 < n && self.stiff[k] > viscous {
+                (self.stiff[k] / self.density * (self.velocity[k + 1] - self.velocity[k]).abs()).sqrt()
             } else {
-                // Grains that came or went have moved the lid's water: it goes with the velocity of the top.
-                let carried = scale * up * self.velocity[k];
-                momentum[k] -= carried;
-                self.impulses[0] -= carried * self.layers.area;
-            }
+                0.0
+            };
+            self.turbulent[k] = 0.5 * (below + above);
+            below = above;
         }
-        self.layers.open = open;
-        for k in 0..momentum.len() {
-            let now = momentum[k] / self.mass(k);
-            self.ahead[k] += now - self.velocity[k];
-            self.velocity[k] = now;
-        }
-        Turnover { work: 0.0, lost: before - self.energy() }
     }
 
     pub(super) fn save(&self, state: &mut State) {
@@ -317,21 +325,26 @@ impl Coupled {
         values.extend(&self.ahead);
         values.extend(&self.layers.open);
         values.extend(&self.taken);
+        values.extend(&self.turbulent);
         values.extend(self.impulses);
+        values.extend([self.layers.thickness, self.volume]);
         state.put_real("water.stream", values);
     }
 
     pub(super) fn load(&mut self, state: &State) -> Result<(), MissingSection> {
         let values = state.real("water.stream")?;
         let n = self.layers.len();
-        if values.len() != 4 * n + 3 {
+        if values.len() != 5 * n + 5 {
             return Err(MissingSection { name: "water.stream".to_owned(), kind: "real" });
         }
-        self.velocity.copy_from_slice(&values[..n]);
-        self.ahead.copy_from_slice(&values[n..2 * n]);
-        self.layers.open.copy_from_slice(&values[2 * n..3 * n]);
-        self.taken.copy_from_slice(&values[3 * n..4 * n]);
-        self.impulses.copy_from_slice(&values[4 * n..]);
+        let (layers, rest) = values.split_at(5 * n);
+        let columns =
+            [&mut self.velocity, &mut self.ahead, &mut self.layers.open, &mut self.taken, &mut self.turbulent];
+        for (column, values) in columns.into_iter().zip(layers.chunks_exact(n)) {
+            column.copy_from_slice(values);
+        }
+        self.impulses.copy_from_slice(&rest[..3]);
+        (self.layers.thickness, self.volume) = (rest[3], rest[4]);
         Ok(())
     }
 }
@@ -346,93 +359,4 @@ fn logarithmic_mean(a: f64, b: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn stream(layers: usize, still: bool) -> Coupled {
-        let setting = Setting {
-            density: 1000.0,
-            viscosity: 1e-6,
-            roughness: 2e-3,
-            gravity: 0.49,
-            shear_velocity: None,
-            discharge: None,
-            still,
-        };
-        Coupled::new(Layers::new(0.0, 0.02, layers, 1e-3), &setting)
-    }
-
-    /// Begun at rest, the empty stream becomes the log law of U* = sqrt(a H), within 1 % in every layer, for any layers: what
-    /// viscosity takes near the bottom is in that. With the plain mean of the mixing lengths it would miss more.
-    #[test]
-    fn the_empty_stream_is_the_log_law() {
-        for layers in [5, 20, 80] {
-            let mut stream = stream(layers, true);
-            let none = vec![0.0; layers];
-            for _ in 0..40_000 {
-                stream.step(&none, 1e-3);
-            }
-            let shear = (0.49f64 * 0.02).sqrt();
-            for k in 0..layers {
-                let z = stream.layers.middle(k);
-                let law = shear * (8.5 + 5.75 * (z / 2e-3).log10());
-                assert!((stream.velocity[k] / law - 1.0).abs() < 0.01, "{layers} {k}: {} {law}", stream.velocity[k]);
-            }
-            assert!((stream.bottom_shear_velocity() / shear - 1.0).abs() < 1e-3);
-        }
-        assert!((0.5 * (1.0 + 3.0) / logarithmic_mean(1.0, 3.0) - 1.0).abs() > 0.05);
-    }
-
-    /// Momentum of the water: what the drive gave less what the bottom and the grains took, to round-off, also while grains
-    /// that take from it sink through it; energy: what the drive did less what is lost and given.
-    #[test]
-    fn momentum_and_energy_close() {
-        let mut stream = stream(20, false);
-        let (momentum, energy) = (stream.momentum(), stream.energy());
-        let (mut books, mut given) = (Turnover::default(), 0.0);
-        let dt = 1e-4;
-        for step in 0..2000 {
-            let z = 0.018 - 1e-5 * f64::from(step);
-            if step % 10 == 0 {
-                let turned = stream.look(&[DVec3::new(0.0, 0.0, z.max(2e-3))], &[1.5e-3]);
-                books.lost += turned.lost;
-            }
-            let mut taken = vec![0.0; 20];
-            taken[8] = 1e-4 * (f64::from(step) * 0.01).sin().abs();
-            let old = stream.velocity[8];
-            let before = stream.taken[8];
-            let turned = stream.step(&taken, dt);
-            given += 0.5 * dt * (before + taken[8]) * 0.5 * (old + stream.velocity[8]);
-            books.work += turned.work;
-            books.lost += turned.lost;
-        }
-        let [drive, bottom, grains] = stream.impulses;
-        let missing = stream.momentum() - momentum - drive - bottom + grains;
-        assert!(missing.abs() < 1e-12 * stream.momentum(), "{missing:e}");
-        let missing = stream.energy() - energy - books.work + books.lost + given;
-        assert!(missing.abs() < 1e-10 * stream.energy(), "{missing:e}");
-        assert!(grains > 0.0 && bottom < 0.0 && books.lost > 0.0);
-    }
-
-    /// A held discharge is held, also from rest.
-    #[test]
-    fn a_discharge_is_held() {
-        let setting = Setting {
-            density: 1000.0,
-            viscosity: 1e-6,
-            roughness: 2e-3,
-            gravity: 0.0,
-            shear_velocity: None,
-            discharge: Some(0.02),
-            still: true,
-        };
-        let mut stream = Coupled::new(Layers::new(0.0, 0.02, 20, 1e-3), &setting);
-        for _ in 0..10_000 {
-            stream.step(&[0.0; 20], 1e-3);
-        }
-        assert!((stream.discharge() - 0.02).abs() < 1e-12);
-        let shape = stream.velocity[19] / stream.velocity[0];
-        let law = |z: f64| 8.5 + 5.75 * (z / 2e-3).log10();
-        assert!((shape / (law(0.0195) / law(0.0005)) - 1.0).abs() < 0.01, "{shape}");
-    }
-}
+mod tests;

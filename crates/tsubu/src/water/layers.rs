@@ -42,6 +42,21 @@ impl Layers {
         self.bottom + (k as f64 + 0.5) * self.thickness
     }
 
+    /// Height where they end [m].
+    pub fn top(&self) -> f64 {
+        self.bottom + self.len() as f64 * self.thickness
+    }
+
+    /// Volume of water in layer `k` over the plan area [m].
+    pub fn water(&self, k: usize) -> f64 {
+        self.open[k] * self.thickness
+    }
+
+    /// Volume of water in all of them over the plan area [m].
+    pub fn volume(&self) -> f64 {
+        (0..self.len()).map(|k| self.water(k)).sum()
+    }
+
     /// Finds for every grain of a parcel the two layers whose middles are below and above it, and the share of the upper one;
     /// beyond the outer middles the outer layer alone. What a grain reads with these shares it also gives back with them.
     pub(super) fn find(&self, parcel: &mut Parcel) {

@@ -21,7 +21,7 @@ mod stream;
 mod torque;
 
 pub(crate) use coupled::EVERY;
-pub use coupled::{Coupled, Turnover};
+pub use coupled::{Coupled, Top, Turnover};
 pub use fluctuation::{ABOUT as ABOUT_FLUCTUATION, Fluctuation, Gust};
 pub use layers::Layers;
 pub use parcel::{Flows, Parcel};
@@ -44,8 +44,8 @@ pub struct Water {
     pub density: f64,
     /// Kinematic viscosity [m^2/s].
     pub viscosity: f64,
-    /// Height up to which there is water [m]; infinite where there is no surface.
-    pub surface: f64,
+    /// Height up to which there is water [m], where no surface finds its level; infinite where there is none.
+    surface: f64,
     /// Added mass over the mass of displaced water [-].
     pub added_mass: f64,
     /// How it moves.
@@ -78,9 +78,8 @@ impl Water {
             parts.push(Box::new(Torque::new(plan)));
         }
         let stream = Stream::new(plan, gravity.x);
-        let shear_velocity = stream.shear_velocity().unwrap_or_default();
         Self {
-            fluctuation: plan.fluctuation.as_ref().map(|told| Fluctuation::new(told, shear_velocity)),
+            fluctuation: plan.fluctuation.as_ref().map(Fluctuation::new),
             density: plan.density,
             viscosity: plan.viscosity,
             surface: plan.surface.unwrap_or(f64::INFINITY),
@@ -108,10 +107,18 @@ impl Water {
         self.parts.iter().map(|part| &**part)
     }
 
+    /// Height up to which there is water [m]; infinite where there is no surface.
+    pub fn surface(&self) -> f64 {
+        match &self.stream {
+            Stream::Coupled(coupled) if coupled.is_free() => coupled.layers.top(),
+            _ => self.surface,
+        }
+    }
+
     /// Mass of water that moves along with a grain of this radius [m] when it is at `height` z [m]: C rho V, V what is under
     /// water [kg].
     pub fn added_mass(&self, radius: f64, height: f64) -> f64 {
-        self.added_mass * self.density * sphere::volume(radius) * sphere::below((self.surface - height) / radius)
+        self.added_mass * self.density * sphere::volume(radius) * sphere::below((self.surface() - height) / radius)
     }
 
     /// Drag of a sphere of this radius [m] in water that passes it at `speed` [m/s]: the size of all forces that go with the
@@ -151,18 +158,19 @@ impl Water {
     /// Fastest water that grains of this diameter [m] meet: at the surface, or ten diameters above the bed [m/s].
     pub fn fastest(&self, diameter: f64) -> f64 {
         // A normal number is rarely beyond two.
-        self.stream.fastest(self.surface, diameter) + 2.0 * self.fluctuation.map_or(0.0, |fluctuation| fluctuation.rms)
+        let gust = self.fluctuation.map_or(0.0, |fluctuation| fluctuation.strength * self.stream.most_turbulent());
+        self.stream.fastest(self.surface(), diameter) + 2.0 * gust
     }
 
     /// Whether what moves along with a grain depends on where the grain is.
     pub fn has_surface(&self) -> bool {
-        self.surface.is_finite()
+        self.surface().is_finite()
     }
 
     /// Forces and torques on the grains of a parcel, whose place, motion and size are filled in; adds their flows to `flows`.
     /// In water that is held still (while grains settle before time 0) nothing flows.
     pub fn act(&self, parcel: &mut Parcel, flows: &mut Flows, held: bool) {
-        parcel.begin(self.surface);
+        parcel.begin(self.surface());
         if self.turns {
             parcel.begin_turning();
         }
@@ -172,7 +180,8 @@ impl Water {
         if !held {
             self.stream.fill(parcel, self.crowd, self.turns);
             if let Some(fluctuation) = &self.fluctuation {
-                parcel.fluctuate(fluctuation.rms);
+                self.stream.fill_turbulence(parcel);
+                parcel.fluctuate(fluctuation.strength);
             }
         }
         parcel.slip();

@@ -24,8 +24,10 @@ pub struct Parcel {
     /// Spin [rad/s].
     pub spin: [Column; 3],
 
-    /// Fluctuation of the water in units of its root-mean-square [-]; where there is one.
+    /// Fluctuation of the water, where there is one: in units of its root-mean-square [-], and once it flows in m/s.
     pub gust: [Column; 3],
+    /// Shear velocity of the turbulence around the grain [m/s]; where there is a fluctuation.
+    pub turbulence: Column,
 
     /// Share of the grain that is under water [-].
     pub wet: Column,
@@ -71,6 +73,9 @@ pub struct Flows {
     pub stream: f64,
     /// Power of its spin: torques times it [W]. No stream is charged with it: what turns grains is below what layers know.
     pub spun: f64,
+    /// Power of the fluctuation in a stream that is part of the system: forces times it [W]. Turbulence has it from what the
+    /// stream loses in its stress.
+    pub gust: f64,
     /// Power lost: forces and torques times the motion of the water relative to the grains [W].
     pub lost: f64,
     /// Power that goes to those who hold or drive grains which forces do not move [W].
@@ -86,6 +91,7 @@ impl Flows {
         self.carried += other.carried;
         self.stream += other.stream;
         self.spun += other.spun;
+        self.gust += other.gust;
         self.lost += other.lost;
         self.held += other.held;
         self.force += other.force;
@@ -95,6 +101,7 @@ impl Flows {
     pub(crate) fn add_fixed(&mut self, other: &Self) {
         self.carried += other.carried;
         self.spun += other.spun;
+        self.gust += other.gust;
         self.lost += other.lost;
         self.held += other.pressure + other.stream + other.spun - other.lost;
     }
@@ -109,6 +116,7 @@ impl Default for Parcel {
             velocity: VECTOR,
             spin: VECTOR,
             gust: VECTOR,
+            turbulence: ZERO,
             wet: ZERO,
             volume: ZERO,
             layer: [0; ROWS],
@@ -170,13 +178,20 @@ impl Parcel {
 
     /// Adds the fluctuation to a stream along x. It is not stronger than the stream itself: among the grains of a bed, where
     /// the stream ends, it ends too.
-    pub(super) fn fluctuate(&mut self, rms: f64) {
+    pub(super) fn fluctuate(&mut self, strength: f64) {
         for i in 0..self.rows() {
-            let rms = rms.min(self.flow[0][i].abs());
-            for (flow, gust) in self.flow.iter_mut().zip(&self.gust) {
-                flow[i] += rms * gust[i];
+            let rms = (strength * self.turbulence[i]).min(self.flow[0][i].abs());
+            for (flow, gust) in self.flow.iter_mut().zip(&mut self.gust) {
+                gust[i] *= rms;
+                flow[i] += gust[i];
             }
         }
+    }
+
+    /// Power of the fluctuation: all forces times it [W].
+    pub(crate) fn gust_power(&self) -> f64 {
+        let row = |i: usize| (0..3).map(|k| self.total[k][i] * self.gust[k][i]).sum::<f64>();
+        (0..self.rows()).map(row).sum()
     }
 
     /// The motion of the water relative to the grains.

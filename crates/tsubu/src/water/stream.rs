@@ -1,13 +1,13 @@
 //! How the water moves: a velocity that depends on the height.
 
-use super::coupled::{Coupled, Setting};
+use super::coupled::{Coupled, Setting, Top};
 use super::logarithm::ln;
 use super::{Layers, Parcel};
 use multiversion::multiversion;
 use std::f64::consts::LN_10;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
-use tsubu_scene::plan::{Flow, StreamStart, Water};
+use tsubu_scene::plan::{Flow, Lid, StreamStart, Water};
 
 /// Slope and constant of the log law, U = U* (8.5 + 5.75 log10(Z/k)).
 pub(super) const CONSTANT: f64 = 8.5;
@@ -55,14 +55,18 @@ impl Stream {
                 Self::LogLaw { shear_velocity, roughness, zero_level }
             }
             Flow::Table { height, velocity } => Self::Table { height, velocity },
-            Flow::Coupled { bottom, top, layers, area, roughness, shear_velocity, discharge, start } => {
+            Flow::Coupled { bottom, top, layers, area, roughness, shear_velocity, discharge, lid, reach, start } => {
+                let end = match lid {
+                    Lid::Rigid => Top::Lid { discharge },
+                    Lid::Free => Top::Free { supply: discharge.zip(reach) },
+                };
                 let setting = Setting {
                     density: plan.density,
                     viscosity: plan.viscosity,
                     roughness,
                     gravity,
                     shear_velocity,
-                    discharge,
+                    top: end,
                     still: start == StreamStart::Still,
                 };
                 Self::Coupled(Box::new(Coupled::new(Layers::new(bottom, top, layers, area), &setting)))
@@ -125,6 +129,27 @@ impl Stream {
                     parcel.flow_spin[1][i] = 0.5 * (ahead[k + 1] - ahead[k]) / coupled.layers.thickness;
                 }
             }
+        }
+    }
+
+    /// Shear velocity of the turbulence around the grains of a parcel.
+    pub(super) fn fill_turbulence(&self, parcel: &mut Parcel) {
+        let n = parcel.rows();
+        if let Self::Coupled(coupled) = self {
+            for i in 0..n {
+                parcel.turbulence[i] = parcel.read(coupled.turbulence(), i);
+            }
+        } else {
+            parcel.turbulence[..n].fill(self.most_turbulent());
+        }
+    }
+
+    /// Largest shear velocity of its turbulence [m/s].
+    pub(super) fn most_turbulent(&self) -> f64 {
+        match self {
+            Self::LogLaw { shear_velocity, .. } => *shear_velocity,
+            Self::Coupled(coupled) => coupled.most_turbulent(),
+            Self::Still | Self::Table { .. } | Self::Column { .. } => 0.0,
         }
     }
 

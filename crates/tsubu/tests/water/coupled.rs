@@ -8,7 +8,7 @@ use tsubu::view::Wants;
 use tsubu::water::{Coupled, Layers, Stream};
 
 /// A flume without end: a glued row, a bed of 96 grains, a stream down a slope that carries some of them.
-const FLUME: &str = r#"
+pub const FLUME: &str = r#"
 slope = "3 deg"
 duration = "1 s"
 speed-scale = "0.4 m/s"
@@ -36,7 +36,7 @@ flow.coupled = { bottom = 0, top = "30 mm" }
 "#;
 
 /// The stream of a scene.
-fn stream(engine: &dyn Engine) -> Coupled {
+pub fn stream(engine: &dyn Engine) -> Coupled {
     let view = engine.view(Wants::GRAINS);
     match &view.water.unwrap().stream {
         Stream::Coupled(coupled) => (**coupled).clone(),

@@ -1,6 +1,7 @@
 //! Turbulence as a grain on its way sees it.
 
 use super::GRAIN;
+use super::coupled::{FLUME, stream};
 use crate::dem::open_text;
 use std::f64::consts::{FRAC_PI_2, PI};
 use tsubu::engine;
@@ -15,7 +16,7 @@ const TIME: f64 = 0.05;
 const INTERVAL: f64 = PI * PI / 8.0 * TIME;
 
 fn told() -> Fluctuation {
-    Fluctuation::new(&plan::Fluctuation { strength: 1.0, time: TIME }, 0.1)
+    Fluctuation::new(&plan::Fluctuation { strength: 1.0, time: TIME })
 }
 
 fn at(id: u32, time: f64) -> [f64; 3] {
@@ -115,6 +116,58 @@ fn small_grains_take_part() {
     assert_eq!(spread(0.0), [(0.0, 0.0); 2]);
 }
 
+/// In a coupled stream small grains take part with the shear velocity of their own height, sqrt(1 - z/h) of that of the bottom, in
+/// each direction; that of the bottom would be refused near the surface.
+#[test]
+fn the_strength_is_that_of_the_layer() {
+    let places: Vec<String> =
+        (0..400).map(|k| format!("[{},0,{}]", f64::from(k) * 1e-3, if k % 2 == 0 { 0.2 } else { 0.8 })).collect();
+    let changes = [
+        format!("particles.grain.start.at.position=[{}]", places.join(",")),
+        "particles.grain.diameter=1e-4".to_owned(),
+        "gravity=0".to_owned(),
+        "water.density=2650".to_owned(),
+        "water.float=true".to_owned(),
+        "water.flow.coupled={bottom=0,top=1,layers=20,area=1,roughness=2e-3,shear-velocity=0.01}".to_owned(),
+        "water.fluctuation={strength=1.5,time='50 ms'}".to_owned(),
+        "speed-scale=0.1".to_owned(),
+    ];
+    let (mut engine, mut hosts, mut ledger) = open_text(GRAIN, &changes.each_ref().map(String::as_str));
+    engine.advance((0.1 / engine.time_step()) as u64, &mut hosts, &mut ledger).unwrap();
+    let view = engine.view(Wants::GRAINS);
+    let rms = |high: bool, axis: usize| {
+        let ours = view.grains.velocity.iter().zip(view.grains.position.iter()).filter(|(_, p)| (p.z > 0.5) == high);
+        let v: Vec<f64> = ours.map(|(v, _)| v[axis]).collect();
+        let mean = v.iter().sum::<f64>() / v.len() as f64;
+        (v.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / v.len() as f64).sqrt()
+    };
+    for axis in 0..3 {
+        for (high, z) in [(false, 0.2), (true, 0.8)] {
+            let found = rms(high, axis) / (0.015 * f64::sqrt(1.0 - z));
+            assert!((found - 1.0).abs() < 0.15, "{axis} {z}: {found}");
+        }
+        assert!((rms(true, axis) / 0.015 - 1.0).abs() > 0.15);
+    }
+}
+
+/// A flume with a free surface whose stream fluctuates as fast as it flows: momentum to 1e-12, energy to 1e-3.
+#[test]
+fn books_close_in_turbulence() {
+    let changes =
+        ["water.fluctuation={strength=3,time='20 ms'}", "water.flow.coupled={bottom=0,top='30 mm',lid='free'}"];
+    let (mut engine, mut hosts, mut ledger) = open_text(FLUME, &changes);
+    let begin = stream(&*engine).momentum();
+    engine.advance(4000, &mut hosts, &mut ledger).unwrap();
+    let stream = stream(&*engine);
+    let [drive, bottom, grains] = stream.impulses;
+    let missing = stream.momentum() - begin - drive - bottom + grains;
+    assert!(missing.abs() < 1e-12 * stream.momentum(), "{missing:e}");
+    let missing = ledger.momentum_residual(engine.momentum());
+    assert!(missing[0].abs() < 1e-12 * stream.momentum(), "{missing:?}");
+    let missing = ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs();
+    assert!(missing < 1e-3, "{missing:e}");
+}
+
 /// 2,500 grains, enough for threads to be worth it, in a stream that draws anew every 2.5 ms.
 const MANY: &str = r#"
 gravity = 10
@@ -168,9 +221,14 @@ fn hash(changes: &[&str], threads: usize, resume: bool) -> String {
 /// interrupted; another seed is other water.
 #[test]
 fn threads_and_resume_change_no_bit() {
+    let coupled =
+        "water.flow={coupled={bottom=0,top='80 mm',area='80 mm^2',shear-velocity=0.1,roughness='1 mm',lid='free'}}";
     let one = hash(&[], 1, false);
-    for (threads, resume) in [(2, false), (7, false), (2, true)] {
-        assert_eq!(one, hash(&[], threads, resume), "{threads} {resume}");
+    for changes in [&[] as &[&str], &[coupled]] {
+        let one = hash(changes, 1, false);
+        for (threads, resume) in [(2, false), (7, false), (2, true)] {
+            assert_eq!(one, hash(changes, threads, resume), "{threads} {resume}");
+        }
     }
     assert_ne!(one, hash(&["seed=2"], 1, false));
 }

@@ -4,6 +4,7 @@ mod coupled;
 mod film;
 mod float;
 mod fluctuation;
+mod free;
 mod lift;
 mod rise;
 mod settle;

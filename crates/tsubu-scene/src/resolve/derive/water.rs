@@ -54,26 +54,37 @@ impl Derive<'_> {
             return;
         }
         let place = self.root.locate(&path);
+        let along = gravity_along(resolved);
         let Some(water) = resolved.get_mut("water").and_then(Value::as_table_mut) else { return };
-        let Some(law) = water.get("flow").and_then(|flow| flow.get("log-law")).and_then(Value::as_table) else {
+        let number = |table: &toml::Table, key: &str| table.get(key).and_then(Value::as_float);
+        let law = |name: &str| water.get("flow")?.get(name)?.as_table();
+        let (shear, depth) = if let Some(law) = law("log-law") {
+            let shear = number(law, "shear-velocity");
+            (shear, number(law, "zero-level").zip(number(water, "surface")).map(|(level, surface)| surface - level))
+        } else if let Some(law) = law("coupled") {
+            let depth = number(law, "bottom").zip(number(law, "top")).map(|(bottom, top)| top - bottom);
+            let driven = || depth.filter(|_| along > 0.0).map(|depth| (along * depth).sqrt());
+            let carried = || {
+                let (depth, k) = (depth?, number(law, "roughness")?);
+                Some(number(law, "discharge")? / mean_speed(depth / k) / depth)
+            };
+            (number(law, "shear-velocity").or_else(driven).or_else(carried), depth)
+        } else {
             let flow = self.root.locate(&["water", "flow"]);
             self.complain(
-                Complaint::new("only a log-law stream fluctuates")
+                Complaint::new("only a log-law or coupled stream fluctuates")
                     .at(&place, "its strength is a share of the shear velocity")
-                    .also(&flow, "without `log-law`")
+                    .also(&flow, "without `log-law` or `coupled`")
                     .hint("leave `fluctuation` out, or write flow.log-law = { shear-velocity = \"0.1 m/s\" }"),
             );
             return;
         };
-        let number = |table: &toml::Table, key: &str| table.get(key).and_then(Value::as_float);
-        let stream = number(law, "shear-velocity").zip(number(law, "zero-level"));
-        let depth = stream.and_then(|(_, level)| number(water, "surface").map(|surface| surface - level));
         let Some(told) = water.get_mut("fluctuation").and_then(Value::as_table_mut) else { return };
         if told.contains_key("time") || self.typed(&[path[0], path[1], "time"]) {
             return;
         }
-        match (depth.filter(|depth| *depth > 0.0), stream, number(told, "strength")) {
-            (Some(depth), Some((shear, _)), Some(strength)) => {
+        match (depth.filter(|depth| *depth > 0.0), shear, number(told, "strength")) {
+            (Some(depth), Some(shear), Some(strength)) => {
                 told.insert("time".into(), Value::Float(0.40 / 6.0 * depth / (strength * strength * shear)));
             }
             (None, Some(_), _) => self.complain(
@@ -90,13 +101,7 @@ impl Derive<'_> {
     fn stream(&mut self, resolved: &mut toml::Table) {
         let diameter = mean_diameter(resolved);
         self.layers(resolved, diameter);
-        let gravity: Vec<f64> = resolved
-            .get("gravity")
-            .and_then(Value::as_array)
-            .into_iter()
-            .flatten()
-            .filter_map(Value::as_float)
-            .collect();
+        let along = gravity_along(resolved);
         let Some(water) = resolved.get_mut("water").and_then(Value::as_table_mut) else { return };
         let path = ["water", "flow", "log-law"];
         let Some(law) = water.get_mut("flow").and_then(|flow| flow.get_mut("log-law")).and_then(Value::as_table_mut)
@@ -138,7 +143,6 @@ impl Derive<'_> {
         let found = match (number(law, "shear-velocity"), discharge, depth) {
             (None, Some(discharge), Some(depth)) => roughness.map(|k| discharge / mean_speed(depth / k) / depth),
             (None, None, Some(depth)) => {
-                let along = gravity.first().copied().unwrap_or(0.0);
                 // A slope that is wrong has its own complaint.
                 let steep = self.root.find(&["slope"]).is_some() && along == 0.0 && !self.complaints.is_empty();
                 if along <= 0.0 && !steep {
@@ -173,7 +177,8 @@ impl Derive<'_> {
             Some(ends.last()?.as_float()? - ends.first()?.as_float()?)
         };
         let across = if super::is_space(resolved) { length("y") } else { diameter };
-        let area = length("x").zip(across).map(|(a, b)| a * b);
+        let length_x = length("x");
+        let area = length_x.zip(across).map(|(a, b)| a * b);
         let root = self.root;
         let Some(water) = resolved.get_mut("water").and_then(Value::as_table_mut) else { return };
         let Some(flow) = water.get_mut("flow").and_then(Value::as_table_mut) else { return };
@@ -205,6 +210,13 @@ impl Derive<'_> {
             {
                 flow.insert("area".into(), Value::Float(area));
             }
+            let feeds = flow.get("lid").and_then(Value::as_str) == Some("free") && flow.contains_key("discharge");
+            if feeds
+                && !typed("reach")
+                && let Some(length) = length_x
+            {
+                flow.insert("reach".into(), Value::Float(length));
+            }
             let rough = kind == "coupled";
             if rough
                 && !typed("roughness")
@@ -216,6 +228,7 @@ impl Derive<'_> {
                 ("layers", true, "there are no grains to take them from"),
                 ("area", true, "the world is not periodic along x (and y)"),
                 ("roughness", rough, "there are no grains to take it from"),
+                ("reach", feeds, "the world is not periodic along x"),
             ] {
                 if wanted && !flow.contains_key(key) && !typed(key) {
                     self.complain(
@@ -230,6 +243,12 @@ impl Derive<'_> {
             return;
         }
     }
+}
+
+/// Gravity along x [m/s^2].
+fn gravity_along(resolved: &toml::Table) -> f64 {
+    let gravity = resolved.get("gravity").and_then(Value::as_array);
+    gravity.and_then(|gravity| gravity.first()?.as_float()).unwrap_or(0.0)
 }
 
 /// Mean over the depth of U/U* for a depth of `h` roughnesses: the integral of 8.5 + 5.75 log10(Z/k) from where it is zero.
