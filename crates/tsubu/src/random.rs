@@ -20,10 +20,14 @@ pub enum Purpose {
     Stream = 6,
     /// Turbulent fluctuation of the water around a grain.
     Fluctuation = 7,
+    /// Which way a lattice collision turns.
+    Turn = 8,
+    /// Where a force acts on a lattice gas.
+    Force = 9,
 }
 
-const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
-const WEYL: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
+pub(crate) const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
+pub(crate) const WEYL: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
 
 /// Philox4x32-10: ten rounds of the counter under the key.
 #[inline]
@@ -48,8 +52,13 @@ pub fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
 /// Four random words for one entity at one step.
 #[inline]
 pub fn words(seed: u64, purpose: Purpose, entity: u32, step: u64) -> [u32; 4] {
-    let key = [seed as u32, (seed >> 32) as u32 ^ ((purpose as u32) << 24)];
-    philox([entity, purpose as u32, step as u32, (step >> 32) as u32], key)
+    philox([entity, purpose as u32, step as u32, (step >> 32) as u32], key(seed, purpose))
+}
+
+/// The key of a stream of numbers.
+#[inline]
+pub(crate) fn key(seed: u64, purpose: Purpose) -> [u32; 2] {
+    [seed as u32, (seed >> 32) as u32 ^ ((purpose as u32) << 24)]
 }
 
 /// A number in [0, 1) from two words.

@@ -25,6 +25,7 @@ const CLOSED_FORMS: &[&str] = &[
     "q-model",
     "rebound-on-steel",
     "starts-to-roll",
+    "fhp-collisions",
     "contact-time",
     "damped-contact",
     "overlap-band",

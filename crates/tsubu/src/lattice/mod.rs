@@ -9,5 +9,6 @@ pub mod damper;
 pub mod direction;
 pub mod engine;
 pub mod fixed;
+pub mod gas;
 pub mod grid;
 pub mod start;

@@ -15,6 +15,7 @@ mod drum;
 mod held;
 mod host;
 mod impact_damper;
+mod lattice_review;
 mod lump;
 mod open_dem_benchmark;
 mod outlet;
@@ -109,6 +110,10 @@ pub static CASES: &[Case] = &[
     ),
     long("saltation-softest", "sediment-2004", "B-F6: the softest contacts", sediment_2004::softest),
     quick("saltation-spin", "sediment-2004", "B-F20, B-F21: the same with spin", sediment_2004::spinning),
+    quick("fhp-collisions", "lattice-review", "R-3.0: what collisions make of a stress", lattice_review::collisions),
+    quick("fhp-viscosity", "lattice-review", "R-3.0: viscosity of the lattice gases FHP", lattice_review::viscosity),
+    quick("fhp-sound", "lattice-review", "R-3.0: speed of sound of the lattice gases", lattice_review::sound),
+    quick("fhp-channel", "lattice-review", "R-3.0: flow in a channel, conservation", lattice_review::channel),
     long("beverloo", "dem-benchmarks", "V-31: discharge through a slot, in the plane", outlet::beverloo),
     long("janssen", "dem-benchmarks", "V-32: pressure in a silo, in the plane", silo::janssen),
     long("chute", "dem-benchmarks", "V-35, V-36: flow down a rough slope", chute::silbert),

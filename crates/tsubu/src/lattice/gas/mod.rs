@@ -1,0 +1,15 @@
+//! Lattice gases: particles of unit speed on the bonds of the triangular lattice, at most one for each direction of a site.
+//!
+//! [`bits`], [`chance`], [`collide`], [`step`] and [`planes`] are the gas of Frisch, Hasslacher and Pomeau (1986) in its three
+//! forms, 64 sites a word.
+
+#![expect(
+    clippy::inline_always,
+    reason = "what passes over a column calls has to be compiled for the instruction set of the pass"
+)]
+
+pub mod bits;
+pub mod chance;
+pub mod collide;
+pub mod planes;
+pub mod step;
