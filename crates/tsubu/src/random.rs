@@ -24,6 +24,10 @@ pub enum Purpose {
     Turn = 8,
     /// Where a force acts on a lattice gas.
     Force = 9,
+    /// Which way a grain or a void of a lattice model goes.
+    Side = 16,
+    /// Whether an outlet of a lattice model takes a grain.
+    Outlet = 17,
 }
 
 pub(crate) const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];

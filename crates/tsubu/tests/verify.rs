@@ -32,6 +32,9 @@ const CLOSED_FORMS: &[&str] = &[
     "pushed-row",
 ];
 
+/// Lattice models of beds and piles, the fast ones.
+const ON_LATTICES: &[&str] = &["litwiniszyn", "gutt-haff", "hemmingsson-herrmann"];
+
 /// Single grains and packed columns in water.
 const IN_WATER: &[&str] = &["settling", "released", "packed-column"];
 
@@ -39,7 +42,7 @@ const IN_WATER: &[&str] = &["settling", "released", "packed-column"];
 #[test]
 fn quick_cases_pass() {
     let others = ["restitution", "drop-dem", "drop-lattice", "lump", "figure-9", "bed-at-rest", "fluidised"];
-    for name in others.iter().chain(IN_WATER).chain(CLOSED_FORMS) {
+    for name in others.iter().chain(IN_WATER).chain(ON_LATTICES).chain(CLOSED_FORMS) {
         for case in chosen(&[(*name).to_owned()], false).unwrap() {
             for claim in case.claims().unwrap() {
                 assert!(
@@ -55,7 +58,7 @@ fn quick_cases_pass() {
 /// With the constants of the law changed by 5 % the study's claims fail.
 #[test]
 fn claims_can_fail() {
-    for name in ["restitution", "drop-dem", "drop-lattice"].iter().chain(IN_WATER) {
+    for name in ["restitution", "drop-dem", "drop-lattice"].iter().chain(IN_WATER).chain(ON_LATTICES) {
         let case = CASES.iter().find(|c| c.name == *name).unwrap();
         let claims = (case.run)(0.95).unwrap();
         assert!(claims.iter().any(|c| !c.pass), "{name}: nothing noticed a law wrong by 5 %");

@@ -1,14 +1,22 @@
-//! Cellular automata on a triangular lattice.
+//! Cellular automata on lattices.
 //!
-//! [`direction`], [`grid`] and [`fixed`] are the kit that any lattice model can use; [`damper`] is the automaton of
-//! Komatsuzaki, Sato, Iwata and Morishita (2003) for balls in a shaken box, one file per family of rules; [`engine`] runs it
-//! from a plan, together with the structure that carries the box.
+//! The kit: [`direction`], [`grid`] and [`fixed`] for the triangular lattice with gravity along one of its axes, [`sheet`] for
+//! lattices with level rows. [`damper`] is the automaton of Komatsuzaki, Sato, Iwata and Morishita (2003) for balls in a
+//! shaken box, one file per family of rules; [`engine`] runs it from a plan, together with the structure that carries the
+//! box. Models of beds and piles, a file each: [`litwiniszyn`] and [`caram_hong`] (voids that walk up), [`savage`] (a chute
+//! that sorts), [`gutt_haff`] (velocities and offsets on nodes), [`hemmingsson_herrmann`] (forces handed down). [`gas`] has the lattice gases.
 
 pub mod build;
+pub mod caram_hong;
 pub mod damper;
 pub mod direction;
 pub mod engine;
 pub mod fixed;
 pub mod gas;
 pub mod grid;
+pub mod gutt_haff;
+pub mod hemmingsson_herrmann;
+pub mod litwiniszyn;
+pub mod savage;
+pub mod sheet;
 pub mod start;

@@ -15,17 +15,21 @@ mod drum;
 mod held;
 mod host;
 mod impact_damper;
+mod lattice_grain;
 mod lattice_review;
 mod lump;
 mod open_dem_benchmark;
 mod outlet;
+mod pile_stress;
 mod random_loads;
 mod rolling;
 mod sediment_2004;
 mod shapes;
+mod sieving;
 mod silo;
 mod stack;
 mod throw;
+mod voids;
 mod water;
 
 use tsubu_frame::Claim;
@@ -114,6 +118,12 @@ pub static CASES: &[Case] = &[
     quick("fhp-viscosity", "lattice-review", "R-3.0: viscosity of the lattice gases FHP", lattice_review::viscosity),
     quick("fhp-sound", "lattice-review", "R-3.0: speed of sound of the lattice gases", lattice_review::sound),
     quick("fhp-channel", "lattice-review", "R-3.0: flow in a channel, conservation", lattice_review::channel),
+    quick("litwiniszyn", "lattice-review", "R-1: voids that walk up at random", voids::litwiniszyn_case),
+    quick("caram-hong", "lattice-review", "R-2: many voids, exclusion, a surface", voids::caram_hong_case),
+    quick("savage", "lattice-review", "R-3.3: a chute on the square lattice that sorts by size", sieving::chute),
+    quick("gutt-haff", "lattice-review", "R-4, A-F8: free fall, rebounds, momentum", lattice_grain::drop),
+    quick("gutt-haff-silo", "lattice-review", "R-4: load on the floor of a silo", lattice_grain::janssen),
+    quick("hemmingsson-herrmann", "lattice-review", "R-5: forces in a pile, row by row", pile_stress::pile),
     long("beverloo", "dem-benchmarks", "V-31: discharge through a slot, in the plane", outlet::beverloo),
     long("janssen", "dem-benchmarks", "V-32: pressure in a silo, in the plane", silo::janssen),
     long("chute", "dem-benchmarks", "V-35, V-36: flow down a rough slope", chute::silbert),

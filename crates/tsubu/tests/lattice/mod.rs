@@ -1,7 +1,8 @@
-//! The damper automaton, judged by its physics.
+//! The damper automaton, judged by its physics; models with one grain a site, by their invariants.
 
 mod books;
 mod coupling;
 mod free;
 mod plans;
 mod refusal;
+mod sites;
