@@ -23,7 +23,10 @@ pub use contact::{
 };
 pub use grains::{GrainMotion, GrainShape, GrainTable, Particles, Periodic, Region, Removal, Size, Start};
 pub use hosts::{Host, Mode, Signal, Structure};
-pub use methods::{Arithmetic, Collision, Dem, Integrator, Lattice, LatticeMode, ObliqueGravity};
+pub use methods::{
+    Arithmetic, ClCa, ClCaRule, Collision, Dem, GrainPoints, GravitySwitch, Integrator, Lattice, LatticeMode,
+    ObliqueGravity,
+};
 pub use study::{Claim, Output, Response, Sweep};
 pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall};
 pub use watch::{Axis, Bed, Heading, Kernel, Measure, Quantity, Watch, submerged};
@@ -81,6 +84,8 @@ pub struct Plan {
     pub dem: Dem,
     /// What only the lattice automaton reads.
     pub lattice: Lattice,
+    /// What only CL-CA reads.
+    pub cl_ca: ClCa,
     /// What `tsubu response` reads.
     pub response: Option<Response>,
     /// What `tsubu sweep` reads.
@@ -101,16 +106,22 @@ pub struct Plan {
 pub enum Method {
     /// Discrete element method.
     Dem,
-    /// Cellular automaton on the triangular lattice.
+    /// Cellular automaton on the triangular lattice, for balls in a shaken box.
     Lattice,
+    /// Grains made of many lattice points.
+    ClCa,
 }
 
 impl Method {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Dem, Self::Lattice, Self::ClCa];
+
     /// Name in scene files and summaries.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Dem => "dem",
             Self::Lattice => "lattice",
+            Self::ClCa => "cl-ca",
         }
     }
 }

@@ -39,6 +39,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/rock-slide.toml"),
     },
     Template {
+        name: "collapse",
+        about: "540 rods of two sizes lose their side wall, by CL-CA: grains made of lattice points",
+        text: include_str!("../../../scenes/collapse.toml"),
+    },
+    Template {
         name: "hops",
         about: "a grain hops along a floor: height, length, restitution and contact time of every hop",
         text: include_str!("../../../scenes/hops.toml"),

@@ -66,6 +66,16 @@ tangential.coulomb = {}
 rolling.constant = {}
 attraction = true
 
+[cl-ca]
+spacing = "1 mm"
+fall-height = "0.1 m"
+rule = "active"
+memory = 3
+turning = true
+region = { low = [-1, 0], high = [1, 2] }
+gravity-switch = { down = 20, up = 5 }
+shapes.balls.polygon.corners = [[0, 0], [1, 1], [0, 2]]
+
 [dem]
 time-step = "20 us"
 integrator = "forward-euler"

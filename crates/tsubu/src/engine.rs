@@ -104,6 +104,7 @@ pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
     Ok(match plan.method {
         Method::Dem => Box::new(crate::dem::DemEngine::new(plan, hosts)?),
         Method::Lattice => Box::new(crate::lattice::engine::LatticeEngine::new(plan, hosts)?),
+        Method::ClCa => Box::new(crate::clca::engine::ClCaEngine::new(plan, hosts)?),
     })
 }
 

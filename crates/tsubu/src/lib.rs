@@ -6,6 +6,7 @@
 
 pub mod bench;
 pub mod check;
+pub mod clca;
 pub mod contact;
 pub mod dem;
 pub mod engine;

@@ -28,6 +28,8 @@ pub enum Purpose {
     Side = 16,
     /// Whether an outlet of a lattice model takes a grain.
     Outlet = 17,
+    /// Order and side of the moves of grains made of lattice points.
+    Move = 18,
 }
 
 pub(crate) const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];

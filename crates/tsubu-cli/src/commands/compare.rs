@@ -63,12 +63,11 @@ pub fn run(options: &Options) -> Result<(), Failure> {
 }
 
 fn method(name: &str) -> Result<Method, Failure> {
-    const THERE: [Method; 2] = [Method::Dem, Method::Lattice];
-    let names = THERE.map(Method::name).join(", ");
-    THERE.into_iter().find(|m| m.name() == name).ok_or_else(|| {
-        let why = if name == "cl-ca" { "is not there yet" } else { "is unknown" };
-        Failure::wrong(format!("method `{name}` {why}")).hint(format!("methods: {names}"))
-    })
+    let names = Method::ALL.map(Method::name).join(", ");
+    Method::ALL
+        .into_iter()
+        .find(|m| m.name() == name)
+        .ok_or_else(|| Failure::wrong(format!("method `{name}` is unknown")).hint(format!("methods: {names}")))
 }
 
 fn told(folder: &Path) -> Result<String, Failure> {

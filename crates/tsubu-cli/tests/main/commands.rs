@@ -38,7 +38,6 @@ fn an_unknown_verification() {
 #[test]
 fn an_unknown_method() {
     let desk = Desk::new();
-    assert_snapshot!(desk.shown("compare balls.toml --methods dem,cl-ca"));
     assert_snapshot!(desk.shown("compare balls.toml --methods sph"));
 }
 

@@ -1,7 +1,8 @@
 //! Settings that one method alone reads.
 
-use super::{Key, Kind, Word};
-use crate::units::{NUMBER, TIME};
+use super::walls::REGION;
+use super::{Key, Kind, Variant, Word};
+use crate::units::{LENGTH, NUMBER, TIME};
 
 pub(super) static DEM: &[Key] = &[
     Key::new(
@@ -101,4 +102,73 @@ static COLLISION: &[Word] = &[
 static ARITHMETIC: &[Word] = &[
     Word { name: "fixed", about: "fixed point, 1/1024 of g dt" },
     Word { name: "integer", about: "whole multiples of g dt, truncated toward zero" },
+];
+
+pub(super) static CL_CA: &[Key] = &[
+    Key::new(
+        "spacing",
+        Kind::Quantity(&LENGTH),
+        "Distance of lattice points; automatic: the smallest grains become hexagons of 7 points",
+    )
+    .above(0.0)
+    .word("automatic"),
+    Key::new(
+        "fall-height",
+        Kind::Quantity(&LENGTH),
+        "A grain falls this far in the time of free fall, which sets the time step; automatic: the height of the grains at the start",
+    )
+    .above(0.0)
+    .word("automatic"),
+    Key::new("region", Kind::Table(REGION), "The piece of the lattice that grains can reach; left out: around walls and grains")
+        .optional(),
+    Key::new("rule", Kind::OneOf(RULE), "How grains find room").default("'automatic'"),
+    Key::new("memory", Kind::Whole, "Steps of the past whose sideways moves choose the side; 1: the last alone")
+        .default("1")
+        .at_least(1.0)
+        .at_most(100.0),
+    Key::new("turning", Kind::Flag, "Grains that cannot move turn by 60 degrees where that lets them move on").default("false"),
+    Key::new("gravity-switch", Kind::Table(GRAVITY_SWITCH), "Shaking: gravity points up and down in turn").optional(),
+    Key::new(
+        "shapes",
+        Kind::NamedChoice(SHAPES, "The shape of the grains of a group, by its name"),
+        "Shapes of groups; without one a grain is the hexagon whose area is nearest",
+    )
+    .default("{}"),
+];
+
+static RULE: &[Word] = &[
+    Word { name: "automatic", about: "passive where a wall or a driven group moves, else active" },
+    Word { name: "active", about: "a grain moves if there is room" },
+    Word { name: "passive", about: "walls and driven grains push; grains move out of overlaps" },
+];
+
+static GRAVITY_SWITCH: &[Key] = &[
+    Key::new("down", Kind::Whole, "Steps with gravity down").at_least(1.0).at_most(1e6),
+    Key::new("up", Kind::Whole, "Steps with gravity up, which come first").at_least(1.0).at_most(1e6),
+];
+
+static SHAPES: &[Variant] = &[
+    Variant {
+        name: "hexagon",
+        about: "A hexagon: 7, 19, 37, 61 points for radius 1 to 4",
+        keys: &[Key::new("radius", Kind::Whole, "Spacings from its centre to a corner").at_least(0.0).at_most(12.0)],
+    },
+    Variant {
+        name: "polygon",
+        about: "All lattice points on or inside a closed line along the lattice",
+        keys: &[Key::new(
+            "corners",
+            Kind::Vectors(&NUMBER),
+            "Corners one after the other, in whole numbers [column, half spacings up]; their sum is even",
+        )],
+    },
+    Variant {
+        name: "points",
+        about: "The lattice points of the grain, one by one; they must hang together",
+        keys: &[Key::new(
+            "at",
+            Kind::Vectors(&NUMBER),
+            "Points in whole numbers [column, half spacings up]; their sum is even",
+        )],
+    },
 ];

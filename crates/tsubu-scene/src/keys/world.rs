@@ -64,6 +64,8 @@ pub static SCENE: &[Key] = &[
     Key::new("contact", Kind::Table(contact::CONTACT), "The contact law, a stack of parts").default("{}"),
     Key::new("dem", Kind::Table(methods::DEM), "What only the discrete element method reads").default("{}"),
     Key::new("lattice", Kind::Table(methods::LATTICE), "What only the lattice automaton reads").default("{}"),
+    Key::new("cl-ca", Kind::Table(methods::CL_CA), "What only CL-CA reads: grains made of lattice points")
+        .default("{}"),
     Key::new("response", Kind::Table(study::RESPONSE), "What `tsubu response` reads: a sweep over frequency")
         .optional(),
     Key::new("sweep", Kind::Table(study::SWEEP), "What `tsubu sweep` reads: every combination of values is a run")
@@ -83,7 +85,8 @@ pub static SCENE: &[Key] = &[
 
 static METHOD: &[Word] = &[
     Word { name: "dem", about: "discrete element method" },
-    Word { name: "lattice", about: "cellular automaton on the triangular lattice" },
+    Word { name: "lattice", about: "cellular automaton on the triangular lattice, for balls in a shaken box" },
+    Word { name: "cl-ca", about: "grains made of many lattice points that move where there is room" },
 ];
 
 static MATERIAL: &[Key] = &[

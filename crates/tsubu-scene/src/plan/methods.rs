@@ -1,6 +1,8 @@
 //! Settings of the methods.
 
+use super::{Region, Vector};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// Settings of the discrete element method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -101,4 +103,70 @@ pub enum Arithmetic {
     Fixed,
     /// Whole multiples of g dt, truncated toward zero.
     Integer,
+}
+
+/// Settings of CL-CA: grains made of many lattice points (Sakaguchi 2001).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct ClCa {
+    /// Distance of lattice points [m]; `None`: the smallest grains become hexagons of radius 1.
+    pub spacing: Option<f64>,
+    /// A grain falls this far in the time of free fall [m]; `None`: the height of the grains at the start.
+    pub fall_height: Option<f64>,
+    /// The piece of the lattice that grains can reach; `None`: around walls and grains.
+    pub region: Option<Region>,
+    /// How grains find room.
+    pub rule: ClCaRule,
+    /// Steps of the past whose sideways moves choose the side.
+    pub memory: u32,
+    /// Grains that cannot move turn by 60 degrees where that lets them move on.
+    pub turning: bool,
+    /// Shaking by gravity that points up and down in turn.
+    pub gravity_switch: Option<GravitySwitch>,
+    /// Shapes by the names of groups.
+    #[serde(default)]
+    pub shapes: BTreeMap<String, GrainPoints>,
+}
+
+/// Rule by which grains made of lattice points move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ClCaRule {
+    /// Passive where a wall or a driven group moves, else active.
+    Automatic,
+    /// A grain moves if there is room.
+    Active,
+    /// Walls and driven grains push; grains move out of overlaps.
+    Passive,
+}
+
+/// Gravity up for some steps, then down for some.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct GravitySwitch {
+    /// Steps with gravity down.
+    pub down: u32,
+    /// Steps with gravity up; they come first.
+    pub up: u32,
+}
+
+/// The lattice points of a grain. Vectors hold [column, 0, half spacings up] as whole numbers with an even sum.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
+pub enum GrainPoints {
+    /// All points within a distance of the centre.
+    Hexagon {
+        /// That distance [spacings].
+        radius: u32,
+    },
+    /// All points on or inside a closed line along the lattice.
+    Polygon {
+        /// Its corners.
+        corners: Vec<Vector>,
+    },
+    /// Points one by one.
+    Points {
+        /// The points.
+        at: Vec<Vector>,
+    },
 }

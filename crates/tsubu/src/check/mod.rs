@@ -181,7 +181,7 @@ fn peak(signal: &Signal) -> f64 {
 }
 
 /// Largest rate of change of a signal.
-fn fastest(signal: &Signal) -> f64 {
+pub(crate) fn fastest(signal: &Signal) -> f64 {
     match signal {
         Signal::Sine { amplitude, frequency, .. } => (amplitude * frequency).abs() * std::f64::consts::TAU,
         Signal::SineSweep { amplitude, from, to, .. } => amplitude.abs() * from.max(*to) * std::f64::consts::TAU,

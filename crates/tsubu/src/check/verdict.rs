@@ -146,6 +146,7 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
             water::judge(&mut verdict, plan, hosts, dt);
         }
         Method::Lattice => lattice(&mut verdict, plan, dt, speed),
+        Method::ClCa => {}
     }
     mesh::meshes(&mut verdict, plan);
     let period = shortest_period(hosts);
@@ -177,6 +178,8 @@ fn memory(method: Method, grains: usize, contacts: usize) -> f64 {
     match method {
         Method::Dem => 12e6 + 700.0 * grains as f64 + 150.0 * contacts.max(2 * grains) as f64,
         Method::Lattice => 2e5 + 1000.0 * grains as f64,
+        // Four bytes for each point of the lattice, of which a grain has some forty with the gaps around it.
+        Method::ClCa => 2e5 + 400.0 * grains as f64,
     }
 }
 
@@ -184,6 +187,7 @@ fn step_key(plan: &Plan) -> &'static str {
     match plan.method {
         Method::Dem => "dem.time-step",
         Method::Lattice => "lattice.time-step",
+        Method::ClCa => "cl-ca.spacing",
     }
 }
 

@@ -94,6 +94,7 @@ impl DemEngine {
             contact,
             dem,
             lattice: _,
+            cl_ca: _,
             response: _,
             sweep: _,
             watch: _,

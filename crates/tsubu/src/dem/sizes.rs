@@ -4,7 +4,7 @@ use crate::random::{Purpose, unit, words};
 use tsubu_scene::plan::{GrainShape, Particles, Size};
 
 /// Diameter [m] of grain `id` of a group, from its distribution.
-pub(super) fn diameter(group: &Particles, seed: u64, id: u32) -> f64 {
+pub fn diameter(group: &Particles, seed: u64, id: u32) -> f64 {
     let draw = |k: u64| {
         let w = words(seed, Purpose::Size, id, k);
         [unit(w[0], w[1]), unit(w[2], w[3])]

@@ -3,8 +3,9 @@
 use super::damper::{BoxPlace, Damper, Rules};
 use super::fixed::{Restitution, Scale};
 use super::grid::COLUMN_SPACING;
+use super::remarks::Remarks;
 use super::start;
-use crate::engine::{Note, Refusal, Verdict};
+use crate::engine::{Note, Refusal};
 use crate::view::Wants;
 use tsubu_scene::plan::{
     self, Collision, LatticeMode, ObliqueGravity, Plan, Rolling, Shape, Signal, Start, Tangential,
@@ -25,25 +26,6 @@ pub(super) struct Built {
     pub floor_centre: plan::Vector,
     /// Cell spacing [m].
     pub spacing: f64,
-}
-
-/// Collects what is to be said about the scene.
-#[derive(Default)]
-pub(super) struct Remarks(Vec<Note>);
-
-impl Remarks {
-    pub fn refuse(&mut self, key: impl Into<String>, text: impl Into<String>) {
-        self.0.push(Note { key: key.into(), verdict: Verdict::Refused, text: text.into() });
-    }
-
-    pub fn approximate(&mut self, key: impl Into<String>, text: impl Into<String>) {
-        self.0.push(Note { key: key.into(), verdict: Verdict::Approximated, text: text.into() });
-    }
-
-    fn refusal(&self) -> Option<Refusal> {
-        let notes: Vec<Note> = self.0.iter().filter(|n| n.verdict == Verdict::Refused).cloned().collect();
-        (!notes.is_empty()).then_some(Refusal { method: "lattice", notes })
-    }
 }
 
 /// The box of the scene.
@@ -86,13 +68,14 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         contact,
         dem: _,
         lattice,
+        cl_ca: _,
         response: _,
         sweep: _,
         watch,
         output: _,
         claim: _,
     } = plan;
-    let mut remarks = Remarks::default();
+    let mut remarks = Remarks::of("lattice");
     if *dimension != 2 {
         remarks.refuse("dimension", "the automaton lives in the plane; set `dimension = 2`, or use `method = \"dem\"`");
     }
@@ -119,7 +102,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
             remark_contact(own, Some((index, contact)), plan, &mut remarks);
         }
     }
-    remark_watches(watch, plan, &mut remarks);
+    remarks.watches(watch, plan, Wants::GRAINS);
     let (Some(casing), Some(kind)) = (casing, kind) else {
         return Err(remarks.refusal().unwrap_or(Refusal { method: "lattice", notes: Vec::new() }));
     };
@@ -142,7 +125,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
     }
     Ok(Built {
         damper: Damper::new(scale, rules, place, &balls),
-        notes: remarks.0,
+        notes: remarks.notes,
         wall: casing.name.to_owned(),
         dt: lattice.time_step,
         mass: kind.mass,
@@ -286,28 +269,6 @@ fn remark_contact(contact: &plan::Contact, pair: Option<(usize, &plan::Contact)>
         None if *rotation || rolls => remarks.approximate("contact.rotation", text),
         Some(scene) if rolls && scene.rolling != *rolling => remarks.approximate(key("contact.rolling"), text),
         _ => {}
-    }
-}
-
-/// Watches that want to see what the automaton does not have.
-fn remark_watches(watches: &std::collections::BTreeMap<String, plan::Watch>, plan: &Plan, remarks: &mut Remarks) {
-    for (name, watch) in watches {
-        let kind = watch.measure.name();
-        let key = format!("watch.{name}.{kind}");
-        let way_out = match kind {
-            "slope" => "set `touching = false`",
-            "profile" => "leave `coordination` out of its quantities",
-            _ => "leave this watch out",
-        };
-        let wants = crate::watch::open(&watch.measure, plan).wants();
-        match wants.missing(Wants::GRAINS) {
-            None => {}
-            Some("spins") => remarks.approximate(key, "the automaton knows no spin; it is given as zero"),
-            Some(what) => remarks.refuse(
-                key,
-                format!("it looks at {what}, which the automaton does not have; {way_out}, or use `method = \"dem\"`"),
-            ),
-        }
     }
 }
 

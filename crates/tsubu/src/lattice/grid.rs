@@ -3,7 +3,7 @@
 //! Columns run along gravity; odd columns are shifted up by half a cell. Cells of one column lie side by side in memory, so
 //! that N and S are the next and the previous cell. A cell holds a ball's number, [`EMPTY`] or [`WALL`].
 
-use super::direction::Direction;
+use super::direction::{Direction, Vector};
 
 /// Nobody is in the cell.
 pub const EMPTY: i32 = -1;
@@ -71,11 +71,22 @@ impl Grid {
         cell.wrapping_add_signed(self.offsets[odd & 1][direction as usize])
     }
 
+    /// Index difference from a cell, in an even (0) or odd (1) column, to the one a vector away; h + k must be even.
+    pub fn offset(&self, odd: usize, vector: Vector) -> isize {
+        let other = (odd as i64 + vector.h).rem_euclid(2);
+        (vector.h * self.rows as i64 + (odd as i64 + vector.k - other) / 2) as isize
+    }
+
     /// Height of a cell's centre over that of row 0 in even columns, in half cells.
     #[inline]
     pub fn half_height(&self, cell: usize) -> i64 {
         let (column, row) = self.place(cell);
         (2 * row + column % 2) as i64
+    }
+
+    /// Puts the same into all cells.
+    pub fn fill(&mut self, content: i32) {
+        self.cells.fill(content);
     }
 
     /// Makes everything wall but the interior: columns `1..=columns`, rows `floor..floor + rows`. Balls are wiped out.

@@ -1,6 +1,6 @@
 //! Cellular automata on lattices.
 //!
-//! The kit: [`direction`], [`grid`] and [`fixed`] for the triangular lattice with gravity along one of its axes, [`sheet`] for
+//! The kit: [`direction`], [`grid`], [`stage`] (a scene's walls on the lattice), [`remarks`] and [`fixed`] for the triangular lattice with gravity along one of its axes, [`sheet`] for
 //! lattices with level rows. [`damper`] is the automaton of Komatsuzaki, Sato, Iwata and Morishita (2003) for balls in a
 //! shaken box, one file per family of rules; [`engine`] runs it from a plan, together with the structure that carries the
 //! box. Models of beds and piles, a file each: [`litwiniszyn`] and [`caram_hong`] (voids that walk up), [`savage`] (a chute
@@ -17,6 +17,8 @@ pub mod grid;
 pub mod gutt_haff;
 pub mod hemmingsson_herrmann;
 pub mod litwiniszyn;
+pub mod remarks;
 pub mod savage;
 pub mod sheet;
+pub mod stage;
 pub mod start;

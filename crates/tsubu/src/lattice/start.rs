@@ -3,11 +3,12 @@
 //! `settled` and `rows` fill the box row by row from the floor; the columns of the last, incomplete row are drawn at
 //! random. `at` takes the nearest cell, and the lattice direction nearest to the velocity.
 
-use super::build::{Remarks, count_of};
+use super::build::count_of;
 use super::damper::Ball;
 use super::direction::{Direction, Vector as LatticeVector};
 use super::fixed::Scale;
 use super::grid::COLUMN_SPACING;
+use super::remarks::Remarks;
 use crate::random::{Purpose, words};
 use std::collections::BTreeMap;
 use tsubu_scene::plan::{Plan, Start, Vector};

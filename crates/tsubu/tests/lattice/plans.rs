@@ -1,108 +1,47 @@
 //! Plans of Komatsuzaki 2003 for the automaton, written in code.
 
-use std::collections::BTreeMap;
+use std::path::Path;
 use tsubu::engine::{Engine, Fault};
 use tsubu::lattice::engine::LatticeEngine;
 use tsubu::ledger::Ledger;
 use tsubu::partner::Hosts;
+use tsubu_scene::Scene;
 #[allow(clippy::wildcard_imports, reason = "a plan names nearly all of them")]
 use tsubu_scene::plan::*;
 
 /// Paper A's box and balls with g = 10 m/s^2 and e = 0.75: `count` balls settled on the floor of a still box.
 pub fn plan(count: usize, mode: LatticeMode) -> Plan {
-    let extended = mode == LatticeMode::Extended;
-    let acrylic = Material {
-        young_modulus: 0.5e9,
-        poisson_ratio: 0.3,
-        restitution: 0.75,
-        friction: 0.5,
-        rolling_friction: 0.0,
-        twisting_friction: 0.0,
-        surface_energy: 0.0,
-        cohesion: 0.0,
-        density: None,
-    };
-    let balls = Particles {
-        material: "acrylic".into(),
-        count,
-        diameter: 6e-3,
-        mass: 0.2e-3,
-        shape: GrainShape::Sphere {},
-        size: Size::Equal {},
-        motion: GrainMotion::Free {},
-        start: Start::Settled { time: 1.0 },
-    };
-    let casing = Wall {
-        material: "acrylic".into(),
-        shape: Shape::Box { width: 60e-3, height: 96e-3, depth: 6e-3, floor_centre: [0.0; 3] },
-        host: None,
-        motion: None,
-        rotation: None,
-        servo: None,
-        body: None,
-        until: None,
-    };
-    Plan {
-        title: "damper".into(),
-        method: Method::Lattice,
-        dimension: 2,
-        seed: 1,
-        gravity: [0.0, 0.0, -10.0],
-        duration: 1.0,
-        speed_scale: None,
-        materials: BTreeMap::from([("acrylic".into(), acrylic)]),
-        material_pair: Vec::new(),
-        particles: if count > 0 { BTreeMap::from([("balls".into(), balls)]) } else { BTreeMap::new() },
-        walls: BTreeMap::from([("casing".into(), casing)]),
-        periodic: Periodic::default(),
-        removal: BTreeMap::new(),
-        hosts: BTreeMap::new(),
-        water: None,
-        contact: Contact {
-            normal: Normal::Hertz {},
-            damping: Damping::Quarter {},
-            attraction: false,
-            tangential: Tangential::Coulomb { smoothing_speed: 1e-3 },
-            rolling: Rolling::None {},
-            twisting: Twisting::None {},
-            cohesion: Cohesion::None {},
-            film: Film::None {},
-            rotation: false,
-        },
-        dem: Dem {
-            orientation: false,
-            time_step: None,
-            steps_per_contact: 20.0,
-            integrator: Integrator::VelocityVerlet,
-            skin: 0.2,
-            largest_overlap: 0.1,
-            energy_tolerance: 1e-3,
-        },
-        lattice: Lattice {
-            mode,
-            time_step: 1e-4,
-            oblique_gravity: ObliqueGravity::Projected,
-            collision: if extended { Collision::Pairwise } else { Collision::Literal },
-            rebound_scatter: true,
-            reset_when_blocked: true,
-            keep_remainder: true,
-            resting_impulses: extended,
-            resting_threshold: 2.0,
-            arithmetic: Arithmetic::Fixed,
-            head_room: 5,
-        },
-        response: None,
-        sweep: None,
-        watch: BTreeMap::new(),
-        output: Output {
-            history_interval: 0.1,
-            frame_interval: None,
-            checkpoint_interval: 60.0,
-            xyz: false,
-            lammps: false,
-        },
-        claim: Vec::new(),
+    let mode = if mode == LatticeMode::Extended { "extended" } else { "literal" };
+    let text = format!(
+        r#"
+        title = "damper"
+        method = "lattice"
+        gravity = 10
+        duration = 1
+        [materials.acrylic]
+        young-modulus = 0.5e9
+        restitution = 0.75
+        [particles.balls]
+        material = "acrylic"
+        count = 1
+        diameter = 6e-3
+        mass = 0.2e-3
+        start.settled = {{}}
+        [walls.casing]
+        material = "acrylic"
+        shape.box = {{ width = 60e-3, height = 96e-3, depth = 6e-3 }}
+        [lattice]
+        mode = "{mode}"
+        head-room = 5
+        "#
+    );
+    let scene = Scene::parse("damper", &text, Path::new("."), &[]).expect("the text is right");
+    let mut plan = scene.plan().clone();
+    for balls in plan.particles.values_mut() {
+        balls.count = count;
     }
+    plan.particles.retain(|_, group| group.count > 0);
+    plan
 }
 
 /// The box shaken by a sine of this amplitude [m] and frequency [Hz].

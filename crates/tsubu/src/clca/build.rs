@@ -1,0 +1,372 @@
+//! From a plan to grains on a lattice: what CL-CA honours, what it approximates and by how much, and what it refuses.
+
+use super::bed::{Bed, Kind};
+use super::place::{self, Grain};
+use super::shape::{Shape, polygon};
+use crate::dem::sizes;
+use crate::engine::{Note, Refusal};
+use crate::lattice::direction::Vector;
+use crate::lattice::remarks::Remarks;
+use crate::lattice::stage::{self, LARGEST, Stage};
+use crate::partner::Hosts;
+use crate::view::{Contacts, Wants};
+use crate::wall::{Mover, Wall};
+use glam::DVec3;
+use tsubu_scene::plan::{self, ClCaRule, GrainMotion, GrainPoints, Plan, Signal, Start};
+
+/// Everything that the engine needs from a plan.
+pub(super) struct Built {
+    pub bed: Bed,
+    pub stage: Stage,
+    pub walls: Vec<Wall>,
+    pub notes: Vec<Note>,
+    pub dt: f64,
+    /// Whether bodies push.
+    pub passive: bool,
+    /// Every grain of groups that come later, by group.
+    pub streams: Vec<Stream>,
+}
+
+/// A group that comes in one by one.
+#[derive(Clone, Debug)]
+pub(super) struct Stream {
+    pub grains: Vec<Grain>,
+    pub region: plan::Region,
+    /// Grains per second.
+    pub rate: f64,
+    /// When the first comes [s].
+    pub from: f64,
+    /// How many have come.
+    pub placed: usize,
+}
+
+/// What a watch may look at.
+pub(super) const OFFERED: Wants = Wants { contacts: Contacts::Places, ..Wants::GRAINS };
+
+/// The largest hexagon that stands for a disc.
+const LARGEST_RADIUS: usize = 12;
+
+/// How far the points of a grain may lie from its reference point, in columns and rows: less than the lattice's rim.
+const REACH: i64 = stage::RIM as i64 - 2;
+
+/// Takes the plan apart, every field by name, so that a new field does not compile until it has been decided on here.
+pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
+    let Plan {
+        title: _,
+        method: _,
+        dimension,
+        seed,
+        gravity,
+        duration,
+        speed_scale: _, // Only chooses DEM's step.
+        materials: _,
+        material_pair: _,
+        particles: _,
+        walls: _,
+        periodic,
+        removal: _,
+        water,
+        hosts: _,
+        contact: _,
+        dem: _,
+        lattice: _,
+        cl_ca,
+        response: _,
+        sweep: _,
+        watch,
+        output: _,
+        claim: _,
+    } = plan;
+    let mut remarks = Remarks::of("cl-ca");
+    for (key, wrong, text) in [
+        ("dimension", *dimension != 2, "the lattice lies in the plane; set `dimension = 2`, or use `method = \"dem\"`"),
+        (
+            "gravity",
+            gravity[0] != 0.0 || gravity[1] != 0.0 || gravity[2] > 0.0,
+            "the lattice has gravity along -z or none; set `gravity` to one number, or turn the scene",
+        ),
+        (
+            "periodic",
+            *periodic != plan::Periodic::default(),
+            "the lattice has walls at its ends; use `method = \"dem\"`",
+        ),
+        ("water", water.is_some(), "grains of lattice points fall in air; use `method = \"dem\"`"),
+    ] {
+        if wrong {
+            remarks.refuse(key, text);
+        }
+    }
+    if let Some(refusal) = remarks.refusal() {
+        return Err(refusal);
+    }
+    remarks.approximate(
+        "contact",
+        "no forces: grains move where there is room, whatever their stiffness, restitution and friction",
+    );
+    remarks.watches(watch, plan, OFFERED);
+    let walls: Vec<Wall> =
+        plan.walls.iter().map(|(name, wall)| Wall::new(name, wall, 2, hosts, DVec3::from_array(*gravity))).collect();
+    let moved = movers(plan, &mut remarks);
+    let shapes = shapes(plan, &mut remarks);
+    if let Some(refusal) = remarks.refusal() {
+        return Err(refusal);
+    }
+    let spacing = cl_ca.spacing.unwrap_or_else(|| automatic_spacing(plan, &shapes));
+    let (kinds, grains) = kinds(plan, &shapes, spacing, &mut remarks);
+    let travel = plan.walls.values().filter_map(|wall| wall.motion.as_ref());
+    let travel = travel.map(|motion| farthest(&motion.signal, *duration)).fold(0.0, f64::max);
+    let margin = 4.0 * plan.particles.values().map(plan::Particles::largest_diameter).fold(0.0, f64::max) + travel;
+    let region = cl_ca.region.clone().or_else(|| stage::region(plan, &walls, margin));
+    let Some((region, stage)) = stage_of(region, spacing, &mut remarks) else { return Err(refusal(&remarks)) };
+    let mut bed = Bed::new(stage.grid(), kinds, *seed, cl_ca.memory);
+    for wall in &walls {
+        stage.paint(&mut bed.grid, wall);
+    }
+    place::place(plan, &stage, &grains, &mut bed, &mut remarks);
+    let height = cl_ca.fall_height.unwrap_or(region.high[2] - region.low[2]);
+    let dt = time_step(-gravity[2], height, &moved, *duration, &stage, &mut remarks);
+    remarks_on_starts(plan, &mut remarks);
+    if let Some(refusal) = remarks.refusal() {
+        return Err(refusal);
+    }
+    let passive = match cl_ca.rule {
+        ClCaRule::Automatic => !moved.is_empty(),
+        ClCaRule::Active => false,
+        ClCaRule::Passive => true,
+    };
+    if passive && plan.particles.values().any(|group| matches!(group.start, Start::Stream { .. })) {
+        remarks.refuse(
+            "cl-ca.rule",
+            "grains come in by a stream under the active rule alone; let them be there from the start",
+        );
+        return Err(refusal(&remarks));
+    }
+    let streams = plan.particles.values().zip(grains).filter_map(|(group, grains)| match &group.start {
+        Start::Stream { region, rate, from, .. } => {
+            Some(Stream { grains, region: region.clone(), rate: *rate, from: *from, placed: 0 })
+        }
+        _ => None,
+    });
+    let streams = streams.collect();
+    Ok(Built { bed, stage, walls, notes: remarks.notes, dt, passive, streams })
+}
+
+/// The lattice of a region; `None` if there is none, and said why.
+fn stage_of(region: Option<plan::Region>, spacing: f64, remarks: &mut Remarks) -> Option<(plan::Region, Stage)> {
+    let key = "cl-ca.region";
+    let Some(region) = region else {
+        remarks.refuse(key, "nothing in the scene tells where the lattice ends; give `low` and `high`");
+        return None;
+    };
+    let stage = Stage::new(&region, spacing);
+    if stage.is_none() {
+        let size = [region.high[0] - region.low[0], region.high[2] - region.low[2]];
+        remarks.refuse(
+            key,
+            format!(
+                "a lattice of {:.4} m by {:.4} m with points {spacing:.3e} m apart has less than one point across or more than {LARGEST:.0e}; change it, or `cl-ca.spacing`",
+                size[0], size[1]
+            ),
+        );
+    }
+    Some((region, stage?))
+}
+
+fn refusal(remarks: &Remarks) -> Refusal {
+    remarks.refusal().unwrap_or(Refusal { method: "cl-ca", notes: Vec::new() })
+}
+
+/// What moves as told: walls and driven groups. Other ways to move a wall need forces.
+fn movers<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Vec<&'a Signal> {
+    let mut moved = Vec::new();
+    for (name, wall) in &plan.walls {
+        for (key, there) in [
+            ("host", wall.host.is_some()),
+            ("servo", wall.servo.is_some()),
+            ("body", wall.body.is_some()),
+            ("rotation", wall.rotation.is_some()),
+        ] {
+            if there {
+                remarks.refuse(
+                    format!("walls.{name}.{key}"),
+                    "walls of CL-CA stand still, move by `motion`, or vanish by `until`; use `method = \"dem\"`",
+                );
+            }
+        }
+        moved.extend(wall.motion.as_ref().map(|motion| &motion.signal));
+    }
+    for group in plan.particles.values() {
+        if let GrainMotion::Driven { signal, .. } = &group.motion {
+            moved.push(signal);
+        }
+    }
+    if plan.cl_ca.rule == ClCaRule::Active && !moved.is_empty() {
+        remarks.refuse(
+            "cl-ca.rule",
+            "nothing pushes under the active rule, but a wall or a group moves; leave `rule` out, or set it to \"passive\"",
+        );
+    }
+    if plan.cl_ca.turning && (plan.cl_ca.rule == ClCaRule::Passive || !moved.is_empty()) {
+        remarks.refuse("cl-ca.turning", "grains turn under the active rule alone; leave it out");
+    }
+    moved
+}
+
+/// The shapes that the scene draws, by group.
+fn shapes(plan: &Plan, remarks: &mut Remarks) -> Vec<Option<Shape>> {
+    for name in plan.cl_ca.shapes.keys().filter(|name| !plan.particles.contains_key(*name)) {
+        remarks.refuse(format!("cl-ca.shapes.{name}"), "there is no group of grains of that name");
+    }
+    let drawn = |name: &String, remarks: &mut Remarks| {
+        let key = |part: &str| format!("cl-ca.shapes.{name}.{part}");
+        let (shape, key) = match plan.cl_ca.shapes.get(name)? {
+            GrainPoints::Hexagon { radius } => (Some(Shape::hexagon(*radius as usize)), key("hexagon")),
+            GrainPoints::Polygon { corners } => {
+                let points = whole(corners).and_then(|corners| polygon(&corners));
+                (points.and_then(|points| Shape::new(&points)), key("polygon.corners"))
+            }
+            GrainPoints::Points { at } => (whole(at).and_then(|at| Shape::new(&at)), key("points.at")),
+        };
+        let fits = |p: &Vector| p.h.abs() <= REACH && p.k.abs() <= 2 * REACH;
+        match &shape {
+            None => remarks.refuse(
+                key,
+                "this is no grain: it needs whole numbers [column, half spacings up] with even sums, no point twice, all points connected, and for a polygon sides along the lattice",
+            ),
+            Some(shape) if !shape.points().iter().all(fits) => {
+                remarks.refuse(key, format!("it reaches more than {REACH} spacings from its middle"));
+            }
+            Some(_) => {}
+        }
+        shape
+    };
+    plan.particles.keys().map(|name| drawn(name, remarks)).collect()
+}
+
+/// Whole numbers, if they are.
+fn whole(points: &[plan::Vector]) -> Option<Vec<Vector>> {
+    let number = |x: f64| (x.fract() == 0.0 && x.abs() < 1e6).then_some(x as i64);
+    points.iter().map(|[h, _, k]| Some(Vector { h: number(*h)?, k: number(*k)? })).collect()
+}
+
+/// The spacing at which the smallest grains have their own shape's size, or that of a hexagon of radius 1 [m].
+fn automatic_spacing(plan: &Plan, shapes: &[Option<Shape>]) -> f64 {
+    let one = Shape::hexagon(1).diameter();
+    let of = |(group, shape): (&plan::Particles, &Option<Shape>)| {
+        group.smallest_diameter() / shape.as_ref().map_or(one, Shape::diameter)
+    };
+    let smallest = plan.particles.values().zip(shapes).map(of).fold(f64::INFINITY, f64::min);
+    if smallest.is_finite() { smallest } else { 1e-3 }
+}
+
+/// Kinds of grains, and the grains of every group with their kinds.
+fn kinds(plan: &Plan, shapes: &[Option<Shape>], spacing: f64, remarks: &mut Remarks) -> (Vec<Kind>, Vec<Vec<Grain>>) {
+    let hexagons: Vec<f64> = (0..=LARGEST_RADIUS).map(|radius| Shape::hexagon(radius).diameter() * spacing).collect();
+    let mut kinds: Vec<Kind> = Vec::new();
+    let mut all = Vec::new();
+    let mut id = 0;
+    for (number, ((name, group), drawn)) in plan.particles.iter().zip(shapes).enumerate() {
+        let free = matches!(group.motion, GrainMotion::Free {});
+        let mut own = Vec::new();
+        let mut off = 0.0_f64;
+        for place in 0..count_of(group) {
+            let diameter = match &group.start {
+                Start::File { grains, .. } => grains.diameter.get(place).copied(),
+                _ => None,
+            };
+            let diameter = diameter.unwrap_or_else(|| sizes::diameter(group, plan.seed, id));
+            let near = |radius: &usize| (hexagons[*radius] / diameter).ln().abs();
+            let radius = (0..=LARGEST_RADIUS).min_by(|a, b| near(a).total_cmp(&near(b))).unwrap_or(0);
+            let shape = drawn.clone().unwrap_or_else(|| Shape::hexagon(radius));
+            off = off.max((shape.diameter() * spacing / diameter - 1.0).abs());
+            let kind = kinds.iter().position(|kind| kind.group == number as u32 && kind.shape == shape);
+            let kind = kind.unwrap_or_else(|| {
+                let mass = sizes::mass(group, if drawn.is_some() { diameter } else { shape.diameter() * spacing });
+                // Grains that are all equal keep the mass they were given.
+                let mass = if matches!(group.size, plan::Size::Equal {}) { group.mass } else { mass };
+                kinds.push(Kind { group: number as u32, shape, stencil: 0, orientations: 1, mass, free });
+                kinds.len() - 1
+            });
+            own.push(Grain { id, kind });
+            id += 1;
+        }
+        if off > 0.5 {
+            remarks.refuse(
+                format!("particles.{name}.diameter"),
+                format!(
+                    "its lattice grains would be {:.0} % off in size; change `cl-ca.spacing` ({spacing:.3e} m now), or draw `cl-ca.shapes.{name}`",
+                    100.0 * off
+                ),
+            );
+        } else if off > 1e-3 {
+            let text = format!("taken to the nearest shape of lattice points, at most {:.1} % off", 100.0 * off);
+            remarks.approximate(format!("particles.{name}.diameter"), text);
+        }
+        all.push(own);
+    }
+    (kinds, all)
+}
+
+fn count_of(group: &plan::Particles) -> usize {
+    match &group.start {
+        Start::At { position, .. } => position.len(),
+        Start::File { grains, .. } => grains.position.len(),
+        _ => group.count,
+    }
+}
+
+/// How far a motion takes a wall from its drawn place in a run [m].
+fn farthest(signal: &Signal, duration: f64) -> f64 {
+    match signal {
+        Signal::Sine { amplitude, .. } | Signal::SineSweep { amplitude, .. } => amplitude.abs(),
+        Signal::Impact { peak, .. } => peak.abs(),
+        Signal::Steady { rate } => rate.abs() * duration,
+        Signal::Table { value, .. } => value.iter().map(|v| v.abs()).fold(0.0, f64::max),
+    }
+}
+
+/// The time in which a grain falls by one spacing, so that it falls by `height` in the time of free fall; shorter where
+/// a wall or group moves faster than that [s].
+fn time_step(gravity: f64, height: f64, moved: &[&Signal], duration: f64, stage: &Stage, remarks: &mut Remarks) -> f64 {
+    let fall = if gravity > 0.0 { stage.spacing * (2.0 / (gravity * height)).sqrt() } else { f64::INFINITY };
+    let fastest = moved.iter().map(|signal| crate::check::fastest(signal)).fold(0.0, f64::max);
+    let dt = fall.min(stage.spacing / fastest);
+    if !dt.is_finite() {
+        remarks.refuse("gravity", "without gravity and without a wall or group that moves, nothing happens");
+        return duration;
+    }
+    remarks.approximate(
+        "cl-ca.fall-height",
+        format!(
+            "grains fall at one speed, {:.3} m/s: one spacing of {:.3} mm in a step of {:.3e} s",
+            stage.spacing / dt,
+            1e3 * stage.spacing,
+            dt
+        ),
+    );
+    dt
+}
+
+/// What of the beginning cells cannot follow.
+fn remarks_on_starts(plan: &Plan, remarks: &mut Remarks) {
+    for (name, group) in &plan.particles {
+        let key = format!("particles.{name}.start");
+        let stirred = match &group.start {
+            Start::Rows { speed, .. } => *speed != 0.0,
+            Start::Random { velocity, speed, .. } | Start::Stream { velocity, speed, .. } => {
+                *velocity != [0.0; 3] || *speed != 0.0
+            }
+            Start::At { velocity, spin, .. } => !velocity.is_empty() || !spin.is_empty(),
+            Start::File { grains, .. } => !grains.velocity.is_empty() || !grains.spin.is_empty(),
+            Start::Settled { .. } => false,
+        };
+        if stirred {
+            remarks.approximate(key, "grains begin at rest: a velocity is what the last step was");
+        }
+    }
+}
+
+/// Whether a wall moves as told.
+pub(super) fn moves(wall: &Wall) -> bool {
+    matches!(wall.mover, Mover::Motion(..))
+}

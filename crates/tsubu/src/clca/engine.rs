@@ -1,0 +1,531 @@
+//! CL-CA as an engine: walls and gates follow the time, grains come, move and go, and the books are kept.
+//!
+//! There are no forces. What gravity gives to falling grains, and what walls do to pushed ones, is posted as one row,
+//! `lattice rules`, and as rule impulse: the books say how much energy the rules took, not why.
+
+use super::active::Active;
+use super::bed::{Bed, Kind, Motion, NOWHERE};
+use super::build::{Built, OFFERED, Stream, build, moves};
+use super::order::{Past, Pull};
+use super::passive::{Body, Passive, Pusher, Shared};
+use super::place::somewhere;
+use crate::engine::{Engine, Fault, Note, Refusal};
+use crate::lattice::direction::{Direction, Vector};
+use crate::lattice::grid::{EMPTY, WALL};
+use crate::lattice::stage::Stage;
+use crate::ledger::{Account, Ledger, Stocks};
+use crate::motion::value_and_rate;
+use crate::partner::Hosts;
+use crate::random::Purpose;
+use crate::view::{Columns, Contact, Contacts, View, Wants};
+use crate::wall::{Outline, Wall};
+use glam::DVec3;
+use std::collections::BTreeSet;
+use tsubu_frame::frame::Kind as Of;
+use tsubu_frame::state::MissingSection;
+use tsubu_frame::{Frame, State};
+use tsubu_scene::plan::{GrainMotion, GravitySwitch, Plan, Removal, Signal};
+
+/// Attempts to find a free place for a grain of a stream in a step; the others wait for the next.
+const ATTEMPTS: u64 = 40;
+
+/// CL-CA of a plan.
+#[derive(Clone, Debug)]
+pub struct ClCaEngine {
+    bed: Bed,
+    stage: Stage,
+    walls: Vec<Wall>,
+    notes: Vec<Note>,
+    dt: f64,
+    /// Downward acceleration [m/s^2].
+    gravity: f64,
+    switch: Option<GravitySwitch>,
+    rule: Rule,
+    streams: Vec<Stream>,
+    removal: Vec<Removal>,
+    /// Groups that move as told: number, direction, displacement.
+    driven: Vec<(u32, DVec3, Signal)>,
+    /// Where the driven grains were drawn.
+    drawn: Vec<u32>,
+}
+
+#[derive(Clone, Debug)]
+enum Rule {
+    Active(Active),
+    /// The passive rule, the walls that push, and the last moves of driven grains.
+    Passive(Box<Passive>, Vec<Pusher>, Vec<Vector>),
+}
+
+impl ClCaEngine {
+    /// Builds the grains of a plan at time 0, or says all that CL-CA cannot do.
+    pub fn new(plan: &Plan, hosts: &Hosts) -> Result<Self, Refusal> {
+        let Built { bed, stage, walls, notes, dt, passive, streams } = build(plan, hosts)?;
+        let driven = plan.particles.values().enumerate().filter_map(|(number, group)| match &group.motion {
+            GrainMotion::Driven { direction, signal } => {
+                Some((number as u32, DVec3::from_array(*direction), signal.clone()))
+            }
+            _ => None,
+        });
+        let rule = if passive {
+            let pushers = walls.iter().enumerate().filter(|(_, wall)| moves(wall));
+            let pushers = pushers.map(|(wall, _)| Pusher { wall, ..Pusher::default() }).collect();
+            Rule::Passive(Box::new(Passive::new(&bed)), pushers, Vec::new())
+        } else {
+            let mut active = Active::default();
+            active.turning = plan.cl_ca.turning;
+            Rule::Active(active)
+        };
+        let mut engine = Self {
+            drawn: bed.grains.cell.clone(),
+            bed,
+            stage,
+            walls,
+            notes,
+            dt,
+            gravity: -plan.gravity[2],
+            switch: plan.cl_ca.gravity_switch,
+            rule,
+            streams,
+            removal: plan.removal.values().cloned().collect(),
+            driven: driven.collect(),
+        };
+        engine.place_movers(0);
+        engine.paint(0.0);
+        Ok(engine)
+    }
+
+    /// The grains on their lattice.
+    pub fn bed(&self) -> &Bed {
+        &self.bed
+    }
+
+    /// Lets the active rule look at every grain in every step instead of only at those that can have room: slow, the
+    /// same bits; for tests.
+    pub fn look_everywhere(&mut self, everywhere: bool) {
+        if let Rule::Active(active) = &mut self.rule {
+            active.everywhere = everywhere;
+        }
+    }
+
+    /// Lets a point of the first grain go, to show that the checks of the invariants can fail; for tests.
+    #[doc(hidden)]
+    pub fn forget_a_point(&mut self) {
+        let cell = self.bed.grains.cell[0] as usize;
+        self.bed.grid.set(cell, EMPTY);
+    }
+
+    /// Paints the lattice anew: rims, walls that stand at `time`, frozen grains, and under the active rule all others.
+    fn paint(&mut self, time: f64) {
+        self.bed.grid = self.stage.grid();
+        for wall in self.walls.iter_mut().filter(|wall| !moves(wall)) {
+            wall.stand_or_go(time);
+            self.stage.paint(&mut self.bed.grid, wall);
+        }
+        let driven = |bed: &Bed, grain: usize| self.driven.iter().any(|d| d.0 == bed.kind(grain).group);
+        for grain in 0..self.bed.len() {
+            if self.bed.grains.cell[grain] == NOWHERE || driven(&self.bed, grain) {
+                continue;
+            }
+            match (&self.rule, self.bed.kind(grain).free) {
+                (_, false) => self.bed.paint(grain, WALL),
+                (Rule::Active(_), true) => self.bed.paint(grain, grain as i32),
+                (Rule::Passive(..), true) => {}
+            }
+        }
+        if let Rule::Active(active) = &mut self.rule {
+            active.wake_all(&self.bed);
+        }
+    }
+
+    /// Brings walls that move, and driven grains, to where they are after `step` steps.
+    fn place_movers(&mut self, step: u64) {
+        let Rule::Passive(_, pushers, last) = &mut self.rule else { return };
+        let (time, before) = (step as f64 * self.dt, step.saturating_sub(1) as f64 * self.dt);
+        for pusher in pushers {
+            let wall = &self.walls[pusher.wall];
+            let at = |time: f64| {
+                let moved = |t: f64| wall.mover.displacement(t, &Hosts::default()).0;
+                self.stage.vector(moved(time) - moved(0.0))
+            };
+            let (now, then) = (at(time), at(before));
+            pusher.moved = Vector { h: now.h - then.h, k: now.k - then.k };
+            if pusher.cells.is_empty() || now != then {
+                pusher.cells = vec![false; self.bed.grid.columns() * self.bed.grid.rows()];
+                if !wall.goes_by(time) {
+                    self.stage.covered(&self.bed.grid, wall, now, |cell| pusher.cells[cell] = true);
+                }
+            } else if wall.goes_by(time) {
+                pusher.cells.fill(false);
+            }
+        }
+        last.clear();
+        last.resize(self.bed.len(), Vector::default());
+        for (group, direction, signal) in &self.driven {
+            let at = |time: f64| self.stage.vector(*direction * value_and_rate(signal, time).0);
+            let (now, then) = (at(time), at(before));
+            for (grain, last) in last.iter_mut().enumerate() {
+                if self.bed.kind(grain).group == *group {
+                    let drawn = self.bed.vector(self.drawn[grain] as usize).plus(now);
+                    if let Some(cell) = self.stage.cell(&self.bed.grid, self.stage.place(drawn)) {
+                        self.bed.grains.cell[grain] = cell as u32;
+                    }
+                    *last = Vector { h: now.h - then.h, k: now.k - then.k };
+                }
+            }
+        }
+    }
+
+    fn step(&mut self, ledger: &mut Ledger) {
+        let step = self.bed.step;
+        let time = step as f64 * self.dt;
+        if self.walls.iter().any(|wall| !moves(wall) && !wall.gone() && wall.goes_by(time)) {
+            self.paint(time);
+        }
+        let (kinetic, momentum) = (self.kinetic(), self.momentum());
+        self.arrive(time, ledger);
+        self.place_movers(step + 1);
+        let pull = self.pull(step);
+        match &mut self.rule {
+            Rule::Active(active) => match pull {
+                Some(pull) => _ = active.step(&mut self.bed, pull),
+                None => self.bed.step += 1,
+            },
+            Rule::Passive(passive, pushers, driven) => {
+                passive.step(&mut self.bed, pull, pushers, driven);
+            }
+        }
+        let risen: f64 = self.of_kinds(|kind, motion| kind.mass * self.stage.step(motion.sum).z);
+        ledger.post(Account::LatticeRules, kinetic - self.kinetic() - self.gravity * risen);
+        let now = self.momentum();
+        for (axis, impulse) in ledger.rule_impulse.iter_mut().enumerate() {
+            *impulse += now[axis] - momentum[axis];
+        }
+        self.leave(ledger);
+    }
+
+    /// The way gravity pulls in the step after `step`.
+    fn pull(&self, step: u64) -> Option<Pull> {
+        (self.gravity > 0.0).then(|| match self.switch {
+            Some(GravitySwitch { down, up }) if step % u64::from(down + up) < u64::from(up) => Pull::UP,
+            _ => Pull::DOWN,
+        })
+    }
+
+    fn of_kinds(&self, value: impl Fn(&Kind, &Motion) -> f64) -> f64 {
+        self.bed.kinds.iter().zip(&self.bed.motion).map(|(kind, motion)| value(kind, motion)).sum()
+    }
+
+    /// Kinetic energy at the speed of the last step [J].
+    fn kinetic(&self) -> f64 {
+        let speed = self.stage.spacing / self.dt;
+        self.of_kinds(|kind, motion| 0.5 * kind.mass * motion.moving as f64 * speed * speed)
+    }
+
+    /// Grains of streams come in where there is room.
+    fn arrive(&mut self, time: f64, ledger: &mut Ledger) {
+        for stream in &mut self.streams {
+            let due = ((time - stream.from) * stream.rate + 1.0).max(0.0) as usize;
+            while stream.placed < due.min(stream.grains.len()) {
+                let (grain, look) = (stream.grains[stream.placed], self.bed.step);
+                let found = somewhere(&self.bed, grain, &stream.region, &self.stage, Purpose::Stream, look, ATTEMPTS);
+                let Some(cell) = found else { break };
+                self.bed.add(grain.kind, cell, grain.id);
+                stream.placed += 1;
+                let weight = self.bed.kinds[grain.kind].mass * self.gravity;
+                ledger.post(Account::Exchange, weight * self.stage.place(self.bed.vector(cell)).z);
+            }
+        }
+    }
+
+    /// Grains in removal regions go.
+    fn leave(&mut self, ledger: &mut Ledger) {
+        if self.removal.is_empty() {
+            return;
+        }
+        let inside = |grain: &usize| {
+            let position = self.position(*grain);
+            self.bed.kind(*grain).free && self.removal.iter().any(|removal| gone(removal, position))
+        };
+        let leaving: Vec<usize> = self.bed.present().filter(inside).collect();
+        for &grain in &leaving {
+            let height = self.position(grain).z;
+            let (kinetic, momentum) = (self.kinetic(), self.momentum());
+            if let Rule::Active(_) = self.rule {
+                self.bed.paint(grain, EMPTY);
+            }
+            self.bed.remove(grain);
+            let taken = self.bed.kind(grain).mass * self.gravity * height + kinetic - self.kinetic();
+            ledger.post(Account::Exchange, -taken);
+            let now = self.momentum();
+            for (axis, impulse) in ledger.exchange_impulse.iter_mut().enumerate() {
+                *impulse += now[axis] - momentum[axis];
+            }
+        }
+        if let (Rule::Active(active), false) = (&mut self.rule, leaving.is_empty()) {
+            active.wake_all(&self.bed);
+        }
+    }
+
+    /// Reference point of a grain [m].
+    fn position(&self, grain: usize) -> DVec3 {
+        self.stage.place(self.bed.vector(self.bed.grains.cell[grain] as usize))
+    }
+
+    /// Velocity in the last step [m/s].
+    fn velocity(&self, grain: usize) -> DVec3 {
+        let last = match (&self.rule, self.bed.grains.last[grain]) {
+            (_, Some(direction)) => direction.times(1),
+            (Rule::Passive(_, _, driven), None) => driven.get(grain).copied().unwrap_or_default(),
+            (Rule::Active(_), None) => Vector::default(),
+        };
+        self.stage.step(last) / self.dt
+    }
+
+    /// Radius of the disc of a grain's area [m].
+    fn radius(&self, grain: usize) -> f64 {
+        0.5 * self.bed.kind(grain).shape.diameter() * self.stage.spacing
+    }
+
+    /// Pairs that touch (active rule) or share points (passive rule), with the number of points shared.
+    pub fn pairs(&self) -> Vec<Shared> {
+        match &self.rule {
+            Rule::Active(_) => touching(&self.bed),
+            Rule::Passive(passive, pushers, _) => passive.clone().overlaps(&self.bed, pushers),
+        }
+    }
+}
+
+/// Pairs of grains with points beside each other, each once.
+fn touching(bed: &Bed) -> Vec<Shared> {
+    let mut pairs = BTreeSet::new();
+    for grain in bed.present().filter(|&grain| bed.kind(grain).free) {
+        let stencil = bed.kind(grain).stencil + bed.grains.turn[grain] as usize;
+        for cell in bed.cells(stencil, bed.grains.cell[grain] as usize) {
+            for direction in Direction::ALL {
+                let owner = bed.grid.at(bed.grid.neighbour(cell, bed.odd(cell), direction));
+                if owner > grain as i32 {
+                    pairs.insert((grain, owner as usize));
+                }
+            }
+        }
+    }
+    pairs.into_iter().map(|(grain, other)| Shared { grain, other: Body::Grain(other), points: 0 }).collect()
+}
+
+fn gone(removal: &Removal, at: DVec3) -> bool {
+    match removal {
+        Removal::Inside { region } => {
+            let (low, high) = (DVec3::from_array(region.low), DVec3::from_array(region.high));
+            at.cmpge(low).all() && at.cmple(high).all()
+        }
+        Removal::Behind { point, normal } => (at - DVec3::from_array(*point)).dot(DVec3::from_array(*normal)) < 0.0,
+    }
+}
+
+impl Engine for ClCaEngine {
+    fn notes(&self) -> &[Note] {
+        &self.notes
+    }
+
+    fn time_step(&self) -> f64 {
+        self.dt
+    }
+
+    fn steps(&self) -> u64 {
+        self.bed.step
+    }
+
+    fn grains(&self) -> usize {
+        self.bed.present().count()
+    }
+
+    fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
+        for _ in 0..steps {
+            let time = self.time();
+            self.step(ledger);
+            for host in &mut hosts.list {
+                host.runge_kutta(time, self.dt, 0.0, ledger);
+            }
+        }
+        Ok(())
+    }
+
+    fn grain_stocks(&self) -> Stocks {
+        let free = self.bed.present().filter(|&grain| self.bed.kind(grain).free);
+        let moment: f64 = free.map(|grain| self.bed.kind(grain).mass * self.position(grain).z).sum();
+        Stocks { kinetic: self.kinetic(), potential: self.gravity * moment, ..Stocks::default() }
+    }
+
+    fn momentum(&self) -> [f64; 3] {
+        let of = |axis: usize| self.of_kinds(|kind, motion| kind.mass * self.stage.step(motion.sum)[axis]);
+        [of(0) / self.dt, 0.0, of(2) / self.dt]
+    }
+
+    fn centre_of_mass(&self) -> [f64; 3] {
+        let free = || self.bed.present().filter(|&grain| self.bed.kind(grain).free);
+        let sum: DVec3 = free().map(|grain| self.bed.kind(grain).mass * self.position(grain)).sum();
+        let mass: f64 = free().map(|grain| self.bed.kind(grain).mass).sum();
+        if mass > 0.0 { (sum / mass).to_array() } else { [0.0; 3] }
+    }
+
+    fn contacts(&self) -> usize {
+        self.pairs().len()
+    }
+
+    fn frame(&self, _hosts: &Hosts) -> Frame {
+        let mut frame = Frame { time: self.time(), step: self.steps(), columns: Vec::new() };
+        let present: Vec<usize> = self.bed.present().collect();
+        let whole = |of: &dyn Fn(usize) -> i64| present.iter().map(|&grain| of(grain)).collect::<Vec<_>>();
+        let real = |of: &dyn Fn(usize) -> f64| present.iter().map(|&grain| of(grain)).collect::<Vec<_>>();
+        let vectors =
+            |of: &dyn Fn(usize) -> DVec3| present.iter().map(|&grain| of(grain).to_array()).collect::<Vec<_>>();
+        frame.integer(Of::Grain, "id", "-", whole(&|grain| i64::from(self.bed.grains.id[grain])));
+        frame.vector(Of::Grain, "position", "m", vectors(&|grain| self.position(grain)));
+        frame.vector(Of::Grain, "velocity", "m/s", vectors(&|grain| self.velocity(grain)));
+        frame.scalar(Of::Grain, "radius", "m", real(&|grain| self.radius(grain)));
+        frame.scalar(Of::Grain, "mass", "kg", real(&|grain| self.bed.kind(grain).mass));
+        frame.integer(Of::Grain, "group", "-", whole(&|grain| i64::from(self.bed.kind(grain).group)));
+        frame.integer(Of::Grain, "points", "-", whole(&|grain| self.bed.kind(grain).shape.points().len() as i64));
+        self.draw_walls(&mut frame);
+        frame
+    }
+
+    fn offers(&self) -> Wants {
+        OFFERED
+    }
+
+    fn view(&self, wants: Wants) -> View<'_> {
+        let present: Vec<usize> = self.bed.present().collect();
+        let n = present.len();
+        let vectors = |of: &dyn Fn(usize) -> DVec3| present.iter().map(|&grain| of(grain)).collect::<Vec<_>>();
+        let real = |of: &dyn Fn(usize) -> f64| present.iter().map(|&grain| of(grain)).collect::<Vec<_>>();
+        let inverse = |grain: usize| if self.bed.kind(grain).free { 1.0 / self.bed.kind(grain).mass } else { 0.0 };
+        let grains = Columns {
+            position: vectors(&|grain| self.position(grain)).into(),
+            wrapped: vec![DVec3::ZERO; n].into(),
+            velocity: vectors(&|grain| self.velocity(grain)).into(),
+            spin: vec![DVec3::ZERO; n].into(),
+            radius: real(&|grain| self.radius(grain)).into(),
+            mass: real(&|grain| self.bed.kind(grain).mass).into(),
+            inverse_mass: real(&inverse).into(),
+            group: present.iter().map(|&grain| self.bed.kind(grain).group).collect(),
+            id: present.iter().map(|&grain| self.bed.grains.id[grain]).collect(),
+        };
+        let contacts = if wants.contacts > Contacts::Nothing { self.contacts_of(&present) } else { Vec::new() };
+        View { time: self.time(), ends: [None; 3], grains, contacts, walls: Vec::new(), water: None }
+    }
+
+    fn save(&self, state: &mut State) {
+        let grains = &self.bed.grains;
+        let n = self.bed.len();
+        let whole = |of: &dyn Fn(usize) -> i64| (0..n).map(of).collect::<Vec<_>>();
+        state.put_integer("cl-ca.id", whole(&|i| i64::from(grains.id[i])));
+        state.put_integer("cl-ca.kind", whole(&|i| i64::from(grains.kind[i])));
+        state.put_integer("cl-ca.cell", whole(&|i| i64::from(grains.cell[i])));
+        state.put_integer("cl-ca.turn", whole(&|i| i64::from(grains.turn[i])));
+        state.put_integer("cl-ca.last", whole(&|i| grains.last[i].map_or(-1, |d| d as i64)));
+        state.put_integer("cl-ca.past", whole(&|i| grains.past[i].0 as i64));
+        state.put_integer("cl-ca.placed", self.streams.iter().map(|s| s.placed as i64).collect::<Vec<_>>());
+        state.put_integer("cl-ca.clock", vec![self.bed.step as i64, self.bed.moves as i64]);
+    }
+
+    fn load(&mut self, state: &State) -> Result<(), MissingSection> {
+        let wrong = |name: &str| MissingSection { name: name.to_owned(), kind: "integer" };
+        let id = state.integer("cl-ca.id")?;
+        let column = |name: &str, fits: &dyn Fn(i64) -> bool| -> Result<Vec<i64>, MissingSection> {
+            let values = state.integer(name)?;
+            let right = values.len() == id.len() && values.iter().all(|&value| fits(value));
+            if right { Ok(values.to_vec()) } else { Err(wrong(name)) }
+        };
+        let (kinds, cells) = (self.bed.kinds.len(), self.bed.grid.columns() * self.bed.grid.rows());
+        let grains = &mut self.bed.grains;
+        let kind = column("cl-ca.kind", &|kind| (0..kinds as i64).contains(&kind))?;
+        let cell = column("cl-ca.cell", &|cell| (0..cells as i64).contains(&cell) || cell == i64::from(NOWHERE))?;
+        let turn = column("cl-ca.turn", &|turn| (0..6).contains(&turn))?;
+        let last = column("cl-ca.last", &|last| (-1..6).contains(&last))?;
+        grains.past = column("cl-ca.past", &|_| true)?.into_iter().map(|past| Past(past as u64)).collect();
+        grains.id = id.iter().map(|&id| id as u32).collect();
+        grains.kind = kind.into_iter().map(|kind| kind as u16).collect();
+        grains.cell = cell.into_iter().map(|cell| cell as u32).collect();
+        grains.turn = turn.into_iter().map(|turn| turn as u8).collect();
+        let direction = |last: i64| usize::try_from(last).ok().map(Direction::from_index);
+        grains.last = last.into_iter().map(direction).collect();
+        let placed = state.integer("cl-ca.placed")?;
+        let clock = state.integer("cl-ca.clock")?;
+        if placed.len() != self.streams.len() || clock.len() != 2 {
+            return Err(wrong("cl-ca.clock"));
+        }
+        for (stream, &placed) in self.streams.iter_mut().zip(placed) {
+            stream.placed = placed as usize;
+        }
+        (self.bed.step, self.bed.moves) = (clock[0] as u64, clock[1] as u64);
+        self.bed.count_motion();
+        self.place_movers(self.bed.step);
+        // The walls of the last step: those that vanish now do so in the next.
+        self.paint(self.bed.step.saturating_sub(1) as f64 * self.dt);
+        Ok(())
+    }
+}
+
+impl ClCaEngine {
+    /// Touching pairs for those who look on: the overlap is the number of shared points times the spacing.
+    fn contacts_of(&self, present: &[usize]) -> Vec<Contact> {
+        let mut place = vec![0; self.bed.len()];
+        present.iter().enumerate().for_each(|(index, &grain)| place[grain] = index);
+        let contact = |pair: Shared| {
+            let centre = self.position(pair.grain);
+            let (second, wall, between) = match pair.other {
+                Body::Grain(other) => (place[other], false, self.position(other) - centre),
+                // A wall is below or beside, wherever it came from: against its last move.
+                Body::Pusher(number) => {
+                    let Rule::Passive(_, pushers, _) = &self.rule else { return None };
+                    let from = -self.stage.step(pushers[number].moved).normalize_or(DVec3::Z);
+                    (pushers[number].wall, true, from * self.radius(pair.grain))
+                }
+            };
+            let normal = between.normalize_or(DVec3::Z);
+            Some(Contact {
+                first: place[pair.grain],
+                second,
+                wall,
+                position: centre + 0.5 * between,
+                between,
+                force: DVec3::ZERO,
+                normal,
+                overlap: f64::from(pair.points) * self.stage.spacing,
+            })
+        };
+        self.pairs().into_iter().filter_map(contact).collect()
+    }
+
+    /// Outlines of the walls that stand, where the lattice has them.
+    fn draw_walls(&self, frame: &mut Frame) {
+        let (mut number, mut position) = (Vec::new(), Vec::new());
+        let (middle, size) = self.stage.inside();
+        let mut lines = 0;
+        for (index, wall) in self.walls.iter().enumerate() {
+            let outline = match wall.lone_plane() {
+                // Endless planes are drawn as far as the lattice goes.
+                Some((point, normal)) => {
+                    let half = 0.5 * (size * normal.cross(DVec3::Y)).length();
+                    Outline::of_plane(point, normal, middle, half, false)
+                }
+                None => wall.outline(),
+            };
+            let moved = match &self.rule {
+                Rule::Passive(_, pushers, _) if pushers.iter().any(|pusher| pusher.wall == index) => {
+                    let moved = |t: f64| wall.mover.displacement(t, &Hosts::default()).0;
+                    self.stage.step(self.stage.vector(moved(self.time()) - moved(0.0)))
+                }
+                _ => DVec3::ZERO,
+            };
+            for line in outline.lines {
+                number.extend(std::iter::repeat_n(lines, line.len()));
+                position.extend(line.iter().map(|&corner| (corner + moved).to_array()));
+                lines += 1;
+            }
+        }
+        frame.integer(Of::Surface, "outline", "-", number);
+        frame.vector(Of::Surface, "position", "m", position);
+    }
+}

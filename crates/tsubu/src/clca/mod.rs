@@ -1,0 +1,15 @@
+//! CL-CA: grains made of many lattice points that move where there is room (Sakaguchi, Murakami, Hasegawa, Kawai 2001).
+//!
+//! A grain is a connected set of points of the triangular lattice ([`shape`]). In a step it moves by one spacing or
+//! rests; forces do not exist. Under the [`active`] rule gravity lets it go down where there is room; under the
+//! [`passive`] rule walls and driven grains push, grains overlap, and the number of shared points stands for the force.
+//! [`bed`] holds the grains and [`order`] says who goes first; [`build`] reads a plan and [`engine`] runs it.
+
+pub mod active;
+pub mod bed;
+pub mod build;
+pub mod engine;
+pub mod order;
+pub mod passive;
+mod place;
+pub mod shape;

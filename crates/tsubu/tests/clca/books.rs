@@ -1,0 +1,131 @@
+//! Invariants of every step, and the same bits whoever computes.
+
+use super::{BOX, Run, with_threads};
+use proptest::prelude::*;
+use tsubu::engine::Engine;
+
+/// A plate of driven discs comes down into a bed.
+const PLATE: &str = r#"
+title = "a plate is pushed into a bed"
+method = "cl-ca"
+duration = "1 s"
+[materials.m]
+density = "2700 kg/m^3"
+young-modulus = "1 MPa"
+[particles.bed]
+material = "m"
+count = 120
+diameter = "2.8 mm"
+start.settled = {}
+[particles.plate]
+material = "m"
+diameter = "2.8 mm"
+start.at.position = [["14 mm", "62 mm"], ["17 mm", "62 mm"], ["20 mm", "62 mm"], ["23 mm", "62 mm"], ["26 mm", "62 mm"]]
+motion.driven = { direction = "-z", signal.steady.rate = "50 mm/s" }
+[walls.box]
+material = "m"
+shape.box = { width = "40 mm", height = "80 mm", depth = "5 mm", floor-centre = ["20 mm", 0] }
+[cl-ca]
+spacing = "1 mm"
+"#;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// Whatever the shapes and drives: no point has two owners, grains keep their number and shape, no move is longer
+    /// than one spacing, the books add up, and looking only at grains that may have room changes no bit.
+    #[test]
+    fn a_box_of_any_shapes_keeps_its_invariants(
+        seed in 0_u64..1000, memory in 1_u32..33, turning in any::<bool>(), up in 1_u32..30, down in 1_u32..30,
+        shaken in any::<bool>(), bend in 0_usize..4,
+    ) {
+        let shape = [
+            "[[0, 0], [0, 2], [1, 3], [1, 5]]", "[[0, 0], [1, 1], [2, 2], [3, 3], [4, 4]]",
+            "[[0, 0], [1, 1], [-1, 1], [0, 2], [0, 4]]", "[[0, 0]]",
+        ][bend];
+        let mut changes = vec![
+            format!("seed={seed}"), format!("cl-ca.memory={memory}"), format!("cl-ca.turning={turning}"),
+            format!("cl-ca.shapes.rods.points.at={shape}"),
+        ];
+        if shaken {
+            changes.push(format!("cl-ca.gravity-switch={{ up = {up}, down = {down} }}"));
+        }
+        let mut run = Run::new(BOX, &changes);
+        let mut slow = Run::new(BOX, &changes);
+        slow.engine.look_everywhere(true);
+        for _ in 0..150 {
+            let before = run.cells();
+            run.advance(1);
+            slow.advance(1);
+            run.nobody_shares_a_point();
+            let bed = run.engine.bed();
+            for (grain, (&from, &to)) in before.iter().zip(&bed.grains.cell).enumerate() {
+                let (from, to) = (bed.vector(from as usize), bed.vector(to as usize));
+                let (h, k) = (to.h - from.h, to.k - from.k);
+                prop_assert!(3 * h * h + k * k <= 4, "grain {} moved by ({}, {})", grain, h, k);
+            }
+            prop_assert!(run.residual() < 1e-12, "residual {}", run.residual());
+        }
+        prop_assert_eq!(run.state().hash(), slow.state().hash());
+    }
+}
+
+/// The gate above sees a point that a grain does not own any more.
+#[test]
+#[should_panic(expected = "a point of grain")]
+fn a_lost_point_is_noticed() {
+    let mut run = Run::new(BOX, &[]);
+    run.engine.forget_a_point();
+    run.nobody_shares_a_point();
+}
+
+#[test]
+fn the_same_bits_at_any_number_of_threads_and_after_resume() {
+    for text in [BOX, PLATE] {
+        let whole = |threads| {
+            with_threads(threads, || {
+                let mut run = Run::new(text, &[]);
+                run.advance(200);
+                run.state().hash()
+            })
+        };
+        let hash = whole(1);
+        assert_eq!([whole(2), whole(7)], [hash.clone(), hash.clone()]);
+        let mut first = Run::new(text, &[]);
+        first.advance(77);
+        let mut second = Run::new(text, &[]);
+        second.engine.load(&first.state()).unwrap();
+        second.ledger = tsubu::ledger::Ledger::load(&first.state()).unwrap();
+        second.advance(123);
+        assert_eq!(second.state().hash(), hash, "{text}");
+    }
+}
+
+/// In a still box all comes to rest, and the lower half of the box is where the grains are.
+#[test]
+fn grains_fall_until_nobody_has_room() {
+    let mut run = Run::new(BOX, &[]);
+    let before = run.engine.centre_of_mass()[2];
+    run.advance(600);
+    let rest = run.cells();
+    run.advance(50);
+    assert_eq!(run.cells(), rest);
+    assert!(run.engine.centre_of_mass()[2] < 0.5 * before);
+}
+
+/// The plate arrives at where it was told, grains make way, and some of them share points: those stand for forces. A
+/// plate that does not move shares none.
+#[test]
+fn a_plate_pushes_grains_out_of_its_way() {
+    let pushed = |rate: &str| {
+        let mut run = Run::new(PLATE, &[format!("particles.plate.motion.driven.signal.steady.rate=\"{rate}\"")]);
+        run.advance((0.9 / run.engine.time_step()) as u64);
+        let shared: u32 = run.engine.pairs().iter().map(|pair| pair.points).sum();
+        let plate = run.cells().len() - 1;
+        let bed = run.engine.bed();
+        (shared, bed.vector(bed.grains.cell[plate] as usize).k)
+    };
+    let (moving, still) = (pushed("50 mm/s"), pushed("0.001 mm/s"));
+    assert!((moving.1 - still.1 + 90).abs() <= 2, "the plate went {} half spacings", still.1 - moving.1);
+    assert!(moving.0 > 20 && still.0 == 0, "{moving:?} {still:?}");
+}
