@@ -64,13 +64,12 @@ pub fn run(scene: &Scene, folder: &Path, existing: Existing, watcher: &Watcher) 
     let plan = scene.plan();
     let hosts = Hosts::new(&plan.hosts);
     let engine = engine::open(plan, &hosts)?;
-    let resolved = scene.resolved_toml();
     let folder = RunFolder::create(folder, existing)?;
     let mut run = Run {
         ledger: Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum()),
         measured: Measured::new(&hosts),
         watches: Watches::new(plan, &*engine),
-        scene_hash: scene_hash(&resolved),
+        scene_hash: scene_hash(&scene.steps_toml()),
         wall_before: 0.0,
         started: Instant::now(),
         plan,
@@ -78,16 +77,21 @@ pub fn run(scene: &Scene, folder: &Path, existing: Existing, watcher: &Watcher) 
         engine,
     };
     let header = run.header();
+    let verdict = check::verdict(plan, &run.hosts, &*run.engine);
+    let describe = || {
+        scene_files::write(&folder, scene)?;
+        folder.write("check.txt", verdict.to_string().as_bytes())
+    };
     let (history, frames) = if existing == Existing::Resume {
         run.resume(folder.path())?;
+        // A run may go on longer than it was meant to.
+        describe()?;
         let time = run.engine.time();
         let history = History::resume(&folder.file("history.csv"), &header, time)?;
         run.watches.resume(folder.path(), time)?;
         (history, FrameWriter::resume(folder.path(), formats(plan), time)?)
     } else {
-        scene_files::write(&folder, scene)?;
-        let verdict = check::verdict(plan, &run.hosts, &*run.engine);
-        folder.write("check.txt", verdict.to_string().as_bytes())?;
+        describe()?;
         run.watches.create(folder.path())?;
         (History::create(&folder.file("history.csv"), &header)?, FrameWriter::create(folder.path(), formats(plan))?)
     };
@@ -99,7 +103,7 @@ pub(crate) const fn formats(plan: &Plan) -> Formats {
     Formats { xyz: plan.output.xyz, lammps: plan.output.lammps }
 }
 
-/// Hash of a scene in its resolved form: what a checkpoint belongs to.
+/// Hash of a scene as text: what a checkpoint or a journal belongs to.
 pub fn scene_hash(resolved: &str) -> String {
     let mut state = State::default();
     state.put_text("scene", resolved);
@@ -244,14 +248,21 @@ impl Run<'_> {
 
     fn resume(&mut self, folder: &Path) -> Result<(), RunError> {
         let (header, state) = checkpoint::read(&checkpoint::path(folder))?;
+        let refuse =
+            |text: String| Err(RunError::NotThisScene(format!("the checkpoint in {} {text}", folder.display())));
         if header.scene_hash != self.scene_hash {
-            let text = format!(
-                "the checkpoint in {} belongs to another scene, or to this one with other values",
-                folder.display()
-            );
-            return Err(RunError::NotThisScene(text));
+            let may = "only `title`, `duration`, [output], [[claim]], [response] and [sweep] may differ";
+            return refuse(format!("belongs to another scene, or to this one with other values: {may}"));
         }
+        let dt = self.engine.time_step();
         self.engine.load(&state)?;
+        if self.engine.time() != header.time {
+            return refuse(format!("was made with another time step than {dt} s: set `dem.time-step`"));
+        }
+        if self.engine.steps() > step_of(self.plan.duration, dt) {
+            let (time, end) = (header.time, self.plan.duration);
+            return refuse(format!("is of t = {time} s, behind the end: raise `duration` = {end} s"));
+        }
         self.hosts.load(&state)?;
         self.ledger = Ledger::load(&state)?;
         self.measured.load(&state)?;

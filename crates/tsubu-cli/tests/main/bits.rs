@@ -144,6 +144,36 @@ fn a_finished_run_resumes_to_itself() {
     assert_eq!(desk.hash("out/balls"), before);
 }
 
+/// A finished run was refused when its scene was to last longer, although nothing that had been computed would change.
+#[test]
+fn a_finished_run_goes_on_for_longer() {
+    let desk = Desk::with(&format!("{SCENE}{WATCHES}"));
+    let rows = "--set 'output.history-interval=5 ms' --set 'output.frame-interval=20 ms'";
+    for method in ["dem", "lattice"] {
+        let watches = if method == "dem" { "" } else { "--set watch={}" };
+        let options = format!("balls.toml -q --set method={method} {watches} {rows}");
+        let [whole, cut] = ["whole", "cut"].map(|name| format!("{method}-{name}"));
+        desk.done(&format!("run {options} --set 'duration=0.2 s' -o {whole}"));
+        desk.done(&format!("run {options} --set 'duration=0.12 s' -o {cut}"));
+        assert_ne!(desk.hash(&whole), desk.hash(&cut));
+        // What is written and claimed may change with it.
+        let later = "--set 'duration=0.2 s' --set title=longer";
+        desk.done(&format!("run {options} {later} -o {cut} --resume"));
+        assert_eq!(desk.hash(&whole), desk.hash(&cut));
+        assert_eq!(desk.read(&format!("{whole}/history.csv")), desk.read(&format!("{cut}/history.csv")));
+        assert_eq!(desk.summary(&whole)["results"], desk.summary(&cut)["results"]);
+        assert!(desk.read(&format!("{cut}/scene.toml")).contains("duration = 0.2"));
+        let frames = |folder: &str| fs::read_dir(desk.path(&format!("{folder}/frames"))).unwrap().count();
+        assert_eq!(frames(&whole), frames(&cut));
+        // What decides the steps may not.
+        for change in ["gravity=9", "seed=3", "duration=0.1"] {
+            let refused = desk.run(&format!("run {options} {later} -o {cut} --resume --set {change}"));
+            assert_eq!(refused.code, Some(2), "{change}");
+            assert!(refused.stderr.contains("the checkpoint in"), "{}", refused.stderr);
+        }
+    }
+}
+
 #[test]
 fn the_scene_of_a_run_folder_gives_the_same_run() {
     let desk = Desk::new();

@@ -32,7 +32,7 @@ pub struct Sweep {
 }
 
 /// What is written.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Output {
     /// Simulated time between rows of `history.csv` [s].
