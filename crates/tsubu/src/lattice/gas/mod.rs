@@ -1,7 +1,8 @@
 //! Lattice gases: particles of unit speed on the bonds of the triangular lattice, at most one for each direction of a site.
 //!
 //! [`bits`], [`chance`], [`collide`], [`step`] and [`planes`] are the gas of Frisch, Hasslacher and Pomeau (1986) in its three
-//! forms, 64 sites a word.
+//! forms, 64 sites a word. [`grains`] and [`pile`] are gases of grains, which lose energy and fall;
+//! [`elongated`] gives grains an axis.
 
 #![expect(
     clippy::inline_always,
@@ -11,5 +12,8 @@
 pub mod bits;
 pub mod chance;
 pub mod collide;
+pub mod elongated;
+pub mod grains;
+pub mod pile;
 pub mod planes;
 pub mod step;

@@ -1,5 +1,11 @@
 //! The models that Sakaguchi et al. (2001) review, each against what it must show.
 
+mod baxter_behringer;
 mod fhp;
+mod karolyi_kertesz;
+mod peng_herrmann;
 
+pub(super) use baxter_behringer::hopper_order;
 pub(super) use fhp::{channel, collisions, sound, viscosity};
+pub(super) use karolyi_kertesz::{pile_angle, pile_avalanches, pile_segregation};
+pub(super) use peng_herrmann::{pipe_limit, pipe_spectrum, pipe_waves};
