@@ -4,6 +4,8 @@
 //! in its own `loads`: first for its own grains, then for grains of other blocks. Afterwards every grain adds what other
 //! blocks hold for it, in the order of the blocks. Nothing here depends on the number of threads.
 
+mod walls;
+
 use super::memory::{Contacts, FRESH, Memory, WallKey};
 use super::rows::{self, Rows};
 use super::sieve::{Hits, Spheres};
@@ -18,6 +20,7 @@ use crate::water::Gust;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
+use walls::{react, walls};
 
 /// Sums over contacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -302,38 +305,6 @@ fn skip<K>(keys: &[K], cursor: &mut usize, pass: impl Fn(&K) -> bool) -> std::op
     begin..*cursor
 }
 
-/// For every place where a grain touches a wall, which of its `old` contacts with that wall goes on there. What has rolled
-/// over a seam goes on with the history from the triangle before.
-fn match_up(
-    wall: &Wall,
-    keys: &[WallKey],
-    old: &std::ops::Range<usize>,
-    touching: &[wall::Touch],
-    went_on: &mut Vec<u32>,
-) {
-    let patch = |t: &wall::Touch| wall.key(t.element);
-    went_on.clear();
-    went_on.extend(touching.iter().map(|t| old.clone().find(|&c| keys[c].patch == patch(t)).map_or(FRESH, place)));
-    for t in 1..touching.len() {
-        // Two contacts of one patch share a name; the one history goes on once.
-        if went_on[..t].contains(&went_on[t]) {
-            went_on[t] = FRESH;
-        }
-    }
-    for t in 0..touching.len() {
-        if went_on[t] == FRESH {
-            let free = |c: &usize| !went_on.contains(&place(*c));
-            let before = old.clone().filter(free).find(|&c| wall.adjacent(keys[c].patch, patch(&touching[t])));
-            went_on[t] = before.map_or(FRESH, place);
-        }
-    }
-}
-
-/// Where the history of contact `c` with a wall lies.
-fn place(c: usize) -> u32 {
-    Contacts::<WallKey>::place(c)
-}
-
 /// Law `k` on a filled chunk, and its sums.
 fn apply(scene: &Scene, k: usize, rows: &mut Rows, sums: &mut Sums) {
     let law = &scene.table.laws()[k];
@@ -367,148 +338,5 @@ fn scatter(rows: &Rows, loads: &mut [Load], rotation: bool) {
         if rotation {
             second.torque += Chunk::vector(&rows.turn[1], r);
         }
-    }
-}
-
-/// Walks the grain-wall candidates of a block, law by law: a wall is a body of infinite radius.
-fn walls(
-    scene: &Scene,
-    list: &List,
-    memory: &mut [Memory],
-    scratch: &mut Scratch,
-    sums: &mut Sums,
-    mut visit: impl FnMut(&Rows),
-) {
-    for (law, memory) in memory.iter_mut().enumerate() {
-        walls_under(scene, law, list, memory, scratch, sums, &mut visit);
-    }
-}
-
-/// The same for one law.
-fn walls_under(
-    scene: &Scene,
-    number: usize,
-    list: &List,
-    memory: &mut Memory,
-    scratch: &mut Scratch,
-    sums: &mut Sums,
-    visit: &mut impl FnMut(&Rows),
-) {
-    let g = scene.grains;
-    let law = &scene.table.laws()[number];
-    let several = scene.reaches.len() > 1;
-    let remembers = law.width() > 0;
-    let mut cursor = 0;
-    let mut released = 0.0;
-    scratch.rows[number].chunk.len = 0;
-    scratch.keys.clear();
-    // Candidates of one grain on one wall are looked at together: on a mesh some touch only as the edge of another.
-    for near in list.walls.chunk_by(|a, b| (a.own, a.wall) == (b.own, b.wall)) {
-        let (own, k) = (near[0].own, near[0].wall);
-        let i = list.first + own as usize;
-        let wall = &scene.walls[k as usize];
-        let material = scene.table.index(g.material[i], wall.material);
-        if several && scene.table.law(material) != number {
-            continue;
-        }
-        let Scratch { elements, touching, .. } = scratch;
-        elements.clear();
-        elements.extend(near.iter().map(|candidate| candidate.element));
-        wall.touching(elements, g.position[i], g.radius[i] + scene.reaches[number], touching);
-        if remembers {
-            let before = WallKey { own, wall: k, patch: 0 };
-            let opened = skip(&memory.walls.keys, &mut cursor, |key| *key < before);
-            released += memory.walls.held(opened, law);
-            let old = skip(&memory.walls.keys, &mut cursor, |key| (key.own, key.wall) == (own, k));
-            match_up(wall, &memory.walls.keys, &old, touching, &mut scratch.went_on);
-            let went_on = &scratch.went_on;
-            let ended = old.filter(|c| !went_on.contains(&place(*c)));
-            released += ended.map(|c| memory.walls.held(c..c + 1, law)).sum::<f64>();
-        }
-        let mut t = 0;
-        while t < scratch.touching.len() {
-            let wall::Touch { element, nearest, .. } = scratch.touching[t];
-            let overlap = g.radius[i] - nearest.distance;
-            let rows = &mut scratch.rows[number];
-            let r = rows.chunk.len;
-            scratch.keys.push(WallKey { own, wall: k, patch: wall.key(element) });
-            scratch.old[r] = if remembers { scratch.went_on[t] } else { FRESH };
-            t += 1;
-            let normal = -nearest.normal;
-            rows.first[r] = own;
-            rows.second[r] = k;
-            rows.chunk.overlap[r] = overlap;
-            Chunk::set(&mut rows.chunk.normal, r, normal);
-            rows.chunk.radius[r] = g.radius[i];
-            rows.chunk.mass[r] = 1.0 / (g.inverse_mass[i] + wall.inverse_mass);
-            rows.arm[0][r] = g.radius[i] - 0.5 * overlap;
-            rows.arm[1][r] = 0.0;
-            rows.material[r] = material;
-            Chunk::set(
-                &mut rows.relative,
-                r,
-                g.velocity[i] - wall.velocity_at(g.position[i] + normal * rows.arm[0][r]),
-            );
-            Chunk::set(&mut rows.spin[0], r, g.spin[i]);
-            Chunk::set(&mut rows.spin[1], r, wall.pose.spin);
-            rows.chunk.len = r + 1;
-            if r + 1 == ROWS {
-                finish_walls(scene, number, memory, scratch, sums, visit);
-            }
-        }
-    }
-    finish_walls(scene, number, memory, scratch, sums, visit);
-    if remembers {
-        released += memory.walls.held(cursor..memory.walls.keys.len(), law);
-        sums.lost[1] += released / scene.dt;
-    }
-}
-
-fn finish_walls(
-    scene: &Scene,
-    number: usize,
-    memory: &mut Memory,
-    scratch: &mut Scratch,
-    sums: &mut Sums,
-    visit: &mut impl FnMut(&Rows),
-) {
-    let Scratch { rows, old, keys, .. } = scratch;
-    let rows = &mut rows[number];
-    let remembers = scene.table.laws()[number].width() > 0;
-    let n = rows.chunk.rows();
-    rows.motion(scene.rotation);
-    if remembers {
-        memory.walls.recall(&old[..n], &mut rows.chunk.history);
-    }
-    apply(scene, number, rows, sums);
-    if remembers {
-        memory.next_walls.keys.extend_from_slice(keys);
-        memory.next_walls.remember(n, &rows.chunk.history);
-    }
-    visit(rows);
-    keys.clear();
-    rows.chunk.len = 0;
-}
-
-/// Adds the forces of a chunk of wall contacts to the grains and to the walls.
-fn react(scene: &Scene, list: &List, rows: &Rows, loads: &mut [Load], walls: &mut [WallLoad]) {
-    for r in 0..rows.chunk.rows() {
-        let own = rows.first[r] as usize;
-        let force = Chunk::vector(&rows.force, r);
-        let turn = Chunk::vector(&rows.turn[0], r);
-        let load = &mut loads[own];
-        load.force += force;
-        load.lossy += Chunk::vector(&rows.lossy, r);
-        if scene.rotation {
-            load.torque += turn;
-        }
-        let k = rows.second[r] as usize;
-        let wall = &scene.walls[k];
-        let point = scene.grains.position[list.first + own] + rows.point(r);
-        let mut torque = -(point - wall.pose.origin()).cross(force);
-        if scene.rotation {
-            torque -= Chunk::vector(&rows.chunk.torque, r);
-        }
-        walls[k].add(&WallLoad { force: -force, torque });
     }
 }
