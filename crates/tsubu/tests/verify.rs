@@ -36,7 +36,7 @@ const CLOSED_FORMS: &[&str] = &[
 const ON_LATTICES: &[&str] = &["litwiniszyn", "gutt-haff", "hemmingsson-herrmann"];
 
 /// Single grains and packed columns in water.
-const IN_WATER: &[&str] = &["settling", "released", "packed-column"];
+const IN_WATER: &[&str] = &["settling", "released", "spin-in-water", "wet-rebound", "packed-column"];
 
 /// The quick cases that take a few seconds pass.
 #[test]

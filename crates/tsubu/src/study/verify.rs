@@ -12,6 +12,7 @@ mod cooling;
 mod damper_2003;
 mod drop;
 mod drum;
+mod film;
 mod held;
 mod host;
 mod impact_damper;
@@ -27,6 +28,7 @@ mod sediment_2004;
 mod shapes;
 mod sieving;
 mod silo;
+mod spin_in_water;
 mod stack;
 mod throw;
 mod voids;
@@ -103,6 +105,8 @@ pub static CASES: &[Case] = &[
     quick("pushed-row", "sediment-2004", "B-F22: a row of grains as a rod", sediment_2004::rod),
     quick("settling", "water", "V-50: terminal speeds by four drag laws", water::settling),
     quick("released", "water", "V-55: the begin of a fall, with added mass", water::released),
+    quick("spin-in-water", "water", "V-54: torque on spin", spin_in_water::spin),
+    quick("wet-rebound", "water", "V-56: a film on the way in, and restitution in a liquid", film::rebounds),
     quick("packed-column", "water", "V-52: Ergun's loss of pressure", water::packed),
     quick("fluidised", "water", "V-53: water that carries its bed", water::fluidised),
     long("bedload", "water", "V-57: transport rates of a coupled stream", bedload::rates),

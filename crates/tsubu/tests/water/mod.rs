@@ -1,7 +1,6 @@
 //! Grains in water by their outcome.
 
 mod coupled;
-mod film;
 mod float;
 mod fluctuation;
 mod free;

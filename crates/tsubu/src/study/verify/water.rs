@@ -7,7 +7,7 @@ use crate::water::Layers;
 use tsubu_frame::{Claim, Kind};
 
 /// A grain of quartz in space.
-fn quartz(diameter: f64, drag: &str, rest: &str) -> String {
+pub(super) fn quartz(diameter: f64, drag: &str, rest: &str) -> String {
     format!(
         r#"
         dimension = 3
