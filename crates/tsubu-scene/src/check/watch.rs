@@ -110,15 +110,13 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
             no_y(parts, &[*axis], &at("axis"), complaints);
             bedload(parts, name, measure, complaints);
         }
-        Measure::Stream {} => {
-            let layered = parts.resolved.get("water").and_then(|water| water.get("flow"));
-            if layered.is_none_or(|flow| flow.get("coupled").is_none() && flow.get("column").is_none()) {
-                complaints.push(
-                    Complaint::new(format!("the watch `{name}` has no layers of water to look at")).at(
-                        &parts.root.locate(&["watch", name, kind]),
-                        "needs water.flow.coupled or water.flow.column",
-                    ),
-                );
+        Measure::Stream { .. } => {
+            let flow = parts.resolved.get("water").and_then(|water| water.get("flow"));
+            if flow.is_none_or(|flow| ["coupled", "log-law", "column"].iter().all(|kind| flow.get(kind).is_none())) {
+                complaints.push(Complaint::new(format!("the watch `{name}` has no stream to look at")).at(
+                    &parts.root.locate(&["watch", name, kind]),
+                    "needs water.flow.coupled, water.flow.log-law or water.flow.column",
+                ));
             }
         }
         Measure::CoarseGrain { axes, points, .. } => {

@@ -59,7 +59,11 @@ pub(super) static WATCH: &[Key] = &[
         "How well two groups are mixed: Lacey index, and the height of one over the other",
     ),
     kind("wall-load", WALL_LOAD, "Force and torque of the grains on a wall, and its pressure"),
-    kind("stream", &[], "The layers of the water: velocity, share of water, discharge, shear velocity"),
+    kind(
+        "stream",
+        STREAM,
+        "The water: shear velocity, Shields and Rouse numbers, discharge; velocity, shear, stress and share of water by layers",
+    ),
     kind("track", TRACK, "Position, velocity and spin of some grains; positions go on across periodic ends"),
 ];
 
@@ -180,6 +184,10 @@ static BEDLOAD: &[Key] = &[
         .above(0.0)
         .optional(),
 ];
+
+static STREAM: &[Key] =
+    &[Key::new("group", Kind::Name(Family::Group), "Shields and Rouse numbers are of the grains of this group")
+        .optional()];
 
 static HEADINGS: &[Word] = &[
     Word { name: "x", about: "to the right" },

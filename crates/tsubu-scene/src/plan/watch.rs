@@ -162,8 +162,11 @@ pub enum Measure {
         /// Unit direction in which the pressure acts on the wall.
         direction: Option<Vector>,
     },
-    /// The layers of the water.
-    Stream {},
+    /// The water, and what it means to grains.
+    Stream {
+        /// Grains of the Shields and Rouse numbers: of this group.
+        group: Option<String>,
+    },
     /// Single grains.
     Track {
         /// Their numbers.
@@ -187,7 +190,7 @@ impl Measure {
             Self::Forces { .. } => "forces",
             Self::Segregation { .. } => "segregation",
             Self::WallLoad { .. } => "wall-load",
-            Self::Stream {} => "stream",
+            Self::Stream { .. } => "stream",
             Self::Track { .. } => "track",
         }
     }
@@ -207,7 +210,7 @@ impl Measure {
             Self::Discharge { .. }
             | Self::Hops { .. }
             | Self::WallLoad { .. }
-            | Self::Stream {}
+            | Self::Stream { .. }
             | Self::Track { .. } => None,
         }
     }

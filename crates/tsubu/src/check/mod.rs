@@ -6,6 +6,7 @@ mod verdict;
 mod water;
 
 pub use verdict::{Line, Verdict, check, human_time, verdict};
+pub use water::{KARMAN, blows_up};
 
 use crate::contact::Table;
 use crate::dem::sizes;

@@ -7,12 +7,13 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use tsubu_scene::plan::{self, GrainMotion, Normal, Particles, Plan, Torque};
 
-/// Part of the drag relaxation time that a step may be: beyond it the drag of the last moment is not that of this one, and
-/// at two of them explicit steps blow up.
+/// Part of the drag relaxation time that a step may be: beyond it the drag of the last moment is not that of this one.
+/// With all of it velocity Verlet with predicted velocities is at the end of its stability: of v' = -v/T a step makes a map of
+/// velocity and acceleration whose trace is 1 - 3/2 dt/T and whose determinant is -dt/(2 T), so it shrinks for dt < T.
 pub const OF_RELAXATION: f64 = 0.1;
 
 /// Karman's constant, in the log law's 5.75 = ln(10)/0.40.
-const KARMAN: f64 = 0.40;
+pub const KARMAN: f64 = 0.40;
 
 /// A sphere of a group in the water of a scene.
 struct Sunk<'a> {
@@ -32,38 +33,26 @@ impl Sunk<'_> {
         self.water.density * PI / 6.0 * self.diameter.powi(3)
     }
 
-    /// Time in which drag takes a motion of this speed away, mass times speed over drag [s]; infinite without drag. Where
-    /// grains slow the stream it is the water of a bed, half of the room there, that answers first; a crowd hinders tenfold.
+    /// Time in which drag takes a motion of this speed away from a grain alone, mass times speed over drag [s]; infinite without
+    /// drag.
+    fn alone(&self, speed: f64) -> f64 {
+        self.moved() * speed / self.water.drag(0.5 * self.diameter, speed)
+    }
+
+    /// The same in the scene. Where grains slow the stream it is the water of a bed, half of the room there, that answers first; a
+    /// crowd hinders tenfold.
     fn relaxation(&self, speed: f64) -> f64 {
-        let mass = match self.water.stream {
-            Stream::Coupled(_) => self.displaced() / 10.0,
-            _ => self.moved(),
+        let share = match self.water.stream {
+            Stream::Coupled(_) => self.displaced() / 10.0 / self.moved(),
+            _ => 1.0,
         };
-        mass.min(self.moved()) * speed / self.water.drag(0.5 * self.diameter, speed)
+        share.min(1.0) * self.alone(speed)
     }
 
     /// Time in which the water takes this spin [rad/s] away, inertia times spin over torque [s]; infinite without torque.
     fn spin_down(&self, spin: f64) -> f64 {
         let radius = 0.5 * self.diameter;
         0.4 * self.mass * radius * radius * spin / self.water.torque(radius, spin)
-    }
-
-    /// Speed at which drag carries the weight under water [m/s], by bisection; `None` without weight or drag.
-    fn terminal(&self, gravity: f64) -> Option<f64> {
-        let weight = (self.mass - self.displaced()).abs() * gravity;
-        let drag = |speed: f64| self.water.drag(0.5 * self.diameter, speed);
-        if weight <= 0.0 || drag(1.0) <= 0.0 {
-            return None;
-        }
-        let (mut low, mut high) = (0.0, 1e-9);
-        while drag(high) < weight {
-            (low, high) = (high, 2.0 * high);
-        }
-        for _ in 0..100 {
-            let middle = 0.5 * (low + high);
-            if drag(middle) < weight { low = middle } else { high = middle }
-        }
-        Some(high)
     }
 }
 
@@ -138,21 +127,22 @@ pub(super) fn judge(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64) 
     let Some(water) = water(plan) else { return };
     let speed = fastest(plan, &water, hosts);
     let gravity = DVec3::from_array(plan.gravity).length();
+    let mut linear = false;
     for (name, group, sunk) in sunk(plan, &water) {
         let time = sunk.relaxation(speed);
         if time.is_finite() {
             verdict.judge(
                 dt <= OF_RELAXATION * time * (1.0 + 1e-9),
                 format!(
-                    "{name} in water: drag takes a motion of {speed:.3} m/s away in {time:.3e} s, {:.0} steps (wanted: 10 or more, below 0.5 it blows up)",
+                    "{name} in water: drag takes a motion of {speed:.3} m/s away in {time:.3e} s, {:.0} steps (wanted: 10 or more, below 1 it blows up)",
                     time / dt
                 ),
                 || format!("`dem.time-step` to {:.2e} s or less, or leave it out", OF_RELAXATION * time),
             );
         }
         turning(verdict, plan, name, &sunk, speed, dt);
-        contacts(verdict, (plan, hosts), (name, group), &sunk, time);
-        let terminal = sunk.terminal(gravity);
+        linear |= contacts(verdict, (plan, hosts), (name, group), &sunk, time);
+        let terminal = water.terminal(0.5 * sunk.diameter, sunk.mass, gravity);
         if let Some(terminal) = terminal {
             let reynolds = terminal * sunk.diameter / water.viscosity;
             let way = if sunk.mass < sunk.displaced() { "rises" } else { "sinks" };
@@ -185,6 +175,12 @@ pub(super) fn judge(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64) 
             verdict.say(format!("{name} in the stream: Rouse number {rouse:.2} ({fate})"));
         }
     }
+    if linear {
+        verdict.say(
+            "stiffness and cost: ten times stiffer takes 3.2 times as long, ten times softer a third of the time"
+                .to_owned(),
+        );
+    }
 }
 
 /// Overlaps over the diameter between which Osada et al. (2004) want contacts to be: above, grains tremble and sink into one
@@ -192,16 +188,16 @@ pub(super) fn judge(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64) 
 const WINDOW: [f64; 2] = [0.01, 0.001];
 
 /// What the stiffness does to grains in water: the window of Osada et al. (2004), the contact time beside the times of drag and of a
-/// hop, and what another stiffness would cost. `drag`: time of the drag [s].
+/// hop; returns whether there is anything to say, a linear spring. `drag`: time of the drag [s].
 fn contacts(
     verdict: &mut Verdict,
     (plan, hosts): (&Plan, &Hosts),
     (name, group): (&String, &Particles),
     sunk: &Sunk,
     drag: f64,
-) {
+) -> bool {
     let law = plan.contact_of(&group.material, &group.material);
-    let Normal::Hooke { stiffness } = law.normal else { return };
+    let Normal::Hooke { stiffness } = law.normal else { return false };
     let speed = speed_scale(plan, hosts);
     let (m, d) = (sunk.moved(), sunk.diameter);
     // Against a fixed grain and without damping, d = v sqrt(m/k).
@@ -235,8 +231,18 @@ fn contacts(
         ),
         || "a stiffer `contact.normal.hooke.stiffness`: the stream changes during a contact".to_owned(),
     );
-    verdict.say(
-        "stiffness and cost: ten times stiffer takes 3.2 times as long, ten times softer a third of the time"
-            .to_owned(),
-    );
+    true
+}
+
+/// Why a step [s] cannot be: drag takes a motion away from a grain before the step ends, and explicit steps blow up; `None` where
+/// it can.
+pub fn blows_up(plan: &Plan, hosts: &Hosts, dt: f64) -> Option<String> {
+    let water = water(plan)?;
+    let speed = fastest(plan, &water, hosts);
+    let times = sunk(plan, &water).map(|(name, _, sunk)| (name, sunk.alone(speed), sunk.relaxation(speed)));
+    let (name, time, good) = times.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, time, _)| dt > *time)?;
+    Some(format!(
+        "a step of {dt:.2e} s is longer than drag needs to take a motion of {speed:.3} m/s away from a grain of `{name}`, {time:.2e} s: it would blow up; {:.2e} s or less is good, or leave the key out",
+        OF_RELAXATION * good
+    ))
 }

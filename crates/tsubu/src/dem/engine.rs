@@ -106,6 +106,10 @@ impl DemEngine {
             Refusal { method: "dem", notes }
         };
         let table = Table::new(plan);
+        let dt = check::time_step(plan, &table, hosts);
+        if let Some(text) = check::blows_up(plan, hosts, dt) {
+            return Err(refuse(("dem.time-step".to_owned(), text)).into());
+        }
         let gravity = DVec3::from_array(*gravity);
         let walls = walls(plan, &table, hosts, *dimension, gravity);
         let (grains, settle) = place::grains(plan, &table, &walls).map_err(refuse)?;
@@ -136,7 +140,7 @@ impl DemEngine {
             sources,
             wet: water.as_ref().map(|water| Wet::new(Water::new(water, gravity).seeded(*seed, *dimension == 3))),
             orientation: Orientation::new(dem.orientation),
-            dt: check::time_step(plan, &table, hosts),
+            dt,
             table,
             reaches,
             search: Search { skin, reach, ends: room::ends(plan) },

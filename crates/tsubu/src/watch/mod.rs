@@ -124,10 +124,7 @@ pub fn open(measure: &Measure, plan: &Plan) -> Box<dyn Watch> {
             pressed: area.zip(*direction).map(|(area, along)| (area, DVec3::from_array(along))),
             axes: axes(plan),
         }),
-        Measure::Stream {} => {
-            let column = plan.water.as_ref().is_some_and(|water| matches!(water.flow, plan::Flow::Column { .. }));
-            Box::new(stream::Layered { along: !column })
-        }
+        Measure::Stream { group } => Box::new(stream::Watched::new(group.as_deref(), plan)),
         Measure::Track { ids } => Box::new(track::Track { ids: ids.clone(), axes: axes(plan) }),
     }
 }

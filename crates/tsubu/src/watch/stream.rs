@@ -1,28 +1,94 @@
 //! The water.
 
 use super::{Sample, Sheet, Watch};
+use crate::check::KARMAN;
+use crate::state::sphere;
 use crate::view::{View, Wants};
-use crate::water::Stream;
+use crate::water::{Coupled, Layers, Stream, Water};
+use glam::DVec3;
+use tsubu_scene::plan::{self, Flow, Plan};
 
 pub(super) const ABOUT: &str = "\
-Water in layers (`water.flow.coupled`, `water.flow.column`): for every layer
-velocity          of the water, along x in a stream, upwards in a column        [m/s]
-share of water    what the grains leave of the layer                            [-]
-and of the whole
-discharge         of water per width of a stream; of a column per plan area     [m^2/s] or [m/s]
-mean velocity     discharge over the depth of water, sum of shares times thickness [m/s]
-shear velocity    sqrt(stress at the bottom over density), of a stream          [m/s]
-level             height z where a stream ends: its lid, or its free surface    [m]
-Limits: as those of the layers; velocities are those of the last step, shares are measured every 50 steps.";
+The water. Of a stream along x (`water.flow.coupled`, `water.flow.log-law`)
+shear velocity    U*, sqrt(stress on the bottom over density)                            [m/s]
+bed stress        stress at the top of the bed, and what is given to grains above it     [Pa]
+Shields number    bed stress / ((s - 1) rho g d), s density of the grains over rho       [-]
+Rouse number      w / (0.40 sqrt(bed stress / rho)), w terminal speed of a grain         [-]
+of layers (`coupled`, `water.flow.column`)
+discharge         of water per width of a stream; of a column per plan area              [m^2/s] or [m/s]
+mean velocity     discharge over the depth of water, sum of shares times thickness       [m/s]
+level             height z where a stream ends: its lid, or its free surface              [m]
+and for every layer
+velocity          of the water, along x in a stream, upwards in a column                 [m/s]
+share of water    what the grains leave of the layer                                     [-]
+shear             dU/dz, between the middles of the layers below and above               [1/s]
+stress            shear stress of the water, mean of the lower and the upper face        [Pa]
+The bed ends with the highest layer that grains fill by 0.3; of a log-law stream, which knows no grains, bed stress is rho U*^2. Density,
+d and w are those of the mean grain of the free groups, or of the group that is asked for, as the scene tells them.
+Source: Shields 1936; Rouse 1937. Limits: as those of the layers; velocities and stresses are those of the last step, shares are
+measured every 50 steps. While the stream gains or loses speed the bed stress is not the weight of the water along the slope.";
 
-/// Reads the layers of the water.
+/// Reads the water.
 #[derive(Clone, Debug)]
-pub(super) struct Layered {
-    /// Whether the water goes along x; else upwards.
-    pub along: bool,
+pub(super) struct Watched {
+    /// Whether there is a stream along x; else water rises in a column.
+    along: bool,
+    layered: bool,
+    /// The mean grain, if there is one: density [kg/m^3] and diameter [m].
+    grain: Option<(f64, f64)>,
+    /// [m/s^2]
+    gravity: f64,
 }
 
-impl Watch for Layered {
+impl Watched {
+    pub fn new(group: Option<&str>, plan: &Plan) -> Self {
+        let flow = plan.water.as_ref().map(|water| &water.flow);
+        let grain = plan::submerged(plan.particles.iter(), group);
+        Self {
+            along: !matches!(flow, Some(Flow::Column { .. })),
+            layered: matches!(flow, Some(Flow::Column { .. } | Flow::Coupled { .. })),
+            grain: Some(grain).filter(|(density, _)| density.is_finite()),
+            gravity: DVec3::from_array(plan.gravity).length(),
+        }
+    }
+
+    /// Shear velocity and stress at the bed, and the numbers of the mean grain.
+    fn bed(&self, water: &Water) -> Vec<f64> {
+        let shear = water.stream.shear_velocity().unwrap_or(f64::NAN);
+        let stress = match &water.stream {
+            Stream::Coupled(coupled) => coupled.bed_stress(),
+            _ => water.density * shear * shear,
+        };
+        let numbers = self.grain.map(|(density, d)| {
+            let terminal = water.terminal(0.5 * d, density * sphere::volume(0.5 * d), self.gravity);
+            let rouse = terminal.map_or(0.0, |speed| speed / (KARMAN * (stress / water.density).sqrt()));
+            [stress / ((density - water.density) * self.gravity * d), rouse]
+        });
+        [shear, stress].into_iter().chain(numbers.into_iter().flatten()).collect()
+    }
+
+    fn rows(water: &Water, layers: &Layers) -> Vec<Vec<f64>> {
+        let row = |k: usize, velocity: f64| vec![layers.middle(k), velocity, layers.open[k]];
+        match &water.stream {
+            Stream::Coupled(coupled) => {
+                let stresses = coupled.stresses();
+                let whole = |k: usize| [row(k, coupled.velocity[k]), sheared(coupled, &stresses, k).to_vec()].concat();
+                (0..layers.len()).map(whole).collect()
+            }
+            Stream::Column { velocity, .. } => (0..layers.len()).map(|k| row(k, velocity / layers.open[k])).collect(),
+            Stream::Still | Stream::LogLaw { .. } | Stream::Table { .. } => Vec::new(),
+        }
+    }
+}
+
+/// Shear [1/s] and stress [Pa] of a layer.
+fn sheared(stream: &Coupled, stresses: &[f64], k: usize) -> [f64; 2] {
+    let (below, above) = (k.saturating_sub(1), (k + 1).min(stream.layers.len() - 1));
+    let way = (above - below) as f64 * stream.layers.thickness;
+    [(stream.velocity[above] - stream.velocity[below]) / way, 0.5 * (stresses[k] + stresses[k + 1])]
+}
+
+impl Watch for Watched {
     fn about(&self) -> &'static str {
         ABOUT
     }
@@ -32,33 +98,47 @@ impl Watch for Layered {
     }
 
     fn scalars(&self) -> Vec<String> {
-        let discharge = if self.along { "discharge [m^2/s]" } else { "discharge [m/s]" };
-        let rest = ["mean velocity [m/s]", "shear velocity [m/s]", "level [m]"];
-        [discharge].into_iter().chain(rest.into_iter().take(if self.along { 3 } else { 1 })).map(String::from).collect()
+        let mut names = Vec::new();
+        if self.layered {
+            names.extend([if self.along { "discharge [m^2/s]" } else { "discharge [m/s]" }, "mean velocity [m/s]"]);
+        }
+        if self.along && self.layered {
+            names.push("level [m]");
+        }
+        if self.along {
+            names.extend(["shear velocity [m/s]", "bed stress [Pa]"]);
+            names.extend(self.grain.iter().flat_map(|_| ["Shields number [-]", "Rouse number [-]"]));
+        }
+        names.into_iter().map(String::from).collect()
     }
 
     fn sheet(&self) -> Option<Sheet> {
-        let values = ["velocity [m/s]", "share of water [-]"].map(String::from).to_vec();
-        Some(Sheet { coordinates: vec!["z [m]".to_owned()], values, steady: true })
+        let values = ["velocity [m/s]", "share of water [-]", "shear [1/s]", "stress [Pa]"];
+        let values = values.into_iter().take(if self.along { 4 } else { 2 }).map(String::from).collect();
+        self.layered.then(|| Sheet { coordinates: vec!["z [m]".to_owned()], values, steady: true })
     }
 
     fn take(&mut self, view: &View) -> Sample {
-        let Some((stream, layers)) = view.water.and_then(|water| Some((&water.stream, water.stream.layers()?))) else {
+        let Some(water) = view.water else {
             return Sample { scalars: vec![f64::NAN; self.scalars().len()], rows: Vec::new() };
         };
-        let velocity = |k: usize| match stream {
-            Stream::Coupled(coupled) => coupled.velocity[k],
-            Stream::Column { velocity, .. } => velocity / layers.open[k],
-            Stream::Still | Stream::LogLaw { .. } | Stream::Table { .. } => 0.0,
-        };
-        let depth: f64 = layers.open.iter().map(|open| open * layers.thickness).sum();
-        let mean = (0..layers.len()).map(|k| velocity(k) * layers.open[k] * layers.thickness).sum::<f64>() / depth;
-        let scalars = match stream {
-            Stream::Coupled(coupled) => vec![coupled.discharge(), mean, coupled.bottom_shear_velocity(), layers.top()],
-            Stream::Column { velocity, .. } => vec![*velocity, mean],
-            Stream::Still | Stream::LogLaw { .. } | Stream::Table { .. } => Vec::new(),
-        };
-        let row = |k: usize| vec![layers.middle(k), velocity(k), layers.open[k]];
-        Sample { scalars, rows: (0..layers.len()).map(row).collect() }
+        let mut sample = Sample::default();
+        if let Some(layers) = water.stream.layers() {
+            let depth: f64 = layers.open.iter().map(|open| open * layers.thickness).sum();
+            sample.rows = Self::rows(water, layers);
+            let through: f64 = sample.rows.iter().map(|row| row[1] * row[2] * layers.thickness).sum();
+            let discharge = match &water.stream {
+                Stream::Column { velocity, .. } => *velocity,
+                _ => through,
+            };
+            sample.scalars = vec![discharge, through / depth];
+            if self.along {
+                sample.scalars.push(layers.top());
+            }
+        }
+        if self.along {
+            sample.scalars.extend(self.bed(water));
+        }
+        sample
     }
 }

@@ -36,6 +36,9 @@ const PACKED: f64 = 0.61;
 /// Share left to the water below which a layer belongs to the bed when the stream begins.
 const FILLED: f64 = 0.8;
 
+/// Share left to the water below which a layer belongs to the bed that the stream moves over.
+const BED: f64 = 0.7;
+
 /// Steps between two looks at where the grains are.
 pub(crate) const EVERY: u64 = 50;
 
@@ -190,6 +193,22 @@ impl Coupled {
     /// Discharge of water per width [m^2/s].
     pub fn discharge(&self) -> f64 {
         self.velocity.iter().enumerate().map(|(k, u)| u * self.layers.water(k)).sum()
+    }
+
+    /// Shear stress of the water at the faces of the layers, from the bottom to the top [Pa]: one more than there are layers.
+    pub fn stresses(&self) -> Vec<f64> {
+        let mut now = self.clone();
+        now.stiffness();
+        let bottom = self.density * self.bottom_factor() * self.velocity[0] * self.velocity[0].abs();
+        let between = self.velocity.windows(2).zip(&now.stiff).map(|(u, stiff)| stiff * (u[1] - u[0]));
+        [bottom].into_iter().chain(between).chain([0.0]).collect()
+    }
+
+    /// What the water brings to the bed over its area [Pa]: its stress at the top of the highest layer that grains fill by three
+    /// tenths, half of what a packing has, and all that it gives to grains above.
+    pub fn bed_stress(&self) -> f64 {
+        let bed = self.layers.open.iter().rposition(|open| *open < BED).map_or(0, |k| k + 1);
+        self.stresses()[bed] + self.taken[bed..].iter().sum::<f64>() / self.layers.area
     }
 
     /// U* at the bottom, from its stress [m/s].

@@ -136,6 +136,24 @@ impl Water {
         parcel.total(0).length()
     }
 
+    /// Speed at which a sphere of this radius [m] and mass [kg] sinks or rises in the end in still water [m/s], where drag carries its
+    /// weight under water; by bisection. `None` without weight or drag.
+    pub fn terminal(&self, radius: f64, mass: f64, gravity: f64) -> Option<f64> {
+        let weight = (mass - self.density * sphere::volume(radius)).abs() * gravity;
+        if weight <= 0.0 || self.drag(radius, 1.0) <= 0.0 {
+            return None;
+        }
+        let (mut low, mut high) = (0.0, 1e-9);
+        while self.drag(radius, high) < weight {
+            (low, high) = (high, 2.0 * high);
+        }
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if self.drag(radius, middle) < weight { low = middle } else { high = middle }
+        }
+        Some(high)
+    }
+
     /// Torque on a sphere of this radius [m] that turns at `spin` [rad/s] in water that does not: the size, in N.m.
     pub fn torque(&self, radius: f64, spin: f64) -> f64 {
         let mut parcel = Parcel { len: 1, ..Parcel::default() };

@@ -8,7 +8,9 @@ mod lift;
 mod rise;
 mod settle;
 mod spin;
+mod step;
 mod stream;
+mod watch;
 
 use crate::dem::open_text;
 use glam::DVec3;
