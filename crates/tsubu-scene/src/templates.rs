@@ -79,6 +79,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/dam-break.toml"),
     },
     Template {
+        name: "dam-break-space",
+        about: "the same in space: how far the grains run out",
+        text: include_str!("../../../scenes/dam-break-space.toml"),
+    },
+    Template {
         name: "wet-rebound",
         about: "a ball hits a wall in oil: what the film between them leaves of its speed",
         text: include_str!("../../../scenes/wet-rebound.toml"),
@@ -92,6 +97,11 @@ pub static TEMPLATES: &[Template] = &[
         name: "saltation",
         about: "a grain leaps along the bed of a stream: drag, buoyancy and added mass in a log-law flow",
         text: include_str!("../../../scenes/saltation.toml"),
+    },
+    Template {
+        name: "saltation-space",
+        about: "grains leap over a bed in space, held against measured hops",
+        text: include_str!("../../../scenes/saltation-space.toml"),
     },
     Template {
         name: "bedload",

@@ -118,6 +118,8 @@ pub static CASES: &[Case] = &[
     ),
     long("saltation-softest", "sediment-2004", "B-F6: the softest contacts", sediment_2004::softest),
     quick("saltation-spin", "sediment-2004", "B-F20, B-F21: the same with spin", sediment_2004::spinning),
+    quick("saltation-space", "sediment-2004", "V-58: leaping grains in space", sediment_2004::saltation_space),
+    long("dam-break-space", "sediment-2004", "a dam break in space: run-out", sediment_2004::dam_break_space),
     quick("fhp-collisions", "lattice-review", "R-3.0: what collisions make of a stress", lattice_review::collisions),
     quick("fhp-viscosity", "lattice-review", "R-3.0: viscosity of the lattice gases FHP", lattice_review::viscosity),
     quick("fhp-sound", "lattice-review", "R-3.0: speed of sound of the lattice gases", lattice_review::sound),

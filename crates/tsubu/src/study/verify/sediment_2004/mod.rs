@@ -6,6 +6,7 @@ mod dam_break;
 mod rod;
 mod saltation;
 mod settling;
+mod space;
 
 pub(super) use avalanche::{avalanche, avalanche_stiff};
 pub(super) use contact::{contact_time, damped, overlap};
@@ -13,6 +14,7 @@ pub(super) use dam_break::{dam_break, dam_break_rolling};
 pub(super) use rod::rod;
 pub(super) use saltation::{saltation, softest, spinning};
 pub(super) use settling::settling;
+pub(super) use space::{dam_break_space, saltation_space};
 
 use super::bench::Rig;
 use std::f64::consts::PI;
