@@ -26,5 +26,5 @@ pub use history::History;
 pub use named::Named;
 pub use series::{Formats, FrameWriter, Snapshot, snapshots};
 pub use state::State;
-pub use summary::{Claim, Energy, Joule, ResultValue, Status, Summary};
+pub use summary::{Claim, Energy, Joule, Points, ResultValue, Status, Summary};
 pub use vtp_read::read_frame;

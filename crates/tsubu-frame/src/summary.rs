@@ -78,6 +78,25 @@ impl From<f64> for Joule {
     }
 }
 
+/// What a claim's value was made of, to be drawn: points found, and those they are held against.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Points {
+    /// Figure; claims of a study with the same one share it.
+    pub figure: String,
+    /// Axes, `what [unit]`.
+    pub axes: [String; 2],
+    /// Whether the axes are logarithmic.
+    #[serde(default)]
+    pub log: bool,
+    /// What tells these points from others of the figure.
+    pub series: String,
+    /// What came out.
+    pub found: Vec<[f64; 2]>,
+    /// What the source says; empty where it says nothing at single points.
+    #[serde(default)]
+    pub published: Vec<[f64; 2]>,
+}
+
 /// A value held against its accepted range.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Claim {
@@ -100,6 +119,9 @@ pub struct Claim {
     /// Where the range comes from.
     #[serde(default)]
     pub source: String,
+    /// What the value was made of, if there is something to draw.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points: Option<Points>,
 }
 
 impl Claim {
@@ -112,7 +134,14 @@ impl Claim {
         source: impl Into<String>,
     ) -> Self {
         let pass = !value.is_nan() && low.is_none_or(|l| value >= l) && high.is_none_or(|h| value <= h);
-        Self { study: String::new(), name: name.into(), value, low, high, pass, source: source.into() }
+        Self { name: name.into(), value, low, high, pass, source: source.into(), ..Self::default() }
+    }
+
+    /// The same claim with what is to be drawn.
+    #[must_use]
+    pub fn showing(mut self, points: Points) -> Self {
+        self.points = Some(points);
+        self
     }
 
     /// The same claim under a study's name.

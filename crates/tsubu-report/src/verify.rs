@@ -1,7 +1,8 @@
 //! The report of the shipped verification cases and studies.
 
-use tsubu_frame::{Claim, summary::read_json};
+use tsubu_frame::{Claim, Points, summary::read_json};
 
+use crate::figure::{Axis, Figure, Series, Style};
 use crate::page::{Block, Report, Tone};
 use crate::source::{Source, card, claims_table, versions};
 
@@ -53,12 +54,45 @@ pub(crate) fn build(source: &mut Source) -> Report {
     }
     for name in &studies {
         let of: Vec<&Claim> = claims.iter().filter(|c| study(c) == *name).collect();
-        report.section(*name, vec![claims_table(&of)]);
+        let mut blocks = figures(source, name, &of);
+        blocks.push(claims_table(&of));
+        report.section(*name, blocks);
     }
     if let Some(text) = source.text("verify.txt") {
         report.section("As printed", vec![Block::Typed(text)]);
     }
     report
+}
+
+/// What the values of a study's claims were made of, a figure for all claims that share one: what came out as points, what the
+/// source says dashed in the same colour.
+fn figures(source: &mut Source, study: &str, claims: &[&Claim]) -> Vec<Block> {
+    let all: Vec<&Points> = claims.iter().filter_map(|claim| claim.points.as_ref()).collect();
+    let mut titles: Vec<&str> = Vec::new();
+    for points in &all {
+        if !titles.contains(&points.figure.as_str()) {
+            titles.push(&points.figure);
+        }
+    }
+    let pairs = |points: &[[f64; 2]]| points.iter().map(|[x, y]| (*x, *y)).collect::<Vec<_>>();
+    let mut blocks = Vec::new();
+    for title in titles {
+        let mut figure = Figure { title: title.to_owned(), ..Figure::default() };
+        for (colour, points) in all.iter().filter(|points| points.figure == title).enumerate() {
+            let [x, y] = points.axes.each_ref().map(|header| Axis::from_header(header));
+            (figure.x, figure.y) = if points.log { (x.log(), y.log()) } else { (x, y) };
+            // Points alone, or they would hide the line that they are held against.
+            let style = if points.published.is_empty() { Style::LineAndPoints } else { Style::Points };
+            let found = Series::line(points.series.clone(), pairs(&points.found)).styled(style);
+            let published = Series::line("", pairs(&points.published)).styled(Style::Dashed);
+            figure.series.extend([found, published].map(|series| Series { colour: Some(colour), ..series }));
+        }
+        figure.series.retain(|series| !series.points.is_empty());
+        let plain = |text: &str| text.to_lowercase().replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+        let caption = "Points: tsubu. Dashed: what the source of the claim says.";
+        blocks.extend(source.figure(&format!("{}_{}", plain(study), plain(title)), &figure, caption));
+    }
+    blocks
 }
 
 /// A claim's study: told, or the part of its name before a slash.

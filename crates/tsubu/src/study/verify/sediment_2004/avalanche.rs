@@ -2,7 +2,7 @@
 
 use super::super::bench::refused;
 use super::{FORWARD, VERLET, Way, law, rig, stiffness_for};
-use tsubu_frame::Claim;
+use tsubu_frame::{Claim, Points};
 
 const SCENE: &str = include_str!("../../../../../../studies/sediment-2004/avalanche.toml");
 /// Diameter and length of the world [m].
@@ -47,17 +47,36 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
+/// A profile of the speed, beside another.
+fn shown(series: &str, found: &[f64], published: &[f64]) -> Points {
+    let over = |speeds: &[f64]| speeds.iter().enumerate().map(|(k, speed)| [*speed, k as f64 + 0.5]).collect();
+    Points {
+        figure: "Figure 15: speed over the depth of the avalanche".to_owned(),
+        axes: ["speed [m/s]", "height over diameter [-]"].map(String::from),
+        series: series.to_owned(),
+        found: over(found),
+        published: over(published),
+        ..Points::default()
+    }
+}
+
 /// The paper's findings, as gates for a long and a short contact.
 fn findings(name: &str, long: &Profile, short: &Profile, source: &str) -> Vec<Claim> {
     let difference: Vec<f64> = long.speed.iter().zip(short.speed).map(|(long, short)| long - short).collect();
     let least = difference.iter().copied().fold(f64::INFINITY, f64::min);
     let ratio = mean(&long.fraction) / mean(&short.fraction);
+    // The paper's long contact is 1 m/s faster than the short one, over the whole depth.
+    let faster = short.speed.map(|speed| speed + 1.0);
+    let (long_shown, short_shown) =
+        (shown(&format!("{name}, long"), &long.speed, &faster), shown(&format!("{name}, short"), &short.speed, &[]));
     let name = |what: &str| format!("avalanche, {name}: {what}");
     vec![
         Claim::judge(name("concentration, long over short contact"), ratio, Some(0.9), Some(1.1), source),
         Claim::judge(name("least difference of speed in a layer m/s"), least, Some(0.0), None, source),
-        Claim::judge(name("speed with the short contact m/s"), mean(&short.speed), Some(1.0), None, source),
-        Claim::judge(name("mean difference of speed m/s"), mean(&difference), Some(0.5), Some(2.0), source),
+        Claim::judge(name("speed with the short contact m/s"), mean(&short.speed), Some(1.0), None, source)
+            .showing(short_shown),
+        Claim::judge(name("mean difference of speed m/s"), mean(&difference), Some(0.5), Some(2.0), source)
+            .showing(long_shown),
     ]
 }
 

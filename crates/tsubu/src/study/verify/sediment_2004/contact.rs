@@ -3,7 +3,7 @@
 use super::super::bench::{Rig, near, refused, within};
 use super::{DAMPING_RATIO, DENSITY, contact_seconds, dashpot, mass, stiffness_for};
 use std::f64::consts::PI;
-use tsubu_frame::Claim;
+use tsubu_frame::{Claim, Points};
 
 /// Newtons a metre in a newton a centimetre.
 const N_PER_CM: f64 = 100.0;
@@ -111,16 +111,29 @@ fn zero(forces: &[(f64, f64)]) -> Option<f64> {
     Some(b.0 + b.1 * (b.0 - a.0) / (a.1 - b.1))
 }
 
-/// Largest relative deviation of contact times from the closed form for a mass, over stiffnesses [N/cm].
-fn deviation(diameter: f64, stiffnesses: &[f64], share: f64, spoiler: f64) -> Result<f64, String> {
-    let mut worst = 0.0f64;
-    for k in stiffnesses.iter().map(|k| k * N_PER_CM) {
+/// Largest relative deviation of what was found from what is published, at the same places.
+fn deviation(points: &Points) -> f64 {
+    let pairs = points.found.iter().zip(&points.published);
+    pairs.map(|(found, wanted)| (found[1] / wanted[1] - 1.0).abs()).fold(0.0, f64::max)
+}
+
+/// Contact times over stiffnesses [N/cm], beside the closed form for a `share` of the mass.
+fn times(diameter: f64, stiffnesses: &[f64], share: f64, spoiler: f64) -> Result<Points, String> {
+    let mut points = Points {
+        figure: "Figures 4 and 12: contact time".to_owned(),
+        axes: ["stiffness [N/cm]", "contact time [s]"].map(String::from),
+        log: true,
+        series: format!("{} cm", 100.0 * diameter),
+        ..Points::default()
+    };
+    for k in stiffnesses {
+        let stiffness = k * N_PER_CM;
         // An overlap of 1 % of the diameter.
-        let speed = 0.01 * diameter * PI / contact_seconds(diameter, k);
-        let found = Impact::undamped(diameter, k, speed).seen(spoiler)?.overlapping;
-        worst = worst.max((found / (share.sqrt() * contact_seconds(diameter, k)) - 1.0).abs());
+        let speed = 0.01 * diameter * PI / contact_seconds(diameter, stiffness);
+        points.found.push([*k, Impact::undamped(diameter, stiffness, speed).seen(spoiler)?.overlapping]);
+        points.published.push([*k, share.sqrt() * contact_seconds(diameter, stiffness)]);
     }
-    Ok(worst)
+    Ok(points)
 }
 
 /// B-F4, B-F12: contact times are half a natural period.
@@ -132,7 +145,8 @@ pub(in super::super) fn contact_time(spoiler: f64) -> Result<Vec<Claim>, String>
             k[0],
             k[k.len() - 1]
         );
-        Ok::<_, String>(Claim::judge(name, deviation(0.01 * d, k, share, spoiler)?, None, Some(1e-3), source))
+        let points = times(0.01 * d, k, share, spoiler)?;
+        Ok::<_, String>(Claim::judge(name, deviation(&points), None, Some(1e-3), source).showing(points))
     };
     let mut claims = Vec::new();
     for d in DIAMETERS {
@@ -189,12 +203,20 @@ pub(in super::super) fn overlap(spoiler: f64) -> Result<Vec<Claim>, String> {
     let of = |d: f64, k: f64| Ok::<_, String>(Impact::undamped(d, k, SPEED).seen(spoiler)?.overlap);
     let mut claims = Vec::new();
     for d in DIAMETERS.map(|d| 0.01 * d) {
-        let mut worst = 0.0f64;
-        for k in (0..12).map(|i| N_PER_CM * 10f64.powf(0.5 * f64::from(i))) {
-            worst = worst.max((of(d, k)? / (SPEED * (mass(d) / k).sqrt() / d) - 1.0).abs());
+        let mut points = Points {
+            figure: "Figures 8 and 11: largest overlap at 0.6 m/s".to_owned(),
+            axes: ["stiffness [N/cm]", "overlap over diameter [-]"].map(String::from),
+            log: true,
+            series: format!("{} cm", 100.0 * d),
+            ..Points::default()
+        };
+        for k in (0..12).map(|i| 10f64.powf(0.5 * f64::from(i))) {
+            let stiffness = k * N_PER_CM;
+            points.found.push([k, of(d, stiffness)?]);
+            points.published.push([k, SPEED * (mass(d) / stiffness).sqrt() / d]);
         }
         let name = format!("overlap over diameter, {} cm, 1 to 3e5 N/cm: largest relative deviation", 100.0 * d);
-        claims.push(Claim::judge(name, worst, None, Some(1e-3), law));
+        claims.push(Claim::judge(name, deviation(&points), None, Some(1e-3), law).showing(points));
     }
     let edges = "table of band edges, 25 to 500 N/cm for 0.05 to 1 cm (Osada 2004, figure 11)";
     let mut ratios = Vec::new();

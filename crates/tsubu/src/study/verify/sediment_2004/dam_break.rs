@@ -4,7 +4,7 @@ use super::super::beds::line;
 use super::super::bench::{Rig, refused, scalars, within};
 use super::{FORWARD, VERLET, Way, law, rig};
 use std::collections::BTreeMap;
-use tsubu_frame::{Claim, Kind};
+use tsubu_frame::{Claim, Kind, Points};
 
 const SCENE: &str = include_str!("../../../../../../studies/sediment-2004/dam-break.toml");
 /// Mean diameter [m], stiffness [N/m], place of the back wall [m], and when everything has come to rest [s].
@@ -44,12 +44,29 @@ impl Break {
         Ok(slope(&rig))
     }
 
-    /// Median over seeds [degrees]: with rotation locked one heap in ten does not fall at all.
-    fn median(&self, seeds: u32, spoiler: f64) -> Result<f64, String> {
-        let slopes: Result<Vec<f64>, String> = (1..=seeds).map(|seed| self.slope(seed, spoiler)).collect();
-        let mut slopes = slopes?;
-        slopes.sort_by(f64::total_cmp);
-        Ok(0.5 * (slopes[(slopes.len() - 1) / 2] + slopes[slopes.len() / 2]))
+    /// Slopes of several fillings [degrees], by seed.
+    fn slopes(&self, seeds: u32, spoiler: f64) -> Result<Vec<f64>, String> {
+        (1..=seeds).map(|seed| self.slope(seed, spoiler)).collect()
+    }
+}
+
+/// Median: with rotation locked one heap in ten does not fall at all.
+fn median(slopes: &[f64]) -> f64 {
+    let mut slopes = slopes.to_vec();
+    slopes.sort_by(f64::total_cmp);
+    0.5 * (slopes[(slopes.len() - 1) / 2] + slopes[slopes.len() / 2])
+}
+
+/// The slopes of several fillings, beside that of the paper.
+fn fillings(series: &str, slopes: &[f64], published: f64) -> Points {
+    let at = |y: &dyn Fn(usize) -> f64| (0..slopes.len()).map(|k| [k as f64 + 1.0, y(k)]).collect::<Vec<_>>();
+    Points {
+        figure: "Figure 19: slope after a dam break".to_owned(),
+        axes: ["filling [-]", "slope [deg]"].map(String::from),
+        series: series.to_owned(),
+        found: at(&|k| slopes[k]),
+        published: at(&|_| published),
+        ..Points::default()
     }
 }
 
@@ -75,16 +92,18 @@ fn slope(rig: &Rig) -> f64 {
 pub(in super::super) fn dam_break(spoiler: f64) -> Result<Vec<Claim>, String> {
     let source = "about 33 degrees locked, 18 free (Osada 2004, figure 19)";
     let differs = "about 33 degrees (Osada 2004, figure 19); not what the law gives, see the README of the study";
-    let locked = Break::of(false).median(10, spoiler)?;
-    let free = Break::of(true).median(10, spoiler)?;
-    let forward = Break { way: Way { integrator: FORWARD, steps: 14 }, ..Break::of(false) }.median(10, spoiler)?;
-    let name = |what: &str| format!("dam break, {what}: slope in degrees, median of ten");
-    let free_gate = |value| within(name("free rotation"), value, 18.0, 4.0, source);
+    let locked = Break::of(false).slopes(10, spoiler)?;
+    let free = Break::of(true).slopes(10, spoiler)?;
+    let forward = Break { way: Way { integrator: FORWARD, steps: 14 }, ..Break::of(false) }.slopes(10, spoiler)?;
+    let gate = |what: &str, slopes: &[f64], wanted: f64, source: &str| {
+        let name = format!("dam break, {what}: slope in degrees, median of ten");
+        within(name, median(slopes), wanted, 4.0, source).showing(fillings(what, slopes, wanted))
+    };
     Ok(vec![
-        within(name("rotation locked"), locked, 33.0, 4.0, differs),
-        free_gate(free),
-        within(name("rotation locked, forward differences with 14 steps per contact"), forward, 33.0, 4.0, source),
-        refused("dam break, locked for free rotation", &[free_gate(locked)], 1),
+        gate("rotation locked", &locked, 33.0, differs),
+        gate("free rotation", &free, 18.0, source),
+        gate("rotation locked, forward differences with 14 steps per contact", &forward, 33.0, source),
+        refused("dam break, locked for free rotation", &[gate("", &locked, 18.0, source)], 1),
     ])
 }
 
@@ -92,8 +111,17 @@ pub(in super::super) fn dam_break(spoiler: f64) -> Result<Vec<Claim>, String> {
 pub(in super::super) fn dam_break_rolling(spoiler: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     let mut slopes = Vec::new();
+    let mut points = Points {
+        figure: "Figure 23: rolling friction, free rotation".to_owned(),
+        axes: ["f' [-]", "slope [deg]"].map(String::from),
+        series: "median of five fillings".to_owned(),
+        published: vec![[0.0, 33.0], [1.0, 33.0]],
+        ..Points::default()
+    };
     for rolling in [0.0, 0.25, 0.5, 1.0] {
-        slopes.push(Break { rolling, ..Break::of(true) }.median(5, spoiler)?);
+        let found = median(&Break { rolling, ..Break::of(true) }.slopes(5, spoiler)?);
+        points.found.push([rolling, found]);
+        slopes.push(found);
     }
     let source = "rolling friction steepens the slope (Osada 2004, figure 23)";
     let name = "dam break, free rotation: slope with f' = 1 less that with 0, degrees";
@@ -103,12 +131,7 @@ pub(in super::super) fn dam_break_rolling(spoiler: f64) -> Result<Vec<Claim>, St
     let source =
         "33 to 38 degrees, as of locked grains and gravel (Osada 2004); not reached, see the README of the study";
     let most = slopes.iter().copied().fold(0.0, f64::max);
-    claims.push(Claim::judge(
-        "dam break: steepest slope for f' up to 1, degrees",
-        most,
-        Some(33.0),
-        Some(38.0),
-        source,
-    ));
+    let name = "dam break: steepest slope for f' up to 1, degrees";
+    claims.push(Claim::judge(name, most, Some(33.0), Some(38.0), source).showing(points));
     Ok(claims)
 }

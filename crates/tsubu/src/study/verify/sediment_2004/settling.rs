@@ -3,7 +3,7 @@
 use super::super::beds::mean;
 use super::super::bench::refused;
 use super::{FORWARD, VERLET, Way, law, mass, rig};
-use tsubu_frame::Claim;
+use tsubu_frame::{Claim, Points};
 
 const SCENE: &str = include_str!("../../../../../../studies/sediment-2004/settling.toml");
 /// Diameter [m].
@@ -67,11 +67,21 @@ fn at_rest(name: &str, kinetic: f64, vibrating: f64) -> [Claim; 2] {
 /// The gates of the worst of several ways to integrate.
 fn worst(stiffness: f64, ways: &[Way], name: &str, spoiler: f64) -> Result<[Claim; 2], String> {
     let (mut kinetic, mut vibrating) = (0.0f64, 0.0f64);
+    let integrator = ways.first().map_or("", |way| way.integrator);
+    let mut points = Points {
+        figure: "Figures 9 and 10: motion left after 0.5 s".to_owned(),
+        axes: ["steps per contact [-]", "kinetic energy over m g d [-]"].map(String::from),
+        log: true,
+        series: format!("{} N/cm, {integrator}", stiffness / 100.0),
+        ..Points::default()
+    };
     for way in ways {
         let found = rest(stiffness, *way, 1, spoiler)?;
         (kinetic, vibrating) = (kinetic.max(found.kinetic), vibrating.max(found.vibrating));
+        points.found.push([f64::from(way.steps), found.kinetic]);
     }
-    Ok(at_rest(&format!("42 grains, {} N/cm, {name}", stiffness / 100.0), kinetic, vibrating))
+    let [shares, energy] = at_rest(&format!("42 grains, {} N/cm, {name}", stiffness / 100.0), kinetic, vibrating);
+    Ok([shares, energy.showing(points)])
 }
 
 /// B-F9, B-F10: at rest when integrated well; by forward differences near the paper's least number of steps, not.
@@ -87,7 +97,8 @@ pub(in super::super) fn settling(spoiler: f64) -> Result<Vec<Claim>, String> {
     let gains = "forward differences gain energy below 13.9 steps per contact, dt > eta / k, at any stiffness";
     for stiffness in [SOFT, HARD] {
         let gates = worst(stiffness, &some(FORWARD, &[10]), "forward differences, 10 steps", spoiler)?;
-        claims.push(Claim::judge(gates[0].name.clone(), gates[0].value, Some(0.5), None, gains));
+        let shakes = Claim::judge(gates[0].name.clone(), gates[0].value, Some(0.5), None, gains);
+        claims.push(Claim { points: gates[1].points.clone(), ..shakes });
         claims.push(refused(&format!("{} N/cm, forward differences, 10 steps", stiffness / 100.0), &gates, 2));
     }
     // A little above, the soft bed boils and the hard one nearly rests, which is the paper's picture.
