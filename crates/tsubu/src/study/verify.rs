@@ -12,6 +12,7 @@ mod cooling;
 mod damper_2003;
 mod drop;
 mod drum;
+mod drum_regimes;
 mod film;
 mod held;
 mod host;
@@ -20,9 +21,11 @@ mod lattice_grain;
 mod lattice_review;
 mod lump;
 mod open_dem_benchmark;
+mod orifice;
 mod outlet;
 mod pile_stress;
 mod random_loads;
+mod rheology;
 mod rolling;
 mod sediment_2004;
 mod shapes;
@@ -142,7 +145,10 @@ pub static CASES: &[Case] = &[
     quick("pile-avalanches", "lattice-review", "R-3.4: avalanches are bounded", lattice_review::pile_avalanches),
     quick("pile-segregation", "lattice-review", "R-3.4: smooth grains go farther", lattice_review::pile_segregation),
     long("pipe-spectrum", "lattice-review", "R-3.1: spectrum of the density in a pipe", lattice_review::pipe_spectrum),
+    long("drum-regimes", "dem-benchmarks", "V-37: rolling, cascading, cataracting", drum_regimes::regimes),
+    long("rheology", "dem-benchmarks", "V-35: friction against inertial number", rheology::friction),
     long("beverloo", "dem-benchmarks", "V-31: discharge through a slot, in the plane", outlet::beverloo),
+    long("beverloo-3d", "dem-benchmarks", "V-31: discharge through a round hole", orifice::beverloo),
     long("janssen", "dem-benchmarks", "V-32: pressure in a silo, in the plane", silo::janssen),
     long("chute", "dem-benchmarks", "V-35, V-36: flow down a rough slope", chute::silbert),
     long("brazil-nut", "dem-benchmarks", "V-38: a large grain rises in a shaken bed", brazil_nut::brazil_nut),

@@ -89,15 +89,15 @@ fn rates(slot: f64, seed: u32, spoiler: f64) -> Result<Vec<f64>, String> {
 }
 
 /// What the law has to say of slots, rates and their errors: `[D, W, error of W]`.
-struct Fit {
+pub(super) struct Fit {
     /// Width at which the flow would end, if rates go with the power `power` of the rest; and its standard error.
-    end: [f64; 2],
+    pub end: [f64; 2],
     /// Exponent of (D - `short`), and its standard error.
-    exponent: [f64; 2],
+    pub exponent: [f64; 2],
 }
 
 impl Fit {
-    fn of(points: &[[f64; 3]], power: f64, short: f64) -> Self {
+    pub fn of(points: &[[f64; 3]], power: f64, short: f64) -> Self {
         let end = |points: &[[f64; 3]]| {
             let straight: Vec<_> = points.iter().map(|[d, w, _]| (*d, w.powf(1.0 / power))).collect();
             let (slope, offset) = line(&straight);

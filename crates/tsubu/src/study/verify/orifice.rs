@@ -1,0 +1,125 @@
+//! Silos in space that empty through a round hole (V-31).
+
+use super::beds::{law, mean};
+use super::bench::{Rig, refused, within};
+use super::outlet::Fit;
+use tsubu_frame::Claim;
+
+/// When the hole opens: the bed has come to rest.
+const OPENS: f64 = 20.0;
+/// When the flow has become steady.
+const STEADY: f64 = OPENS + 4.0;
+/// Grains a unit of volume.
+const PACKED: f64 = 1.1;
+/// Radius of the silo, and height of its bed at the begin and at the end of counting, over the width of the hole.
+const SILO: f64 = 1.25;
+const HEIGHTS: [f64; 2] = [2.0, 1.2];
+/// Spans of equal numbers of grains in which the rate of one silo is measured.
+const SPANS: usize = 6;
+
+/// Width of a hole, and how many silos with it.
+const HOLES: [(f64, u32); 3] = [(6.0, 3), (8.0, 1), (10.0, 1)];
+
+/// A flat-bottomed cylinder 2.5 holes wide. Its hole is closed by a plate that vanishes; grains below it vanish.
+fn silo(hole: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
+    let radius = SILO * hole;
+    let area = std::f64::consts::PI * radius * radius;
+    let text = format!(
+        r#"
+        title = "a silo that empties through a hole"
+        dimension = 3
+        seed = {seed}
+        gravity = 1
+        duration = 1000
+        {law}
+        [particles.grains]
+        material = "grain"
+        count = {count}
+        size.uniform = {{ smallest = 0.85, largest = 1.15 }}
+        mass = 1
+        start.random.region = {{ low = [-{radius}, -{radius}, 0.1], high = [{radius}, {radius}, {top}] }}
+        [walls.side]
+        material = "grain"
+        shape.cylinder = {{ point = [0, 0, -0.1], axis = "z", radius = {radius} }}
+        [walls.floor]
+        material = "grain"
+        shape.cone = {{ radius = {half}, end-radius = {radius}, length = 0.001 }}
+        [walls.plate]
+        material = "grain"
+        shape.plane.point = [0, 0, -0.03]
+        until = {OPENS}
+        [removal.below]
+        behind = {{ point = [0, 0, -3], normal = [0, 0, 1] }}
+        "#,
+        law = law(5e3, 0.5, 0.5),
+        count = (HEIGHTS[0] * hole * area * PACKED) as u32,
+        // Random places fill a quarter of the room.
+        top = 2.4 * HEIGHTS[0] * hole,
+        half = 0.5 * hole,
+    );
+    Rig::new(&text, spoiler)
+}
+
+/// Grains a unit of time in spans of equal numbers of grains, while the bed sinks.
+fn rates(hole: f64, seed: u32, spoiler: f64) -> Result<Vec<f64>, String> {
+    let mut rig = silo(hole, seed, spoiler)?;
+    rig.until(STEADY)?;
+    let area = std::f64::consts::PI * (SILO * hole).powi(2);
+    let (first, last) = (rig.engine.grains(), (HEIGHTS[1] * hole * area * PACKED) as usize);
+    let (mut count, mut time) = (first, rig.engine.time());
+    let mut found = Vec::new();
+    for span in 1..=SPANS {
+        let target = first.saturating_sub(first.saturating_sub(last) * span / SPANS);
+        while rig.engine.grains() > target {
+            if rig.engine.time() > 200.0 {
+                return Err(format!("the hole of {hole} d is blocked"));
+            }
+            rig.steps(20)?;
+        }
+        found.push((count - rig.engine.grains()) as f64 / (rig.engine.time() - time));
+        (count, time) = (rig.engine.grains(), rig.engine.time());
+    }
+    Ok(found)
+}
+
+/// The gates, for the right law and for wrong ones.
+fn gates(fit: &Fit) -> [Claim; 2] {
+    let source = "Beverloo 1961: exponent 5/2, k between 1.2 and 2 (V-31)";
+    [
+        Claim::judge(
+            "hole: width k at which the flow would end, in diameters",
+            fit.end[0],
+            Some(1.2),
+            Some(2.0),
+            source,
+        ),
+        within("hole: exponent of (D - 1.4 d), 6 to 10 d", fit.exponent[0], 2.5, 0.1, source),
+    ]
+}
+
+/// V-31, in space: rate^(2/5) is straight in the width of the hole and zero at k d.
+pub(super) fn beverloo(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let (mut points, mut claims) = (Vec::new(), Vec::new());
+    for (hole, silos) in HOLES {
+        let all = (1..=silos).map(|seed| rates(hole, seed, 1.0)).collect::<Result<Vec<_>, _>>()?;
+        // Spans have equal numbers of grains, so it is times that are added.
+        let times: Vec<f64> = all.iter().flatten().map(|rate| 1.0 / rate).collect();
+        let (time, error) = mean(&times);
+        let source = "steady within 3 %, or the fits below say nothing; not a reference";
+        let name = format!("hole of {hole} d: standard error of the rate, over the rate");
+        claims.push(Claim::judge(name, error / time, None, Some(0.03), source));
+        // W = C rho sqrt(g) (D - k d)^2.5 with the bulk density of the bed.
+        let source = "Beverloo 1961: C about 0.58 (V-31); a tenth either way is ours";
+        let constant = 1.0 / time / (PACKED * (hole - 1.4).powf(2.5));
+        claims.push(within(format!("hole of {hole} d: C, with k = 1.4"), constant, 0.58, 0.06, source));
+        points.push([hole * spoiler, 1.0 / time, error / (time * time)]);
+    }
+    let fit = Fit::of(&points, 2.5, 1.4);
+    claims.extend(gates(&fit));
+    let source = "half of what the claim allows; not a reference";
+    claims.push(Claim::judge("hole: standard error of k", fit.end[1], None, Some(0.2), source));
+    claims.push(Claim::judge("hole: standard error of the exponent", fit.exponent[1], None, Some(0.05), source));
+    claims.push(refused("hole, the whole width without k d", &gates(&Fit::of(&points, 2.5, 0.0))[1..], 1));
+    claims.push(refused("hole, the exponent 3/2 of slots", &gates(&Fit::of(&points, 1.5, 1.4))[..1], 1));
+    Ok(claims)
+}

@@ -1,0 +1,159 @@
+//! Friction of a flow against its inertial number, in the plane (V-35).
+
+use super::beds::{law, line, sampled};
+use super::bench::{Rig, refused, scalars, within};
+use std::fmt::Write;
+use tsubu_frame::{Claim, Kind};
+
+/// Length of the periodic world.
+const LENGTH: f64 = 20.0;
+/// Discs above a unit of length of the base.
+const LAYERS: f64 = 16.0;
+/// Frozen discs of the base.
+const BASE: usize = 16;
+/// Not looked at next to the base and to the surface.
+const EDGE: f64 = 3.0;
+/// When flows have become steady, and until when they are looked at.
+const LOOKED: [f64; 2] = [150.0, 300.0];
+/// Slopes whose inertial numbers lie between 0.06 and 0.18 by the published law. On gentler ones so thin a layer comes to rest.
+const SLOPES: [f64; 4] = [18.0, 20.0, 22.0, 24.0];
+
+/// The published law: friction and share of the area at an inertial number.
+fn published(inertial: f64) -> [f64; 2] {
+    [0.25 + 1.1 * inertial, 0.81 - 0.3 * inertial]
+}
+
+/// Discs of the published study (a fifth larger or smaller, friction 0.4, restitution 0.1) on a row of frozen ones with gaps. They
+/// begin with about the profile that they will have.
+fn slope(degrees: f64, friction: f64, spoiler: f64) -> Result<Rig, String> {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let mut groups = String::new();
+    let (sheets, high) = (4, LAYERS * 2.2 / 4.0);
+    let inertial = (sin / cos - 0.25) / 1.1;
+    for sheet in 0..sheets {
+        let (low, middle) = (f64::from(sheet) * high + 0.6, (f64::from(sheet) + 0.5) / f64::from(sheets));
+        let _ = write!(
+            groups,
+            r#"
+            [particles.b-sheet-{sheet}]
+            material = "grain"
+            count = {count}
+            size.uniform = {{ smallest = 0.8, largest = 1.2 }}
+            mass = 1
+            shape.disc.thickness = 1
+            start.random = {{ velocity = [{along}, 0], speed = 0.3, region = {{ low = [0, {low}], high = [{LENGTH}, {top}] }} }}
+            "#,
+            count = (LENGTH * LAYERS / f64::from(sheets)) as u32,
+            along = 2.0 / 3.0 * inertial * LAYERS.powf(1.5) * (1.0 - (1.0 - middle).powf(1.5)),
+            top = low + high,
+        );
+    }
+    let base: Vec<String> = (0..BASE).map(|i| format!("[{}, 0]", LENGTH / BASE as f64 * (0.5 + i as f64))).collect();
+    let text = format!(
+        r#"
+        title = "discs on a rough slope"
+        gravity = [{sin}, {down}]
+        duration = 1000
+        periodic.x = [0, {LENGTH}]
+        {law}
+        [particles.a-base]
+        material = "grain"
+        diameter = 1
+        mass = 1
+        shape.disc.thickness = 1
+        motion.frozen = {{}}
+        start.at.position = [{base}]
+        {groups}
+        [walls.bottom]
+        material = "grain"
+        shape.plane.point = [0, -0.5]
+        "#,
+        down = -cos,
+        base = base.join(", "),
+        law = law(5e3, friction, 0.1),
+    );
+    Rig::new(&text, spoiler)
+}
+
+/// What flows down one slope, in the middle of its layer.
+struct Flow {
+    degrees: f64,
+    /// Shear rate times the root of mass over pressure, where the pressure is the weight above.
+    inertial: f64,
+    /// Share of the area that discs fill.
+    filled: f64,
+    /// Mean speed in the first half of the time over that of all.
+    early: f64,
+}
+
+impl Flow {
+    fn of(degrees: f64, friction: f64, spoiler: f64) -> Result<Self, String> {
+        let mut rig = slope(degrees, friction, spoiler)?;
+        let radii = scalars(&rig.frame(), Kind::Grain, "radius");
+        let samples = sampled(&mut rig, [LOOKED[0], LOOKED[1], 0.5], |rig| {
+            let grains = rig.vectors("position").into_iter().zip(rig.vectors("velocity")).zip(&radii).skip(BASE);
+            grains.map(|((p, v), r)| [p.z, v.x, *r]).collect::<Vec<_>>()
+        })?;
+        let speed = |part: &[Vec<[f64; 3]>]| {
+            let all = || part.iter().flatten();
+            all().map(|g| g[1]).sum::<f64>() / all().count() as f64
+        };
+        let all = || samples.iter().flatten();
+        let top = 2.0 * all().map(|g| g[0]).sum::<f64>() / all().count() as f64 - EDGE;
+        let slabs = ((top - EDGE) / 2.0) as usize;
+        let thick = (top - EDGE) / slabs as f64;
+        let times = samples.len() as f64;
+        let (mut inertial, mut filled) = (0.0, 0.0);
+        for slab in 0..slabs {
+            let low = EDGE + thick * slab as f64;
+            let inside: Vec<_> = all().filter(|g| g[0] >= low && g[0] < low + thick).collect();
+            // The rate of shear is the slope of the speed in the slab.
+            let rate = line(&inside.iter().map(|g| (g[0], g[1])).collect::<Vec<_>>()).0;
+            // Discs have the mass (2 r)^2.
+            let above = all().filter(|g| g[0] > low + 0.5 * thick);
+            let weight = above.map(|g| 4.0 * g[2] * g[2]).sum::<f64>() / times;
+            let pressure = weight * degrees.to_radians().cos() / LENGTH;
+            inertial += rate / pressure.sqrt() / slabs as f64;
+            let area = inside.iter().map(|g| std::f64::consts::PI * g[2] * g[2]).sum::<f64>() / times;
+            filled += area / (thick * LENGTH) / slabs as f64;
+        }
+        let early = speed(&samples[..samples.len() / 2]) / speed(&samples);
+        Ok(Self { degrees, inertial, filled, early })
+    }
+
+    /// Friction of the flow: the tangent of the slope, whatever the grains are.
+    fn friction(&self) -> f64 {
+        self.degrees.to_radians().tan()
+    }
+
+    /// The gates, for a flow that is right and for wrong ones.
+    fn gates(&self) -> Vec<Claim> {
+        let name = |what: &str| format!("discs at {} degrees: {what}", self.degrees);
+        let source = "da Cruz et al. 2005: mu = 0.25 + 1.1 I, share of the area 0.81 - 0.3 I (V-35)";
+        let [friction, filled] = published(self.inertial);
+        vec![
+            within(name("friction less that of the law"), self.friction() - friction, 0.0, 0.03, source),
+            within(name("share of the area less that of the law"), self.filled - filled, 0.0, 0.02, source),
+            within(name("speed in the first half of the time over that of all"), self.early, 1.0, 0.1, "steady"),
+        ]
+    }
+}
+
+/// V-35: four slopes lie on the published straight lines, which are those of flows sheared under a constant pressure.
+pub(super) fn friction(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let flows = SLOPES.map(|degrees| Flow::of(degrees, 0.4, spoiler));
+    let flows = flows.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let mut claims: Vec<Claim> = Vec::new();
+    for flow in &flows {
+        let name = format!("discs at {} degrees: inertial number", flow.degrees);
+        claims.push(Claim::judge(name, flow.inertial, Some(0.001), Some(0.2), "where the law is said to hold (V-35)"));
+        claims.extend(flow.gates());
+    }
+    let (steep, rest) = line(&flows.iter().map(|f| (f.inertial, f.friction())).collect::<Vec<_>>());
+    let source = "da Cruz et al. 2005: mu = 0.25 + 1.1 I (V-35)";
+    claims.push(within("discs: friction at I = 0", rest, 0.25, 0.03, source));
+    claims.push(within("discs: rise of the friction with I", steep, 1.1, 0.25, source));
+    let slippery = Flow::of(20.0, 0.0, spoiler)?;
+    claims.push(refused("discs without friction, 20 degrees", &slippery.gates(), 1));
+    Ok(claims)
+}
