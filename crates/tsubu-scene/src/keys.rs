@@ -8,6 +8,7 @@ mod contact;
 mod grains;
 mod hosts;
 mod methods;
+mod sites;
 mod study;
 mod walls;
 mod watch;

@@ -13,6 +13,7 @@ mod contact;
 mod grains;
 mod hosts;
 mod methods;
+mod sites;
 mod study;
 mod walls;
 mod watch;
@@ -27,6 +28,7 @@ pub use methods::{
     Arithmetic, ClCa, ClCaRule, Collision, Dem, GrainPoints, GravitySwitch, Integrator, Lattice, LatticeMode,
     ObliqueGravity,
 };
+pub use sites::{GuttHaff, Heap, Savage, Split, Voids};
 pub use study::{Claim, Output, Response, Sweep};
 pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall};
 pub use watch::{Axis, Bed, Heading, Kernel, Measure, Quantity, Watch, submerged};
@@ -86,6 +88,16 @@ pub struct Plan {
     pub lattice: Lattice,
     /// What only CL-CA reads.
     pub cl_ca: ClCa,
+    /// What only Litwiniszyn's model reads.
+    pub litwiniszyn: Voids,
+    /// What only the voids after Caram and Hong read.
+    pub after_caram_hong: Voids,
+    /// What only the chute after Savage reads.
+    pub after_savage: Savage,
+    /// What only the lattice grains of Gutt and Haff read.
+    pub gutt_haff: GuttHaff,
+    /// What only the forces in a pile after Hemmingsson and Herrmann read.
+    pub after_hemmingsson_herrmann: Heap,
     /// What `tsubu response` reads.
     pub response: Option<Response>,
     /// What `tsubu sweep` reads.
@@ -110,11 +122,30 @@ pub enum Method {
     Lattice,
     /// Grains made of many lattice points.
     ClCa,
+    /// Litwiniszyn's voids.
+    Litwiniszyn,
+    /// Voids after Caram and Hong (1991).
+    AfterCaramHong,
+    /// A chute on the square lattice after Savage (1993).
+    AfterSavage,
+    /// Lattice grains of Gutt and Haff.
+    GuttHaff,
+    /// Forces in a pile after Hemmingsson and Herrmann (1997).
+    AfterHemmingssonHerrmann,
 }
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Dem, Self::Lattice, Self::ClCa];
+    pub const ALL: [Self; 8] = [
+        Self::Dem,
+        Self::Lattice,
+        Self::ClCa,
+        Self::Litwiniszyn,
+        Self::AfterCaramHong,
+        Self::AfterSavage,
+        Self::GuttHaff,
+        Self::AfterHemmingssonHerrmann,
+    ];
 
     /// Name in scene files and summaries.
     pub const fn name(self) -> &'static str {
@@ -122,6 +153,11 @@ impl Method {
             Self::Dem => "dem",
             Self::Lattice => "lattice",
             Self::ClCa => "cl-ca",
+            Self::Litwiniszyn => "litwiniszyn",
+            Self::AfterCaramHong => "after-caram-hong",
+            Self::AfterSavage => "after-savage",
+            Self::GuttHaff => "gutt-haff",
+            Self::AfterHemmingssonHerrmann => "after-hemmingsson-herrmann",
         }
     }
 }

@@ -108,4 +108,24 @@ pub static TEMPLATES: &[Template] = &[
         about: "a stream carries the upper grains of its bed along and is slowed by them: momentum both ways",
         text: include_str!("../../../scenes/bedload.toml"),
     },
+    Template {
+        name: "voids",
+        about: "a silo runs out by voids that walk up through the bed",
+        text: include_str!("../../../scenes/voids.toml"),
+    },
+    Template {
+        name: "sorting-chute",
+        about: "two sizes flow down an endless chute on a square lattice and sort themselves",
+        text: include_str!("../../../scenes/sorting-chute.toml"),
+    },
+    Template {
+        name: "lattice-grains",
+        about: "balls fall in a box and come to rest, each on a node of a lattice",
+        text: include_str!("../../../scenes/lattice-grains.toml"),
+    },
+    Template {
+        name: "pile-forces",
+        about: "forces in a pile at rest, handed down from row to row",
+        text: include_str!("../../../scenes/pile-forces.toml"),
+    },
 ];

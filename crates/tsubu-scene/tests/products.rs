@@ -76,6 +76,24 @@ region = { low = [-1, 0], high = [1, 2] }
 gravity-switch = { down = 20, up = 5 }
 shapes.balls.polygon.corners = [[0, 0], [1, 1], [0, 2]]
 
+[litwiniszyn]
+time-step = "20 ms"
+
+[after-caram-hong]
+rate = 0.5
+time-step = "20 ms"
+
+[after-savage]
+up = 0.1
+time-step = "20 ms"
+
+[gutt-haff]
+time-step = "0.1 ms"
+
+[after-hemmingsson-herrmann]
+split = "random"
+arching = 0.1
+
 [dem]
 time-step = "20 us"
 integrator = "forward-euler"

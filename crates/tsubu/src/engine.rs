@@ -104,6 +104,11 @@ pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
     Ok(match plan.method {
         Method::Dem => Box::new(crate::dem::DemEngine::new(plan, hosts)?),
         Method::Lattice => Box::new(crate::lattice::engine::LatticeEngine::new(plan, hosts)?),
+        Method::Litwiniszyn
+        | Method::AfterCaramHong
+        | Method::AfterSavage
+        | Method::GuttHaff
+        | Method::AfterHemmingssonHerrmann => Box::new(crate::lattice::site::build::open(plan, hosts)?),
         Method::ClCa => Box::new(crate::clca::engine::ClCaEngine::new(plan, hosts)?),
     })
 }

@@ -1,6 +1,6 @@
 //! The top of a scene, and its materials.
 
-use super::{Key, Kind, Word, contact, grains, hosts, methods, study, walls, watch, water};
+use super::{Key, Kind, Word, contact, grains, hosts, methods, sites, study, walls, watch, water};
 use crate::units::{ANGLE, DENSITY, NUMBER, PRESSURE, SPEED, SURFACE_ENERGY, TIME};
 
 /// The keys at the top of a scene, in the order of the plan.
@@ -66,6 +66,18 @@ pub static SCENE: &[Key] = &[
     Key::new("lattice", Kind::Table(methods::LATTICE), "What only the lattice automaton reads").default("{}"),
     Key::new("cl-ca", Kind::Table(methods::CL_CA), "What only CL-CA reads: grains made of lattice points")
         .default("{}"),
+    Key::new("litwiniszyn", Kind::Table(sites::LITWINISZYN), "What only Litwiniszyn's model of voids reads").default("{}"),
+    Key::new("after-caram-hong", Kind::Table(sites::AFTER_CARAM_HONG), "What only the voids after Caram and Hong read")
+        .default("{}"),
+    Key::new("after-savage", Kind::Table(sites::AFTER_SAVAGE), "What only the chute after Savage reads").default("{}"),
+    Key::new("gutt-haff", Kind::Table(sites::GUTT_HAFF), "What only the lattice grains of Gutt and Haff read")
+        .default("{}"),
+    Key::new(
+        "after-hemmingsson-herrmann",
+        Kind::Table(sites::AFTER_HEMMINGSSON_HERRMANN),
+        "What only the forces in a pile after Hemmingsson and Herrmann read",
+    )
+    .default("{}"),
     Key::new("response", Kind::Table(study::RESPONSE), "What `tsubu response` reads: a sweep over frequency")
         .optional(),
     Key::new("sweep", Kind::Table(study::SWEEP), "What `tsubu sweep` reads: every combination of values is a run")
@@ -87,6 +99,11 @@ static METHOD: &[Word] = &[
     Word { name: "dem", about: "discrete element method" },
     Word { name: "lattice", about: "cellular automaton on the triangular lattice, for balls in a shaken box" },
     Word { name: "cl-ca", about: "grains made of many lattice points that move where there is room" },
+    Word { name: "litwiniszyn", about: "voids that walk up from outlets at random, one after the other" },
+    Word { name: "after-caram-hong", about: "many voids at once, one to a site, and a surface that slides" },
+    Word { name: "after-savage", about: "a square lattice: flow down a chute that sorts by size" },
+    Word { name: "gutt-haff", about: "one grain a node, with velocity and offset; contacts are collisions" },
+    Word { name: "after-hemmingsson-herrmann", about: "forces handed down through a pile at rest, row by row" },
 ];
 
 static MATERIAL: &[Key] = &[

@@ -146,7 +146,8 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
             water::judge(&mut verdict, plan, hosts, dt);
         }
         Method::Lattice => lattice(&mut verdict, plan, dt, speed),
-        Method::ClCa => {}
+        // Grains that move where there is room know no contact time.
+        _ => {}
     }
     mesh::meshes(&mut verdict, plan);
     let period = shortest_period(hosts);
@@ -180,6 +181,8 @@ fn memory(method: Method, grains: usize, contacts: usize) -> f64 {
         Method::Lattice => 2e5 + 1000.0 * grains as f64,
         // Four bytes for each point of the lattice, of which a grain has some forty with the gaps around it.
         Method::ClCa => 2e5 + 400.0 * grains as f64,
+        // A site and the grain on it, for some two sites a grain.
+        _ => 2e5 + 300.0 * grains as f64,
     }
 }
 
@@ -188,6 +191,11 @@ fn step_key(plan: &Plan) -> &'static str {
         Method::Dem => "dem.time-step",
         Method::Lattice => "lattice.time-step",
         Method::ClCa => "cl-ca.spacing",
+        Method::Litwiniszyn => "litwiniszyn.time-step",
+        Method::AfterCaramHong => "after-caram-hong.time-step",
+        Method::AfterSavage => "after-savage.time-step",
+        Method::GuttHaff => "gutt-haff.time-step",
+        Method::AfterHemmingssonHerrmann => "duration",
     }
 }
 

@@ -69,6 +69,11 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         dem: _,
         lattice,
         cl_ca: _,
+        litwiniszyn: _,
+        after_caram_hong: _,
+        after_savage: _,
+        gutt_haff: _,
+        after_hemmingsson_herrmann: _,
         response: _,
         sweep: _,
         watch,
@@ -407,7 +412,7 @@ fn rules(plan: &Plan, casing: &Casing, kind: &Kind, seed: u64, scale: &Scale) ->
 }
 
 /// Restitution of a pair of materials: what the scene says of the pair, else the geometric mean.
-fn restitution(plan: &Plan, a: &str, b: &str) -> f64 {
+pub(super) fn restitution(plan: &Plan, a: &str, b: &str) -> f64 {
     let own = |name: &str| plan.materials.get(name).map_or(1.0, |m| m.restitution);
     // The square root of e e can miss e by one bit.
     let mean = || if a == b { own(a) } else { (own(a) * own(b)).sqrt() };

@@ -3,6 +3,7 @@
 mod books;
 mod coupling;
 mod free;
+mod methods;
 mod plans;
 mod refusal;
 mod sites;

@@ -1,0 +1,310 @@
+//! A model with one grain a site as an engine: lengths, times, masses, gates, and the books.
+//!
+//! What gravity gives to grains that hop, and what walls and collisions take, is posted as one row, `lattice rules`, and as
+//! rule impulse: the books say how much the rules did, not why.
+
+use super::ground::{Ground, NOBODY};
+use super::{ForceUnit, Link, Model, Seat};
+use crate::engine::{Engine, Fault, Note};
+use crate::lattice::sheet::WALL;
+use crate::ledger::{Account, Ledger, Stocks};
+use crate::partner::Hosts;
+use crate::view::{Columns, Contact, Contacts, View, WallLoad, Wants};
+use crate::wall::{Outline, Wall};
+use glam::DVec3;
+use std::collections::BTreeMap;
+use tsubu_frame::frame::Kind;
+use tsubu_frame::state::MissingSection;
+use tsubu_frame::{Frame, State};
+use tsubu_scene::plan::Removal;
+
+/// The scene on its lattice.
+#[derive(Clone, Debug)]
+pub(super) struct Scene {
+    pub ground: Ground,
+    pub walls: Vec<Wall>,
+    /// Which wall owns a site.
+    pub owner: Vec<u16>,
+    pub removal: Vec<Removal>,
+    /// Mass of every grain [kg].
+    pub mass: Vec<f64>,
+    /// Diameter of every grain [m].
+    pub diameter: Vec<f64>,
+    /// Number of the group of every grain.
+    pub group: Vec<u32>,
+    /// Gravity as drawn [m/s^2].
+    pub gravity: DVec3,
+}
+
+/// A model on the ground of a scene.
+pub struct SiteEngine {
+    model: Box<dyn Model>,
+    scene: Scene,
+    dt: f64,
+    notes: Vec<Note>,
+    /// Energy and momentum of every grain when the books were last written; `None`: gone.
+    books: Vec<Option<(f64, DVec3)>>,
+}
+
+/// A grain in metres and seconds.
+struct Body {
+    grain: usize,
+    position: DVec3,
+    velocity: DVec3,
+}
+
+impl SiteEngine {
+    pub(super) fn new(model: Box<dyn Model>, scene: Scene, dt: f64, notes: Vec<Note>) -> Self {
+        let mut engine = Self { model, scene, dt, notes, books: Vec::new() };
+        engine.books = engine.count();
+        engine
+    }
+
+    fn bodies(&self) -> Vec<Body> {
+        let mut bodies = Vec::new();
+        let (spacing, speed) = (self.scene.ground.spacing, self.scene.ground.spacing / self.dt);
+        self.model.seats(&mut |Seat { grain, site, offset, velocity }| {
+            let position = self.scene.ground.point(site) + spacing * DVec3::new(offset[0], 0.0, offset[1]);
+            bodies.push(Body { grain, position, velocity: speed * DVec3::new(velocity[0], 0.0, velocity[1]) });
+        });
+        bodies
+    }
+
+    /// Energy and momentum of every grain.
+    fn count(&self) -> Vec<Option<(f64, DVec3)>> {
+        let mut books = vec![None; self.scene.mass.len()];
+        for Body { grain, position, velocity } in self.bodies() {
+            let mass = self.scene.mass[grain];
+            let energy = mass * (0.5 * velocity.length_squared() - self.scene.gravity.dot(position));
+            books[grain] = Some((energy, mass * velocity));
+        }
+        books
+    }
+
+    /// Posts what grains took that left, and what the rules did to the others.
+    fn close(&mut self, ledger: &mut Ledger) {
+        let now = self.count();
+        let (mut left, mut lost) = (0.0, 0.0);
+        let (mut taken, mut made) = (DVec3::ZERO, DVec3::ZERO);
+        for (then, now) in self.books.iter().zip(&now) {
+            match (then, now) {
+                (Some((e, p)), None) => {
+                    left += e;
+                    taken += *p;
+                }
+                (Some((e, p)), Some((f, q))) => {
+                    lost += e - f;
+                    made += *q - *p;
+                }
+                (None, _) => {}
+            }
+        }
+        ledger.post(Account::Exchange, -left);
+        ledger.post(Account::LatticeRules, lost);
+        for axis in 0..3 {
+            ledger.exchange_impulse[axis] -= taken[axis];
+            ledger.rule_impulse[axis] += made[axis];
+        }
+        self.books = now;
+    }
+
+    /// Walls whose time has come vanish from the lattice.
+    fn open_gates(&mut self, time: f64) {
+        if !self.scene.walls.iter().any(|wall| !wall.gone() && wall.goes_by(time)) {
+            return;
+        }
+        for wall in &mut self.scene.walls {
+            wall.stand_or_go(time);
+        }
+        let (cells, owner) = self.scene.ground.paint(&self.scene.walls, &self.scene.removal);
+        for (site, (&cell, &mine)) in cells.iter().zip(&owner).enumerate() {
+            if self.scene.owner[site] != NOBODY && mine == NOBODY && cell != WALL {
+                self.model.free(site);
+            }
+        }
+        self.scene.owner = owner;
+    }
+
+    /// Newtons in the model's unit of force, for a grain.
+    fn newtons(&self, mass: f64) -> f64 {
+        match self.model.force_unit() {
+            ForceUnit::Newton => 1.0,
+            ForceUnit::Motion => mass * self.scene.ground.spacing / (self.dt * self.dt),
+        }
+    }
+
+    /// Forces between grains and on walls.
+    fn forces(&self, bodies: &[Body]) -> (Vec<Contact>, Vec<WallLoad>) {
+        let mut at = BTreeMap::new();
+        let mut index = 0;
+        self.model.seats(&mut |seat| {
+            at.insert(seat.site, index);
+            index += 1;
+        });
+        let mut loads = vec![WallLoad::default(); self.scene.walls.len()];
+        let mut contacts = Vec::new();
+        for Link { from, to, force } in self.model.links() {
+            let Some(&first) = at.get(&from) else { continue };
+            let force = self.newtons(self.scene.mass[bodies[first].grain]) * DVec3::new(force[0], 0.0, force[1]);
+            let centre = bodies[first].position;
+            let (second, wall, reach) = match at.get(&to) {
+                Some(&second) => (second, false, 1.0),
+                None if self.scene.owner[to] != NOBODY => (usize::from(self.scene.owner[to]), true, 0.5),
+                None => continue,
+            };
+            let between = reach * (self.scene.ground.point(to) - self.scene.ground.point(from));
+            let position = centre + 0.5 / reach * between;
+            if wall {
+                loads[second]
+                    .add(&WallLoad { force, torque: (position - self.scene.walls[second].pose.origin()).cross(force) });
+            }
+            let normal = between.normalize_or(DVec3::NEG_Z);
+            contacts.push(Contact { first, second, wall, position, between, force: -force, normal, overlap: 0.0 });
+        }
+        (contacts, loads)
+    }
+
+    /// Outlines of the walls that stand; endless planes as far as the lattice goes.
+    fn draw_walls(&self, frame: &mut Frame) {
+        let (mut number, mut position) = (Vec::new(), Vec::new());
+        let (middle, size) = self.scene.ground.inside();
+        let mut lines = 0;
+        for wall in self.scene.walls.iter().filter(|wall| !wall.gone()) {
+            let outline = match wall.lone_plane() {
+                Some((point, normal)) => {
+                    let half = 0.5 * (size * normal.cross(DVec3::Y)).length();
+                    Outline::of_plane(point, normal, middle, half, false)
+                }
+                None => wall.outline(),
+            };
+            for line in outline.lines {
+                number.extend(std::iter::repeat_n(lines, line.len()));
+                position.extend(line.iter().map(DVec3::to_array));
+                lines += 1;
+            }
+        }
+        frame.integer(Kind::Surface, "outline", "-", number);
+        frame.vector(Kind::Surface, "position", "m", position);
+    }
+}
+
+impl Engine for SiteEngine {
+    fn notes(&self) -> &[Note] {
+        &self.notes
+    }
+
+    fn time_step(&self) -> f64 {
+        self.dt
+    }
+
+    fn steps(&self) -> u64 {
+        self.model.step()
+    }
+
+    fn grains(&self) -> usize {
+        self.books.iter().flatten().count()
+    }
+
+    fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
+        for _ in 0..steps {
+            let time = self.time();
+            self.open_gates(time);
+            self.model.advance().map_err(|text| Fault::Lattice { step: self.model.step(), time, text })?;
+            for host in &mut hosts.list {
+                host.runge_kutta(time, self.dt, 0.0, ledger);
+            }
+        }
+        self.close(ledger);
+        Ok(())
+    }
+
+    fn grain_stocks(&self) -> Stocks {
+        let mut stocks = Stocks::default();
+        for Body { grain, position, velocity } in self.bodies() {
+            stocks.kinetic += 0.5 * self.scene.mass[grain] * velocity.length_squared();
+            stocks.potential -= self.scene.mass[grain] * self.scene.gravity.dot(position);
+        }
+        stocks
+    }
+
+    fn momentum(&self) -> [f64; 3] {
+        self.books.iter().flatten().map(|(_, momentum)| *momentum).sum::<DVec3>().to_array()
+    }
+
+    fn centre_of_mass(&self) -> [f64; 3] {
+        let (mut mass, mut moment) = (0.0, DVec3::ZERO);
+        for body in self.bodies() {
+            mass += self.scene.mass[body.grain];
+            moment += self.scene.mass[body.grain] * body.position;
+        }
+        if mass > 0.0 { (moment / mass).to_array() } else { [0.0; 3] }
+    }
+
+    fn contacts(&self) -> usize {
+        self.model.contacts()
+    }
+
+    fn frame(&self, _hosts: &Hosts) -> Frame {
+        let mut frame = Frame { time: self.time(), step: self.steps(), columns: Vec::new() };
+        let bodies = self.bodies();
+        let real = |of: &dyn Fn(&Body) -> f64| bodies.iter().map(of).collect::<Vec<_>>();
+        let whole = |of: &dyn Fn(&Body) -> i64| bodies.iter().map(of).collect::<Vec<_>>();
+        let vectors = |of: &dyn Fn(&Body) -> DVec3| bodies.iter().map(|b| of(b).to_array()).collect::<Vec<_>>();
+        frame.integer(Kind::Grain, "id", "-", whole(&|b| b.grain as i64));
+        frame.vector(Kind::Grain, "position", "m", vectors(&|b| b.position));
+        frame.vector(Kind::Grain, "velocity", "m/s", vectors(&|b| b.velocity));
+        frame.scalar(Kind::Grain, "radius", "m", real(&|b| 0.5 * self.scene.diameter[b.grain]));
+        frame.scalar(Kind::Grain, "mass", "kg", real(&|b| self.scene.mass[b.grain]));
+        frame.integer(Kind::Grain, "group", "-", whole(&|b| i64::from(self.scene.group[b.grain])));
+        if self.model.offers().contacts == Contacts::Forces {
+            let mut load = vec![[0.0; 3]; bodies.len()];
+            for contact in self.forces(&bodies).0.iter().filter(|contact| contact.force.z > 0.0) {
+                for (sum, part) in load[contact.first].iter_mut().zip(contact.force.to_array()) {
+                    *sum += part;
+                }
+            }
+            frame.vector(Kind::Grain, "force from below", "N", load);
+        }
+        self.draw_walls(&mut frame);
+        frame
+    }
+
+    fn offers(&self) -> Wants {
+        self.model.offers()
+    }
+
+    fn view(&self, wants: Wants) -> View<'_> {
+        let bodies = self.bodies();
+        let n = bodies.len();
+        let real = |of: &dyn Fn(&Body) -> f64| bodies.iter().map(of).collect::<Vec<_>>();
+        let vectors = |of: &dyn Fn(&Body) -> DVec3| bodies.iter().map(of).collect::<Vec<_>>();
+        let grains = Columns {
+            position: vectors(&|b| b.position).into(),
+            wrapped: vec![DVec3::ZERO; n].into(),
+            velocity: vectors(&|b| b.velocity).into(),
+            spin: vec![DVec3::ZERO; n].into(),
+            radius: real(&|b| 0.5 * self.scene.diameter[b.grain]).into(),
+            mass: real(&|b| self.scene.mass[b.grain]).into(),
+            inverse_mass: real(&|b| 1.0 / self.scene.mass[b.grain]).into(),
+            group: bodies.iter().map(|b| self.scene.group[b.grain]).collect(),
+            id: bodies.iter().map(|b| b.grain as u32).collect(),
+        };
+        let needs = wants.walls || wants.contacts > Contacts::Nothing;
+        let (contacts, walls) = if needs { self.forces(&bodies) } else { (Vec::new(), Vec::new()) };
+        View { time: self.time(), ends: [None; 3], grains, contacts, walls, water: None }
+    }
+
+    fn save(&self, state: &mut State) {
+        self.model.save(state);
+    }
+
+    fn load(&mut self, state: &State) -> Result<(), MissingSection> {
+        self.model.load(state)?;
+        // The walls of the last step: those that vanish now do so in the next.
+        let time = self.model.step().saturating_sub(1) as f64 * self.dt;
+        self.open_gates(time);
+        self.model.load(state)?;
+        self.books = self.count();
+        Ok(())
+    }
+}

@@ -1,0 +1,212 @@
+//! The ground that a model plays on: a lattice laid over the scene, with the scene's walls and outlets painted onto it.
+//!
+//! A site is as wide as a grain. It belongs to a wall if a grain on it would be cut by one: if its centre is behind, or
+//! less than half a spacing before, one of its planes, or within half a spacing of another surface. It is an outlet if it
+//! lies where the scene removes grains. Whatever lies beyond the rim of the lattice is wall.
+
+use crate::lattice::grid::{COLUMN_SPACING, Grid};
+use crate::lattice::sheet::{EMPTY, Layout, OUT, ROW_SPACING, Sheet, WALL};
+use crate::wall::{Surface, Wall};
+use glam::DVec3;
+use tsubu_scene::plan::{Region, Removal};
+
+/// The largest ground [sites].
+pub const LARGEST: f64 = 1e8;
+
+/// How sites lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sites {
+    /// Level rows.
+    Level(Layout),
+    /// Upright columns of a triangular lattice, every other one half a spacing higher.
+    Upright,
+}
+
+/// A lattice over a scene.
+#[derive(Clone, Debug)]
+pub struct Ground {
+    /// How sites lie.
+    pub sites: Sites,
+    /// Width of a site [m].
+    pub spacing: f64,
+    /// Columns, with the rim.
+    pub columns: usize,
+    /// Rows, with the rim.
+    pub rows: usize,
+    /// Where column 0 and row 0 are [m].
+    origin: DVec3,
+}
+
+/// No wall owns the site.
+pub const NOBODY: u16 = u16::MAX;
+
+impl Ground {
+    /// A lattice over a region, its outermost grains half a spacing from the ends. `None` if the region is not wider than
+    /// a grain or has more than [`LARGEST`] sites.
+    pub fn new(sites: Sites, region: &Region, spacing: f64) -> Option<Self> {
+        let (wide, high) = match sites {
+            Sites::Level(Layout::Triangular) => (1.0, ROW_SPACING),
+            Sites::Level(Layout::Square) => (1.0, 1.0),
+            Sites::Upright => (COLUMN_SPACING, 1.0),
+        };
+        let size = (DVec3::from_array(region.high) - DVec3::from_array(region.low)) / spacing;
+        let columns = ((size.x - 1.0) / wide + 1e-6).floor() + 1.0;
+        let rows = ((size.z - 1.0) / high - 1e-6).ceil() + 1.0;
+        if !(columns >= 1.0 && rows >= 1.0 && columns * rows <= LARGEST) {
+            return None;
+        }
+        let first = DVec3::new(0.5 - wide, 0.0, 0.5 - high) * spacing;
+        let origin = DVec3::from_array(region.low) + first;
+        Some(Self { sites, spacing, columns: columns as usize + 2, rows: rows as usize + 2, origin })
+    }
+
+    /// Number of sites.
+    pub fn len(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Whether there are none; there never are.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Column and row of a site.
+    pub fn place(&self, site: usize) -> (usize, usize) {
+        match self.sites {
+            Sites::Level(_) => (site % self.columns, site / self.columns),
+            Sites::Upright => (site / self.rows, site % self.rows),
+        }
+    }
+
+    fn index(&self, column: usize, row: usize) -> usize {
+        match self.sites {
+            Sites::Level(_) => row * self.columns + column,
+            Sites::Upright => column * self.rows + row,
+        }
+    }
+
+    /// Centre of a site [m].
+    pub fn point(&self, site: usize) -> DVec3 {
+        let (column, row) = self.place(site);
+        let (c, r) = (column as f64, row as f64);
+        let [x, z] = match self.sites {
+            Sites::Level(Layout::Triangular) => [c + 0.5 * (row % 2) as f64, ROW_SPACING * r],
+            Sites::Level(Layout::Square) => [c, r],
+            Sites::Upright => [COLUMN_SPACING * c, r + 0.5 * (column % 2) as f64],
+        };
+        self.origin + self.spacing * DVec3::new(x, 0.0, z)
+    }
+
+    /// The site nearest to a point in the plane, and its distance [m]; the rim does not count.
+    pub fn nearest(&self, point: DVec3) -> Option<(usize, f64)> {
+        let at = (point - self.origin) / self.spacing;
+        let (wide, high) = match self.sites {
+            Sites::Level(Layout::Triangular) => (1.0, ROW_SPACING),
+            Sites::Level(Layout::Square) => (1.0, 1.0),
+            Sites::Upright => (COLUMN_SPACING, 1.0),
+        };
+        let around = |x: f64, end: usize| {
+            let low = (x.floor() - 1.0).max(1.0) as usize;
+            (low..low + 4).filter(move |&index| index + 1 < end)
+        };
+        let candidates = around(at.x / wide, self.columns)
+            .flat_map(|column| around(at.z / high, self.rows).map(move |row| (column, row)));
+        let flat = |p: DVec3| p.x.hypot(p.z);
+        candidates
+            .map(|(column, row)| self.index(column, row))
+            .map(|site| (site, flat(self.point(site) - point)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// Middle of the ground, and its width and height [m].
+    pub fn inside(&self) -> (DVec3, DVec3) {
+        let (low, high) = (self.point(0), self.point(self.len() - 1));
+        (0.5 * (low + high), high - low)
+    }
+
+    /// What walls that stand and removal make of every site, and which wall owns it.
+    pub fn paint(&self, walls: &[Wall], removal: &[Removal]) -> (Vec<i32>, Vec<u16>) {
+        let mut cells = vec![EMPTY; self.len()];
+        let mut owner = vec![NOBODY; self.len()];
+        let mut near = Vec::new();
+        for site in 0..self.len() {
+            let point = self.point(site);
+            for (number, wall) in walls.iter().enumerate() {
+                let planes = matches!(wall.surface, Surface::HalfSpaces { .. });
+                let reach = self.spacing * if planes { 0.5 - 1e-6 } else { 0.5 + 1e-6 };
+                wall.near(point, self.spacing, &mut near);
+                if near.iter().any(|&element| wall.nearest(element, point).distance < reach) {
+                    cells[site] = WALL;
+                    owner[site] = number as u16;
+                    break;
+                }
+            }
+            let (column, row) = self.place(site);
+            let rim = column == 0 || row == 0 || column + 1 == self.columns || row + 1 == self.rows;
+            if rim {
+                cells[site] = WALL;
+            } else if cells[site] == EMPTY && removal.iter().any(|removal| gone(removal, point)) {
+                cells[site] = OUT;
+            }
+        }
+        (cells, owner)
+    }
+
+    /// A sheet with those contents; only for level rows.
+    pub fn sheet(&self, cells: &[i32]) -> Sheet {
+        let layout = if let Sites::Level(layout) = self.sites { layout } else { Layout::Triangular };
+        let mut sheet = Sheet::new(layout, self.columns, self.rows);
+        sheet.cells.copy_from_slice(cells);
+        sheet
+    }
+
+    /// A grid with those walls; only for upright columns.
+    pub fn grid(&self, cells: &[i32]) -> Grid {
+        let mut grid = Grid::new(self.columns, self.rows);
+        for (site, &cell) in cells.iter().enumerate() {
+            grid.set(site, if cell == WALL { WALL } else { EMPTY });
+        }
+        grid
+    }
+}
+
+/// Whether grains vanish at a point.
+pub fn gone(removal: &Removal, at: DVec3) -> bool {
+    match removal {
+        Removal::Inside { region } => {
+            let (low, high) = (DVec3::from_array(region.low), DVec3::from_array(region.high));
+            at.x >= low.x && at.x <= high.x && at.z >= low.z && at.z <= high.z
+        }
+        Removal::Behind { point, normal } => (at - DVec3::from_array(*point)).dot(DVec3::from_array(*normal)) < 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Ground, Sites};
+    use crate::lattice::sheet::Layout;
+    use glam::DVec3;
+    use tsubu_scene::plan::Region;
+
+    /// The outermost sites lie half a spacing from the ends, and the nearest site of a site's centre is the site.
+    #[test]
+    fn sites_fit_the_region_and_are_found() {
+        let region = Region { low: [-5.0, 0.0, 1.0], high: [5.0, 0.0, 11.0] };
+        for sites in [Sites::Level(Layout::Triangular), Sites::Level(Layout::Square), Sites::Upright] {
+            let ground = Ground::new(sites, &region, 1.0).expect("a region of ten sites");
+            let inner: Vec<usize> = (0..ground.len())
+                .filter(|&s| {
+                    let (c, r) = ground.place(s);
+                    c > 0 && r > 0 && c + 1 < ground.columns && r + 1 < ground.rows
+                })
+                .collect();
+            let least = inner.iter().map(|&s| ground.point(s)).reduce(DVec3::min).expect("sites");
+            assert!((least.x + 4.5).abs() < 1e-12 && (least.z - 1.5).abs() < 0.5 + 1e-12, "{sites:?}: {least}");
+            for site in inner {
+                let found = ground.nearest(ground.point(site) + DVec3::new(0.2, 0.0, -0.2)).expect("a site");
+                assert_eq!(found.0, site, "{sites:?}");
+            }
+        }
+        assert!(Ground::new(Sites::Upright, &region, 20.0).is_none());
+    }
+}

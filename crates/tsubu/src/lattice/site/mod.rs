@@ -1,0 +1,104 @@
+//! Models with one grain a site, as engines: what they share.
+//!
+//! A [`Model`] is a rule on sites, in spacings and steps. [`ground`] paints the walls and outlets of a scene onto its
+//! lattice, [`start`] says where grains begin, [`build`] takes the plan apart and [`engine`] gives lengths, times and
+//! masses to what the model does. [`voids`], [`chute`], [`grains`] and [`pile`] are the models as seen from there.
+
+pub mod build;
+pub mod chute;
+pub mod engine;
+pub mod grains;
+pub mod ground;
+pub mod pile;
+pub mod start;
+pub mod voids;
+
+use crate::view::Wants;
+use tsubu_frame::State;
+use tsubu_frame::state::MissingSection;
+
+/// A grain, where it is and how it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seat {
+    /// Its number.
+    pub grain: usize,
+    /// Its site.
+    pub site: usize,
+    /// Position less that of the site, in spacings: to the right, and up.
+    pub offset: [f64; 2],
+    /// Velocity, in spacings a step.
+    pub velocity: [f64; 2],
+}
+
+/// A force between a grain and another or a wall, on the sites of the lattice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// The site of the grain that gives it.
+    pub from: usize,
+    /// The site of who takes it.
+    pub to: usize,
+    /// Force on who takes it, over the unit of force of the [model](Model::force_unit): to the right, and up.
+    pub force: [f64; 2],
+}
+
+/// A rule by which grains on sites move.
+pub trait Model: Send {
+    /// One step.
+    fn advance(&mut self) -> Result<(), String>;
+
+    /// Steps done.
+    fn step(&self) -> u64;
+
+    /// Calls for every grain that is there.
+    fn seats(&self, each: &mut dyn FnMut(Seat));
+
+    /// A wall has gone from a site.
+    fn free(&mut self, site: usize);
+
+    /// What it can show beside grains.
+    fn offers(&self) -> Wants {
+        Wants::GRAINS
+    }
+
+    /// Touching pairs and their forces, as far as it [offers](Model::offers) them.
+    fn links(&self) -> Vec<Link> {
+        Vec::new()
+    }
+
+    /// Number of touching pairs.
+    fn contacts(&self) -> usize {
+        0
+    }
+
+    /// What one stands for in [`Link::force`]: newtons, or the mass of the grain that gives it times spacings a step
+    /// squared.
+    fn force_unit(&self) -> ForceUnit {
+        ForceUnit::Motion
+    }
+
+    /// Writes everything that the next step depends on.
+    fn save(&self, state: &mut State);
+
+    /// Takes it back.
+    fn load(&mut self, state: &State) -> Result<(), MissingSection>;
+}
+
+/// Unit of the forces of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceUnit {
+    /// Newtons.
+    Newton,
+    /// Mass of the giving grain times spacings a step squared.
+    Motion,
+}
+
+/// An integer section of the given length.
+pub(super) fn section<'a>(state: &'a State, name: &str, length: usize) -> Result<&'a [i64], MissingSection> {
+    let values = state.integer(name)?;
+    if values.len() == length { Ok(values) } else { Err(wrong(name)) }
+}
+
+/// That a section is not what it should be.
+pub(super) fn wrong(name: &str) -> MissingSection {
+    MissingSection { name: name.to_owned(), kind: "integer" }
+}

@@ -1,0 +1,117 @@
+//! Which sites the grains begin on.
+//!
+//! `rows` fills its region from the lowest sites up, `settled` all that is free, with the groups mixed; `random` draws
+//! sites in its region; `at` and `file` take the nearest site.
+
+use super::ground::Ground;
+use crate::lattice::remarks::Remarks;
+use crate::lattice::sheet::EMPTY;
+use crate::random::{Purpose, words};
+use glam::DVec3;
+use tsubu_scene::plan::{Particles, Plan, Region, Start};
+
+/// Number of grains of a group.
+pub(super) fn count_of(group: &Particles) -> usize {
+    match &group.start {
+        Start::At { position, .. } => position.len(),
+        Start::File { grains, .. } => grains.position.len(),
+        _ => group.count,
+    }
+}
+
+/// Puts every grain of the plan onto a site; `cells` gets their numbers.
+pub(super) fn place(plan: &Plan, ground: &Ground, cells: &mut [i32], remarks: &mut Remarks) {
+    let mut first = 0;
+    let mut settled: Vec<usize> = Vec::new();
+    for (name, group) in &plan.particles {
+        let numbers: Vec<usize> = (first..first + count_of(group)).collect();
+        first += numbers.len();
+        let key = format!("particles.{name}.start");
+        match &group.start {
+            Start::At { position, velocity, spin } => {
+                at(&format!("{key}.at"), position, &numbers, ground, cells, remarks);
+                if !velocity.is_empty() || !spin.is_empty() {
+                    remarks.approximate(format!("{key}.at"), "grains begin at rest and do not spin");
+                }
+            }
+            Start::File { grains, .. } => at(&key, &grains.position, &numbers, ground, cells, remarks),
+            Start::Stream { .. } => remarks.refuse(
+                format!("{key}.stream"),
+                "on this lattice all grains are there from the start; fill by `rows`, `settled` or `random`",
+            ),
+            Start::Settled { .. } => settled.extend(numbers),
+            Start::Rows { region, speed, .. } => {
+                fill(&format!("{key}.rows"), &numbers, sites(ground, cells, region.as_ref()), cells, remarks);
+                rest(&format!("{key}.rows.speed"), *speed != 0.0, remarks);
+            }
+            Start::Random { region, velocity, speed } => {
+                let mut free = sites(ground, cells, region.as_ref());
+                free.sort_by_key(|&site| words(plan.seed, Purpose::Placement, site as u32, 1));
+                fill(&format!("{key}.random"), &numbers, free, cells, remarks);
+                rest(&format!("{key}.random"), *speed != 0.0 || *velocity != [0.0; 3], remarks);
+            }
+        }
+    }
+    if !settled.is_empty() {
+        settled.sort_by_key(|&number| words(plan.seed, Purpose::Placement, number as u32, 0));
+        fill("particles", &settled, sites(ground, cells, None), cells, remarks);
+    }
+}
+
+fn rest(key: &str, moves: bool, remarks: &mut Remarks) {
+    if moves {
+        remarks.approximate(key, "grains begin at rest");
+    }
+}
+
+/// Free sites of a region, from the lowest up.
+fn sites(ground: &Ground, cells: &[i32], region: Option<&Region>) -> Vec<usize> {
+    let slack = 1e-6 * ground.spacing;
+    let inside = |p: DVec3| {
+        region.is_none_or(|r| {
+            p.x > r.low[0] - slack && p.x < r.high[0] + slack && p.z > r.low[2] - slack && p.z < r.high[2] + slack
+        })
+    };
+    let mut free: Vec<usize> = (0..cells.len()).filter(|&s| cells[s] == EMPTY && inside(ground.point(s))).collect();
+    free.sort_by(|&a, &b| {
+        let (p, q) = (ground.point(a), ground.point(b));
+        p.z.total_cmp(&q.z).then(p.x.total_cmp(&q.x))
+    });
+    free
+}
+
+/// Grains onto the first of some sites.
+fn fill(key: &str, numbers: &[usize], sites: Vec<usize>, cells: &mut [i32], remarks: &mut Remarks) {
+    if sites.len() < numbers.len() {
+        let text = format!(
+            "{} grains, but only {} free sites of the lattice; take fewer, or enlarge the region or the box",
+            numbers.len(),
+            sites.len()
+        );
+        remarks.refuse(key, text);
+    }
+    for (site, &number) in sites.into_iter().zip(numbers) {
+        cells[site] = number as i32;
+    }
+}
+
+/// Given places: the nearest sites.
+fn at(key: &str, position: &[[f64; 3]], numbers: &[usize], ground: &Ground, cells: &mut [i32], remarks: &mut Remarks) {
+    let mut farthest = 0.0_f64;
+    for (index, (point, &number)) in position.iter().zip(numbers).enumerate() {
+        match ground.nearest(DVec3::from_array(*point)).filter(|(site, _)| cells[*site] == EMPTY) {
+            Some((site, distance)) => {
+                cells[site] = number as i32;
+                farthest = farthest.max(distance);
+            }
+            None => remarks.refuse(
+                format!("{key}.position[{index}]"),
+                "its nearest site is taken by a wall, an outlet or another grain; move it",
+            ),
+        }
+    }
+    if farthest > 1e-6 * ground.spacing {
+        let text = format!("taken to the nearest site of the lattice, at most {:.3} mm away", 1e3 * farthest);
+        remarks.approximate(format!("{key}.position"), text);
+    }
+}

@@ -1,0 +1,148 @@
+//! Methods with one grain a site, from their scenes: books, resume, gates, refusals.
+
+use tsubu::engine::{self, Engine, OpenError};
+use tsubu::ledger::Ledger;
+use tsubu::partner::Hosts;
+use tsubu_frame::State;
+use tsubu_scene::plan::{Method, Plan};
+use tsubu_scene::{Scene, plan};
+
+const SCENES: [(&str, u64); 4] = [
+    (include_str!("../../../../scenes/voids.toml"), 60),
+    (include_str!("../../../../scenes/sorting-chute.toml"), 60),
+    (include_str!("../../../../scenes/lattice-grains.toml"), 400),
+    (include_str!("../../../../scenes/pile-forces.toml"), 15),
+];
+
+fn plan(text: &str) -> Plan {
+    let scene = Scene::parse("test", text, std::path::Path::new("."), &[]).map_err(|c| c.to_string()).unwrap();
+    scene.plan().clone()
+}
+
+struct Run {
+    engine: Box<dyn Engine>,
+    hosts: Hosts,
+    ledger: Ledger,
+}
+
+impl Run {
+    fn new(plan: &Plan) -> Self {
+        let hosts = Hosts::new(&plan.hosts);
+        let engine = engine::open(plan, &hosts).unwrap();
+        let ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+        Self { engine, hosts, ledger }
+    }
+
+    fn steps(&mut self, count: u64) {
+        self.engine.advance(count, &mut self.hosts, &mut self.ledger).unwrap();
+    }
+
+    fn state(&self) -> State {
+        let mut state = State::default();
+        self.engine.save(&mut state);
+        state
+    }
+}
+
+/// A run that is broken off and taken up again ends with the same bits, and the books close.
+#[test]
+fn sites_resume_with_the_same_bits() {
+    for (text, steps) in SCENES {
+        let mut plan = plan(text);
+        let methods = if plan.method == Method::AfterCaramHong {
+            vec![Method::AfterCaramHong, Method::Litwiniszyn]
+        } else {
+            vec![plan.method]
+        };
+        for method in methods {
+            plan.method = method;
+            let mut whole = Run::new(&plan);
+            whole.steps(steps);
+            let half = whole.state();
+            let begun = half.hash();
+            whole.steps(steps);
+            let mut again = Run::new(&plan);
+            again.engine.load(&half).unwrap();
+            assert_eq!(again.state().hash(), begun, "{}", method.name());
+            again.steps(steps);
+            assert_eq!(again.state().hash(), whole.state().hash(), "{}", method.name());
+            assert_ne!(whole.state().hash(), begun, "{}: nothing happened", method.name());
+            let residual = whole.ledger.residual_relative(&engine::stocks(&*whole.engine, &whole.hosts));
+            assert!(residual.abs() < 1e-9, "{}: {residual}", method.name());
+        }
+    }
+}
+
+/// A wall that vanishes lets the grains behind it go, and not before.
+#[test]
+fn gates_open_on_sites() {
+    let text = r#"
+        title = "a bed behind a gate"
+        method = "after-caram-hong"
+        duration = 1
+        [materials.sand]
+        young-modulus = 1e7
+        [particles.sand]
+        material = "sand"
+        diameter = 1e-3
+        mass = 1e-6
+        count = 60
+        start.rows.region = { low = [0, 0], high = [0.01, 0.02] }
+        [walls.box]
+        material = "sand"
+        shape.box = { width = 0.08, height = 0.02, floor-centre = [0.03, 0] }
+        [walls.back]
+        material = "sand"
+        shape.plane = { point = [0, 0], normal = "x" }
+        [walls.gate]
+        material = "sand"
+        shape.plane = { point = [0.01, 0], normal = "-x" }
+        until = 0.2
+    "#;
+    let plan = plan(text);
+    let mut run = Run::new(&plan);
+    let front = |run: &Run| {
+        let frame = run.engine.frame(&run.hosts);
+        match &frame.column(tsubu_frame::Kind::Grain, "position").unwrap().values {
+            tsubu_frame::Values::Vector(p) => p.iter().map(|p| p[0]).fold(0.0, f64::max),
+            _ => f64::NAN,
+        }
+    };
+    let step = run.engine.time_step();
+    run.steps((0.19 / step) as u64);
+    assert!(front(&run) < 0.01, "{}", front(&run));
+    run.steps((0.4 / step) as u64);
+    assert!(front(&run) > 0.0105, "{}", front(&run));
+}
+
+fn refused(change: impl Fn(&mut Plan), text: &str) -> String {
+    let mut plan = plan(text);
+    change(&mut plan);
+    match engine::open(&plan, &Hosts::new(&plan.hosts)) {
+        Err(OpenError::Refused(refusal)) => refusal.to_string(),
+        Err(other) => other.to_string(),
+        Ok(_) => "not refused".to_owned(),
+    }
+}
+
+/// What sites cannot do is refused by name, with what to do.
+#[test]
+fn sites_refuse_what_they_cannot_do() {
+    let text = SCENES[0].0;
+    let space = refused(|p| p.dimension = 3, text);
+    assert!(space.contains("dimension") && space.contains("`method = \"dem\"`"), "{space}");
+    let tilted = refused(|p| p.gravity = [1.0, 0.0, -9.0], text);
+    assert!(tilted.contains("gravity") && tilted.contains("along -z"), "{tilted}");
+    let many = refused(|p| p.particles.get_mut("sand").unwrap().count = 1_000_000, text);
+    assert!(many.contains("particles.sand.start.rows") && many.contains("free sites"), "{many}");
+    let moving = refused(
+        |p| {
+            let signal = plan::Signal::Steady { rate: 1.0 };
+            p.walls.get_mut("silo").unwrap().motion = Some(plan::Motion { direction: [1.0, 0.0, 0.0], signal });
+        },
+        text,
+    );
+    assert!(moving.contains("walls.silo.motion") && moving.contains("stand still"), "{moving}");
+    let repeated = refused(|p| p.periodic.x = Some([-0.12, 0.12]), text);
+    assert!(repeated.contains("periodic") && repeated.contains("after-savage"), "{repeated}");
+}
