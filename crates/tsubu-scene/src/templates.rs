@@ -128,4 +128,9 @@ pub static TEMPLATES: &[Template] = &[
         about: "forces in a pile at rest, handed down from row to row",
         text: include_str!("../../../scenes/pile-forces.toml"),
     },
+    Template {
+        name: "debris-flow",
+        about: "stones of 10 to 100 cm and water down 15 degrees, in space: momentum both ways below a free surface",
+        text: include_str!("../../../scenes/debris-flow.toml"),
+    },
 ];

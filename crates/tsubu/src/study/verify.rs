@@ -155,6 +155,8 @@ pub static CASES: &[Case] = &[
     long("dam-break", "sediment-2004", "B-F19: slopes after a dam break", sediment_2004::dam_break),
     long("dam-break-rolling", "sediment-2004", "B-F19, B-F23: rolling friction", sediment_2004::dam_break_rolling),
     long("avalanche", "sediment-2004", "B-F13 to B-F16: rock at 40 degrees", sediment_2004::avalanche),
+    long("mobile-bed", "sediment-2004", "B-F22: a mobile bed, rotation locked and free", sediment_2004::mobile_bed),
+    long("dense-flow", "sediment-2004", "B-F17, Takahashi: dense flow in a flume", sediment_2004::dense_flow),
     long("avalanche-stiff", "sediment-2004", "the same with contacts of 0.1 ms", sediment_2004::avalanche_stiff),
     long("figure-3a", "damper-2003", "A-F3a: response by DEM, literal law", damper_2003::figure_3a),
     long("figure-3b", "damper-2003", "A-F3b: the same with more wall friction", damper_2003::figure_3b),

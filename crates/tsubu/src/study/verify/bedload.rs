@@ -17,14 +17,29 @@ const DEEP: f64 = 5.0;
 const FROM: f64 = 1.5;
 const UNTIL: f64 = 5.0;
 
+/// How the water moves.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// In layers, by its mean velocity alone.
+    Mean,
+    /// In layers, with fluctuations of the strength 1 over the time of the depth of water.
+    Turbulent,
+    /// By the log law, whatever the grains do.
+    Unslowed,
+}
+
 /// What a stream of a slope [rad] and a depth of water over its bed, in diameters, comes to: Shields number at the bed and the rate over sqrt((s-1) g d^3), both measured.
-fn transport([slope, water]: [f64; 2], coupled: bool, spoiler: f64) -> Result<[f64; 2], String> {
+fn transport([slope, water]: [f64; 2], stream: Kind, spoiler: f64) -> Result<[f64; 2], String> {
     let height = (DEEP + water) * D;
-    let flow = if coupled {
-        format!("flow.coupled = {{ bottom = 0, top = {height} }}\nhindrance.richardson-zaki = {{}}")
-    } else {
+    let coupled = format!("flow.coupled = {{ bottom = 0, top = {height} }}\nhindrance.richardson-zaki = {{}}");
+    let flow = match stream {
+        Kind::Mean => coupled,
+        Kind::Turbulent => {
+            let time = water * D / (15.0 * (9.8 * slope.sin() * water * D).sqrt());
+            format!("{coupled}\nfluctuation.time = {time}")
+        }
         // The log law over a bed that is not there would press on all grains alike.
-        format!("flow.log-law = {{ depth = {height} }}")
+        Kind::Unslowed => format!("flow.log-law = {{ depth = {height} }}"),
     };
     let text = format!(
         r#"
@@ -100,11 +115,13 @@ pub(super) fn rates(spoiler: f64) -> Result<Vec<Claim>, String> {
         Claim::judge(name, rate, Some(0.5 * low), Some(2.0 * high), source)
     };
     let mut claims = Vec::new();
-    for stream in [[0.025, 8.0], [0.06, 8.0], [0.06, 15.0]] {
-        let found = transport(stream, true, spoiler)?;
-        claims.push(gate(found, "bedload"));
+    for (kind, name) in [(Kind::Mean, "bedload, mean stream"), (Kind::Turbulent, "bedload, turbulent stream")] {
+        for stream in [[0.025, 8.0], [0.06, 8.0], [0.06, 15.0]] {
+            let found = transport(stream, kind, spoiler)?;
+            claims.push(gate(found, name));
+        }
     }
-    let wrong = transport([0.06, 8.0], false, spoiler)?;
+    let wrong = transport([0.06, 8.0], Kind::Unslowed, spoiler)?;
     claims.push(refused("a stream that grains do not slow, down to the bottom of the bed", &[gate(wrong, "")], 1));
     Ok(claims)
 }

@@ -3,6 +3,8 @@
 mod avalanche;
 mod contact;
 mod dam_break;
+mod dense_flow;
+mod mobile_bed;
 mod rod;
 mod saltation;
 mod settling;
@@ -11,6 +13,8 @@ mod space;
 pub(super) use avalanche::{avalanche, avalanche_stiff};
 pub(super) use contact::{contact_time, damped, overlap};
 pub(super) use dam_break::{dam_break, dam_break_rolling};
+pub(super) use dense_flow::dense_flow;
+pub(super) use mobile_bed::mobile_bed;
 pub(super) use rod::rod;
 pub(super) use saltation::{saltation, softest, spinning};
 pub(super) use settling::settling;
