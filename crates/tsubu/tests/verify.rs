@@ -38,11 +38,14 @@ const ON_LATTICES: &[&str] = &["litwiniszyn", "gutt-haff", "hemmingsson-herrmann
 /// Single grains and packed columns in water.
 const IN_WATER: &[&str] = &["settling", "released", "spin-in-water", "wet-rebound", "packed-column"];
 
+/// Grains made of lattice points.
+const CL_CA: &[&str] = &["collapse", "convection", "poured-heap", "pushed-plate"];
+
 /// The quick cases that take a few seconds pass.
 #[test]
 fn quick_cases_pass() {
     let others = ["restitution", "drop-dem", "drop-lattice", "lump", "figure-9", "bed-at-rest", "fluidised"];
-    for name in others.iter().chain(IN_WATER).chain(ON_LATTICES).chain(CLOSED_FORMS) {
+    for name in others.iter().chain(CL_CA).chain(IN_WATER).chain(ON_LATTICES).chain(CLOSED_FORMS) {
         for case in chosen(&[(*name).to_owned()], false).unwrap() {
             for claim in case.claims().unwrap() {
                 assert!(

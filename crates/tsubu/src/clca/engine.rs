@@ -374,7 +374,8 @@ impl Engine for ClCaEngine {
 
     fn frame(&self, _hosts: &Hosts) -> Frame {
         let mut frame = Frame { time: self.time(), step: self.steps(), columns: Vec::new() };
-        let present: Vec<usize> = self.bed.present().collect();
+        let mut present: Vec<usize> = self.bed.present().collect();
+        present.sort_by_key(|&grain| self.bed.grains.id[grain]);
         let whole = |of: &dyn Fn(usize) -> i64| present.iter().map(|&grain| of(grain)).collect::<Vec<_>>();
         let real = |of: &dyn Fn(usize) -> f64| present.iter().map(|&grain| of(grain)).collect::<Vec<_>>();
         let vectors =

@@ -6,8 +6,8 @@
 //!
 //! - D_c = { d : O(a + d, c) < O(a, c) and d . u_c >= 0 }, O the number of shared points; allowed is what all D_c have in
 //!   common, less what would enter a wall that stands still. If nothing is left, the grain rests.
-//! - Of what is allowed: the direction in which fewest points are newly shared with others; then the direction of the
-//!   last step, then the largest reduction, then a draw.
+//! - Of what is allowed: the direction of the last step, then the largest reduction, then a draw. New overlaps with
+//!   others are not avoided: that is how a push goes on through the bed.
 //! - A grain without causes follows the active rule under gravity, and rests without.
 //! - The order is that of [`rank`]; on its turn a grain looks again.
 //!
@@ -275,6 +275,6 @@ impl Around<'_> {
         let candidates = Direction::ALL.into_iter().filter(|&d| allowed[d as usize] && open(d));
         // The draw begins at a random direction and goes round.
         let draw = |d: Direction| (d as usize + (word[1] % 6) as usize) % 6;
-        candidates.min_by_key(|&d| (new[d as usize], last != Some(d), kept[d as usize], draw(d)))
+        candidates.min_by_key(|&d| (last != Some(d), kept[d as usize], draw(d)))
     }
 }

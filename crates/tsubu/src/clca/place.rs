@@ -32,7 +32,11 @@ pub(super) fn place(plan: &Plan, stage: &Stage, grains: &[Vec<Grain>], bed: &mut
     let random = |start: &Start| matches!(start, Start::Random { .. });
     let mut later: Vec<(Grain, Region, String)> = Vec::new();
     let mut settle = false;
-    for ((name, group), own) in plan.particles.iter().zip(grains) {
+    // Those with places of their own come first: rows make room for them.
+    let placed = |start: &Start| matches!(start, Start::At { .. } | Start::File { .. });
+    let mut groups: Vec<_> = plan.particles.iter().zip(grains).collect();
+    groups.sort_by_key(|((_, group), _)| !placed(&group.start));
+    for ((name, group), own) in groups {
         let key = format!("particles.{name}.start");
         let region = match &group.start {
             Start::Rows { region, .. } | Start::Random { region, .. } => region.clone().or_else(|| casing.clone()),

@@ -6,6 +6,7 @@ mod bench;
 mod brazil_nut;
 mod chung_ooi_2011;
 mod chute;
+mod cl_ca_2001;
 mod cohesion;
 mod contact;
 mod cooling;
@@ -127,6 +128,12 @@ pub static CASES: &[Case] = &[
     quick("fhp-viscosity", "lattice-review", "R-3.0: viscosity of the lattice gases FHP", lattice_review::viscosity),
     quick("fhp-sound", "lattice-review", "R-3.0: speed of sound of the lattice gases", lattice_review::sound),
     quick("fhp-channel", "lattice-review", "R-3.0: flow in a channel, conservation", lattice_review::channel),
+    quick("collapse", "cl-ca-2001", "C-F9 to F11: 540 grains lose a side wall", cl_ca_2001::collapse),
+    quick("rise", "cl-ca-2001", "C-x1: a large grain rises in a shaken box", cl_ca_2001::rise),
+    quick("convection", "cl-ca-2001", "C-x2: rolls between rough walls", cl_ca_2001::convection),
+    quick("poured-heap", "cl-ca-2001", "C-x3: slopes of a poured heap", cl_ca_2001::pour),
+    quick("pushed-plate", "cl-ca-2001", "C-x4: a plate pushed into a bed", cl_ca_2001::plate),
+    long("collapse-twin", "cl-ca-2001", "C-F9 to F11: the same by DEM, and what both cost", cl_ca_2001::twin),
     quick("litwiniszyn", "lattice-review", "R-1: voids that walk up at random", voids::litwiniszyn_case),
     quick("caram-hong", "lattice-review", "R-2: many voids, exclusion, a surface", voids::caram_hong_case),
     quick("savage", "lattice-review", "R-3.3: a chute on the square lattice that sorts by size", sieving::chute),

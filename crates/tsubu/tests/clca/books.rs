@@ -121,8 +121,8 @@ fn a_plate_pushes_grains_out_of_its_way() {
         let mut run = Run::new(PLATE, &[format!("particles.plate.motion.driven.signal.steady.rate=\"{rate}\"")]);
         run.advance((0.9 / run.engine.time_step()) as u64);
         let shared: u32 = run.engine.pairs().iter().map(|pair| pair.points).sum();
-        let plate = run.cells().len() - 1;
         let bed = run.engine.bed();
+        let plate = bed.present().find(|&grain| !bed.kind(grain).free).unwrap();
         (shared, bed.vector(bed.grains.cell[plate] as usize).k)
     };
     let (moving, still) = (pushed("50 mm/s"), pushed("0.001 mm/s"));

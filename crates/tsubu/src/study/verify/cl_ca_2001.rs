@@ -1,0 +1,344 @@
+//! Sakaguchi, Murakami, Hasegawa and Kawai (2001): grains made of lattice points.
+//!
+//! The paper shows pictures and no numbers, so the claims are signs, order and shape. A spoiler other than 1 takes away
+//! what each effect needs: the wall stays, the large grain is as small as the others, the walls are smooth, nothing is
+//! poured or pushed.
+
+use super::bench::Rig;
+use crate::view::{Contacts, Wants};
+use glam::DVec3;
+use std::time::Instant;
+use tsubu_frame::Claim;
+
+const SOURCE: &str = "Sakaguchi et al. (2001), figures 9 to 11: pictures (C-6)";
+
+fn between(name: impl Into<String>, value: f64, low: f64, high: f64, source: &str) -> Claim {
+    Claim::judge(name, value, Some(low), Some(high), source)
+}
+
+fn at_least(name: impl Into<String>, value: f64, low: f64, source: &str) -> Claim {
+    Claim::judge(name, value, Some(low), None, source)
+}
+
+/// The scene of the collapse, by a method; the wall on the right stays if `opened` is false.
+fn collapsing(method: &str, opened: bool) -> Result<Rig, String> {
+    let text = include_str!("../../../../../scenes/collapse.toml").replace("\"cl-ca\"", &format!("\"{method}\""));
+    let mut plan = super::bench::plan(&text)?;
+    // Looks are taken here.
+    plan.watch.clear();
+    plan.claim.clear();
+    if !opened && let Some(wall) = plan.walls.get_mut("right") {
+        wall.until = None;
+    }
+    Rig::of(plan, 1.0)
+}
+
+/// Grains that are elsewhere after `time` [s] more.
+fn moved(rig: &mut Rig, time: f64, least: f64) -> Result<f64, String> {
+    let before = rig.vectors("position");
+    rig.until(rig.engine.time() + time)?;
+    let moved = before.iter().zip(rig.vectors("position")).filter(|(a, b)| a.distance(*b) > least);
+    Ok(moved.count() as f64)
+}
+
+/// Where the wall stood [m].
+const WALL: f64 = 86.6e-3;
+
+/// Grains beyond the place of the wall, the front [mm], and the slope of the surface from there to the left [degrees].
+fn slope(rig: &Rig) -> (f64, f64, f64) {
+    let grains = rig.vectors("position");
+    let outside = grains.iter().filter(|p| p.x > WALL).count() as f64;
+    let mut x: Vec<f64> = grains.iter().map(|p| p.x).collect();
+    x.sort_by(f64::total_cmp);
+    // The front is where 99 % of the grains are behind: single ones may roll on by DEM.
+    let front = x[x.len() * 99 / 100];
+    let bins = 30;
+    let width = front / bins as f64;
+    let mut surface = vec![f64::NEG_INFINITY; bins];
+    for p in &grains {
+        let bin = (p.x / width) as usize;
+        if bin < bins {
+            surface[bin] = surface[bin].max(p.z);
+        }
+    }
+    // A straight line through the lower and middle part of the right flank: the last 60 % of the way.
+    let line: Vec<(f64, f64)> = (0..bins)
+        .filter(|bin| bin * 10 >= bins * 4 && surface[*bin].is_finite())
+        .map(|bin| ((bin as f64 + 0.5) * width, surface[bin]))
+        .collect();
+    let n = line.len() as f64;
+    let (mx, mz) = line.iter().fold((0.0, 0.0), |m, p| (m.0 + p.0 / n, m.1 + p.1 / n));
+    let (top, bottom) =
+        line.iter().fold((0.0, 0.0), |s, p| (s.0 + (p.0 - mx) * (p.1 - mz), s.1 + (p.0 - mx) * (p.0 - mx)));
+    (outside, 1e3 * front, -(top / bottom).atan().to_degrees())
+}
+
+/// C-F9 to F11: dropped, at rest, a side wall removed, at rest again.
+pub(super) fn collapse(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let mut rig = collapsing("cl-ca", spoiler == 1.0)?;
+    rig.until(0.5)?;
+    let mut claims = vec![between("initial: grains that still move", moved(&mut rig, 0.09, 1e-9)?, 0.0, 0.0, SOURCE)];
+    rig.until(0.62)?;
+    claims.push(at_least("middle: grains that move within 20 ms", moved(&mut rig, 0.02, 1e-9)?, 20.0, SOURCE));
+    rig.until(1.4)?;
+    claims.push(between("late: grains that still move", moved(&mut rig, 0.1, 1e-9)?, 0.0, 0.0, SOURCE));
+    let (outside, front, angle) = slope(&rig);
+    claims.push(between("late: grains beyond the place of the wall", outside, 20.0, 270.0, SOURCE));
+    claims.push(between("late: front mm", front, 100.0, 300.0, SOURCE));
+    let lattice = "between nothing and the steepest side of the lattice, 60 degrees (C-x3)";
+    claims.push(between("late: slope degrees", angle, 20.0, 60.0, lattice));
+    let standing = {
+        let mut rig = collapsing("cl-ca", false)?;
+        rig.until(1.4)?;
+        slope(&rig).0
+    };
+    claims.push(between("control, the wall stays: grains beyond it", standing, 0.0, 0.0, "nothing else lets them out"));
+    Ok(claims)
+}
+
+/// C-F9 to F11 by CL-CA and by DEM, one after the other on one machine.
+pub(super) fn twin(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let run = |method: &str| -> Result<_, String> {
+        let mut rig = collapsing(method, spoiler == 1.0)?;
+        let begun = Instant::now();
+        rig.until(1.6)?;
+        Ok((slope(&rig), begun.elapsed().as_secs_f64()))
+    };
+    let (lattice, quick) = run("cl-ca")?;
+    let (dem, slow) = run("dem")?;
+    let source = "a hundredth of the time of its DEM twin, measured in one run";
+    let own = "DEM, friction 0.3, rotation: round grains roll, hexagons do not";
+    Ok(vec![
+        at_least("time of DEM over that of CL-CA", slow / quick, 100.0, source),
+        between("front, CL-CA over DEM", lattice.1 / dem.1, 0.4, 1.1, own),
+        between("slope by CL-CA degrees", lattice.2, 20.0, 60.0, SOURCE),
+        between("slope by DEM degrees", dem.2, 5.0, 40.0, own),
+    ])
+}
+
+/// A box of hexagons and triangles, mixed so that they do not crystallise, shaken by gravity that points up for 20 steps.
+fn shaken(more: &str, seed: u64, spoiler: f64) -> Result<Rig, String> {
+    let text = format!(
+        r#"
+        title = "shaken"
+        method = "cl-ca"
+        duration = 1e3
+        seed = {seed}
+        [materials.m]
+        density = 2700
+        young-modulus = 1e6
+        [particles.hexagons]
+        material = "m"
+        count = 200
+        diameter = 2.778e-3
+        start.random.region = {{ low = [4e-3, 18e-3], high = [56e-3, 115e-3] }}
+        [particles.triangles]
+        material = "m"
+        count = 200
+        diameter = 1.819e-3
+        start.random.region = {{ low = [4e-3, 18e-3], high = [56e-3, 115e-3] }}
+        [walls.box]
+        material = "m"
+        shape.box = {{ width = 60.6e-3, height = 140e-3, depth = 5e-3, floor-centre = [30.3e-3, 0] }}
+        [cl-ca]
+        spacing = 1e-3
+        shapes.triangles.points.at = [[0, 0], [0, 2], [1, 1]]
+        {more}
+        "#
+    );
+    Rig::new(&text, spoiler)
+}
+
+/// Steps of a cycle of shaking: gravity up, and down.
+const CYCLE: [u64; 2] = [20, 200];
+
+/// C-x1: how high a grain of some radius rises, and in how many cycles.
+pub(super) fn rise(spoiler: f64) -> Result<Vec<Claim>, String> {
+    const SEEDS: u64 = 3;
+    const CYCLES: u64 = 200;
+    let source = "the large grain rises, a grain as small as the others does not (C-x1)";
+    let mut claims = Vec::new();
+    let mut times = Vec::new();
+    for radius in 1..=4 {
+        let drawn = if spoiler == 1.0 { radius } else { 1 };
+        let (mut height, mut time) = (0.0, 0.0);
+        for seed in 1..=SEEDS {
+            let more = format!(
+                r#"
+                gravity-switch = {{ up = {}, down = {} }}
+                shapes.intruder.hexagon.radius = {drawn}
+                [particles.intruder]
+                material = "m"
+                diameter = {:.6e}
+                start.at.position = [[30e-3, 8e-3]]
+                "#,
+                CYCLE[0],
+                CYCLE[1],
+                1e-3 * crate::clca::shape::Shape::hexagon(drawn).diameter()
+            );
+            let mut rig = shaken(&more, seed, 1.0)?;
+            let mut reached = CYCLES;
+            let mut share = 0.0;
+            for cycle in 0..CYCLES {
+                rig.steps(CYCLE[0] + CYCLE[1])?;
+                let places = rig.vectors("position");
+                // Groups come in the order of their names: hexagons, then the intruder.
+                let intruder = places[200].z;
+                let mut others: Vec<f64> =
+                    places.iter().enumerate().filter(|(id, _)| *id != 200).map(|(_, p)| p.z).collect();
+                others.sort_by(f64::total_cmp);
+                share = intruder / others[others.len() * 95 / 100];
+                if share > 0.8 {
+                    reached = reached.min(cycle);
+                }
+            }
+            height += share / SEEDS as f64;
+            time += reached as f64 / SEEDS as f64;
+        }
+        let name = format!("radius {radius}: height over that of the bed after {CYCLES} cycles");
+        claims.push(match radius {
+            1 => between(name, height, 0.0, 0.7, source),
+            2 => between(name, height, 0.1, 1.1, source),
+            _ => between(name, height, 0.75, 1.2, source),
+        });
+        times.push(time);
+    }
+    claims.push(at_least("cycles to the top, radius 2 over radius 4", times[1] / times[3], 1.5, source));
+    claims.push(at_least("cycles to the top, radius 1 over radius 4", times[0] / times[3], 2.0, source));
+    Ok(claims)
+}
+
+/// Mean rise per cycle [mm] in seven slices between the side walls, in the middle of the bed's height.
+fn rolls(rough: bool) -> Result<[f64; 7], String> {
+    const CYCLES: usize = 300;
+    let heights = (0..24).map(|k| 3e-3 + 5e-3 * f64::from(k));
+    let places = heights.flat_map(|z| [format!("[1.4e-3, {z:.4e}]"), format!("[58.4e-3, {z:.4e}]")]);
+    let bumps = format!(
+        "[particles.bumps]\nmaterial = \"m\"\ndiameter = 2.778e-3\nmotion.frozen = {{}}\nstart.at.position = [{}]\n",
+        places.collect::<Vec<_>>().join(", ")
+    );
+    let more = ["gravity-switch = { up = 60, down = 200 }\n", if rough { &bumps } else { "" }].concat();
+    let mut rig = shaken(&more, 1, 1.0)?;
+    let first = if rough { 48 } else { 0 };
+    let (mut sum, mut count) = ([0.0; 7], [0.0; 7]);
+    let free = |rig: &Rig| -> Vec<DVec3> { rig.vectors("position").split_off(first) };
+    // Bumps come first: groups are in the order of their names.
+    for cycle in 0..CYCLES {
+        let before = free(&rig);
+        rig.steps(260)?;
+        for (a, b) in before.iter().zip(free(&rig)) {
+            let slice = (a.x / 60.7e-3 * 7.0) as usize;
+            if cycle > CYCLES / 10 && (8e-3..28e-3).contains(&a.z) && slice < 7 {
+                sum[slice] += 1e3 * (b.z - a.z);
+                count[slice] += 1.0;
+            }
+        }
+    }
+    Ok(std::array::from_fn(|slice| if count[slice] > 0.0 { sum[slice] / count[slice] } else { 0.0 }))
+}
+
+/// C-x2: down along rough walls, up beside that; along smooth walls next to nothing.
+pub(super) fn convection(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let source = "convection needs rough walls (C-x2)";
+    let rough = rolls(spoiler == 1.0)?;
+    let smooth = rolls(false)?;
+    let outer = |v: &[f64; 7]| 0.5 * (v[0] + v[6]);
+    let inner = |v: &[f64; 7]| 0.5 * (v[1] + v[5]);
+    let strength = |v: &[f64; 7]| inner(v) - outer(v);
+    Ok(vec![
+        between("rough walls: rise at the walls mm a cycle", outer(&rough), -5.0, -0.05, source),
+        between("rough walls: rise beside that mm a cycle", inner(&rough), 0.05, 5.0, source),
+        between("smooth walls: strength of the roll mm a cycle", strength(&smooth), -0.1, 0.1, source),
+        at_least("strength, rough over smooth", strength(&rough) / strength(&smooth).abs().max(0.02), 5.0, source),
+    ])
+}
+
+/// C-x3: grains are poured; slopes of the heap, and how often each angle is met along its surface.
+pub(super) fn pour(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let text = include_str!("../../../../../studies/cl-ca-2001/pour.toml");
+    let mut plan = super::bench::plan(text)?;
+    plan.watch.clear();
+    if spoiler != 1.0 {
+        plan.cl_ca.fall_height = Some(1e3);
+        plan.duration = 0.1;
+    }
+    let duration = plan.duration;
+    let mut rig = Rig::of(plan, 1.0)?;
+    rig.until(duration - 0.2)?;
+    let still = moved(&mut rig, 0.2, 1e-9)?;
+    let grains = rig.vectors("position");
+    let middle = grains.iter().map(|p| p.x).sum::<f64>() / grains.len().max(1) as f64;
+    // The surface: the highest grain of every column of 3 mm.
+    let width = 3e-3;
+    let mut surface = std::collections::BTreeMap::new();
+    for p in &grains {
+        let column = ((p.x - middle) / width).floor() as i64;
+        let top = surface.entry(column).or_insert(f64::NEG_INFINITY);
+        *top = p.z.max(*top);
+    }
+    let flank = |side: i64| {
+        let points: Vec<(f64, f64)> = surface
+            .iter()
+            .filter(|(column, top)| side * (2 * **column + 1) > 0 && **top > 4e-3)
+            .map(|(column, top)| ((*column as f64 + 0.5) * width, *top))
+            .collect();
+        let n = points.len() as f64;
+        let (mx, mz) = points.iter().fold((0.0, 0.0), |m, p| (m.0 + p.0 / n, m.1 + p.1 / n));
+        let sums =
+            points.iter().fold((0.0, 0.0), |s, p| (s.0 + (p.0 - mx) * (p.1 - mz), s.1 + (p.0 - mx) * (p.0 - mx)));
+        -(side as f64) * (sums.0 / sums.1).atan().to_degrees()
+    };
+    let (left, right) = (flank(-1), flank(1));
+    let tops: Vec<f64> = surface.values().copied().collect();
+    let angles: Vec<f64> = tops.windows(4).map(|t| ((t[3] - t[0]) / (3.0 * width)).atan().abs().to_degrees()).collect();
+    let steep = angles.iter().filter(|angle| **angle > 62.0).count() as f64 / angles.len().max(1) as f64;
+    let plateaus = angles.iter().filter(|angle| (25.0..62.0).contains(*angle)).count() as f64;
+    let source = "heaps of hexagons end between the lattice's 30 and 60 degrees (C-x3)";
+    Ok(vec![
+        at_least("grains poured", grains.len() as f64, 600.0, "the scene"),
+        between("grains that still move", still, 0.0, 0.0, "the scene"),
+        between("left flank degrees", left, 30.0, 60.0, source),
+        between("right flank degrees", right, 30.0, 60.0, source),
+        between("share of the surface at 25 to 62 degrees", plateaus / angles.len().max(1) as f64, 0.6, 1.0, source),
+        between("share of the surface steeper than 62 degrees", steep, 0.0, 0.1, source),
+    ])
+}
+
+/// C-x4: shared points of a bed into which a plate has been pushed by 1 mm: some grains carry, most of them below the plate.
+pub(super) fn plate(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let text = include_str!("../../../../../studies/cl-ca-2001/plate.toml");
+    let mut plan = super::bench::plan(text)?;
+    if spoiler != 1.0 {
+        plan.particles.retain(|name, _| name != "plate");
+        plan.cl_ca.rule = tsubu_scene::plan::ClCaRule::Passive;
+    }
+    let mut rig = Rig::of(plan, 1.0)?;
+    // The plate comes down at 50 mm/s from 70 mm and meets the bed at 0.56 s: it has gone 1 mm into it.
+    rig.until(0.58)?;
+    let view = rig.engine.view(Wants { contacts: Contacts::Places, ..Wants::GRAINS });
+    let loads: Vec<f64> = view.contacts.iter().map(|contact| contact.overlap).filter(|o| *o > 0.0).collect();
+    let n = loads.len() as f64;
+    let mean = loads.iter().sum::<f64>() / n;
+    let spread = (loads.iter().map(|load| (load - mean).powi(2)).sum::<f64>() / n).sqrt() / mean;
+    let mut loaded = vec![false; view.len()];
+    for contact in view.contacts.iter().filter(|contact| contact.overlap > 0.0 && !contact.wall) {
+        loaded[contact.first] = true;
+        loaded[contact.second] = true;
+    }
+    let share = loaded.iter().filter(|l| **l).count() as f64 / loaded.len() as f64;
+    let below = |grain: usize| (25e-3..55e-3).contains(&view.grains.position[grain].x);
+    let under = (0..view.len()).filter(|&grain| loaded[grain] && below(grain)).count() as f64;
+    let all = loaded.iter().filter(|l| **l).count() as f64;
+    let source = "chain-like, not uniform (C-x4)";
+    Ok(vec![
+        at_least("pairs that share points", n, 20.0, source),
+        at_least("spread of shared points over their mean", spread, 0.3, source),
+        between("share of grains that carry", share, 0.02, 0.5, source),
+        at_least(
+            "of those, share below the plate",
+            under / all,
+            0.45,
+            "the plate covers 30 of 80 mm: 0.37 if all alike",
+        ),
+    ])
+}
