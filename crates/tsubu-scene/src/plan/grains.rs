@@ -135,6 +135,16 @@ pub enum Removal {
     },
 }
 
+impl Removal {
+    /// Whether a grain with its centre there [m] vanishes. In the plane both y are zero, and so is the centre's.
+    pub fn takes(&self, at: Vector) -> bool {
+        match self {
+            Self::Inside { region: Region { low, high } } => (0..3).all(|k| at[k] >= low[k] && at[k] <= high[k]),
+            Self::Behind { point, normal } => (0..3).map(|k| (at[k] - point[k]) * normal[k]).sum::<f64>() < 0.0,
+        }
+    }
+}
+
 /// How grains are placed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]

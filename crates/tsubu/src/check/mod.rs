@@ -172,7 +172,7 @@ fn size(v: &[f64; 3]) -> f64 {
 }
 
 /// Largest absolute value of a signal.
-fn peak(signal: &Signal) -> f64 {
+pub(crate) fn peak(signal: &Signal) -> f64 {
     match signal {
         Signal::Sine { amplitude, .. } | Signal::SineSweep { amplitude, .. } => amplitude.abs(),
         Signal::Impact { peak, .. } => peak.abs(),

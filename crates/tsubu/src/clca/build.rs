@@ -3,6 +3,7 @@
 use super::bed::{Bed, Kind};
 use super::place::{self, Grain};
 use super::shape::{Shape, polygon};
+use crate::check;
 use crate::dem::sizes;
 use crate::engine::{Note, Refusal};
 use crate::lattice::direction::Vector;
@@ -275,7 +276,7 @@ fn kinds(plan: &Plan, shapes: &[Option<Shape>], spacing: f64, remarks: &mut Rema
         let free = matches!(group.motion, GrainMotion::Free {});
         let mut own = Vec::new();
         let mut off = 0.0_f64;
-        for place in 0..count_of(group) {
+        for place in 0..group.count {
             let diameter = match &group.start {
                 Start::File { grains, .. } => grains.diameter.get(place).copied(),
                 _ => None,
@@ -313,29 +314,16 @@ fn kinds(plan: &Plan, shapes: &[Option<Shape>], spacing: f64, remarks: &mut Rema
     (kinds, all)
 }
 
-fn count_of(group: &plan::Particles) -> usize {
-    match &group.start {
-        Start::At { position, .. } => position.len(),
-        Start::File { grains, .. } => grains.position.len(),
-        _ => group.count,
-    }
-}
-
-/// How far a motion takes a wall from its drawn place in a run [m].
+/// How far a motion takes a wall from where it stands at time 0 in a run, at most [m].
 fn farthest(signal: &Signal, duration: f64) -> f64 {
-    match signal {
-        Signal::Sine { amplitude, .. } | Signal::SineSweep { amplitude, .. } => amplitude.abs(),
-        Signal::Impact { peak, .. } => peak.abs(),
-        Signal::Steady { rate } => rate.abs() * duration,
-        Signal::Table { value, .. } => value.iter().map(|v| v.abs()).fold(0.0, f64::max),
-    }
+    (2.0 * check::peak(signal)).min(check::fastest(signal) * duration)
 }
 
 /// The time in which a grain falls by one spacing, so that it falls by `height` in the time of free fall; shorter where
 /// a wall or group moves faster than that [s].
 fn time_step(gravity: f64, height: f64, moved: &[&Signal], duration: f64, stage: &Stage, remarks: &mut Remarks) -> f64 {
     let fall = if gravity > 0.0 { stage.spacing * (2.0 / (gravity * height)).sqrt() } else { f64::INFINITY };
-    let fastest = moved.iter().map(|signal| crate::check::fastest(signal)).fold(0.0, f64::max);
+    let fastest = moved.iter().map(|signal| check::fastest(signal)).fold(0.0, f64::max);
     let dt = fall.min(stage.spacing / fastest);
     if !dt.is_finite() {
         remarks.refuse("gravity", "without gravity and without a wall or group that moves, nothing happens");

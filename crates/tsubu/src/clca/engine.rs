@@ -7,7 +7,7 @@ use super::active::Active;
 use super::bed::{Bed, Kind, Motion, NOWHERE};
 use super::build::{Built, OFFERED, Stream, build, moves};
 use super::order::{Past, Pull};
-use super::passive::{Body, Passive, Pusher, Shared};
+use super::passive::{Passive, Pusher};
 use super::place::somewhere;
 use crate::engine::{Engine, Fault, Note, Refusal};
 use crate::lattice::direction::{Direction, Vector};
@@ -17,10 +17,9 @@ use crate::ledger::{Account, Ledger, Stocks};
 use crate::motion::value_and_rate;
 use crate::partner::Hosts;
 use crate::random::Purpose;
-use crate::view::{Columns, Contact, Contacts, View, Wants};
-use crate::wall::{Outline, Wall};
+use crate::view::{Columns, Contacts, View, Wants};
+use crate::wall::Wall;
 use glam::DVec3;
-use std::collections::BTreeSet;
 use tsubu_frame::frame::Kind as Of;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, State};
@@ -32,15 +31,15 @@ const ATTEMPTS: u64 = 40;
 /// CL-CA of a plan.
 #[derive(Clone, Debug)]
 pub struct ClCaEngine {
-    bed: Bed,
-    stage: Stage,
-    walls: Vec<Wall>,
+    pub(super) bed: Bed,
+    pub(super) stage: Stage,
+    pub(super) walls: Vec<Wall>,
     notes: Vec<Note>,
     dt: f64,
     /// Downward acceleration [m/s^2].
     gravity: f64,
     switch: Option<GravitySwitch>,
-    rule: Rule,
+    pub(super) rule: Rule,
     streams: Vec<Stream>,
     removal: Vec<Removal>,
     /// Groups that move as told: number, direction, displacement.
@@ -49,8 +48,10 @@ pub struct ClCaEngine {
     drawn: Vec<u32>,
 }
 
+/// The rule by which grains move.
 #[derive(Clone, Debug)]
-enum Rule {
+pub(super) enum Rule {
+    /// Grains move where there is room.
     Active(Active),
     /// The passive rule, the walls that push, and the last moves of driven grains.
     Passive(Box<Passive>, Vec<Pusher>, Vec<Vector>),
@@ -143,11 +144,7 @@ impl ClCaEngine {
         let (time, before) = (step as f64 * self.dt, step.saturating_sub(1) as f64 * self.dt);
         for pusher in pushers {
             let wall = &self.walls[pusher.wall];
-            let at = |time: f64| {
-                let moved = |t: f64| wall.mover.displacement(t, &Hosts::default()).0;
-                self.stage.vector(moved(time) - moved(0.0))
-            };
-            let (now, then) = (at(time), at(before));
+            let (now, then) = (shift(wall, &self.stage, time), shift(wall, &self.stage, before));
             pusher.moved = Vector { h: now.h - then.h, k: now.k - then.k };
             if pusher.cells.is_empty() || now != then {
                 pusher.cells = vec![false; self.bed.grid.columns() * self.bed.grid.rows()];
@@ -244,7 +241,7 @@ impl ClCaEngine {
         }
         let inside = |grain: &usize| {
             let position = self.position(*grain);
-            self.bed.kind(*grain).free && self.removal.iter().any(|removal| gone(removal, position))
+            self.bed.kind(*grain).free && self.removal.iter().any(|removal| removal.takes(position.to_array()))
         };
         let leaving: Vec<usize> = self.bed.present().filter(inside).collect();
         for &grain in &leaving {
@@ -267,7 +264,7 @@ impl ClCaEngine {
     }
 
     /// Reference point of a grain [m].
-    fn position(&self, grain: usize) -> DVec3 {
+    pub(super) fn position(&self, grain: usize) -> DVec3 {
         self.stage.place(self.bed.vector(self.bed.grains.cell[grain] as usize))
     }
 
@@ -282,44 +279,15 @@ impl ClCaEngine {
     }
 
     /// Radius of the disc of a grain's area [m].
-    fn radius(&self, grain: usize) -> f64 {
+    pub(super) fn radius(&self, grain: usize) -> f64 {
         0.5 * self.bed.kind(grain).shape.diameter() * self.stage.spacing
     }
-
-    /// Pairs that touch (active rule) or share points (passive rule), with the number of points shared.
-    pub fn pairs(&self) -> Vec<Shared> {
-        match &self.rule {
-            Rule::Active(_) => touching(&self.bed),
-            Rule::Passive(passive, pushers, _) => passive.clone().overlaps(&self.bed, pushers),
-        }
-    }
 }
 
-/// Pairs of grains with points beside each other, each once.
-fn touching(bed: &Bed) -> Vec<Shared> {
-    let mut pairs = BTreeSet::new();
-    for grain in bed.present().filter(|&grain| bed.kind(grain).free) {
-        let stencil = bed.kind(grain).stencil + bed.grains.turn[grain] as usize;
-        for cell in bed.cells(stencil, bed.grains.cell[grain] as usize) {
-            for direction in Direction::ALL {
-                let owner = bed.grid.at(bed.grid.neighbour(cell, bed.odd(cell), direction));
-                if owner > grain as i32 {
-                    pairs.insert((grain, owner as usize));
-                }
-            }
-        }
-    }
-    pairs.into_iter().map(|(grain, other)| Shared { grain, other: Body::Grain(other), points: 0 }).collect()
-}
-
-fn gone(removal: &Removal, at: DVec3) -> bool {
-    match removal {
-        Removal::Inside { region } => {
-            let (low, high) = (DVec3::from_array(region.low), DVec3::from_array(region.high));
-            at.cmpge(low).all() && at.cmple(high).all()
-        }
-        Removal::Behind { point, normal } => (at - DVec3::from_array(*point)).dot(DVec3::from_array(*normal)) < 0.0,
-    }
+/// How far a wall that is moved as told has come since time 0, in whole steps of the lattice.
+pub(super) fn shift(wall: &Wall, stage: &Stage, time: f64) -> Vector {
+    let moved = |time: f64| wall.mover.displacement(time, &Hosts::default()).0;
+    stage.vector(moved(time) - moved(0.0))
 }
 
 impl Engine for ClCaEngine {
@@ -465,68 +433,5 @@ impl Engine for ClCaEngine {
         // The walls of the last step: those that vanish now do so in the next.
         self.paint(self.bed.step.saturating_sub(1) as f64 * self.dt);
         Ok(())
-    }
-}
-
-impl ClCaEngine {
-    /// Touching pairs for those who look on: the overlap is the number of shared points times the spacing.
-    fn contacts_of(&self, present: &[usize]) -> Vec<Contact> {
-        let mut place = vec![0; self.bed.len()];
-        present.iter().enumerate().for_each(|(index, &grain)| place[grain] = index);
-        let contact = |pair: Shared| {
-            let centre = self.position(pair.grain);
-            let (second, wall, between) = match pair.other {
-                Body::Grain(other) => (place[other], false, self.position(other) - centre),
-                // A wall is below or beside, wherever it came from: against its last move.
-                Body::Pusher(number) => {
-                    let Rule::Passive(_, pushers, _) = &self.rule else { return None };
-                    let from = -self.stage.step(pushers[number].moved).normalize_or(DVec3::Z);
-                    (pushers[number].wall, true, from * self.radius(pair.grain))
-                }
-            };
-            let normal = between.normalize_or(DVec3::Z);
-            Some(Contact {
-                first: place[pair.grain],
-                second,
-                wall,
-                position: centre + 0.5 * between,
-                between,
-                force: DVec3::ZERO,
-                normal,
-                overlap: f64::from(pair.points) * self.stage.spacing,
-            })
-        };
-        self.pairs().into_iter().filter_map(contact).collect()
-    }
-
-    /// Outlines of the walls that stand, where the lattice has them.
-    fn draw_walls(&self, frame: &mut Frame) {
-        let (mut number, mut position) = (Vec::new(), Vec::new());
-        let (middle, size) = self.stage.inside();
-        let mut lines = 0;
-        for (index, wall) in self.walls.iter().enumerate() {
-            let outline = match wall.lone_plane() {
-                // Endless planes are drawn as far as the lattice goes.
-                Some((point, normal)) => {
-                    let half = 0.5 * (size * normal.cross(DVec3::Y)).length();
-                    Outline::of_plane(point, normal, middle, half, false)
-                }
-                None => wall.outline(),
-            };
-            let moved = match &self.rule {
-                Rule::Passive(_, pushers, _) if pushers.iter().any(|pusher| pusher.wall == index) => {
-                    let moved = |t: f64| wall.mover.displacement(t, &Hosts::default()).0;
-                    self.stage.step(self.stage.vector(moved(self.time()) - moved(0.0)))
-                }
-                _ => DVec3::ZERO,
-            };
-            for line in outline.lines {
-                number.extend(std::iter::repeat_n(lines, line.len()));
-                position.extend(line.iter().map(|&corner| (corner + moved).to_array()));
-                lines += 1;
-            }
-        }
-        frame.integer(Of::Surface, "outline", "-", number);
-        frame.vector(Of::Surface, "position", "m", position);
     }
 }

@@ -10,6 +10,7 @@ pub mod bed;
 pub mod build;
 pub mod engine;
 pub mod order;
+mod output;
 pub mod passive;
 mod place;
 pub mod shape;

@@ -11,7 +11,7 @@ use crate::ledger::{Account, Ledger};
 use crate::motion::value_and_rate;
 use crate::random::{Purpose, words};
 use glam::DVec3;
-use tsubu_scene::plan::{GrainMotion, Particles, Plan, Region, Removal, Signal, Start};
+use tsubu_scene::plan::{GrainMotion, Particles, Plan, Removal, Signal, Start};
 
 /// Steps between two looks at what should come or go.
 const EVERY: u64 = 50;
@@ -88,17 +88,6 @@ impl Sources {
     }
 }
 
-fn gone(removal: &Removal, p: DVec3) -> bool {
-    match removal {
-        Removal::Inside { region: Region { low, high } } => {
-            let (low, high) = (DVec3::from_array(*low), DVec3::from_array(*high));
-            // In the plane both y are zero and so is p.y.
-            p.cmpge(low).all() && p.cmple(high).all()
-        }
-        Removal::Behind { point, normal } => (p - DVec3::from_array(*point)).dot(DVec3::from_array(*normal)) < 0.0,
-    }
-}
-
 impl DemEngine {
     /// Moves the driven groups to where they are at `time`.
     pub(super) fn drive(&mut self, time: f64) {
@@ -131,7 +120,8 @@ impl DemEngine {
         let grains = &self.grains;
         let stays = |i: &u32| {
             let i = *i as usize;
-            grains.inverse_mass[i] == 0.0 || !self.sources.removal.iter().any(|r| gone(r, grains.position[i]))
+            grains.inverse_mass[i] == 0.0
+                || !self.sources.removal.iter().any(|r| r.takes(grains.position[i].to_array()))
         };
         let order: Vec<u32> = (0..grains.len() as u32).filter(stays).collect();
         let some_go = order.len() < grains.len();

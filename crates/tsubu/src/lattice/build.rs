@@ -7,9 +7,7 @@ use super::remarks::Remarks;
 use super::start;
 use crate::engine::{Note, Refusal};
 use crate::view::Wants;
-use tsubu_scene::plan::{
-    self, Collision, LatticeMode, ObliqueGravity, Plan, Rolling, Shape, Signal, Start, Tangential,
-};
+use tsubu_scene::plan::{self, Collision, LatticeMode, ObliqueGravity, Plan, Rolling, Shape, Signal, Tangential};
 
 /// Everything that the engine needs from a plan.
 pub(super) struct Built {
@@ -346,19 +344,9 @@ fn place(casing: &Casing, kind: &Kind, lattice: &plan::Lattice, remarks: &mut Re
             format!("{rows} rows of the lattice: {:.1} mm instead of {:.1} mm", 1e3 * height, 1e3 * casing.height),
         );
     }
-    let travel = casing.motion.map_or(0.0, |m| largest(&m.signal));
+    // A box that travels for ever is refused where it is looked at: no room is enough.
+    let travel = casing.motion.map(|m| crate::check::peak(&m.signal)).filter(|far| far.is_finite()).unwrap_or(0.0);
     BoxPlace { columns, rows, head: lattice.head_room + (travel / d).ceil() as usize, level: 0 }
-}
-
-/// Largest displacement of a given motion [m].
-fn largest(signal: &Signal) -> f64 {
-    match signal {
-        Signal::Sine { amplitude, .. } | Signal::SineSweep { amplitude, .. } => amplitude.abs(),
-        Signal::Impact { peak, .. } => peak.abs(),
-        // Refused where the box is looked at: no room is enough.
-        Signal::Steady { .. } => 0.0,
-        Signal::Table { value, .. } => value.iter().fold(0.0, |most, v| v.abs().max(most)),
-    }
 }
 
 /// Units, and whether whole numbers can hold them.
@@ -417,12 +405,4 @@ pub(super) fn restitution(plan: &Plan, a: &str, b: &str) -> f64 {
     // The square root of e e can miss e by one bit.
     let mean = || if a == b { own(a) } else { (own(a) * own(b)).sqrt() };
     plan.pair(a, b).and_then(|p| p.restitution).unwrap_or_else(mean)
-}
-
-/// Number of balls of a group: with given places, the number of places.
-pub(super) fn count_of(group: &plan::Particles) -> usize {
-    match &group.start {
-        Start::At { position, .. } => position.len(),
-        _ => group.count,
-    }
 }

@@ -4,7 +4,7 @@
 //! of the step (a prescribed motion: at its end). The structure is then moved by Runge-Kutta over the same step under the
 //! constant force -P/dt (A11).
 
-use super::build::{Built, build, count_of};
+use super::build::{Built, build};
 use super::damper::{Damper, box_motion::OutOfRoom};
 use super::direction::{Direction, Vector};
 use super::grid::COLUMN_SPACING;
@@ -47,7 +47,7 @@ impl LatticeEngine {
     pub fn new(plan: &Plan, hosts: &Hosts) -> Result<Self, Refusal> {
         let Built { mut damper, notes, wall, dt, mass, radius, floor_centre, spacing } = build(plan)?;
         let groups = plan.particles.values().enumerate();
-        let groups = groups.flat_map(|(k, group)| std::iter::repeat_n(k as u32, count_of(group))).collect();
+        let groups = groups.flat_map(|(k, group)| std::iter::repeat_n(k as u32, group.count)).collect();
         let mover = Mover::new(&plan.walls[&wall], hosts, DVec3::ZERO);
         let unit = mass * damper.scale.speed;
         let geometry = Geometry { spacing, floor_centre, columns: damper.place.columns, rows: damper.place.rows };

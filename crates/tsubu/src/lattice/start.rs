@@ -3,7 +3,6 @@
 //! `settled` and `rows` fill the box row by row from the floor; the columns of the last, incomplete row are drawn at
 //! random. `at` takes the nearest cell, and the lattice direction nearest to the velocity.
 
-use super::build::count_of;
 use super::damper::Ball;
 use super::direction::{Direction, Vector as LatticeVector};
 use super::fixed::Scale;
@@ -56,7 +55,7 @@ type Taken = BTreeMap<(usize, usize), usize>;
 
 pub(super) fn place(plan: &Plan, geometry: &Geometry, scale: &Scale, remarks: &mut Remarks) -> Vec<Ball> {
     let cells = geometry.columns * geometry.rows;
-    let count: usize = plan.particles.values().map(count_of).sum();
+    let count: usize = plan.particles.values().map(|group| group.count).sum();
     if count > cells {
         remarks.refuse(
             "particles",

@@ -19,7 +19,7 @@ mod profile;
 mod run;
 mod run_out;
 mod segregation;
-mod slope;
+pub(crate) mod slope;
 mod stream;
 mod surface;
 mod track;

@@ -47,7 +47,7 @@ impl Slope {
 }
 
 /// Slope of the line through points by least squares; not a number for fewer than two.
-fn line(points: &[(f64, f64)]) -> f64 {
+pub(crate) fn line(points: &[(f64, f64)]) -> f64 {
     let (x0, z0) = (mean(points.iter().map(|p| p.0)), mean(points.iter().map(|p| p.1)));
     let both: f64 = points.iter().map(|(x, z)| (x - x0) * (z - z0)).sum();
     let square: f64 = points.iter().map(|(x, _)| (x - x0) * (x - x0)).sum();

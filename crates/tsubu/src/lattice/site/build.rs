@@ -120,7 +120,7 @@ fn scene(plan: &Plan, hosts: &Hosts, remarks: &mut Remarks) -> Option<(Scene, Ve
     start::place(plan, &ground, &mut cells, remarks);
     let each = |of: &dyn Fn(usize, &plan::Particles) -> f64| -> Vec<f64> {
         let groups = particles.values().enumerate();
-        groups.flat_map(|(number, group)| vec![of(number, group); start::count_of(group)]).collect()
+        groups.flat_map(|(number, group)| vec![of(number, group); group.count]).collect()
     };
     let scene = Scene {
         mass: each(&|_, group| group.mass),
@@ -169,7 +169,7 @@ fn spacing(plan: &Plan, remarks: &mut Remarks) -> Option<f64> {
     let (mut count, mut sum) = (0.0, 0.0);
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for group in plan.particles.values() {
-        let number = start::count_of(group) as f64;
+        let number = group.count as f64;
         count += number;
         sum += number * group.diameter;
         least = least.min(group.smallest_diameter());

@@ -145,7 +145,7 @@ impl Ground {
             let rim = column == 0 || row == 0 || column + 1 == self.columns || row + 1 == self.rows;
             if rim {
                 cells[site] = WALL;
-            } else if cells[site] == EMPTY && removal.iter().any(|removal| gone(removal, point)) {
+            } else if cells[site] == EMPTY && removal.iter().any(|removal| removal.takes(point.to_array())) {
                 cells[site] = OUT;
             }
         }
@@ -167,17 +167,6 @@ impl Ground {
             grid.set(site, if cell == WALL { WALL } else { EMPTY });
         }
         grid
-    }
-}
-
-/// Whether grains vanish at a point.
-pub fn gone(removal: &Removal, at: DVec3) -> bool {
-    match removal {
-        Removal::Inside { region } => {
-            let (low, high) = (DVec3::from_array(region.low), DVec3::from_array(region.high));
-            at.x >= low.x && at.x <= high.x && at.z >= low.z && at.z <= high.z
-        }
-        Removal::Behind { point, normal } => (at - DVec3::from_array(*point)).dot(DVec3::from_array(*normal)) < 0.0,
     }
 }
 

@@ -8,23 +8,14 @@ use crate::lattice::remarks::Remarks;
 use crate::lattice::sheet::EMPTY;
 use crate::random::{Purpose, words};
 use glam::DVec3;
-use tsubu_scene::plan::{Particles, Plan, Region, Start};
-
-/// Number of grains of a group.
-pub(super) fn count_of(group: &Particles) -> usize {
-    match &group.start {
-        Start::At { position, .. } => position.len(),
-        Start::File { grains, .. } => grains.position.len(),
-        _ => group.count,
-    }
-}
+use tsubu_scene::plan::{Plan, Region, Start};
 
 /// Puts every grain of the plan onto a site; `cells` gets their numbers.
 pub(super) fn place(plan: &Plan, ground: &Ground, cells: &mut [i32], remarks: &mut Remarks) {
     let mut first = 0;
     let mut settled: Vec<usize> = Vec::new();
     for (name, group) in &plan.particles {
-        let numbers: Vec<usize> = (first..first + count_of(group)).collect();
+        let numbers: Vec<usize> = (first..first + group.count).collect();
         first += numbers.len();
         let key = format!("particles.{name}.start");
         match &group.start {

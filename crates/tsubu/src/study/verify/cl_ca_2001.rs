@@ -6,6 +6,7 @@
 
 use super::bench::Rig;
 use crate::view::{Contacts, Wants};
+use crate::watch::slope::line as least_squares;
 use glam::DVec3;
 use std::time::Instant;
 use tsubu_frame::Claim;
@@ -66,11 +67,7 @@ fn slope(rig: &Rig) -> (f64, f64, f64) {
         .filter(|bin| bin * 10 >= bins * 4 && surface[*bin].is_finite())
         .map(|bin| ((bin as f64 + 0.5) * width, surface[bin]))
         .collect();
-    let n = line.len() as f64;
-    let (mx, mz) = line.iter().fold((0.0, 0.0), |m, p| (m.0 + p.0 / n, m.1 + p.1 / n));
-    let (top, bottom) =
-        line.iter().fold((0.0, 0.0), |s, p| (s.0 + (p.0 - mx) * (p.1 - mz), s.1 + (p.0 - mx) * (p.0 - mx)));
-    (outside, 1e3 * front, -(top / bottom).atan().to_degrees())
+    (outside, 1e3 * front, -least_squares(&line).atan().to_degrees())
 }
 
 /// C-F9 to F11: dropped, at rest, a side wall removed, at rest again.
@@ -282,11 +279,7 @@ pub(super) fn pour(spoiler: f64) -> Result<Vec<Claim>, String> {
             .filter(|(column, top)| side * (2 * **column + 1) > 0 && **top > 4e-3)
             .map(|(column, top)| ((*column as f64 + 0.5) * width, *top))
             .collect();
-        let n = points.len() as f64;
-        let (mx, mz) = points.iter().fold((0.0, 0.0), |m, p| (m.0 + p.0 / n, m.1 + p.1 / n));
-        let sums =
-            points.iter().fold((0.0, 0.0), |s, p| (s.0 + (p.0 - mx) * (p.1 - mz), s.1 + (p.0 - mx) * (p.0 - mx)));
-        -(side as f64) * (sums.0 / sums.1).atan().to_degrees()
+        -(side as f64) * least_squares(&points).atan().to_degrees()
     };
     let (left, right) = (flank(-1), flank(1));
     let tops: Vec<f64> = surface.values().copied().collect();
