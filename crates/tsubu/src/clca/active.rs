@@ -4,12 +4,15 @@
 //! side that it prefers, else the other. Grains then move one after the other, in the order of [`rank`] with ties drawn,
 //! and look again: whose way has been taken tries its other directions, or rests.
 //!
-//! A grain that cannot move sleeps until a point beside it is left, so a step costs only what moves.
+//! A grain that cannot move sleeps until a point beside it is left, so a step costs only what moves. Many movers of one rank take
+//! their turns in [strips](super::strips) of the lattice, side by side; ties are then drawn within a strip.
 
-use super::bed::{Bed, NOWHERE};
+use super::bed::{Bed, Grains, Kind, NOWHERE};
 use super::order::{Pull, rank};
+use super::shape::Stencil;
+use super::strips::{Strips, Window};
 use crate::lattice::direction::Direction;
-use crate::lattice::grid::EMPTY;
+use crate::lattice::grid::{EMPTY, Numbering};
 use crate::random::{Purpose, words};
 use rayon::prelude::*;
 
@@ -27,11 +30,25 @@ enum Wish {
 /// A grain that means to do something, and when its turn comes.
 #[derive(Clone, Copy, Debug)]
 struct Turn {
-    /// Rank, then a random number.
+    /// Rank, parity and number of its strip, and a random number.
     key: u64,
     grain: u32,
     wish: Wish,
     preference: [Direction; 3],
+}
+
+/// Bits of a key below the rank: one for the parity, 28 for the strip, 32 drawn.
+const RANK: u32 = 61;
+const PARITY: u32 = 60;
+const STRIP: u32 = 32;
+
+/// What came of the turns of a strip.
+#[derive(Clone, Debug, Default)]
+struct Outcome {
+    /// Grains and what they have done.
+    done: Vec<(u32, Option<Wish>)>,
+    /// Grains to look at in the next step.
+    woken: Vec<u32>,
 }
 
 /// Who may be able to move.
@@ -89,33 +106,36 @@ impl Active {
             }
         }
         self.plans = plans;
-        turns.par_sort_unstable_by_key(|turn| (turn.key, turn.grain));
         self.list = list;
         self.list.clear();
-        let mut done = 0;
-        for turn in &turns {
-            self.wake(turn.grain);
-            let grain = turn.grain as usize;
-            match wish_again(bed, turn) {
-                Some(Wish::Move(direction)) => {
-                    done += 1;
-                    let left = shift(bed, grain, direction);
-                    bed.note(grain, Some(direction));
-                    self.wake_behind(bed, left, grain, direction, pull);
+        let strips = Strips::new(bed, turns.len());
+        turns.par_iter_mut().with_min_len(WORTH_A_THREAD).for_each(|turn| {
+            let strip = strips.of(bed.grid.place(bed.grains.cell[turn.grain as usize] as usize).0);
+            turn.key |= (strips.turn(strip) as u64) << PARITY | (strip as u64) << STRIP;
+        });
+        turns.par_sort_unstable_by_key(|turn| (turn.key, turn.grain));
+        let mut moved = 0;
+        for together in turns.chunk_by(|a, b| a.key >> PARITY == b.key >> PARITY) {
+            let rows: Vec<&[Turn]> = together.chunk_by(|a, b| a.key >> STRIP == b.key >> STRIP).collect();
+            let numbers = rows.iter().map(|row| (row[0].key >> STRIP) as usize & ((1 << (PARITY - STRIP)) - 1));
+            let Bed { grid, grains, kinds, stencils, .. } = &mut *bed;
+            let movers = Movers { numbering: grid.numbering(), grains, kinds, stencils };
+            let take = |(turns, mut window): (&[Turn], Window)| movers.take_turns(turns, &mut window, pull);
+            let windows = strips.windows(grid, numbers);
+            let outcomes: Vec<Outcome> = rows.into_par_iter().zip(windows).map(take).collect();
+            for Outcome { done, woken } in outcomes {
+                for (grain, wish) in done {
+                    moved += usize::from(wish.is_some());
+                    bed.act(grain as usize, wish);
                 }
-                Some(Wish::Turn(by)) => {
-                    done += 1;
-                    bed.paint(grain, EMPTY);
-                    bed.grains.turn[grain] = (bed.grains.turn[grain] + by) % bed.kind(grain).orientations;
-                    bed.paint(grain, grain as i32);
-                    bed.note(grain, None);
+                for grain in woken {
+                    self.wake(grain);
                 }
-                None => bed.note(grain, None),
             }
         }
         self.turns = turns;
         bed.step += 1;
-        done
+        moved
     }
 
     /// What a grain would do if the others stayed where they are.
@@ -127,13 +147,16 @@ impl Active {
         let word = words(bed.seed, Purpose::Move, grain, bed.step);
         let lean = bed.grains.past[i].lean(bed.memory);
         let preference = pull.preference(lean, word[1] & 1 == 1);
-        let turned = || if self.turning { way_to_turn(bed, i, preference, word[2] & 1 == 1) } else { None };
-        let wish = preference.into_iter().find(|&d| room(bed, i, d)).map(Wish::Move).or_else(turned)?;
+        let at = |cell: usize| bed.grid.at(cell);
+        let movers = Movers::of(bed);
+        let here = movers.stand(i, 0);
+        let turned = || if self.turning { movers.way_to_turn(at, i, preference, word[2] & 1 == 1) } else { None };
+        let wish = preference.into_iter().find(|&d| here.room(at, d)).map(Wish::Move).or_else(turned)?;
         let rank = match wish {
             Wish::Move(direction) => rank(direction, bed.grains.last[i], Some(pull)),
             Wish::Turn(_) => 4,
         };
-        Some(Turn { key: rank << 32 | u64::from(word[0]), grain, wish, preference })
+        Some(Turn { key: rank << RANK | u64::from(word[0]), grain, wish, preference })
     }
 
     fn wake(&mut self, grain: u32) {
@@ -142,80 +165,170 @@ impl Active {
             self.list.push(grain);
         }
     }
+}
 
-    /// Wakes those who could move into the points that a grain has left.
-    fn wake_behind(&mut self, bed: &Bed, start: usize, grain: usize, direction: Direction, pull: Pull) {
+impl Bed {
+    /// A grain has done something; its points are painted already.
+    fn act(&mut self, grain: usize, wish: Option<Wish>) {
+        let went = match wish {
+            Some(Wish::Move(direction)) => {
+                let cell = self.grains.cell[grain] as usize;
+                self.grains.cell[grain] = self.grid.neighbour(cell, self.odd(cell), direction) as u32;
+                Some(direction)
+            }
+            Some(Wish::Turn(by)) => {
+                self.grains.turn[grain] = (self.grains.turn[grain] + by) % self.kind(grain).orientations;
+                None
+            }
+            None => None,
+        };
+        self.note(grain, went);
+    }
+}
+
+/// What those who take their turns know of the bed, besides their piece of the lattice.
+#[derive(Clone, Copy)]
+struct Movers<'a> {
+    numbering: Numbering,
+    /// As they were at the beginning of the step: nobody takes two turns.
+    grains: &'a Grains,
+    kinds: &'a [Kind],
+    stencils: &'a [Stencil],
+}
+
+impl<'a> Movers<'a> {
+    fn of(bed: &'a Bed) -> Self {
+        Self { numbering: bed.grid.numbering(), grains: &bed.grains, kinds: &bed.kinds, stencils: &bed.stencils }
+    }
+
+    /// Lets grains act, one after the other.
+    fn take_turns(&self, turns: &[Turn], window: &mut Window, pull: Pull) -> Outcome {
+        let mut outcome = Outcome { done: Vec::with_capacity(turns.len()), woken: Vec::with_capacity(turns.len()) };
+        for turn in turns {
+            let here = self.stand(turn.grain as usize, 0);
+            let wish = self.wish_again(window, &here, turn);
+            outcome.done.push((turn.grain, wish));
+            outcome.woken.push(turn.grain);
+            match wish {
+                Some(Wish::Move(direction)) => {
+                    here.shift(window, turn.grain, direction);
+                    self.wake_behind(window, &here, direction, pull, &mut outcome.woken);
+                }
+                Some(Wish::Turn(by)) => self.turn(window, turn.grain, by),
+                None => {}
+            }
+        }
+        outcome
+    }
+
+    fn kind(&self, grain: usize) -> &'a Kind {
+        &self.kinds[self.grains.kind[grain] as usize]
+    }
+
+    /// Where a grain is, and its shape turned by so many times 60 degrees more.
+    #[inline]
+    fn stand(&self, grain: usize, by: u8) -> Stand<'a> {
+        let cell = self.grains.cell[grain] as usize;
+        let kind = self.kind(grain);
+        let mut turned = self.grains.turn[grain] + by;
+        if turned >= kind.orientations {
+            turned -= kind.orientations;
+        }
+        Stand { cell, odd: self.numbering.place(cell).0 & 1, stencil: &self.stencils[kind.stencil + turned as usize] }
+    }
+
+    /// Turns the points of a grain.
+    fn turn(&self, window: &mut Window, grain: u32, by: u8) {
+        for (by, content) in [(0, EMPTY), (by, grain as i32)] {
+            let here = self.stand(grain as usize, by);
+            for &offset in &here.stencil.points[here.odd] {
+                window.set(here.cell.wrapping_add_signed(offset), content);
+            }
+        }
+    }
+
+    /// Names those who could move into the points that a grain has left.
+    fn wake_behind(&self, window: &Window, here: &Stand, direction: Direction, pull: Pull, woken: &mut Vec<u32>) {
         let against = [pull.straight, pull.sides[0], pull.sides[1]].map(Direction::opposite);
-        for &offset in &bed.stencil(grain).behind[bed.odd(start)][direction as usize] {
-            let left = start.wrapping_add_signed(offset);
-            let odd = bed.odd(left);
+        for &offset in &here.stencil.behind[here.odd][direction as usize] {
+            let left = here.cell.wrapping_add_signed(offset);
+            let odd = self.numbering.place(left).0 & 1;
             for d in against {
-                let owner = bed.grid.at(bed.grid.neighbour(left, odd, d));
+                let owner = window.at(self.numbering.neighbour(left, odd, d));
                 if owner >= 0 {
-                    self.wake(owner as u32);
+                    woken.push(owner as u32);
                 }
             }
         }
     }
-}
 
-/// Whether a grain has room to move by one spacing: only the points it would take are looked at.
-#[inline]
-fn room(bed: &Bed, grain: usize, direction: Direction) -> bool {
-    let cell = bed.grains.cell[grain] as usize;
-    let ahead = &bed.stencil(grain).ahead[bed.odd(cell)][direction as usize];
-    ahead.iter().all(|&offset| bed.grid.at(cell.wrapping_add_signed(offset)) == EMPTY)
-}
-
-/// Moves a grain by one spacing; returns the cell that it came from.
-#[inline]
-fn shift(bed: &mut Bed, grain: usize, direction: Direction) -> usize {
-    let cell = bed.grains.cell[grain] as usize;
-    let odd = bed.odd(cell);
-    let stencil = &bed.stencils[bed.kind(grain).stencil + bed.grains.turn[grain] as usize];
-    for &offset in &stencil.ahead[odd][direction as usize] {
-        let taken = cell.wrapping_add_signed(offset);
-        debug_assert_eq!(bed.grid.at(taken), EMPTY, "grain {grain} takes a point that is not free");
-        bed.grid.set(taken, grain as i32);
+    /// What a grain does now that others have moved: what it meant to, else the first of its directions that is free.
+    #[inline]
+    fn wish_again(&self, window: &Window, here: &Stand, turn: &Turn) -> Option<Wish> {
+        let at = |cell: usize| window.at(cell);
+        let still = match turn.wish {
+            Wish::Move(direction) => here.room(at, direction),
+            Wish::Turn(by) => self.opens(at, turn.grain as usize, by, turn.preference),
+        };
+        let others = || turn.preference.into_iter().find(|&d| here.room(at, d)).map(Wish::Move);
+        if still { Some(turn.wish) } else { others() }
     }
-    for &offset in &stencil.behind[odd][direction as usize] {
-        bed.grid.set(cell.wrapping_add_signed(offset), EMPTY);
+
+    /// The turn, to one side or the other as the coin says, after which the grain can move.
+    fn way_to_turn(
+        &self,
+        at: impl Fn(usize) -> i32 + Copy,
+        grain: usize,
+        preference: [Direction; 3],
+        coin: bool,
+    ) -> Option<Wish> {
+        let orientations = self.kind(grain).orientations;
+        if orientations == 1 {
+            return None;
+        }
+        let ways = if coin { [1, orientations - 1] } else { [orientations - 1, 1] };
+        ways.into_iter().find(|&by| self.opens(at, grain, by, preference)).map(Wish::Turn)
     }
-    bed.grains.cell[grain] = bed.grid.neighbour(cell, odd, direction) as u32;
-    cell
-}
 
-/// What a grain does now that others have moved: what it meant to, else the first of its directions that is free.
-fn wish_again(bed: &Bed, turn: &Turn) -> Option<Wish> {
-    let grain = turn.grain as usize;
-    let still = match turn.wish {
-        Wish::Move(direction) => room(bed, grain, direction),
-        Wish::Turn(by) => opens(bed, grain, by, turn.preference),
-    };
-    let others = || turn.preference.into_iter().find(|&d| room(bed, grain, d)).map(Wish::Move);
-    if still { Some(turn.wish) } else { others() }
-}
-
-/// The turn, to one side or the other as the coin says, after which the grain can move.
-fn way_to_turn(bed: &Bed, grain: usize, preference: [Direction; 3], coin: bool) -> Option<Wish> {
-    let orientations = bed.kind(grain).orientations;
-    if orientations == 1 {
-        return None;
+    /// Whether there is room to turn, and for a move after that.
+    fn opens(&self, at: impl Fn(usize) -> i32, grain: usize, by: u8, preference: [Direction; 3]) -> bool {
+        let Stand { cell, odd, stencil } = self.stand(grain, by);
+        // Its own points are free to it.
+        let free = |offset: &isize| {
+            let content = at(cell.wrapping_add_signed(*offset));
+            content == EMPTY || content == grain as i32
+        };
+        stencil.points[odd].iter().all(free)
+            && preference.iter().any(|&d| stencil.ahead[odd][d as usize].iter().all(free))
     }
-    let ways = if coin { [1, orientations - 1] } else { [orientations - 1, 1] };
-    ways.into_iter().find(|&by| opens(bed, grain, by, preference)).map(Wish::Turn)
 }
 
-/// Whether there is room to turn, and for a move after that.
-fn opens(bed: &Bed, grain: usize, by: u8, preference: [Direction; 3]) -> bool {
-    let cell = bed.grains.cell[grain] as usize;
-    let odd = bed.odd(cell);
-    let kind = bed.kind(grain);
-    let turned = &bed.stencils[kind.stencil + ((bed.grains.turn[grain] + by) % kind.orientations) as usize];
-    // Its own points are free to it.
-    let free = |offset: &isize| {
-        let content = bed.grid.at(cell.wrapping_add_signed(*offset));
-        content == EMPTY || content == grain as i32
-    };
-    turned.points[odd].iter().all(free) && preference.iter().any(|&d| turned.ahead[odd][d as usize].iter().all(free))
+/// Where a grain is, and its shape.
+struct Stand<'a> {
+    cell: usize,
+    /// Parity of its column.
+    odd: usize,
+    stencil: &'a Stencil,
+}
+
+impl Stand<'_> {
+    /// Whether there is room to move by one spacing: only the points that would be taken are looked at.
+    #[inline]
+    fn room(&self, at: impl Fn(usize) -> i32, direction: Direction) -> bool {
+        let ahead = &self.stencil.ahead[self.odd][direction as usize];
+        ahead.iter().all(|&offset| at(self.cell.wrapping_add_signed(offset)) == EMPTY)
+    }
+
+    /// Moves the points by one spacing.
+    #[inline]
+    fn shift(&self, window: &mut Window, grain: u32, direction: Direction) {
+        for &offset in &self.stencil.ahead[self.odd][direction as usize] {
+            let taken = self.cell.wrapping_add_signed(offset);
+            debug_assert_eq!(window.at(taken), EMPTY, "grain {grain} takes a point that is not free");
+            window.set(taken, grain as i32);
+        }
+        for &offset in &self.stencil.behind[self.odd][direction as usize] {
+            window.set(self.cell.wrapping_add_signed(offset), EMPTY);
+        }
+    }
 }

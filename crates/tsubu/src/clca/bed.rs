@@ -60,6 +60,8 @@ pub struct Bed {
     pub kinds: Vec<Kind>,
     /// What moves do, for every shape and orientation.
     pub stencils: Vec<Stencil>,
+    /// Columns to either side of a grain that a look at its neighbours can reach.
+    pub reach: usize,
     /// The grains.
     pub grains: Grains,
     /// What every kind did in the last step.
@@ -78,12 +80,14 @@ impl Bed {
     /// No grains yet. `kinds` come without numbers of stencils and orientations, which are found here.
     pub fn new(grid: Grid, mut kinds: Vec<Kind>, seed: u64, memory: u32) -> Self {
         let mut stencils = Vec::new();
+        let mut widest = 0;
         for kind in &mut kinds {
             kind.stencil = stencils.len();
             let mut shape = kind.shape.clone();
             kind.orientations = 0;
             while kind.orientations < 6 {
                 stencils.push(Stencil::new(&shape, &grid));
+                widest = shape.points().iter().map(|p| p.h.unsigned_abs() as usize).fold(widest, usize::max);
                 kind.orientations += 1;
                 shape = shape.turned();
                 if shape == kind.shape {
@@ -92,7 +96,9 @@ impl Bed {
             }
         }
         let motion = vec![Motion::default(); kinds.len()];
-        Self { grid, kinds, stencils, grains: Grains::default(), motion, step: 0, seed, memory, moves: 0 }
+        // A point that is taken or left is one column farther at most, and who is beside it one more.
+        let reach = widest + 2;
+        Self { grid, kinds, stencils, reach, grains: Grains::default(), motion, step: 0, seed, memory, moves: 0 }
     }
 
     /// Number of grains, with those that are gone.

@@ -3,7 +3,7 @@
 //! A grain is a connected set of points of the triangular lattice ([`shape`]). In a step it moves by one spacing or
 //! rests; forces do not exist. Under the [`active`] rule gravity lets it go down where there is room; under the
 //! [`passive`] rule walls and driven grains push, grains overlap, and the number of shared points stands for the force.
-//! [`bed`] holds the grains and [`order`] says who goes first; [`build`] reads a plan and [`engine`] runs it.
+//! Many grains take their turns in strips of the lattice side by side. [`bed`] holds the grains and [`order`] says who goes first; [`build`] reads a plan and [`engine`] runs it.
 
 pub mod active;
 pub mod bed;
@@ -14,3 +14,4 @@ mod output;
 pub mod passive;
 mod place;
 pub mod shape;
+mod strips;

@@ -10,14 +10,34 @@ pub const EMPTY: i32 = -1;
 /// The cell belongs to a wall.
 pub const WALL: i32 = -2;
 
+/// How the cells of a rectangular piece of the lattice are numbered: column by column.
+#[derive(Clone, Copy, Debug)]
+pub struct Numbering {
+    columns: usize,
+    rows: usize,
+    /// Index differences to the six neighbours, for even and odd columns.
+    offsets: [[isize; 6]; 2],
+}
+
+impl Numbering {
+    /// Column and row of a cell.
+    #[inline]
+    pub fn place(&self, cell: usize) -> (usize, usize) {
+        (cell / self.rows, cell % self.rows)
+    }
+
+    /// The neighbour of a cell; `odd` is the parity of the cell's column. The cell must not be on the rim of the grid.
+    #[inline]
+    pub fn neighbour(&self, cell: usize, odd: usize, direction: Direction) -> usize {
+        cell.wrapping_add_signed(self.offsets[odd & 1][direction as usize])
+    }
+}
+
 /// Occupancy of a rectangular piece of the lattice.
 #[derive(Clone, Debug)]
 pub struct Grid {
-    columns: usize,
-    rows: usize,
+    numbering: Numbering,
     cells: Vec<i32>,
-    /// Index differences to the six neighbours, for even and odd columns.
-    offsets: [[isize; 6]; 2],
 }
 
 impl Grid {
@@ -28,35 +48,45 @@ impl Grid {
         // at r + 1 and r.
         let even = [1, column, column - 1, -1, -column - 1, -column];
         let odd = [1, column + 1, column, -1, -column, -column + 1];
-        Self { columns, rows, cells: vec![WALL; columns * rows], offsets: [even, odd] }
+        Self { numbering: Numbering { columns, rows, offsets: [even, odd] }, cells: vec![WALL; columns * rows] }
+    }
+
+    /// How its cells are numbered.
+    pub fn numbering(&self) -> Numbering {
+        self.numbering
     }
 
     /// Number of columns.
     pub fn columns(&self) -> usize {
-        self.columns
+        self.numbering.columns
     }
 
     /// Number of rows.
     pub fn rows(&self) -> usize {
-        self.rows
+        self.numbering.rows
     }
 
     /// Index of a cell.
     #[inline]
     pub fn index(&self, column: usize, row: usize) -> usize {
-        column * self.rows + row
+        column * self.rows() + row
     }
 
     /// Column and row of a cell.
     #[inline]
     pub fn place(&self, cell: usize) -> (usize, usize) {
-        (cell / self.rows, cell % self.rows)
+        self.numbering.place(cell)
     }
 
     /// What is in a cell.
     #[inline]
     pub fn at(&self, cell: usize) -> i32 {
         self.cells[cell]
+    }
+
+    /// All cells, column by column.
+    pub fn cells_mut(&mut self) -> &mut [i32] {
+        &mut self.cells
     }
 
     /// Puts something into a cell.
@@ -68,13 +98,13 @@ impl Grid {
     /// The neighbour of a cell; `odd` is the parity of the cell's column. The cell must not be on the rim of the grid.
     #[inline]
     pub fn neighbour(&self, cell: usize, odd: usize, direction: Direction) -> usize {
-        cell.wrapping_add_signed(self.offsets[odd & 1][direction as usize])
+        self.numbering.neighbour(cell, odd, direction)
     }
 
     /// Index difference from a cell, in an even (0) or odd (1) column, to the one a vector away; h + k must be even.
     pub fn offset(&self, odd: usize, vector: Vector) -> isize {
         let other = (odd as i64 + vector.h).rem_euclid(2);
-        (vector.h * self.rows as i64 + (odd as i64 + vector.k - other) / 2) as isize
+        (vector.h * self.rows() as i64 + (odd as i64 + vector.k - other) / 2) as isize
     }
 
     /// Height of a cell's centre over that of row 0 in even columns, in half cells.

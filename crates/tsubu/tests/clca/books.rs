@@ -101,6 +101,45 @@ fn the_same_bits_at_any_number_of_threads_and_after_resume() {
     }
 }
 
+/// Where thousands move, they take their turns in strips of the lattice side by side: rods that reach across the borders too.
+/// The same bits at any number of threads and with every grain looked at; nobody shares a point.
+#[test]
+fn thousands_take_turns_side_by_side() {
+    let shapes = "shapes.small.points.at = [[0, 0]]\nshapes.rods.points.at = [[0, 0], [1, 1], [2, 2], [3, 3], [4, 4]]";
+    let text = BOX.replace("shapes.rods.points.at = [[0, 0], [0, 2], [0, 4], [0, 6]]", shapes);
+    let wide = r#"{ low = [0, 0], high = ["400 mm", "120 mm"] }"#;
+    let changes: Vec<String> = [
+        r#"walls.box.shape.box.width="400 mm""#,
+        r#"walls.box.shape.box.height="120 mm""#,
+        r#"walls.box.shape.box.floor-centre=["200 mm", 0]"#,
+        "particles.small.count=6000",
+        r#"particles.small.diameter="1.05 mm""#,
+        "particles.small.start.random.region=WIDE",
+        "particles.rods.count=200",
+        "particles.rods.start.random.region=WIDE",
+        "cl-ca.turning=true",
+    ]
+    .map(|change| change.replace("WIDE", wide))
+    .to_vec();
+    let whole = |threads: usize, everywhere: bool| {
+        with_threads(threads, || {
+            let mut run = Run::new(&text, &changes);
+            run.engine.look_everywhere(everywhere);
+            let mut most = 0;
+            for _ in 0..12 {
+                run.advance(5);
+                run.nobody_shares_a_point();
+                most = most.max(run.engine.bed().motion.iter().map(|m| m.moving).sum::<i64>());
+            }
+            assert!(run.residual() < 1e-12);
+            (run.state().hash(), most)
+        })
+    };
+    let (hash, most) = whole(1, false);
+    assert!(most > 4200, "only {most} moved at once: strips were not needed");
+    assert_eq!([whole(2, false).0, whole(7, false).0, whole(2, true).0], [hash.clone(), hash.clone(), hash]);
+}
+
 /// In a still box all comes to rest, and the lower half of the box is where the grains are.
 #[test]
 fn grains_fall_until_nobody_has_room() {
