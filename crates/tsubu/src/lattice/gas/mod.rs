@@ -1,6 +1,6 @@
 //! Lattice gases: particles of unit speed on the bonds of the triangular lattice, at most one for each direction of a site.
 //!
-//! [`bits`], [`chance`], [`collide`], [`step`] and [`planes`] are the gas of Frisch, Hasslacher and Pomeau (1986) in its three
+//! [`bits`], [`chance`], [`collide`], [`step`], [`sweep`] and [`planes`] are the gas of Frisch, Hasslacher and Pomeau (1986) in its three
 //! forms, 64 sites a word. [`grains`] and [`pile`] are gases of grains, which lose energy and fall;
 //! [`elongated`] gives grains an axis.
 
@@ -17,3 +17,4 @@ pub mod grains;
 pub mod pile;
 pub mod planes;
 pub mod step;
+pub mod sweep;

@@ -6,14 +6,11 @@
 use super::bits::WIDE;
 use super::chance::Odds;
 use super::collide::{Rules, SLOTS};
-use super::step::{self, BLOCK, Spec, Walls};
+use super::step::{BLOCK, Spec};
+use super::sweep::{Field, Sweep};
 use crate::lattice::direction::{Direction, Vector};
 use crate::random::{Purpose, unit, words};
 use rayon::prelude::*;
-
-/// Words of a strip of columns: what a thread works off at one go. Long enough that waking it and copying the columns at the
-/// edges costs nothing that can be seen.
-const WORDS_A_STRIP: usize = 1 << 14;
 
 /// A lattice gas.
 #[derive(Clone, Debug)]
@@ -23,30 +20,9 @@ pub struct Gas {
     periodic: [bool; 2],
     spec: Spec,
     now: Vec<u64>,
-    /// Columns of a strip, and what it needs beside them.
-    strip: usize,
-    margins: Vec<Margins>,
+    sweep: Sweep,
     solid: Vec<u64>,
     smooth: [Vec<u64>; 2],
-    /// A column without anybody, for the neighbours of the outermost ones.
-    nobody: Vec<u64>,
-}
-
-/// The columns beside a strip as they were before the step, and the one at work.
-#[derive(Clone, Debug)]
-struct Margins {
-    left: Vec<u64>,
-    here: Vec<u64>,
-    right: Vec<u64>,
-    /// Turns that the force made in the strip in the last step.
-    turns: [u64; 2],
-}
-
-impl Margins {
-    fn new(length: usize) -> Self {
-        let empty = vec![0; length];
-        Self { left: empty.clone(), here: empty.clone(), right: empty, turns: [0; 2] }
-    }
 }
 
 impl Gas {
@@ -59,7 +35,6 @@ impl Gas {
         assert!(!periodic[0] || columns.is_multiple_of(2), "odd columns stand higher");
         let blocks = rows.div_ceil(64 * WIDE).next_multiple_of(2);
         let length = (blocks + 2) * BLOCK;
-        let strip = (WORDS_A_STRIP / length).max(16).min(columns);
         let spec = Spec { rules, blocks, seed, step: 0, force: [Odds::default(); 2], negative: [false; 2] };
         // What lies beyond the last row is wall, so that nothing is done there.
         let mut solid = vec![0; columns * blocks * WIDE];
@@ -74,11 +49,9 @@ impl Gas {
             periodic,
             spec,
             now: vec![0; columns * length],
-            strip,
-            margins: vec![Margins::new(length); columns.div_ceil(strip)],
+            sweep: Sweep::new(columns, blocks),
             solid,
             smooth: [Vec::new(), Vec::new()],
-            nobody: vec![0; length],
         }
     }
 
@@ -180,48 +153,21 @@ impl Gas {
         close(planes, self.spec.blocks, self.rows, self.periodic[1]);
     }
 
-    /// One step: strips of columns side by side, each column in its place.
+    /// One step.
     pub fn step(&mut self) {
-        let Self { columns, rows, periodic, spec, now, strip, margins, solid, smooth, nobody } = self;
-        let (columns, length, words) = (*columns, (spec.blocks + 2) * BLOCK, spec.blocks * WIDE);
-        let empty: &[u64] = nobody;
-        let outside = |column: usize| if periodic[0] { &now[column * length..][..length] } else { empty };
-        for (index, margin) in margins.iter_mut().enumerate() {
-            let (first, end) = (index * *strip, ((index + 1) * *strip).min(columns));
-            let left = if first == 0 { outside(columns - 1) } else { &now[(first - 1) * length..][..length] };
-            margin.left.copy_from_slice(left);
-            margin.right.copy_from_slice(if end == columns { outside(0) } else { &now[end * length..][..length] });
-        }
-        let work = |(index, (strip_now, margin)): (usize, (&mut [u64], &mut Margins))| {
-            margin.turns = [0; 2];
-            let Margins { left, here, right, turns: given } = margin;
-            let count = strip_now.len() / length;
-            for i in 0..count {
-                let number = index * *strip + i;
-                let (before, after) = strip_now.split_at_mut((i + 1) * length);
-                let column = &mut before[i * length..];
-                here.copy_from_slice(column);
-                let part = number * words..(number + 1) * words;
-                let walls = Walls {
-                    solid: &solid[part.clone()],
-                    smooth: [0, 1].map(|a| smooth[a].get(part.clone()).unwrap_or(&[])),
-                };
-                let next = if i + 1 == count { right.as_slice() } else { &after[..length] };
-                step::column(spec, number, [left, here, next], walls, column);
-                if spec.force != [Odds::default(); 2] {
-                    let turns = step::force(spec, number, walls.solid, column);
-                    (0..2).for_each(|axis| given[axis] += turns[axis]);
-                }
-                close(column, spec.blocks, *rows, periodic[1]);
-                std::mem::swap(left, here);
-            }
-        };
-        if margins.len() == 1 {
-            work((0, (now, &mut margins[0])));
-        } else {
-            now.par_chunks_mut(*strip * length).zip(margins.par_iter_mut()).enumerate().for_each(work);
-        }
-        spec.step += 1;
+        self.go(false);
+    }
+
+    /// Two steps: the same as one after the other, but the memory is read and written once.
+    pub fn two_steps(&mut self) {
+        self.go(true);
+    }
+
+    fn go(&mut self, two: bool) {
+        let Self { columns: _, rows, periodic, spec, now, sweep, solid, smooth } = self;
+        let field = Field { spec: *spec, solid, smooth: [&smooth[0], &smooth[1]], rows: *rows, periodic: *periodic };
+        sweep.run(&field, now, two);
+        spec.step += if two { 2 } else { 1 };
     }
 
     /// How many there are in each slot of a column, walls included.
@@ -269,11 +215,11 @@ impl Gas {
         (0..self.columns).for_each(|column| self.close(column));
     }
 
-    /// What the force gave in the last step, in the basis (h, k).
+    /// What the force gave in the last step, or the last two at once, in the basis (h, k).
     pub fn pushed(&self) -> Vector {
-        let turns = |axis: usize| self.margins.iter().map(|m| m.turns[axis] as i64).sum::<i64>();
+        let turns = self.sweep.turns().map(|turns| turns as i64);
         let sign = self.spec.negative.map(|n| if n { -1 } else { 1 });
-        Vector { h: 2 * sign[0] * turns(0), k: 4 * sign[1] * turns(1) }
+        Vector { h: 2 * sign[0] * turns[0], k: 4 * sign[1] * turns[1] }
     }
 
     /// Number of particles.
@@ -299,7 +245,7 @@ fn at(slot: usize, word: usize) -> usize {
 }
 
 /// Empties what lies beyond the last row and, where the ends of a column meet, shows each end what waits at the other.
-fn close(column: &mut [u64], blocks: usize, rows: usize, periodic: bool) {
+pub(super) fn close(column: &mut [u64], blocks: usize, rows: usize, periodic: bool) {
     for slot in 0..SLOTS {
         let end = rows / 64;
         if !rows.is_multiple_of(64) {
@@ -413,15 +359,38 @@ mod tests {
         }
     }
 
+    /// Two steps at once do what two steps do: over the borders of strips, at walls, at ends that meet and under a force.
+    #[test]
+    fn two_at_once_are_two() {
+        for (columns, rows, periodic) in
+            [(640, 2000, [true, true]), (637, 1100, [false, true]), (150, 90, [false, false]), (2, 64, [true, true])]
+        {
+            let mut gas = filled(Rules::Three, columns, rows, periodic);
+            gas.push([0.01, -0.02]);
+            let mut pushed = [Vector::default(); 2];
+            let mut other = gas.clone();
+            for _ in 0..3 {
+                gas.two_steps();
+                pushed[0] = pushed[0].plus(gas.pushed());
+                for _ in 0..2 {
+                    other.step();
+                    pushed[1] = pushed[1].plus(other.pushed());
+                }
+                assert!(sites(&gas) == sites(&other), "{columns} x {rows}");
+            }
+            assert_eq!((pushed[0], gas.steps()), (pushed[1], other.steps()));
+        }
+    }
+
     /// The same bits for any number of threads: strips do not see each other.
     #[test]
     fn same_bits_on_any_number_of_threads() {
         let run = |threads: usize| {
-            let mut gas = filled(Rules::Three, 160, 2000, [true, true]);
+            let mut gas = filled(Rules::Three, 640, 2000, [true, true]);
             gas.push([0.01, -0.02]);
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
             pool.install(|| (0..10).for_each(|_| gas.step()));
-            assert!(gas.margins.len() > 2);
+            assert!(gas.sweep.strips() > 2);
             sites(&gas)
         };
         let one = run(1);
