@@ -173,17 +173,25 @@ pub(crate) fn summary_cards(summary: &Summary) -> Vec<Card> {
     ]
 }
 
+/// Name and unit of a result. Those of watches are named as their columns in the history, which have the unit.
+fn named<'a>(result: &'a str, history: Option<&'a Table>) -> (&'a str, Option<&'a str>) {
+    let (name, unit) = split_unit(result);
+    let column = name.strip_suffix(" final").unwrap_or(name);
+    let there = || history?.header.iter().map(|h| split_unit(h)).find(|(header, _)| *header == column)?.1;
+    (name, unit.or_else(there))
+}
+
 /// Results that are single numbers, as cards.
-pub(crate) fn result_cards(summary: &Summary, most: usize) -> Vec<Card> {
+pub(crate) fn result_cards(summary: &Summary, history: Option<&Table>, most: usize) -> Vec<Card> {
     let numbers = summary.results.iter().filter_map(|(name, value)| match value {
-        // What the books miss is no result to be proud of; the energy has its own card.
-        ResultValue::Number(x) if !name.contains("residual") => Some((name, *x)),
+        // What the books miss is no result to be proud of; the energy has its own card. What came to no number is none.
+        ResultValue::Number(x) if !name.contains("residual") && x.is_finite() => Some((name, *x)),
         _ => None,
     });
     numbers
         .take(most)
         .map(|(name, x)| {
-            let (name, unit) = split_unit(name);
+            let (name, unit) = named(name, history);
             let (value, unit) = quantity(x, unit.unwrap_or("-"));
             card(name, value, &unit, String::new(), Tone::Plain)
         })
@@ -191,13 +199,13 @@ pub(crate) fn result_cards(summary: &Summary, most: usize) -> Vec<Card> {
 }
 
 /// All results as a table.
-pub(crate) fn results_table(summary: &Summary) -> Option<Block> {
+pub(crate) fn results_table(summary: &Summary, history: Option<&Table>) -> Option<Block> {
     if summary.results.is_empty() {
         return None;
     }
     let mut grid = Grid::new(["result", "value", "unit"]);
     for (name, value) in summary.results.iter() {
-        let (name, unit) = split_unit(name);
+        let (name, unit) = named(name, history);
         let value = match value {
             ResultValue::Number(x) => short(*x),
             ResultValue::List(list) => {

@@ -65,6 +65,24 @@ fn watched(dir: &Path) {
     some.write(&dir.join("watch/some.csv")).unwrap();
 }
 
+/// Results of watches have the unit of their column; one that came to no number is no headline of the page.
+#[test]
+fn results_have_the_units_of_their_columns() {
+    let dir = tempfile::tempdir().unwrap();
+    watched(dir.path());
+    let mut summary = fixture::summary("dem");
+    summary.results = tsubu_frame::Named::default();
+    summary.results.insert("out rate", f64::NAN);
+    summary.results.insert("out passed mass final", 0.25);
+    summary.write(&dir.path().join("summary.json")).unwrap();
+    let report = build(dir.path()).unwrap();
+    let card = |label: &str| report.cards.iter().find(|card| card.label == label).map(|card| card.unit.as_str());
+    assert_eq!([card("out rate"), card("out passed mass final")], [None, Some("kg")]);
+    let Some(Block::Table(table)) = section(&report, "Results").first() else { panic!("no table") };
+    let units: Vec<_> = table.rows.iter().map(|(_, row)| [row[0].as_str(), row[2].as_str()]).collect();
+    assert_eq!(units, [["out rate", "1/s"], ["out passed mass final", "kg"]]);
+}
+
 fn captions(blocks: &[Block]) -> Vec<String> {
     let mut found = Vec::new();
     for block in blocks {
