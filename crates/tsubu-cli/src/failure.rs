@@ -170,6 +170,7 @@ impl Failure {
     pub fn of_compare(error: &CompareError, folder: &Path) -> Self {
         match error {
             CompareError::Scene(complaints) => complaints.into(),
+            CompareError::Nobody(_) => Self::wrong(error.to_string()),
             CompareError::Run { method, error } => Self::of_run(error, &folder.join(method)).about("method", method),
             CompareError::File(error) => Self::of_file(error, folder),
         }

@@ -29,7 +29,7 @@ const OURS: &[&str] = &[
     "checkpoint/state.tsubu",
 ];
 
-/// Paths of the files in a folder whose names depend on the scene, one a line.
+/// Paths of the files in a folder whose names depend on the scene, one a line; folders of runs with a slash behind.
 const LIST: &str = "files.txt";
 
 /// What to do with a folder that has something in it.
@@ -86,11 +86,12 @@ impl RunFolder {
     }
 }
 
-/// Adds files to the list of a folder, before they are written: a killed run may leave them, but never unlisted.
-pub fn list<'a>(folder: &Path, names: impl IntoIterator<Item = &'a str>) -> Result<(), FileError> {
+/// Adds files to the list of a folder, and with a slash behind their names folders of runs, before they are written: a
+/// killed run may leave them, but never unlisted.
+pub fn list<S: Into<String>>(folder: &Path, names: impl IntoIterator<Item = S>) -> Result<(), FileError> {
     let mut all = listed(folder)?;
     let before = all.len();
-    all.extend(names.into_iter().map(str::to_owned));
+    all.extend(names.into_iter().map(Into::into));
     if all.len() == before {
         return Ok(());
     }
@@ -109,10 +110,15 @@ fn listed(folder: &Path) -> Result<BTreeSet<String>, FileError> {
 
 /// Removes what tsubu wrote into a folder, and those folders in it that are empty then.
 fn clear(folder: &Path) -> Result<(), FileError> {
+    let mut inner = Vec::new();
     for name in listed(folder)? {
         // An altered list must not reach outside the folder.
-        if Path::new(&name).components().all(|part| matches!(part, Component::Normal(_))) {
-            remove(&folder.join(name))?;
+        if !Path::new(&name).components().all(|part| matches!(part, Component::Normal(_))) {
+            continue;
+        }
+        match name.strip_suffix('/') {
+            Some(name) => inner.push(folder.join(name)),
+            None => remove(&folder.join(name))?,
         }
     }
     for name in OURS.iter().chain(&[LIST]) {
@@ -125,10 +131,10 @@ fn clear(folder: &Path) -> Result<(), FileError> {
             remove(&frames.join(whole))?;
         }
     }
-    // Cases of a sweep and methods of a comparison are folders like this one.
+    // Cases of a sweep, and what the list has with a slash behind it, are folders like this one.
     let cases = folder.join("cases");
     let numbers = names(&cases)?.into_iter().filter(|name| name.bytes().all(|c| c.is_ascii_digit()));
-    for inner in numbers.map(|name| cases.join(name)).chain(["dem", "lattice"].map(|method| folder.join(method))) {
+    for inner in numbers.map(|name| cases.join(name)).chain(inner) {
         if inner.is_dir() {
             clear(&inner)?;
             prune(&inner);

@@ -1,12 +1,32 @@
 //! The report of one scene by several methods.
 
-use tsubu_frame::{Summary, Table, csv::split_unit};
+use tsubu_frame::{Summary, Table, csv::split_unit, read_frame, snapshots, summary::read_json};
 
+use crate::balls::{Balls, ColourBy, Look};
 use crate::figure::{Axis, Bars, Figure, Series, Style};
 use crate::moments;
-use crate::page::{Block, Report, Tone};
+use crate::page::{Block, Grid, Report, Tone};
 use crate::source::{Source, card, cost_table, energy_blocks, method_name, shown, versions};
+use crate::strip::{Panel, strip};
 use crate::text::{duration, short};
+
+/// What stands in `compare.json`.
+#[derive(Debug, Default, serde::Deserialize)]
+#[serde(default)]
+struct Compared {
+    /// Who ran, in order.
+    methods: Vec<String>,
+    /// Who cannot run the scene.
+    refused: Vec<Refused>,
+}
+
+/// A method that cannot run the scene.
+#[derive(Debug, serde::Deserialize)]
+pub(crate) struct Refused {
+    pub method: String,
+    /// Keys, and why not.
+    pub because: Vec<(String, String)>,
+}
 
 /// What one method left in its folder.
 struct Method {
@@ -16,7 +36,9 @@ struct Method {
 }
 
 pub(crate) fn build(source: &mut Source) -> Report {
-    let methods = methods(source);
+    let read = if source.has("compare.json") { read_json(&source.dir.join("compare.json")) } else { Ok(Compared::default()) };
+    let compared = source.told(read).unwrap_or_default();
+    let methods = methods(source, &compared);
     let table = source.table("compare.csv");
     if table.is_none() {
         source.notes.push("There is no compare.csv, so the methods are not set against each other in numbers.".into());
@@ -66,7 +88,12 @@ pub(crate) fn build(source: &mut Source) -> Report {
         cost.push(cost_table(&runs));
     }
     report.section("To be noted", source.note_blocks());
-    report.section("What differs", table.iter().map(shown).collect());
+    let mut differs: Vec<Block> = table.iter().map(shown).collect();
+    differs.extend(last_pictures(source, &methods));
+    report.section("What differs", differs);
+    if !compared.refused.is_empty() {
+        report.section("Who cannot run it", vec![refusals(&compared.refused)]);
+    }
     report.section("Motion", motion);
     report.section("Energy", energy);
     report.section("Grains", pictures);
@@ -75,15 +102,14 @@ pub(crate) fn build(source: &mut Source) -> Report {
     report
 }
 
-fn methods(source: &mut Source) -> Vec<Method> {
-    let mut names: Vec<String> = std::fs::read_dir(&source.dir)
-        .into_iter()
-        .flatten()
-        .filter_map(Result::ok)
-        .filter(|e| e.path().join("summary.json").exists() || e.path().join("history.csv").exists())
-        .map(|e| e.file_name().to_string_lossy().into_owned())
-        .collect();
-    names.sort();
+fn methods(source: &mut Source, compared: &Compared) -> Vec<Method> {
+    let mut names = compared.methods.clone();
+    if names.is_empty() {
+        let entries = std::fs::read_dir(&source.dir).into_iter().flatten().filter_map(Result::ok);
+        let there = entries.filter(|e| ["summary.json", "history.csv"].iter().any(|name| e.path().join(name).exists()));
+        names = there.map(|e| e.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+    }
     names
         .into_iter()
         .map(|name| {
@@ -93,6 +119,39 @@ fn methods(source: &mut Source) -> Vec<Method> {
             method
         })
         .collect()
+}
+
+fn refusals(refused: &[Refused]) -> Block {
+    let mut grid = Grid::new(["method", "key", "why"]);
+    for Refused { method, because } in refused {
+        for (key, why) in because {
+            grid.push(Tone::Plain, [method_name(method), key, why]);
+        }
+    }
+    Block::Table(grid)
+}
+
+/// The last moment by each method side by side, grains coloured by where they began: which of them have moved, and how far.
+fn last_pictures(source: &mut Source, methods: &[Method]) -> Option<Block> {
+    let mut panels = Vec::new();
+    for method in methods {
+        let read = snapshots(&source.dir.join(&method.name));
+        let found = source.told(read)?;
+        let (Some(first), Some(last)) = (found.first(), found.last()) else { continue };
+        let frames = read_frame(&first.path).and_then(|first| Ok((first, read_frame(&last.path)?)));
+        let (first, last) = source.told(frames)?;
+        let began = ColourBy::Given("height at the start".into(), "m".into(), moments::heights(&first, &last));
+        let balls = Balls::of(&last, &Look { colour: began, ..Look::default() });
+        let label = format!("{}, {}", method_name(&method.name), crate::strip::time_label(last.time));
+        panels.push(Panel { balls, label, arrow: None });
+    }
+    // In space one colours by depth, in pictures of their own.
+    if panels.len() < 2 || panels.iter().any(|panel| panel.balls.space) {
+        return None;
+    }
+    let columns = if moments::wide(&panels) { 3 } else { 6 };
+    let caption = "The last moment by each method; grains that came in later are grey.";
+    Some(source.drawing("methods", strip(&panels, &Look::default(), columns), caption))
 }
 
 fn headline(runs: &[(&str, &Summary)]) -> String {

@@ -14,6 +14,7 @@ pub mod colour;
 mod compare;
 mod field;
 pub mod figure;
+mod gallery;
 mod moments;
 pub mod page;
 mod plot;

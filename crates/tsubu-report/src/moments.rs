@@ -1,6 +1,7 @@
 //! Which moments of a run to show: eight of a period where one can be told, evenly spread ones otherwise.
 
-use tsubu_frame::{FileError, Snapshot, Table, read_frame, snapshots};
+use std::collections::HashMap;
+use tsubu_frame::{FileError, Frame, Kind, Snapshot, Table, read_frame, snapshots};
 
 use crate::animation;
 use crate::balls::{Balls, ColourBy, Look, common};
@@ -129,8 +130,16 @@ fn draw_filmed(source: &mut Source, found: &[Snapshot], who: &str, drive: &str) 
     Ok(source.drawing("strip", strip(&panels, &look, columns), &caption))
 }
 
+/// Heights at which the grains of a frame were in an earlier one [m]; not a number for those that were not there.
+pub(crate) fn heights(earlier: &Frame, frame: &Frame) -> Vec<f64> {
+    let began = Balls::of(earlier, &Look::default());
+    let ids = earlier.integers(Kind::Grain, "id");
+    let heights: HashMap<i64, f64> = ids.iter().copied().zip(began.centres.iter().map(|c| c[1])).collect();
+    frame.integers(Kind::Grain, "id").iter().map(|id| heights.get(id).copied().unwrap_or(f64::NAN)).collect()
+}
+
 /// Eight in a row only if each is taller than wide.
-fn wide(panels: &[Panel]) -> bool {
+pub(crate) fn wide(panels: &[Panel]) -> bool {
     let look = common(&panels.iter().map(|p| p.balls.clone()).collect::<Vec<_>>(), &Look::default());
     look.window.is_none_or(|w| (w[2] - w[0]) > 0.6 * (w[3] - w[1]))
 }

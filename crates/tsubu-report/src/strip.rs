@@ -27,6 +27,8 @@ pub struct Panel {
 /// Pictures side by side in one window and one colour scale, `columns` in a row, with a colour bar below.
 pub fn strip(panels: &[Panel], look: &Look, columns: usize) -> String {
     let all: Vec<Balls> = panels.iter().map(|p| p.balls.clone()).collect();
+    // A window that was asked for may leave something out; what is left out must not be drawn over the neighbours.
+    let clipped = look.window.is_some();
     let look = common(&all, look);
     let window = look.window.unwrap_or([0.0, 0.0, 1.0, 1.0]);
     let range = look.range.unwrap_or((0.0, 1.0));
@@ -50,7 +52,14 @@ pub fn strip(panels: &[Panel], look: &Look, columns: usize) -> String {
         let x = (i % columns) as f64 * (cell + GAP);
         let y = (i / columns) as f64 * (picture + label);
         let place = Place { x: x - (window[0] - margin) * scale, y: y + picture + (window[1] - margin) * scale, scale };
+        if clipped {
+            let frame = format!("\"{x:.1}\" y=\"{y:.1}\" width=\"{cell:.1}\" height=\"{picture:.1}\"");
+            let _ = write!(out, "<svg x={frame} viewBox=\"{x:.1} {y:.1} {cell:.1} {picture:.1}\">");
+        }
         draw(&mut out, &panel.balls, &look, range, &place, [x, y, cell, picture]);
+        if clipped {
+            out.push_str("</svg>");
+        }
         let middle = x + cell / 2.0;
         let _ = write!(
             out,

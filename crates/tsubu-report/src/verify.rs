@@ -3,6 +3,7 @@
 use tsubu_frame::{Claim, Points, summary::read_json};
 
 use crate::figure::{Axis, Figure, Series, Style};
+use crate::gallery;
 use crate::page::{Block, Report, Tone};
 use crate::source::{Source, card, claims_table, versions};
 
@@ -54,7 +55,8 @@ pub(crate) fn build(source: &mut Source) -> Report {
     }
     for name in &studies {
         let of: Vec<&Claim> = claims.iter().filter(|c| study(c) == *name).collect();
-        let mut blocks = figures(source, name, &of);
+        let mut blocks = gallery::blocks(source, name);
+        blocks.extend(figures(source, name, &of));
         blocks.push(claims_table(&of));
         report.section(*name, blocks);
     }

@@ -55,8 +55,14 @@ impl Scene {
 
     /// This scene with some keys changed, as sweeps and responses do for each of their cases.
     pub fn with(&self, changes: &[(&str, &toml::Value)]) -> Result<Self, Complaints> {
+        let texts: Vec<String> = changes.iter().map(|(path, value)| change_text(path, value)).collect();
+        self.changed(&texts)
+    }
+
+    /// The same for changes of the form `key.path=value`.
+    pub fn changed<'a>(&self, changes: impl IntoIterator<Item = &'a String>) -> Result<Self, Complaints> {
         let mut typed = self.typed.clone();
-        typed.changes.extend(changes.iter().map(|(path, value)| change_text(path, value)));
+        typed.changes.extend(changes.into_iter().cloned());
         // What is varied was tried when this scene was read.
         Self::new(typed, false)
     }

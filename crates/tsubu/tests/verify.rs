@@ -47,7 +47,7 @@ fn quick_cases_pass() {
     let others = ["restitution", "drop-dem", "drop-lattice", "lump", "figure-9", "bed-at-rest", "fluidised"];
     for name in others.iter().chain(CL_CA).chain(IN_WATER).chain(ON_LATTICES).chain(CLOSED_FORMS) {
         for case in chosen(&[(*name).to_owned()], false).unwrap() {
-            for claim in case.claims().unwrap() {
+            for claim in case.claims(None).unwrap() {
                 assert!(
                     claim.pass,
                     "{name}: {} = {} not in {:?}..{:?}",

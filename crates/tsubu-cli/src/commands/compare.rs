@@ -10,18 +10,24 @@ use clap::Args;
 use std::path::Path;
 use tsubu::run::Watcher;
 use tsubu::study::compare::compare;
+use tsubu::study::variant::Variant;
 use tsubu_frame::{Status, Table};
-use tsubu_scene::plan::Method;
 
 #[derive(Args)]
 #[command(after_help = "\
-Example:
-  tsubu compare damper.toml --methods dem,lattice       into out/damper-compare")]
+Examples:
+  tsubu compare damper.toml --methods dem,lattice       into out/damper-compare
+  tsubu compare collapse.toml --methods all             by every method that can; the others say why not
+  tsubu compare collapse.toml --methods dem,locked=dem:contact.rotation=false,cl-ca
+                                                        DEM with and without rotation beside CL-CA
+
+METHOD:KEY=VALUE changes the scene for one column, as --set does for all of them; several changes have colons between.
+NAME= before it names the column and its folder.")]
 pub struct Options {
     #[command(flatten)]
     scene: SceneOptions,
-    /// The methods, with commas between
-    #[arg(long, value_name = "METHOD,...", value_delimiter = ',', required = true)]
+    /// The methods, with commas between: METHOD or NAME=METHOD:KEY=VALUE; `all` is every method that can
+    #[arg(long, value_name = "METHOD,...", required = true)]
     methods: Vec<String>,
     #[command(flatten)]
     folder: FolderOptions,
@@ -30,19 +36,16 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
-    let methods: Vec<Method> = options.methods.iter().map(|name| method(name)).collect::<Result<_, _>>()?;
-    if let Some(twice) = methods.iter().enumerate().find_map(|(i, m)| methods[..i].contains(m).then_some(m)) {
-        return Err(Failure::wrong(format!("method `{}` is named twice", twice.name())));
-    }
+    let variants = Variant::list(&options.methods.join(",")).map_err(Failure::wrong)?;
     let scene = options.scene.read()?;
     let folder = options.folder.folder(&options.scene, "-compare");
     let pool = options.work.pool()?;
     let progress = Progress::new("compare", options.work.quiet);
     let watcher = Watcher { interrupted: stop::listen(), progress: &|done| progress.set(done) };
-    let done = pool.install(|| compare(&scene, &methods, &folder, options.folder.existing(), &watcher));
+    let done = pool.install(|| compare(&scene, &variants, &folder, options.folder.existing(), &watcher));
     progress.end();
-    let summaries = done.map_err(|error| Failure::of_compare(&error, &folder))?;
-    if summaries.iter().any(|summary| summary.status == Status::Interrupted) {
+    let compared = done.map_err(|error| Failure::of_compare(&error, &folder))?;
+    if compared.done.iter().any(|(_, summary)| summary.status == Status::Interrupted) {
         let message = format!("interrupted; what was computed so far is in {}", folder.display());
         return Err(
             Failure::interrupted(message).hint("a comparison does not resume: start it again with `--overwrite`")
@@ -50,24 +53,17 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     }
     let page = pool.install(|| report::write(&folder))?;
     let mut text = told(&folder)?;
-    for (method, summary) in methods.iter().zip(&summaries) {
+    text += &compared.refused.iter().map(ToString::to_string).collect::<String>();
+    for (variant, summary) in &compared.done {
         for claim in &summary.claims {
-            text += &claims::line(&claim.clone().of(method.name()));
+            text += &claims::line(&claim.clone().of(&variant.name));
         }
-        let warned: Vec<String> = summary.warnings.iter().map(|w| format!("{}: {w}", method.name())).collect();
+        let warned: Vec<String> = summary.warnings.iter().map(|w| format!("{}: {w}", variant.name)).collect();
         text += &warnings(&warned);
     }
     output::print(&text)?;
     output::tell(&format!("results in {}; open {}\n", folder.display(), page.display()));
-    if summaries.iter().flat_map(|s| &s.claims).all(|claim| claim.pass) { Ok(()) } else { Err(Failure::claim()) }
-}
-
-fn method(name: &str) -> Result<Method, Failure> {
-    let names = Method::ALL.map(Method::name).join(", ");
-    Method::ALL
-        .into_iter()
-        .find(|m| m.name() == name)
-        .ok_or_else(|| Failure::wrong(format!("method `{name}` is unknown")).hint(format!("methods: {names}")))
+    if compared.done.iter().flat_map(|(_, s)| &s.claims).all(|claim| claim.pass) { Ok(()) } else { Err(Failure::claim()) }
 }
 
 fn told(folder: &Path) -> Result<String, Failure> {

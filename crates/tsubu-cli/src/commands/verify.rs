@@ -8,7 +8,7 @@ use crate::progress::Progress;
 use crate::table;
 use clap::Args;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 use tsubu::study::verify::{self, Case};
 use tsubu_frame::{Claim, Existing, RunFolder, summary::write_json};
@@ -52,7 +52,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         Some(path) => Some(RunFolder::create(path, existing).map_err(|error| Failure::of_file(&error, path))?),
         None => None,
     };
-    let claims = judge(&chosen, options)?;
+    let claims = judge(&chosen, folder.as_ref().map(RunFolder::path), options)?;
     let failed = claims.iter().filter(|claim| !claim.pass).count();
     let total = claims.len();
     output::print(&match failed {
@@ -78,7 +78,7 @@ fn list(cases: &[&Case]) -> Result<(), Failure> {
 }
 
 /// Runs the cases side by side and prints each one's claims as soon as it and all before it are done.
-fn judge(cases: &[&'static Case], options: &Options) -> Result<Vec<Claim>, Failure> {
+fn judge(cases: &[&'static Case], folder: Option<&Path>, options: &Options) -> Result<Vec<Claim>, Failure> {
     let pool = options.work.pool()?;
     let progress = Progress::new("verify", options.work.quiet);
     let (sender, receiver) = mpsc::channel();
@@ -87,7 +87,7 @@ fn judge(cases: &[&'static Case], options: &Options) -> Result<Vec<Claim>, Failu
             let sender = sender.clone();
             scope.spawn(move |_| {
                 // Nobody listens any more once printing has failed.
-                let _ = sender.send((index, case.claims()));
+                let _ = sender.send((index, case.claims(folder)));
             });
         }
         drop(sender);

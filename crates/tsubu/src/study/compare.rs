@@ -1,10 +1,15 @@
-//! One scene by several methods: what differs, and what each cost.
+//! One scene by several methods, or by variants of them: what differs, and what each cost.
 
+use super::variant::Variant;
+use crate::engine::{self, OpenError};
+use crate::partner::Hosts;
 use crate::run::{self, RunError, Watcher};
 use crate::scene_files;
+use serde::Serialize;
+use std::fmt;
 use std::path::Path;
+use tsubu_frame::folder::list;
 use tsubu_frame::{Cell, Existing, FileError, ResultValue, RunFolder, Status, Summary, Table, summary::write_json};
-use tsubu_scene::plan::Method;
 use tsubu_scene::{Complaints, Scene};
 
 /// Why there is no comparison.
@@ -13,11 +18,14 @@ pub enum CompareError {
     /// The scene is wrong under one of the methods.
     #[error("{0}")]
     Scene(Complaints),
+    /// None of the methods can run the scene.
+    #[error("none of these methods can run the scene\n{}", .0.iter().map(ToString::to_string).collect::<String>().trim_end())]
+    Nobody(Vec<Refused>),
     /// A run went wrong.
     #[error("method `{method}`: {error}")]
     Run {
-        /// The method.
-        method: &'static str,
+        /// Its name.
+        method: String,
         /// What went wrong.
         error: RunError,
     },
@@ -26,52 +34,98 @@ pub enum CompareError {
     File(#[from] FileError),
 }
 
-/// Runs the scene by each method into a folder of its own below `folder`; writes `compare.csv`, `compare.json`.
+/// A comparison that came to its end, or was interrupted: then the last summary says so.
+#[derive(Debug, Default)]
+pub struct Comparison {
+    /// Who ran, with what came of it.
+    pub done: Vec<(Variant, Summary)>,
+    /// Who cannot run the scene.
+    pub refused: Vec<Refused>,
+}
+
+/// A method that cannot run the scene.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Refused {
+    /// Its name.
+    pub method: String,
+    /// Key of the scene and why not, for each that it refuses.
+    pub because: Vec<(String, String)>,
+}
+
+impl fmt::Display for Refused {
+    /// A line a reason.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.because.iter().try_for_each(|(key, why)| writeln!(f, "{} cannot run it: {key}: {why}", self.method))
+    }
+}
+
+/// Runs the scene by each variant into a folder of its own below `folder`; writes `compare.csv`, `compare.json`.
 pub fn compare(
     scene: &Scene,
-    methods: &[Method],
+    variants: &[Variant],
     folder: &Path,
     existing: Existing,
     watcher: &Watcher,
-) -> Result<Vec<Summary>, CompareError> {
-    let mut scenes = Vec::new();
-    for method in methods {
-        let value = toml::Value::String(method.name().to_owned());
-        scenes.push(scene.with(&[("method", &value)]).map_err(CompareError::Scene)?);
-    }
+) -> Result<Comparison, CompareError> {
     // A method that cannot run the scene must say so before the others have spent an hour on it.
-    for (method, scene) in methods.iter().zip(&scenes) {
-        let hosts = crate::partner::Hosts::new(&scene.plan().hosts);
-        crate::engine::open(scene.plan(), &hosts)
-            .map_err(|error| CompareError::Run { method: method.name(), error: error.into() })?;
+    let (scenes, refused) = scenes(scene, variants)?;
+    if scenes.is_empty() {
+        return Err(CompareError::Nobody(refused));
     }
     let folder = RunFolder::create(folder, existing)?;
-    let share = 1.0 / methods.len() as f64;
-    let mut summaries = Vec::new();
-    for (index, (method, scene)) in methods.iter().zip(&scenes).enumerate() {
+    list(folder.path(), scenes.iter().map(|(variant, _)| format!("{}/", variant.name)))?;
+    let share = 1.0 / scenes.len() as f64;
+    let mut done: Vec<(Variant, Summary)> = Vec::new();
+    for (index, (variant, scene)) in scenes.into_iter().enumerate() {
         let progress = |done: f64| (watcher.progress)((index as f64 + done) * share);
         let watcher = Watcher { interrupted: watcher.interrupted, progress: &progress };
-        let into = folder.path().join(method.name());
-        let summary = run::run(scene, &into, Existing::Overwrite, &watcher)
-            .map_err(|error| CompareError::Run { method: method.name(), error })?;
-        if summary.status != Status::Finished {
-            return Ok(vec![summary]);
+        let into = folder.path().join(&variant.name);
+        let summary = run::run(&scene, &into, Existing::Overwrite, &watcher)
+            .map_err(|error| CompareError::Run { method: variant.name.clone(), error })?;
+        let finished = summary.status == Status::Finished;
+        done.push((variant, summary));
+        if !finished {
+            return Ok(Comparison { done, refused });
         }
-        summaries.push(summary);
     }
     scene_files::write(&folder, scene)?;
-    table(methods, &summaries).write(&folder.file("compare.csv"))?;
-    let names: Vec<&str> = methods.iter().map(|m| m.name()).collect();
+    table(&done).write(&folder.file("compare.csv"))?;
+    let names: Vec<&str> = done.iter().map(|(variant, _)| variant.name.as_str()).collect();
     write_json(
         &folder.file("compare.json"),
-        &serde_json::json!({ "methods": names, "tsubu_version": crate::VERSION }),
+        &serde_json::json!({ "methods": names, "refused": refused, "tsubu_version": crate::VERSION }),
     )?;
-    Ok(summaries)
+    Ok(Comparison { done, refused })
+}
+
+/// The scene as each variant runs it, and who cannot.
+pub(crate) fn scenes(
+    scene: &Scene,
+    variants: &[Variant],
+) -> Result<(Vec<(Variant, Scene)>, Vec<Refused>), CompareError> {
+    let mut scenes = Vec::new();
+    let mut refused = Vec::new();
+    for variant in variants {
+        let method = [format!("method={}", variant.method.name())];
+        let scene = scene.changed(method.iter().chain(&variant.changes)).map_err(CompareError::Scene)?;
+        let plan = super::unsettled(scene.plan());
+        match engine::open(&plan, &Hosts::new(&plan.hosts)) {
+            Ok(_) => scenes.push((variant.clone(), scene)),
+            Err(OpenError::Refused(refusal)) if variant.may_refuse => {
+                let because = refusal.notes.into_iter().map(|note| (note.key, note.text)).collect();
+                refused.push(Refused { method: variant.name.clone(), because });
+            }
+            Err(error) => return Err(CompareError::Run { method: variant.name.clone(), error: error.into() }),
+        }
+    }
+    Ok((scenes, refused))
 }
 
 /// One row a quantity, one column a method.
-fn table(methods: &[Method], summaries: &[Summary]) -> Table {
-    let header = ["quantity [text]".to_owned()].into_iter().chain(methods.iter().map(|m| format!("{} [SI]", m.name())));
+fn table(done: &[(Variant, Summary)]) -> Table {
+    let summaries: Vec<&Summary> = done.iter().map(|(_, summary)| summary).collect();
+    let names = done.iter().map(|(variant, _)| format!("{} [SI]", variant.name));
+    let header = ["quantity [text]".to_owned()].into_iter().chain(names);
     let mut table = Table::new(header);
     let mut row = |name: &str, values: &mut dyn Iterator<Item = f64>| {
         table.push([Cell::Text(name.to_owned())].into_iter().chain(values.map(Cell::Number)));
@@ -82,7 +136,7 @@ fn table(methods: &[Method], summaries: &[Summary]) -> Table {
     row("particle-steps per second", &mut summaries.iter().map(|s| s.particle_steps_per_second));
     row("mean contacts", &mut summaries.iter().map(|s| s.contacts_mean));
     let mut names: Vec<&str> = Vec::new();
-    for summary in summaries {
+    for summary in &summaries {
         names.extend(summary.results.iter().map(|(name, _)| name));
     }
     names.dedup();

@@ -8,6 +8,7 @@ mod chung_ooi_2011;
 mod chute;
 mod cl_ca_2001;
 mod cohesion;
+mod common_test;
 mod contact;
 mod cooling;
 mod damper_2003;
@@ -38,6 +39,7 @@ mod throw;
 mod voids;
 mod water;
 
+use std::path::Path;
 use tsubu_frame::Claim;
 
 /// One verification case: a few claims from one set of runs.
@@ -53,6 +55,8 @@ pub struct Case {
     /// Runs it. The factor multiplies the constants of the contact law; 1 but in the tests that show that the
     /// claims can fail.
     pub run: fn(spoiler: f64) -> Result<Vec<Claim>, String>,
+    /// The same into a folder, where it leaves pictures and tables; `None`: claims are all there is.
+    pub kept: Option<fn(folder: &Path) -> Result<Vec<Claim>, String>>,
 }
 
 /// All cases, in the order they are listed and run.
@@ -133,7 +137,24 @@ pub static CASES: &[Case] = &[
     quick("convection", "cl-ca-2001", "C-x2: rolls between rough walls", cl_ca_2001::convection),
     quick("poured-heap", "cl-ca-2001", "C-x3: slopes of a poured heap", cl_ca_2001::pour),
     quick("pushed-plate", "cl-ca-2001", "C-x4: a plate pushed into a bed", cl_ca_2001::plate),
+    long("plate-twin", "cl-ca-2001", "C-x4: the network of the plate beside forces of DEM", cl_ca_2001::plate_twin),
     long("collapse-twin", "cl-ca-2001", "C-F9 to F11: the same by DEM, and what both cost", cl_ca_2001::twin),
+    Case {
+        kept: Some(|folder| common_test::hopper(1.0, Some(folder))),
+        ..long("common-hopper", "common-test", "a silo runs out, by every model", |s| common_test::hopper(s, None))
+    },
+    Case {
+        kept: Some(|folder| common_test::heap(1.0, Some(folder))),
+        ..long("common-heap", "common-test", "a heap grows, by every model", |s| common_test::heap(s, None))
+    },
+    Case {
+        kept: Some(|folder| common_test::shaken(1.0, Some(folder))),
+        ..long("common-shaken", "common-test", "two sizes are shaken, by every model", |s| common_test::shaken(s, None))
+    },
+    Case {
+        kept: Some(|folder| common_test::collapse(1.0, Some(folder))),
+        ..long("common-collapse", "common-test", "a wall goes, by every model", |s| common_test::collapse(s, None))
+    },
     quick("litwiniszyn", "lattice-review", "R-1: voids that walk up at random", voids::litwiniszyn_case),
     quick("caram-hong", "lattice-review", "R-2: many voids, exclusion, a surface", voids::caram_hong_case),
     quick("savage", "lattice-review", "R-3.3: a chute on the square lattice that sorts by size", sieving::chute),
@@ -184,7 +205,7 @@ const fn quick(
     about: &'static str,
     run: fn(f64) -> Result<Vec<Claim>, String>,
 ) -> Case {
-    Case { name, study, about, long: false, run }
+    Case { name, study, about, long: false, run, kept: None }
 }
 
 const fn long(
@@ -193,7 +214,7 @@ const fn long(
     about: &'static str,
     run: fn(f64) -> Result<Vec<Claim>, String>,
 ) -> Case {
-    Case { name, study, about, long: true, run }
+    Case { name, study, about, long: true, run, kept: None }
 }
 
 /// The cases that the given names choose: case names or study names; none given means all quick ones.
@@ -214,8 +235,12 @@ pub fn chosen(names: &[String], all: bool) -> Result<Vec<&'static Case>, String>
 }
 
 impl Case {
-    /// Runs the case; its claims carry its study's name.
-    pub fn claims(&self) -> Result<Vec<Claim>, String> {
-        Ok((self.run)(1.0)?.into_iter().map(|c| c.of(self.study)).collect())
+    /// Runs the case, into a folder if there is one; its claims carry its study's name.
+    pub fn claims(&self, folder: Option<&Path>) -> Result<Vec<Claim>, String> {
+        let claims = match (self.kept, folder) {
+            (Some(kept), Some(folder)) => kept(folder)?,
+            _ => (self.run)(1.0)?,
+        };
+        Ok(claims.into_iter().map(|c| c.of(self.study)).collect())
     }
 }

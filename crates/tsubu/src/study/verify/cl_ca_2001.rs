@@ -4,12 +4,14 @@
 //! what each effect needs: the wall stays, the large grain is as small as the others, the walls are smooth, nothing is
 //! poured or pushed.
 
-use super::bench::Rig;
-use crate::view::{Contacts, Wants};
+use super::bench::{Rig, refused};
+use crate::view::{Contact, Contacts, Wants};
 use crate::watch::slope::line as least_squares;
 use glam::DVec3;
+use std::path::Path;
 use std::time::Instant;
 use tsubu_frame::Claim;
+use tsubu_scene::Scene;
 
 const SOURCE: &str = "Sakaguchi et al. (2001), figures 9 to 11: pictures (C-6)";
 
@@ -21,10 +23,13 @@ fn at_least(name: impl Into<String>, value: f64, low: f64, source: &str) -> Clai
     Claim::judge(name, value, Some(low), None, source)
 }
 
-/// The scene of the collapse, by a method; the wall on the right stays if `opened` is false.
-fn collapsing(method: &str, opened: bool) -> Result<Rig, String> {
-    let text = include_str!("../../../../../scenes/collapse.toml").replace("\"cl-ca\"", &format!("\"{method}\""));
-    let mut plan = super::bench::plan(&text)?;
+/// The scene of the collapse by a method, with changes; the wall on the right stays if `opened` is false.
+fn collapsing(method: &str, opened: bool, changes: &[&str]) -> Result<Rig, String> {
+    let text = include_str!("../../../../../scenes/collapse.toml");
+    let method = format!("method={method}");
+    let changes: Vec<String> = changes.iter().chain([&method.as_str()]).map(|change| (*change).to_owned()).collect();
+    let scene = Scene::parse("collapse", text, Path::new("."), &changes).map_err(|c| c.to_string())?;
+    let mut plan = scene.plan().clone();
     // Looks are taken here.
     plan.watch.clear();
     plan.claim.clear();
@@ -45,10 +50,10 @@ fn moved(rig: &mut Rig, time: f64, least: f64) -> Result<f64, String> {
 /// Where the wall stood [m].
 const WALL: f64 = 86.6e-3;
 
-/// Grains beyond the place of the wall, the front [mm], and the slope of the surface from there to the left [degrees].
-fn slope(rig: &Rig) -> (f64, f64, f64) {
-    let grains = rig.vectors("position");
-    let outside = grains.iter().filter(|p| p.x > WALL).count() as f64;
+/// Of grains at places: how many are beyond the place of the wall [m], the front [mm], and the slope of the surface from
+/// there to the left [degrees].
+pub(super) fn slope(grains: &[DVec3], wall: f64) -> (f64, f64, f64) {
+    let outside = grains.iter().filter(|p| p.x > wall).count() as f64;
     let mut x: Vec<f64> = grains.iter().map(|p| p.x).collect();
     x.sort_by(f64::total_cmp);
     // The front is where 99 % of the grains are behind: single ones may roll on by DEM.
@@ -56,7 +61,7 @@ fn slope(rig: &Rig) -> (f64, f64, f64) {
     let bins = 30;
     let width = front / bins as f64;
     let mut surface = vec![f64::NEG_INFINITY; bins];
-    for p in &grains {
+    for p in grains {
         let bin = (p.x / width) as usize;
         if bin < bins {
             surface[bin] = surface[bin].max(p.z);
@@ -72,45 +77,59 @@ fn slope(rig: &Rig) -> (f64, f64, f64) {
 
 /// C-F9 to F11: dropped, at rest, a side wall removed, at rest again.
 pub(super) fn collapse(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let mut rig = collapsing("cl-ca", spoiler == 1.0)?;
+    let mut rig = collapsing("cl-ca", spoiler == 1.0, &[])?;
     rig.until(0.5)?;
     let mut claims = vec![between("initial: grains that still move", moved(&mut rig, 0.09, 1e-9)?, 0.0, 0.0, SOURCE)];
     rig.until(0.62)?;
     claims.push(at_least("middle: grains that move within 20 ms", moved(&mut rig, 0.02, 1e-9)?, 20.0, SOURCE));
     rig.until(1.4)?;
     claims.push(between("late: grains that still move", moved(&mut rig, 0.1, 1e-9)?, 0.0, 0.0, SOURCE));
-    let (outside, front, angle) = slope(&rig);
+    let (outside, front, angle) = slope(&rig.vectors("position"), WALL);
     claims.push(between("late: grains beyond the place of the wall", outside, 20.0, 270.0, SOURCE));
     claims.push(between("late: front mm", front, 100.0, 300.0, SOURCE));
     let lattice = "between nothing and the steepest side of the lattice, 60 degrees (C-x3)";
     claims.push(between("late: slope degrees", angle, 20.0, 60.0, lattice));
     let standing = {
-        let mut rig = collapsing("cl-ca", false)?;
+        let mut rig = collapsing("cl-ca", false, &[])?;
         rig.until(1.4)?;
-        slope(&rig).0
+        slope(&rig.vectors("position"), WALL).0
     };
     claims.push(between("control, the wall stays: grains beyond it", standing, 0.0, 0.0, "nothing else lets them out"));
     Ok(claims)
 }
 
-/// C-F9 to F11 by CL-CA and by DEM, one after the other on one machine.
+/// C-F9 to F11 by CL-CA and by DEM, one after the other on one machine. Hexagons cannot turn, so their fair twins are discs
+/// that do not turn; discs that roll, freely or with resistance, stand beside them.
 pub(super) fn twin(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let run = |method: &str| -> Result<_, String> {
-        let mut rig = collapsing(method, spoiler == 1.0)?;
+    let run = |method: &str, changes: &[&str]| -> Result<_, String> {
+        let mut rig = collapsing(method, spoiler == 1.0, changes)?;
         let begun = Instant::now();
         rig.until(1.6)?;
-        Ok((slope(&rig), begun.elapsed().as_secs_f64()))
+        Ok((slope(&rig.vectors("position"), WALL), begun.elapsed().as_secs_f64()))
     };
-    let (lattice, quick) = run("cl-ca")?;
-    let (dem, slow) = run("dem")?;
+    let (lattice, quick) = run("cl-ca", &[])?;
+    let (free, slow) = run("dem", &[])?;
+    let (locked, _) = run("dem", &["contact.rotation=false"])?;
+    let (rolling, _) =
+        run("dem", &["contact.rolling.epsd={}", "materials.aluminium.rolling-friction=0.2"])?;
     let source = "a hundredth of the time of its DEM twin, measured in one run";
-    let own = "DEM, friction 0.3, rotation: round grains roll, hexagons do not";
-    Ok(vec![
-        at_least("time of DEM over that of CL-CA", slow / quick, 100.0, source),
-        between("front, CL-CA over DEM", lattice.1 / dem.1, 0.4, 1.1, own),
-        between("slope by CL-CA degrees", lattice.2, 20.0, 60.0, SOURCE),
-        between("slope by DEM degrees", dem.2, 5.0, 40.0, own),
-    ])
+    let fair = "the fair twin: DEM of discs of the same areas that do not turn; a quarter either way";
+    let near = "the fair twin: DEM of discs of the same areas that do not turn; 10 degrees either way";
+    let gates = |name: &str, of: (f64, f64, f64), twin: (f64, f64, f64)| {
+        [
+            between(format!("way of the front, {name}"), (of.1 - 1e3 * WALL) / (twin.1 - 1e3 * WALL), 0.8, 1.25, fair),
+            between(format!("slope in degrees, {name}"), of.2 - twin.2, -10.0, 10.0, near),
+        ]
+    };
+    let own = "round grains that roll run out (reported)";
+    let mut claims = vec![at_least("time of DEM over that of CL-CA", slow / quick, 100.0, source)];
+    claims.extend(gates("CL-CA against DEM without rotation", lattice, locked));
+    claims.push(refused("CL-CA against discs that roll freely", &gates("", lattice, free), 2));
+    for (name, of) in [("roll freely", free), ("roll with resistance 0.2", rolling), ("do not turn", locked)] {
+        claims.push(at_least(format!("front of discs that {name}, mm"), of.1, 1e3 * WALL, own));
+        claims.push(between(format!("slope of discs that {name}, degrees"), of.2, 0.0, 60.0, own));
+    }
+    Ok(claims)
 }
 
 /// A box of hexagons and triangles, mixed so that they do not crystallise, shaken by gravity that points up for 20 steps.
@@ -308,30 +327,101 @@ pub(super) fn plate(spoiler: f64) -> Result<Vec<Claim>, String> {
     let mut rig = Rig::of(plan, 1.0)?;
     // The plate comes down at 50 mm/s from 70 mm and meets the bed at 0.56 s: it has gone 1 mm into it.
     rig.until(0.58)?;
-    let view = rig.engine.view(Wants { contacts: Contacts::Places, ..Wants::GRAINS });
-    let loads: Vec<f64> = view.contacts.iter().map(|contact| contact.overlap).filter(|o| *o > 0.0).collect();
-    let n = loads.len() as f64;
-    let mean = loads.iter().sum::<f64>() / n;
-    let spread = (loads.iter().map(|load| (load - mean).powi(2)).sum::<f64>() / n).sqrt() / mean;
-    let mut loaded = vec![false; view.len()];
-    for contact in view.contacts.iter().filter(|contact| contact.overlap > 0.0 && !contact.wall) {
-        loaded[contact.first] = true;
-        loaded[contact.second] = true;
-    }
-    let share = loaded.iter().filter(|l| **l).count() as f64 / loaded.len() as f64;
-    let below = |grain: usize| (25e-3..55e-3).contains(&view.grains.position[grain].x);
-    let under = (0..view.len()).filter(|&grain| loaded[grain] && below(grain)).count() as f64;
-    let all = loaded.iter().filter(|l| **l).count() as f64;
+    let Network { loads, carry, under } = network(&rig, Contacts::Places);
     let source = "chain-like, not uniform (C-x4)";
     Ok(vec![
-        at_least("pairs that share points", n, 20.0, source),
-        at_least("spread of shared points over their mean", spread, 0.3, source),
-        between("share of grains that carry", share, 0.02, 0.5, source),
-        at_least(
-            "of those, share below the plate",
-            under / all,
-            0.45,
-            "the plate covers 30 of 80 mm: 0.37 if all alike",
-        ),
+        at_least("pairs that share points", loads.len() as f64, 20.0, source),
+        at_least("spread of shared points over their mean", scatter(&loads), 0.3, source),
+        between("share of grains that carry", carry, 0.02, 0.5, source),
+        at_least("of those, share below the plate", under, 0.45, "the plate covers 30 of 80 mm: 0.37 if all alike"),
     ])
+}
+
+/// What a bed hands on from grain to grain.
+struct Network {
+    /// Loads of pairs: forces [N], or shared points times the spacing [m].
+    loads: Vec<f64>,
+    /// Share of the grains with a load; of forces, one above their mean.
+    carry: f64,
+    /// Share of those that are below the plate.
+    under: f64,
+}
+
+fn network(rig: &Rig, contacts: Contacts) -> Network {
+    let view = rig.engine.view(Wants { contacts, ..Wants::GRAINS });
+    let load = |contact: &Contact| match contacts {
+        Contacts::Forces => -contact.force.dot(contact.normal),
+        _ => contact.overlap,
+    };
+    let pairs: Vec<(usize, usize, f64)> = view
+        .contacts
+        .iter()
+        .filter(|contact| !contact.wall && load(contact) > 0.0)
+        .map(|contact| (contact.first, contact.second, load(contact)))
+        .collect();
+    let loads: Vec<f64> = pairs.iter().map(|pair| pair.2).collect();
+    let least = if contacts == Contacts::Forces { loads.iter().sum::<f64>() / loads.len() as f64 } else { 0.0 };
+    let mut carries = vec![false; view.len()];
+    for (first, second, _) in pairs.iter().filter(|pair| pair.2 > least) {
+        (carries[*first], carries[*second]) = (true, true);
+    }
+    let all = carries.iter().filter(|carries| **carries).count() as f64;
+    let below = |grain: usize| (25e-3..55e-3).contains(&view.grains.position[grain].x);
+    let under = (0..view.len()).filter(|&grain| carries[grain] && below(grain)).count() as f64;
+    Network { loads, carry: all / view.len() as f64, under: under / all }
+}
+
+/// Standard deviation over mean.
+fn scatter(loads: &[f64]) -> f64 {
+    let n = loads.len() as f64;
+    let mean = loads.iter().sum::<f64>() / n;
+    (loads.iter().map(|load| (load - mean).powi(2)).sum::<f64>() / n).sqrt() / mean
+}
+
+/// C-x4 beside DEM: the forces of a bed of discs into which the same plate has been pushed as far.
+pub(super) fn plate_twin(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let text = include_str!("../../../../../studies/cl-ca-2001/plate.toml");
+    let at = |method: &str, time: Option<f64>, contacts: Contacts| -> Result<Network, String> {
+        let changes = [format!("method={method}")];
+        let scene = Scene::parse("plate", text, Path::new("."), &changes).map_err(|c| c.to_string())?;
+        let mut plan = scene.plan().clone();
+        if spoiler != 1.0 {
+            plan.particles.retain(|name, _| name != "plate");
+            plan.cl_ca.rule = tsubu_scene::plan::ClCaRule::Passive;
+        }
+        let mut rig = Rig::of(plan, 1.0)?;
+        match time {
+            Some(time) => rig.until(time)?,
+            // A settled bed of discs is lower: 20 ms after the plate, the last nine grains, has met it.
+            None => {
+                rig.until(0.3)?;
+                while !met(&rig) && rig.engine.time() < 1.0 {
+                    rig.until(rig.engine.time() + 1e-3)?;
+                }
+                rig.until(rig.engine.time() + 0.02)?;
+            }
+        }
+        Ok(network(&rig, contacts))
+    };
+    let lattice = at("cl-ca", Some(0.58), Contacts::Places)?;
+    let discs = at("dem", None, Contacts::Forces)?;
+    let broad = "forces of a pushed bed spread about as far as their mean (Radjai et al. 1996; Mueth et al. 1998)";
+    let strong = "forces above their mean run through chains, not through every grain (Radjai et al. 1996)";
+    let twin = "the same plate, pushed 1 mm into discs by DEM; a third either way";
+    let alike = |name: &str, spread: f64| between(name, spread / scatter(&discs.loads), 0.67, 1.5, twin);
+    Ok(vec![
+        between("DEM: spread of forces over their mean", scatter(&discs.loads), 0.6, 1.5, broad),
+        between("DEM: share of grains with more than the mean force", discs.carry, 0.05, 0.9, strong),
+        between("DEM: of those, share below the plate", discs.under, 0.37, 1.0, "0.37 if all alike"),
+        alike("spread of loads, CL-CA over DEM", scatter(&lattice.loads)),
+        refused("a network where all pairs carry alike", &[alike("", 0.0)], 1),
+        between("share of grains that carry, CL-CA over DEM", lattice.carry / discs.carry, 0.67, 1.5, twin),
+    ])
+}
+
+/// Whether a grain of the plate touches one of the bed.
+fn met(rig: &Rig) -> bool {
+    let view = rig.engine.view(Wants { contacts: Contacts::Places, ..Wants::GRAINS });
+    let group = |grain: usize| view.grains.group[grain];
+    view.contacts.iter().any(|c| !c.wall && c.overlap > 0.0 && group(c.first) != group(c.second))
 }

@@ -1,0 +1,32 @@
+//! The common test that Sakaguchi et al. (2001) ask for: hopper, heap, shaken box and collapse, each described once and run by
+//! every model that can, beside DEM of discs of the same areas that roll freely, roll with resistance, and do not turn.
+//!
+//! Nobody has published numbers for these scenes. The claims are trends that hold for all models that can show them, and
+//! distances between models; what else is measured stands in the table that a run into a folder leaves.
+
+mod collapse;
+mod heap;
+mod hopper;
+mod seen;
+mod shaken;
+
+use std::path::Path;
+use tsubu_frame::Claim;
+
+type Claims = Result<Vec<Claim>, String>;
+
+pub(super) fn hopper(spoiler: f64, folder: Option<&Path>) -> Claims {
+    seen::judged(&hopper::TEST, spoiler, folder)
+}
+
+pub(super) fn heap(spoiler: f64, folder: Option<&Path>) -> Claims {
+    seen::judged(&heap::TEST, spoiler, folder)
+}
+
+pub(super) fn shaken(spoiler: f64, folder: Option<&Path>) -> Claims {
+    seen::judged(&shaken::TEST, spoiler, folder)
+}
+
+pub(super) fn collapse(spoiler: f64, folder: Option<&Path>) -> Claims {
+    seen::judged(&collapse::TEST, spoiler, folder)
+}

@@ -1,0 +1,72 @@
+//! Two sizes in a box that is shaken up and down.
+
+use super::super::bench::refused;
+use super::seen::{Measured, Picture, Seen, Test, at_least, between};
+use tsubu_frame::Claim;
+
+const RISE: &str = "large over small at the end, of the bed's height [-]";
+const GAIN: &str = "of that, gained by shaking [-]";
+const ROLL: &str = "rise in the middle less that at the walls [mm per period]";
+
+pub(super) const TEST: Test = Test {
+    name: "shaken",
+    title: "shaken box, 60 periods",
+    scene: include_str!("../../../../../../studies/common-test/shaken.toml"),
+    controls: "equal-dem=dem:particles.large.diameter=2.778 mm,\
+               equal-cl-ca=cl-ca:particles.large.diameter=2.778 mm",
+    spoil: |plan| {
+        for wall in plan.walls.values_mut() {
+            wall.motion = None;
+        }
+    },
+    measure,
+    judge,
+    picture: Picture { window: [-0.032, -0.002, 0.032, 0.09], moments: |seen| (seen.last(), None) },
+};
+
+/// Half the width of the box [m].
+const HALF: f64 = 30.3e-3;
+
+fn measure(seen: &Seen) -> Vec<(&'static str, f64)> {
+    let last = seen.last();
+    // Twice the mean height is the height of a bed of even density.
+    let heights = seen.grains(last).iter().map(|grain| grain.at.z).sum::<f64>();
+    let height = 2.0 * heights / seen.grains(last).len() as f64;
+    let over = |look: usize| seen.said(look, "sizes height difference [m]") / height;
+    // The bed lies after the first ten periods; what its lower two thirds do from picture to picture.
+    let (mut middle, mut walls) = ((0.0, 0.0), (0.0, 0.0));
+    for look in 10..last {
+        for (then, now) in seen.pairs(look, look + 1).into_iter().filter(|(then, _)| then.at.z < 0.7 * height) {
+            let place = then.at.x.abs() / HALF;
+            let sum = if place > 0.8 { &mut walls } else { &mut middle };
+            if !(0.4..0.8).contains(&place) {
+                *sum = (sum.0 + 1e3 * (now.at.z - then.at.z), sum.1 + 1.0);
+            }
+        }
+    }
+    vec![(RISE, over(last)), (GAIN, over(last) - over(5)), (ROLL, middle.0 / middle.1 - walls.0 / walls.1)]
+}
+
+fn judge(of: &Measured) -> Vec<Claim> {
+    let rises = |name: &str| {
+        let what = format!("shaken, {name}: large over small, gained, of the bed's height");
+        at_least(what, of.value(name, GAIN), 0.03, "large grains rise among small ones (C-x1)")
+    };
+    let walls = "no roll where walls do not rub (C-x2); a lattice knows no friction";
+    let still = |name: &str| {
+        let what = format!("shaken, {name}: middle over walls, mm per period");
+        between(what, of.value(name, ROLL), -0.05, 0.05, walls)
+    };
+    let mut claims: Vec<Claim> = ["dem", "rolling", "locked", "cl-ca"].map(rises).to_vec();
+    claims.push(refused("shaken, grains of one size by DEM", &[rises("equal-dem")], 1));
+    claims.push(refused("shaken, grains of one size by CL-CA", &[rises("equal-cl-ca")], 1));
+    claims.push(at_least(
+        "shaken, dem: middle over walls, mm per period",
+        of.value("dem", ROLL),
+        0.1,
+        "up in the middle and down at walls that rub (C-x2)",
+    ));
+    claims.push(still("cl-ca"));
+    claims.push(refused("shaken, discs that rub for hexagons that do not", &[still("dem")], 1));
+    claims
+}
