@@ -36,7 +36,8 @@ struct Method {
 }
 
 pub(crate) fn build(source: &mut Source) -> Report {
-    let read = if source.has("compare.json") { read_json(&source.dir.join("compare.json")) } else { Ok(Compared::default()) };
+    let read =
+        if source.has("compare.json") { read_json(&source.dir.join("compare.json")) } else { Ok(Compared::default()) };
     let compared = source.told(read).unwrap_or_default();
     let methods = methods(source, &compared);
     let table = source.table("compare.csv");

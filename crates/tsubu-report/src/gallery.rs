@@ -43,7 +43,11 @@ pub(crate) fn blocks(source: &mut Source, study: &str) -> Vec<Block> {
     for scene in &scenes {
         let look = Look { window: Some(scene.window), ..Look::default() };
         let panels: Vec<Panel> = columns.iter().map(|name| panel(source, study, scene, name)).collect();
-        rows.push((scene.title.clone(), strip(&panels, &look, columns.len())));
+        rows.push(Row {
+            title: scene.title.clone(),
+            names: columns.clone(),
+            svg: strip(&panels, &look, columns.len()),
+        });
     }
     let caption = "Rows: scenes. Columns: methods. Colours: the height at which a grain began, or its size.";
     let mut blocks = vec![source.drawing(study, stacked(&rows), caption)];
@@ -70,7 +74,7 @@ fn scenes(source: &mut Source, study: &str) -> Vec<Scene> {
 
 /// The last of a method's snapshots, coloured by where grains were in the first if there are two, else by their sizes.
 fn panel(source: &mut Source, study: &str, scene: &Scene, name: &str) -> Panel {
-    let cannot = Panel { label: format!("{}: cannot", method_name(name)), ..Panel::default() };
+    let cannot = Panel { label: "cannot".into(), ..Panel::default() };
     let read = snapshots(&source.dir.join(study).join(&scene.name).join(name));
     let found = source.told(read).unwrap_or_default();
     let (Some(first), Some(last)) = (found.first(), found.last()) else { return cannot };
@@ -82,26 +86,44 @@ fn panel(source: &mut Source, study: &str, scene: &Scene, name: &str) -> Panel {
         ColourBy::Column("radius".into())
     };
     let balls = Balls::of(&last, &Look { colour, ..Look::default() });
-    Panel { balls, label: format!("{}, {}", method_name(name), time_label(last.time)), arrow: None }
+    Panel { balls, label: time_label(last.time), arrow: None }
 }
 
-/// Drawings below each other, a title over each.
-fn stacked(rows: &[(String, String)]) -> String {
-    const TITLE: f64 = 24.0;
+/// A strip with what stands over it.
+struct Row {
+    title: String,
+    /// Names of the columns.
+    names: Vec<String>,
+    svg: String,
+}
+
+/// Strips below each other, titles and names over each.
+fn stacked(rows: &[Row]) -> String {
+    const TITLE: f64 = 40.0;
     let size = |svg: &str, name: &str| -> f64 {
         let value = svg.split_once(&format!(" {name}=\"")).and_then(|(_, rest)| rest.split('"').next());
         value.and_then(|value| value.parse().ok()).unwrap_or(0.0)
     };
-    let width = rows.iter().map(|(_, svg)| size(svg, "width")).fold(0.0, f64::max);
-    let height: f64 = rows.iter().map(|(_, svg)| size(svg, "height") + TITLE).sum();
+    let width = rows.iter().map(|row| size(&row.svg, "width")).fold(0.0, f64::max);
+    let height: f64 = rows.iter().map(|row| size(&row.svg, "height") + TITLE).sum();
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
          viewBox=\"0 0 {width:.1} {height:.1}\" font-family=\"system-ui, -apple-system, Segoe UI, Roboto, Helvetica, \
          Arial, sans-serif\" fill=\"{INK}\">"
     );
     let mut top = 0.0;
-    for (title, svg) in rows {
+    for Row { title, names, svg } in rows {
         let _ = write!(out, "<text x=\"0\" y=\"{:.1}\" font-size=\"14\">{}</text>", top + 16.0, escape(title));
+        for (index, name) in names.iter().enumerate() {
+            let middle = width * (index as f64 + 0.5) / names.len() as f64;
+            // Whether a model is "after" its authors the table says; here it has no room.
+            let name = escape(method_name(name).trim_start_matches("after-"));
+            let _ = write!(
+                out,
+                "<text x=\"{middle:.1}\" y=\"{:.1}\" font-size=\"9\" text-anchor=\"middle\">{name}</text>",
+                top + 32.0
+            );
+        }
         out.push_str(&svg.replacen("<svg ", &format!("<svg y=\"{:.1}\" ", top + TITLE), 1));
         top += TITLE + size(svg, "height");
     }

@@ -39,7 +39,7 @@ const ON_LATTICES: &[&str] = &["litwiniszyn", "gutt-haff", "hemmingsson-herrmann
 const IN_WATER: &[&str] = &["settling", "released", "spin-in-water", "wet-rebound", "packed-column"];
 
 /// Grains made of lattice points.
-const CL_CA: &[&str] = &["collapse", "convection", "poured-heap", "pushed-plate"];
+const CL_CA: &[&str] = &["collapse", "convection", "poured-heap", "pushed-plate", "turning"];
 
 /// The quick cases that take a few seconds pass.
 #[test]

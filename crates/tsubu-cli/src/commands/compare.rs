@@ -63,7 +63,11 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     }
     output::print(&text)?;
     output::tell(&format!("results in {}; open {}\n", folder.display(), page.display()));
-    if compared.done.iter().flat_map(|(_, s)| &s.claims).all(|claim| claim.pass) { Ok(()) } else { Err(Failure::claim()) }
+    if compared.done.iter().flat_map(|(_, s)| &s.claims).all(|claim| claim.pass) {
+        Ok(())
+    } else {
+        Err(Failure::claim())
+    }
 }
 
 fn told(folder: &Path) -> Result<String, Failure> {

@@ -95,6 +95,16 @@ fn a_method_that_cannot() {
 }
 
 #[test]
+fn a_variant_that_is_wrong() {
+    let desk = Desk::new();
+    for methods in
+        ["dem,dem", "dem:contact.rotation", "all=dem", "dem:contact.rotaton=false", "dem:contact.rotation=perhaps"]
+    {
+        assert_snapshot!(format!("variant {methods}"), desk.shown(&format!("compare balls.toml --methods {methods}")));
+    }
+}
+
+#[test]
 fn an_output_folder_that_exists() {
     let desk = Desk::new();
     fs::create_dir_all(desk.path("out/balls")).unwrap();

@@ -63,6 +63,29 @@ fn two_methods_side_by_side() {
     }
 }
 
+/// Methods that cannot run the scene say why; those that can stand side by side, a variant under its name.
+#[test]
+fn all_methods_and_a_variant_side_by_side() {
+    let desk = Desk::new();
+    let methods = "all,locked=dem:contact.rotation=false,dem:contact.rotation=false";
+    let shown = desk.done(&format!("compare balls.toml --methods {methods} -q")).stdout;
+    let header = shown.lines().next().unwrap();
+    for name in ["dem ", "lattice ", "locked ", "dem-contact.rotation=false"] {
+        assert!(header.contains(name), "{name}: {header}");
+    }
+    assert!(!header.contains("cl-ca"), "{header}");
+    assert!(shown.contains("cl-ca cannot run it: walls.box.host: "), "{shown}");
+    let hash = |name: &str| desk.hash(&format!("out/balls-compare/{name}"));
+    assert_eq!(hash("locked"), hash("dem-contact.rotation=false"));
+    assert_ne!(hash("locked"), hash("dem"));
+    assert!(desk.path("out/balls-compare/figures/methods.svg").exists());
+    let page = desk.read("out/balls-compare/report.html");
+    assert!(page.contains("Who cannot run it") && page.contains("walls.box.host"), "refusals are not on the page");
+    // Every folder of the comparison is known for what it is, and replaced.
+    desk.done("compare balls.toml --methods dem -q --overwrite");
+    assert!(!desk.path("out/balls-compare/locked").exists());
+}
+
 #[test]
 fn a_verification_prints_a_line_a_claim() {
     let desk = Desk::empty();

@@ -47,6 +47,7 @@ fn overwrite_tells_ours_from_theirs_in_every_folder() {
         "cases/0003/history.csv",
         "cases/0003/walls-tray.obj",
         "dem/frames/contacts_1000000.vtp",
+        "locked/summary.json",
     ];
     let theirs = [
         "walls-mine.obj",
@@ -64,8 +65,10 @@ fn overwrite_tells_ours_from_theirs_in_every_folder() {
         fs::write(file, "").unwrap();
     }
     fs::write(parent.path().join("outside.txt"), "mine").unwrap();
+    fs::create_dir(parent.path().join("elsewhere")).unwrap();
+    fs::write(parent.path().join("elsewhere/summary.json"), "mine").unwrap();
     list(&path, ["walls-tray.obj", "figures/speed.svg", "../outside.txt"]).unwrap();
-    list(&path, ["watch/slope.csv"]).unwrap();
+    list(&path, ["watch/slope.csv", "dem/", "locked/", "../elsewhere/"]).unwrap();
     list(&path.join("cases/0003"), ["walls-tray.obj"]).unwrap();
     RunFolder::create(&path, Existing::Overwrite).unwrap();
     for name in ours {
@@ -74,8 +77,13 @@ fn overwrite_tells_ours_from_theirs_in_every_folder() {
     for name in theirs {
         assert!(path.join(name).exists(), "{name} is gone");
     }
-    assert!(parent.path().join("outside.txt").exists());
-    assert!(!path.join("watch").exists() && !path.join("cases/0003").exists() && !path.join("files.txt").exists());
+    assert!(parent.path().join("outside.txt").exists() && parent.path().join("elsewhere/summary.json").exists());
+    assert!(
+        !path.join("locked").exists()
+            && !path.join("watch").exists()
+            && !path.join("cases/0003").exists()
+            && !path.join("files.txt").exists()
+    );
 }
 
 #[test]

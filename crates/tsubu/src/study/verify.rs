@@ -137,6 +137,7 @@ pub static CASES: &[Case] = &[
     quick("convection", "cl-ca-2001", "C-x2: rolls between rough walls", cl_ca_2001::convection),
     quick("poured-heap", "cl-ca-2001", "C-x3: slopes of a poured heap", cl_ca_2001::pour),
     quick("pushed-plate", "cl-ca-2001", "C-x4: a plate pushed into a bed", cl_ca_2001::plate),
+    quick("turning", "cl-ca-2001", "C-7: the collapse of triangles that may turn", cl_ca_2001::turning),
     long("plate-twin", "cl-ca-2001", "C-x4: the network of the plate beside forces of DEM", cl_ca_2001::plate_twin),
     long("collapse-twin", "cl-ca-2001", "C-F9 to F11: the same by DEM, and what both cost", cl_ca_2001::twin),
     Case {

@@ -110,8 +110,8 @@ pub(super) fn twin(spoiler: f64) -> Result<Vec<Claim>, String> {
     let (lattice, quick) = run("cl-ca", &[])?;
     let (free, slow) = run("dem", &[])?;
     let (locked, _) = run("dem", &["contact.rotation=false"])?;
-    let (rolling, _) =
-        run("dem", &["contact.rolling.epsd={}", "materials.aluminium.rolling-friction=0.2"])?;
+    let (rough, _) = run("dem", &["contact.rotation=false", "materials.aluminium.friction=0.5"])?;
+    let (rolling, _) = run("dem", &["contact.rolling.epsd={}", "materials.aluminium.rolling-friction=0.2"])?;
     let source = "a hundredth of the time of its DEM twin, measured in one run";
     let fair = "the fair twin: DEM of discs of the same areas that do not turn; a quarter either way";
     let near = "the fair twin: DEM of discs of the same areas that do not turn; 10 degrees either way";
@@ -121,15 +121,62 @@ pub(super) fn twin(spoiler: f64) -> Result<Vec<Claim>, String> {
             between(format!("slope in degrees, {name}"), of.2 - twin.2, -10.0, 10.0, near),
         ]
     };
-    let own = "round grains that roll run out (reported)";
+    let turns = "the more grains turn, the farther and flatter they run out (Osada 2004, figures 19 and 23)";
+    let order = |more: &str, most: (f64, f64, f64), less: &str, least: (f64, f64, f64)| {
+        let way = (most.1 - 1e3 * WALL) / (least.1 - 1e3 * WALL);
+        [
+            at_least(format!("way of the front, {more} over {less}"), way, 1.2, turns),
+            at_least(format!("slope in degrees, {less} less {more}"), least.2 - most.2, 3.0, turns),
+        ]
+    };
     let mut claims = vec![at_least("time of DEM over that of CL-CA", slow / quick, 100.0, source)];
     claims.extend(gates("CL-CA against DEM without rotation", lattice, locked));
+    claims.extend(gates("CL-CA against DEM without rotation, friction 0.5", lattice, rough));
     claims.push(refused("CL-CA against discs that roll freely", &gates("", lattice, free), 2));
-    for (name, of) in [("roll freely", free), ("roll with resistance 0.2", rolling), ("do not turn", locked)] {
-        claims.push(at_least(format!("front of discs that {name}, mm"), of.1, 1e3 * WALL, own));
-        claims.push(between(format!("slope of discs that {name}, degrees"), of.2, 0.0, 60.0, own));
-    }
+    claims.extend(order("discs that roll freely", free, "discs with resistance", rolling));
+    claims.extend(order("discs with resistance", rolling, "discs that do not turn", locked));
+    claims.push(refused("discs that do not turn for free ones", &order("", locked, "", free), 2));
     Ok(claims)
+}
+
+/// The collapse of triangles that may turn by 60 degrees, against those that may not (C-7). DEM has no triangles; what turning
+/// does to discs says [`twin`].
+pub(super) fn turning(spoiler: f64) -> Result<Vec<Claim>, String> {
+    // 6 and 21 points, for the 7 and 19 of the hexagons.
+    const TRIANGLES: &str = "cl-ca.shapes={ small = { polygon = { corners = [[0, 0], [0, 4], [2, 2]] } }, \
+                             large = { polygon = { corners = [[0, 0], [0, 10], [5, 5]] } } }";
+    let run = |shapes: &[&str], turning: bool| -> Result<_, String> {
+        let turning = format!("cl-ca.turning={}", turning && spoiler == 1.0);
+        let mut rig = collapsing("cl-ca", true, &[shapes, &[turning.as_str()]].concat())?;
+        rig.until(0.59)?;
+        let height = rig.engine.centre_of_mass()[2];
+        rig.until(1.4)?;
+        let (_, front, slope) = slope(&rig.vectors("position"), WALL);
+        Ok((height, front - 1e3 * WALL, slope))
+    };
+    let (stiff, turned) = (run(&[TRIANGLES], false)?, run(&[TRIANGLES], true)?);
+    let (hexagons, same) = (run(&[], false)?, run(&[], true)?);
+    let room = "grains that turn find room that others leave open (C-7)";
+    let closer = |name: &str, turned: f64, stiff: f64| between(name, turned / stiff, 0.5, 0.95, room);
+    let pattern = "the lattice makes the slope, not whether grains turn: what comes out is close to what does not turn";
+    Ok(vec![
+        closer("height of the bed at rest, triangles that turn over those that do not", turned.0, stiff.0),
+        refused("hexagons, which look alike when turned", &[closer("", same.0, hexagons.0)], 1),
+        between(
+            "way of the front, triangles that turn over those that do not",
+            turned.1 / stiff.1,
+            0.75,
+            1.33,
+            pattern,
+        ),
+        between(
+            "slope in degrees, triangles that turn less those that do not",
+            turned.2 - stiff.2,
+            -10.0,
+            10.0,
+            pattern,
+        ),
+    ])
 }
 
 /// A box of hexagons and triangles, mixed so that they do not crystallise, shaken by gravity that points up for 20 steps.

@@ -18,6 +18,7 @@ pub(super) const TEST: Test = Test {
     name: "collapse",
     title: "collapse",
     scene: include_str!("../../../../../../studies/common-test/collapse.toml"),
+    more: "",
     controls: "stays=cl-ca:walls.right.until=100",
     spoil: |plan| {
         if let Some(wall) = plan.walls.get_mut("right") {
@@ -47,13 +48,24 @@ fn judge(of: &Measured) -> Vec<Claim> {
     let front = |name: &str| of.value(name, FRONT);
     let further = |more: &str, less: &str| {
         let source = "the more grains turn, the farther they run (Osada 2004, figure 19)";
-        at_least(format!("collapse, way of the front by {more} over that by {less}"), front(more) / front(less), 1.2, source)
+        at_least(
+            format!("collapse, way of the front by {more} over that by {less}"),
+            front(more) / front(less),
+            1.2,
+            source,
+        )
     };
     let fair = "the fair twin: discs of the same areas that do not turn";
     let alike = |name: &str| {
         let slope = of.value(name, ANGLE) - of.value("locked", ANGLE);
         [
-            between(format!("collapse, {name}: way of the front over that of locked discs"), front(name) / front("locked"), 0.8, 1.25, fair),
+            between(
+                format!("collapse, {name}: way of the front over that of locked discs"),
+                front(name) / front("locked"),
+                0.8,
+                1.25,
+                fair,
+            ),
             between(format!("collapse, {name}: slope less that of locked discs, degrees"), slope, -10.0, 10.0, fair),
         ]
     };

@@ -16,6 +16,7 @@ pub(super) const TEST: Test = Test {
     name: "heap",
     title: "heap below a funnel",
     scene: include_str!("../../../../../../studies/common-test/heap.toml"),
+    more: "",
     controls: "",
     spoil: |plan| {
         plan.walls.remove("floor");
@@ -48,7 +49,13 @@ fn judge(of: &Measured) -> Vec<Claim> {
         steeper("rolling", "dem", turns),
         steeper("locked", "rolling", turns),
         steeper("cl-ca", "locked", lattice),
-        between("heap, slope by after-caram-hong, degrees", angle("after-caram-hong"), 55.0, 65.0, "60: the lattice (R-2)"),
+        between(
+            "heap, slope by after-caram-hong, degrees",
+            angle("after-caram-hong"),
+            55.0,
+            65.0,
+            "60: the lattice (R-2)",
+        ),
         refused("heap, discs that do not turn for free ones", &[steeper("dem", "locked", turns)], 1),
     ]
 }

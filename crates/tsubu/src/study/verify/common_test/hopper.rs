@@ -17,6 +17,7 @@ pub(super) const TEST: Test = Test {
     name: "hopper",
     title: "silo, half out",
     scene: include_str!("../../../../../../studies/common-test/hopper.toml"),
+    more: "",
     controls: "",
     spoil: |plan| {
         if let Some(wall) = plan.walls.get_mut("slide") {

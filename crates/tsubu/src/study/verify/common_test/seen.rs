@@ -21,6 +21,8 @@ pub(super) struct Test {
     /// One line for the figure.
     pub title: &'static str,
     pub scene: &'static str,
+    /// Variants that run this test alone; empty for none.
+    pub more: &'static str,
     /// Variants that must not show the effect; empty for none.
     pub controls: &'static str,
     /// Takes away what the effect needs.
@@ -158,6 +160,7 @@ fn run(test: &Test, spoiler: f64) -> Result<Measured, String> {
     let (mut who, mut refused) = of(WHO)?;
     // Those of DEM stand side by side, before the lattices.
     who.sort_by_key(|(variant, _)| variant.method != tsubu_scene::plan::Method::Dem);
+    who.extend(of(test.more)?.0);
     let (controls, _) = of(test.controls)?;
     let count = who.len();
     let mut runs = Vec::new();
@@ -204,7 +207,8 @@ fn keep(test: &Test, measured: &Measured, folder: &Path) -> Result<(), FileError
         }
         panels.push(&seen.name);
     }
-    let what: Vec<&str> = measured.runs.first().map_or_else(Vec::new, |(_, v)| v.iter().map(|(what, _)| *what).collect());
+    let what: Vec<&str> =
+        measured.runs.first().map_or_else(Vec::new, |(_, v)| v.iter().map(|(what, _)| *what).collect());
     let header = std::iter::once("quantity [text]".to_owned())
         .chain(measured.runs.iter().map(|(seen, _)| format!("{} [as said]", seen.name)));
     let mut table = Table::new(header);
