@@ -74,7 +74,9 @@ fn scenes(source: &mut Source, study: &str) -> Vec<Scene> {
 
 /// The last of a method's snapshots, coloured by where grains were in the first if there are two, else by their sizes.
 fn panel(source: &mut Source, study: &str, scene: &Scene, name: &str) -> Panel {
-    let cannot = Panel { label: "cannot".into(), ..Panel::default() };
+    // A variant of one scene alone is no answer to the others.
+    let label = if scene.refused.iter().any(|refused| refused.method == name) { "cannot" } else { "–" };
+    let cannot = Panel { label: label.into(), ..Panel::default() };
     let read = snapshots(&source.dir.join(study).join(&scene.name).join(name));
     let found = source.told(read).unwrap_or_default();
     let (Some(first), Some(last)) = (found.first(), found.last()) else { return cannot };
@@ -134,7 +136,7 @@ fn stacked(rows: &[Row]) -> String {
 /// All quantities of all scenes, on the page and as text.
 fn table(source: &mut Source, study: &str, scenes: &[Scene], columns: &[String]) -> (Block, String) {
     let header = || ["scene [text]", "quantity [text]"].map(str::to_owned).into_iter();
-    let mut kept = Table::new(header().chain(columns.iter().map(|name| format!("{name} [as said]"))));
+    let mut kept = Table::new(header().chain(columns.iter().map(|name| format!("{name} [unit of the row]"))));
     let mut grid = Grid::new(
         ["scene", "quantity"].map(str::to_owned).into_iter().chain(columns.iter().map(|n| method_name(n).to_owned())),
     );

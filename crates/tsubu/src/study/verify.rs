@@ -42,6 +42,9 @@ mod water;
 use std::path::Path;
 use tsubu_frame::Claim;
 
+/// The claims of a case, or why it came to none.
+pub type Judged = Result<Vec<Claim>, String>;
+
 /// One verification case: a few claims from one set of runs.
 pub struct Case {
     /// Name, as in `tsubu verify NAME`.
@@ -54,9 +57,9 @@ pub struct Case {
     pub long: bool,
     /// Runs it. The factor multiplies the constants of the contact law; 1 but in the tests that show that the
     /// claims can fail.
-    pub run: fn(spoiler: f64) -> Result<Vec<Claim>, String>,
+    pub run: fn(spoiler: f64) -> Judged,
     /// The same into a folder, where it leaves pictures and tables; `None`: claims are all there is.
-    pub kept: Option<fn(folder: &Path) -> Result<Vec<Claim>, String>>,
+    pub kept: Option<fn(folder: &Path) -> Judged>,
 }
 
 /// All cases, in the order they are listed and run.
@@ -200,21 +203,11 @@ pub static CASES: &[Case] = &[
     long("figure-12", "damper-2003", "A-F12: cost of both methods against N", damper_2003::figure_12),
 ];
 
-const fn quick(
-    name: &'static str,
-    study: &'static str,
-    about: &'static str,
-    run: fn(f64) -> Result<Vec<Claim>, String>,
-) -> Case {
+const fn quick(name: &'static str, study: &'static str, about: &'static str, run: fn(f64) -> Judged) -> Case {
     Case { name, study, about, long: false, run, kept: None }
 }
 
-const fn long(
-    name: &'static str,
-    study: &'static str,
-    about: &'static str,
-    run: fn(f64) -> Result<Vec<Claim>, String>,
-) -> Case {
+const fn long(name: &'static str, study: &'static str, about: &'static str, run: fn(f64) -> Judged) -> Case {
     Case { name, study, about, long: true, run, kept: None }
 }
 
@@ -237,7 +230,7 @@ pub fn chosen(names: &[String], all: bool) -> Result<Vec<&'static Case>, String>
 
 impl Case {
     /// Runs the case, into a folder if there is one; its claims carry its study's name.
-    pub fn claims(&self, folder: Option<&Path>) -> Result<Vec<Claim>, String> {
+    pub fn claims(&self, folder: Option<&Path>) -> Judged {
         let claims = match (self.kept, folder) {
             (Some(kept), Some(folder)) => kept(folder)?,
             _ => (self.run)(1.0)?,

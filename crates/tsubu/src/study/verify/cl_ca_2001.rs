@@ -437,16 +437,15 @@ pub(super) fn plate_twin(spoiler: f64) -> Result<Vec<Claim>, String> {
             plan.cl_ca.rule = tsubu_scene::plan::ClCaRule::Passive;
         }
         let mut rig = Rig::of(plan, 1.0)?;
-        match time {
-            Some(time) => rig.until(time)?,
-            // A settled bed of discs is lower: 20 ms after the plate, the last nine grains, has met it.
-            None => {
-                rig.until(0.3)?;
-                while !met(&rig) && rig.engine.time() < 1.0 {
-                    rig.until(rig.engine.time() + 1e-3)?;
-                }
-                rig.until(rig.engine.time() + 0.02)?;
+        if let Some(time) = time {
+            rig.until(time)?;
+        } else {
+            // A settled bed of discs is lower: 20 ms after the plate has met it.
+            rig.until(0.3)?;
+            while !met(&rig) && rig.engine.time() < 1.0 {
+                rig.until(rig.engine.time() + 1e-3)?;
             }
+            rig.until(rig.engine.time() + 0.02)?;
         }
         Ok(network(&rig, contacts))
     };

@@ -10,23 +10,21 @@ mod hopper;
 mod seen;
 mod shaken;
 
+use super::Judged;
 use std::path::Path;
-use tsubu_frame::Claim;
 
-type Claims = Result<Vec<Claim>, String>;
-
-pub(super) fn hopper(spoiler: f64, folder: Option<&Path>) -> Claims {
+pub(super) fn hopper(spoiler: f64, folder: Option<&Path>) -> Judged {
     seen::judged(&hopper::TEST, spoiler, folder)
 }
 
-pub(super) fn heap(spoiler: f64, folder: Option<&Path>) -> Claims {
+pub(super) fn heap(spoiler: f64, folder: Option<&Path>) -> Judged {
     seen::judged(&heap::TEST, spoiler, folder)
 }
 
-pub(super) fn shaken(spoiler: f64, folder: Option<&Path>) -> Claims {
+pub(super) fn shaken(spoiler: f64, folder: Option<&Path>) -> Judged {
     seen::judged(&shaken::TEST, spoiler, folder)
 }
 
-pub(super) fn collapse(spoiler: f64, folder: Option<&Path>) -> Claims {
+pub(super) fn collapse(spoiler: f64, folder: Option<&Path>) -> Judged {
     seen::judged(&collapse::TEST, spoiler, folder)
 }

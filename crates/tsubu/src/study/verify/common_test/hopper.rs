@@ -15,7 +15,7 @@ const OPENS: f64 = 0.8;
 
 pub(super) const TEST: Test = Test {
     name: "hopper",
-    title: "silo, half out",
+    title: "silo, 40 % out",
     scene: include_str!("../../../../../../studies/common-test/hopper.toml"),
     more: "",
     controls: "",

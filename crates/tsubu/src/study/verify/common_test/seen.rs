@@ -210,7 +210,7 @@ fn keep(test: &Test, measured: &Measured, folder: &Path) -> Result<(), FileError
     let what: Vec<&str> =
         measured.runs.first().map_or_else(Vec::new, |(_, v)| v.iter().map(|(what, _)| *what).collect());
     let header = std::iter::once("quantity [text]".to_owned())
-        .chain(measured.runs.iter().map(|(seen, _)| format!("{} [as said]", seen.name)));
+        .chain(measured.runs.iter().map(|(seen, _)| format!("{} [unit of the row]", seen.name)));
     let mut table = Table::new(header);
     for what in what {
         let values = measured.runs.iter().map(|(seen, _)| Cell::Number(measured.value(&seen.name, what)));
