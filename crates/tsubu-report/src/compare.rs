@@ -150,9 +150,26 @@ fn last_pictures(source: &mut Source, methods: &[Method]) -> Option<Block> {
     if panels.len() < 2 || panels.iter().any(|panel| panel.balls.space) {
         return None;
     }
-    let columns = if moments::wide(&panels) { 3 } else { 6 };
-    let caption = "The last moment by each method; grains that came in later are grey.";
-    Some(source.drawing("methods", strip(&panels, &Look::default(), columns), caption))
+    let look = Look { window: most(&panels), ..Look::default() };
+    let columns = if look.window.is_some_and(|w| w[2] - w[0] > 0.6 * (w[3] - w[1])) { 3 } else { 6 };
+    let caption =
+        "The last moment by each method, without the few grains that are far out; those that came in later are grey.";
+    Some(source.drawing("methods", strip(&panels, &look, columns), caption))
+}
+
+/// A window on nearly all grains of all panels: endless walls and the one grain that rolled away would leave them no room.
+fn most(panels: &[Panel]) -> Option<[f64; 4]> {
+    let ends = |axis: usize, share: f64| {
+        let centres = panels.iter().flat_map(|panel| &panel.balls.centres);
+        let mut places: Vec<f64> = centres.map(|centre| centre[axis]).filter(|x| x.is_finite()).collect();
+        places.sort_by(f64::total_cmp);
+        let last = places.len().checked_sub(1)?;
+        let at = |share: f64| places[(share * last as f64).round() as usize];
+        Some([at(1.0 - share), at(share)])
+    };
+    let ([left, right], [bottom, top]) = (ends(0, 0.97)?, ends(1, 0.995)?);
+    let margin = 0.06 * (right - left).max(top - bottom);
+    (margin > 0.0).then(|| [left - margin, bottom - margin, right + margin, top + margin])
 }
 
 fn headline(runs: &[(&str, &Summary)]) -> String {

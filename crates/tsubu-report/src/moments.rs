@@ -139,7 +139,7 @@ pub(crate) fn heights(earlier: &Frame, frame: &Frame) -> Vec<f64> {
 }
 
 /// Eight in a row only if each is taller than wide.
-pub(crate) fn wide(panels: &[Panel]) -> bool {
+fn wide(panels: &[Panel]) -> bool {
     let look = common(&panels.iter().map(|p| p.balls.clone()).collect::<Vec<_>>(), &Look::default());
     look.window.is_none_or(|w| (w[2] - w[0]) > 0.6 * (w[3] - w[1]))
 }

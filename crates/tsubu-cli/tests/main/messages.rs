@@ -97,11 +97,19 @@ fn a_method_that_cannot() {
 #[test]
 fn a_variant_that_is_wrong() {
     let desk = Desk::new();
-    for methods in
-        ["dem,dem", "dem:contact.rotation", "all=dem", "dem:contact.rotaton=false", "dem:contact.rotation=perhaps"]
-    {
-        assert_snapshot!(format!("variant {methods}"), desk.shown(&format!("compare balls.toml --methods {methods}")));
+    for (methods, said) in [
+        ("dem,dem", "`dem` is named twice"),
+        ("dem:contact.rotation", "`contact.rotation` changes nothing"),
+        ("all=dem", "`all` means something else"),
+        ("../dem=dem", "cannot be the name of a column and a folder"),
+        ("dem:contact.rotaton=false", "did you mean `rotation`?"),
+        ("dem:contact.rotation=perhaps", "`rotation` needs true or false"),
+    ] {
+        let ended = desk.run(&format!("compare balls.toml --methods {methods}"));
+        assert_eq!(ended.code, Some(2), "{methods}: {}", ended.stderr);
+        assert!(ended.stderr.contains(said), "{methods}: {}", ended.stderr);
     }
+    assert_eq!(desk.files(), ["balls.toml"]);
 }
 
 #[test]

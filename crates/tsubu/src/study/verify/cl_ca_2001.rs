@@ -363,6 +363,9 @@ pub(super) fn pour(spoiler: f64) -> Result<Vec<Claim>, String> {
     ])
 }
 
+/// When the plate has gone 1 mm into the bed of hexagons [s].
+const PUSHED: f64 = 1.46;
+
 /// C-x4: shared points of a bed into which a plate has been pushed by 1 mm: some grains carry, most of them below the plate.
 pub(super) fn plate(spoiler: f64) -> Result<Vec<Claim>, String> {
     let text = include_str!("../../../../../studies/cl-ca-2001/plate.toml");
@@ -372,8 +375,8 @@ pub(super) fn plate(spoiler: f64) -> Result<Vec<Claim>, String> {
         plan.cl_ca.rule = tsubu_scene::plan::ClCaRule::Passive;
     }
     let mut rig = Rig::of(plan, 1.0)?;
-    // The plate comes down at 50 mm/s from 70 mm and meets the bed at 0.56 s: it has gone 1 mm into it.
-    rig.until(0.58)?;
+    // The plate comes down at 50 mm/s from 116 mm and meets the bed at 1.44 s: it has gone 1 mm into it.
+    rig.until(PUSHED)?;
     let Network { loads, carry, under } = network(&rig, Contacts::Places);
     let source = "chain-like, not uniform (C-x4)";
     Ok(vec![
@@ -442,14 +445,14 @@ pub(super) fn plate_twin(spoiler: f64) -> Result<Vec<Claim>, String> {
         } else {
             // A settled bed of discs is lower: 20 ms after the plate has met it.
             rig.until(0.3)?;
-            while !met(&rig) && rig.engine.time() < 1.0 {
+            while !met(&rig) && rig.engine.time() < 1.7 {
                 rig.until(rig.engine.time() + 1e-3)?;
             }
             rig.until(rig.engine.time() + 0.02)?;
         }
         Ok(network(&rig, contacts))
     };
-    let lattice = at("cl-ca", Some(0.58), Contacts::Places)?;
+    let lattice = at("cl-ca", Some(PUSHED), Contacts::Places)?;
     let discs = at("dem", None, Contacts::Forces)?;
     let broad = "forces of a pushed bed spread about as far as their mean (Radjai et al. 1996; Mueth et al. 1998)";
     let strong = "forces above their mean run through chains, not through every grain (Radjai et al. 1996)";
