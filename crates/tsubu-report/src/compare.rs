@@ -169,7 +169,7 @@ fn most(panels: &[Panel]) -> Option<[f64; 4]> {
     };
     let ([left, right], [bottom, top]) = (ends(0, 0.97)?, ends(1, 0.995)?);
     let margin = 0.06 * (right - left).max(top - bottom);
-    (margin > 0.0).then(|| [left - margin, bottom - margin, right + margin, top + margin])
+    (margin > 0.0).then_some([left - margin, bottom - margin, right + margin, top + margin])
 }
 
 fn headline(runs: &[(&str, &Summary)]) -> String {
