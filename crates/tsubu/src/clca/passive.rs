@@ -234,8 +234,10 @@ impl Around<'_> {
         let mut kept = [0_u32; 6];
         let mut new = [0_u32; 6];
         let mut allowed = [true; 6];
+        // The same for walls that move alone: they cannot be held up.
+        let mut from_walls = [true; 6];
         let mut causes = 0;
-        let mut meet = |now: u32, then: [u32; 6], moved: Vector| {
+        let mut meet = |now: u32, then: [u32; 6], moved: Vector, wall: bool| {
             if now == 0 {
                 (0..6).for_each(|d| new[d] += then[d]);
                 return;
@@ -244,7 +246,9 @@ impl Around<'_> {
             for d in Direction::ALL {
                 let i = d as usize;
                 kept[i] += then[i];
-                allowed[i] &= then[i] < now && d.along4(moved) >= 0;
+                let away = then[i] < now && d.along4(moved) >= 0;
+                allowed[i] &= away;
+                from_walls[i] &= away || !wall;
             }
         };
         let at = bed.vector(here);
@@ -256,13 +260,13 @@ impl Around<'_> {
                     Some(direction) => direction.times(1),
                     None => self.driven.get(other).copied().unwrap_or_default(),
                 };
-                meet(now, then, moved);
+                meet(now, then, moved, false);
             }
         });
         for pusher in self.pushers {
             let now = covered(bed, grain, here, &pusher.cells);
             let then = Direction::ALL.map(|d| covered(bed, grain, there(d), &pusher.cells));
-            meet(now, then, pusher.moved);
+            meet(now, then, pusher.moved, true);
         }
         let in_walls = walled(bed, grain, here);
         let open = |d: Direction| walled(bed, grain, there(d)) <= in_walls;
@@ -272,6 +276,8 @@ impl Around<'_> {
             return self.pull?.preference(lean, word[1] & 1 == 1).into_iter().find(free);
         }
         let last = before[grain];
+        let walls_alone = from_walls != [true; 6] && !Direction::ALL.into_iter().any(|d| allowed[d as usize] && open(d));
+        let allowed = if walls_alone { from_walls } else { allowed };
         let candidates = Direction::ALL.into_iter().filter(|&d| allowed[d as usize] && open(d));
         // The draw begins at a random direction and goes round.
         let draw = |d: Direction| (d as usize + (word[1] % 6) as usize) % 6;

@@ -168,3 +168,20 @@ fn a_plate_pushes_grains_out_of_its_way() {
     assert!((moving.1 - still.1 + 90).abs() <= 2, "the plate went {} half spacings", still.1 - moving.1);
     assert!(moving.0 > 20 && still.0 == 0, "{moving:?} {still:?}");
 }
+
+/// A box that goes up and down takes its grains along: after whole periods nobody is lower than the first layer was.
+#[test]
+fn a_shaken_box_keeps_its_grains() {
+    let motion = r#"walls.box.motion={ direction = "z", signal.sine = { amplitude = "6 mm", frequency = "10 Hz" } }"#;
+    let changes = [motion.to_owned(), "particles.small.count=150".to_owned()];
+    let mut run = Run::new(BOX, &changes);
+    let lowest = |run: &Run| {
+        let bed = run.engine.bed();
+        bed.present().map(|i| bed.vector(bed.grains.cell[i] as usize).k).min().unwrap()
+    };
+    let first = lowest(&run);
+    for period in 1..=12_u32 {
+        run.advance((f64::from(period) * 0.1 / run.engine.time_step()).round() as u64 - run.engine.bed().step);
+        assert!(lowest(&run) >= first - 4, "{} half spacings lower after {period} periods", first - lowest(&run));
+    }
+}
