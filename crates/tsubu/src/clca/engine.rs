@@ -69,7 +69,7 @@ impl ClCaEngine {
         });
         let rule = if passive {
             let pushers = walls.iter().enumerate().filter(|(_, wall)| moves(wall));
-            let pushers = pushers.map(|(wall, _)| Pusher { wall, ..Pusher::default() }).collect();
+            let pushers = pushers.map(|(wall, _)| Pusher::of(wall)).collect();
             Rule::Passive(Box::new(Passive::new(&bed)), pushers, Vec::new())
         } else {
             let mut active = Active::default();
@@ -146,13 +146,16 @@ impl ClCaEngine {
             let wall = &self.walls[pusher.wall];
             let (now, then) = (shift(wall, &self.stage, time), shift(wall, &self.stage, before));
             pusher.moved = Vector { h: now.h - then.h, k: now.k - then.k };
-            if pusher.cells.is_empty() || now != then {
-                pusher.cells = vec![false; self.bed.grid.columns() * self.bed.grid.rows()];
-                if !wall.goes_by(time) {
-                    self.stage.covered(&self.bed.grid, wall, now, |cell| pusher.cells[cell] = true);
-                }
-            } else if wall.goes_by(time) {
-                pusher.cells.fill(false);
+            let grid = &self.bed.grid;
+            let nowhere = || vec![false; grid.columns() * grid.rows()];
+            if wall.goes_by(time) {
+                pusher.cells = nowhere();
+            } else if pusher.cells.is_empty() || now != then {
+                pusher.stand(now, || {
+                    let mut cells = nowhere();
+                    self.stage.covered(grid, wall, now, |cell| cells[cell] = true);
+                    cells
+                });
             }
         }
         last.clear();

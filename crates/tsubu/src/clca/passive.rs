@@ -30,6 +30,31 @@ pub struct Pusher {
     pub cells: Vec<bool>,
     /// Where it moved in this step, in columns and half cells.
     pub moved: Vector,
+    /// What it covered at its last few places: a wall that swings comes by again.
+    known: Vec<(Vector, Vec<bool>)>,
+}
+
+/// Places of a moving wall that are remembered.
+const KNOWN: usize = 64;
+
+impl Pusher {
+    /// The wall of that number; it has not stood anywhere yet.
+    pub fn of(wall: usize) -> Self {
+        Self { wall, ..Self::default() }
+    }
+
+    /// The wall stands `shift` from where it was drawn; `paint` tells which cells it covers there.
+    pub fn stand(&mut self, shift: Vector, paint: impl FnOnce() -> Vec<bool>) {
+        if let Some((_, cells)) = self.known.iter().find(|(known, _)| *known == shift) {
+            self.cells.clone_from(cells);
+            return;
+        }
+        self.cells = paint();
+        if self.known.len() == KNOWN {
+            self.known.clear();
+        }
+        self.known.push((shift, self.cells.clone()));
+    }
 }
 
 /// A pair that shares points.
@@ -276,7 +301,8 @@ impl Around<'_> {
             return self.pull?.preference(lean, word[1] & 1 == 1).into_iter().find(free);
         }
         let last = before[grain];
-        let walls_alone = from_walls != [true; 6] && !Direction::ALL.into_iter().any(|d| allowed[d as usize] && open(d));
+        let walls_alone =
+            from_walls != [true; 6] && !Direction::ALL.into_iter().any(|d| allowed[d as usize] && open(d));
         let allowed = if walls_alone { from_walls } else { allowed };
         let candidates = Direction::ALL.into_iter().filter(|&d| allowed[d as usize] && open(d));
         // The draw begins at a random direction and goes round.
