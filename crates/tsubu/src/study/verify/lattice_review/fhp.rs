@@ -141,11 +141,12 @@ pub(crate) fn viscosity_plain(spoiler: f64) -> Result<Vec<Claim>, String> {
     let (mut claims, mut gates) = (Vec::new(), Vec::new());
     for (rules, name, d) in [(Rules::Two, "FHP-II", 0.25), (Rules::Three, "FHP-III", 0.3)] {
         let chaos = as_it_is(rules, name, d * spoiler, 64, true);
-        let thinner = chaos.value * formula(rules, d) / formula(rules, 0.9 * d);
-        gates.push(within(name, thinner, 1.0, 0.03, FRISCH));
+        let other = if rules == Rules::Two { Rules::Three } else { Rules::Two };
+        let over_other = chaos.value * formula(rules, d) / formula(other, d);
+        gates.push(within(name, over_other, 1.0, 0.03, FRISCH));
         claims.extend([chaos, as_it_is(rules, name, d * spoiler, 64, false)]);
     }
-    claims.push(refused("the formula of a gas 10 % thinner", &gates, 2));
+    claims.push(refused("viscosity of another form", &gates, 2));
     Ok(claims)
 }
 
