@@ -120,8 +120,8 @@ fn scene(method: Method, ends: [bool; 2], lump: bool, count: usize) -> Plan {
         text += &(wall("floor", [0.0, 0.0], "z") + &wall("lid", [0.0, 0.03], "-z"));
     }
     text += "[periodic]\n";
-    for (axis, end) in [(0, 0.02), (1, 0.03)].into_iter().filter(|(axis, _)| ends[*axis]) {
-        text += &format!("{} = [0, {end}]\n", ["x", "z"][axis]);
+    for (line, _) in ["x = [0, 0.02]\n", "z = [0, 0.03]\n"].into_iter().zip(ends).filter(|(_, end)| *end) {
+        text += line;
     }
     plan(&text)
 }

@@ -126,7 +126,7 @@ mod tests {
         let sites = Sites::new(12, 12, [false, false]);
         let left = |site: usize| site < 12;
         assert_eq!(sites.mirror(0, 6, left), Some(0));
-        let floor = |site: usize| site % 12 == 0;
+        let floor = |site: usize| site.is_multiple_of(12);
         assert_eq!((sites.mirror(5, 0, floor), sites.mirror(6, 0, floor)), (Some(1), Some(1)));
         let slope = |site: usize| site / 12 < site % 12;
         assert_eq!(sites.mirror(5, 6, slope), None);

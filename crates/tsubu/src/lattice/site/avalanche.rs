@@ -23,7 +23,9 @@ impl Avalanche {
     /// A pile whose grains have been announced.
     pub fn new(pile: Pile, outlets: &[usize]) -> Self {
         let mut flags = vec![false; pile.sites.count()];
-        outlets.iter().for_each(|site| flags[*site] = true);
+        for &site in outlets {
+            flags[site] = true;
+        }
         Self { pile, outlets: flags, leaks: !outlets.is_empty() }
     }
 }

@@ -79,7 +79,9 @@ pub(super) fn model(plan: &Plan, scene: &Scene, cells: &[i32], remarks: &mut Rem
             scene.group.iter().for_each(|kind| _ = pile.announce(*kind));
             let mut laid: Vec<_> = board.seats().collect();
             laid.sort_by_key(|(site, ..)| board.sites.place(*site).1);
-            laid.into_iter().for_each(|(site, _, grain)| pile.lay(site, grain));
+            for (site, _, grain) in laid {
+                pile.lay(site, grain);
+            }
             (Box::new(Avalanche::new(pile, &board.outlets)), dt)
         }
     }
@@ -167,16 +169,18 @@ impl<'a> Board<'a> {
                 return 1.0;
             }
         };
-        let mut text = format!(
-            "whoever flies has the speed {:.4} m/s: a spacing of {:.4} mm in a step of {:.4} ms",
+        let fall = gain * self.spacing / (dt * dt);
+        let other = if self.gravity > 0.0 && (fall / self.gravity - 1.0).abs() > 1e-6 {
+            format!("; grains fall with {fall:.3} m/s^2 instead of {:.3}", self.gravity)
+        } else {
+            String::new()
+        };
+        let text = format!(
+            "whoever flies has the speed {:.4} m/s: a spacing of {:.4} mm in a step of {:.4} ms{other}",
             self.spacing / dt,
             1e3 * self.spacing,
             1e3 * dt
         );
-        let fall = gain * self.spacing / (dt * dt);
-        if self.gravity > 0.0 && (fall / self.gravity - 1.0).abs() > 1e-6 {
-            text += &format!("; grains fall with {fall:.3} m/s^2 instead of {:.3}", self.gravity);
-        }
         remarks.approximate(key, text);
         dt
     }

@@ -87,7 +87,8 @@ impl Ground {
     pub fn ends(&self) -> [Option<[f64; 2]>; 3] {
         let (wide, high) = self.sites.pitch();
         let low = self.origin - self.spacing * DVec3::new(0.5 * wide, 0.0, 0.25);
-        let end = |axis: usize, low: f64, length: f64| self.periodic[axis].then(|| [low, low + length * self.spacing]);
+        let end =
+            |axis: usize, low: f64, length: f64| self.periodic[axis].then_some([low, low + length * self.spacing]);
         [end(0, low.x, wide * self.columns as f64), None, end(1, low.z, high * self.rows as f64)]
     }
 
