@@ -5,6 +5,7 @@
 //! an editor without another line of code.
 
 mod contact;
+mod gases;
 mod grains;
 mod hosts;
 mod methods;

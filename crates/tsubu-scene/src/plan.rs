@@ -10,6 +10,7 @@
 #![allow(rustdoc::broken_intra_doc_links, reason = "[s] is a unit, not a link")]
 
 mod contact;
+mod gases;
 mod grains;
 mod hosts;
 mod methods;
@@ -22,6 +23,7 @@ mod water;
 pub use contact::{
     Cohesion, Contact, Damping, Film, Material, MaterialPair, MindlinForm, Normal, Rolling, Tangential, Twisting,
 };
+pub use gases::{BaxterBehringer, Fhp, FhpRules, GasWalls, KarolyiKertesz, PengHerrmann};
 pub use grains::{GrainMotion, GrainShape, GrainTable, Particles, Periodic, Region, Removal, Size, Start};
 pub use hosts::{Host, Mode, Signal, Structure};
 pub use methods::{
@@ -98,6 +100,14 @@ pub struct Plan {
     pub gutt_haff: GuttHaff,
     /// What only the forces in a pile after Hemmingsson and Herrmann read.
     pub after_hemmingsson_herrmann: Heap,
+    /// What only the lattice gases FHP read.
+    pub fhp: Fhp,
+    /// What only the gas after Peng and Herrmann reads.
+    pub after_peng_herrmann: PengHerrmann,
+    /// What only the elongated grains after Baxter and Behringer read.
+    pub after_baxter_behringer: BaxterBehringer,
+    /// What only the piles after Karolyi and Kertesz read.
+    pub after_karolyi_kertesz: KarolyiKertesz,
     /// What `tsubu response` reads.
     pub response: Option<Response>,
     /// What `tsubu sweep` reads.
@@ -132,11 +142,19 @@ pub enum Method {
     GuttHaff,
     /// Forces in a pile after Hemmingsson and Herrmann (1997).
     AfterHemmingssonHerrmann,
+    /// Lattice gases of Frisch, Hasslacher and Pomeau.
+    Fhp,
+    /// A gas of grains after Peng and Herrmann (1994).
+    AfterPengHerrmann,
+    /// A gas of elongated grains after Baxter and Behringer (1990).
+    AfterBaxterBehringer,
+    /// Piles after Karolyi and Kertesz (1998).
+    AfterKarolyiKertesz,
 }
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 12] = [
         Self::Dem,
         Self::Lattice,
         Self::ClCa,
@@ -145,6 +163,10 @@ impl Method {
         Self::AfterSavage,
         Self::GuttHaff,
         Self::AfterHemmingssonHerrmann,
+        Self::Fhp,
+        Self::AfterPengHerrmann,
+        Self::AfterBaxterBehringer,
+        Self::AfterKarolyiKertesz,
     ];
 
     /// Name in scene files and summaries.
@@ -158,6 +180,10 @@ impl Method {
             Self::AfterSavage => "after-savage",
             Self::GuttHaff => "gutt-haff",
             Self::AfterHemmingssonHerrmann => "after-hemmingsson-herrmann",
+            Self::Fhp => "fhp",
+            Self::AfterPengHerrmann => "after-peng-herrmann",
+            Self::AfterBaxterBehringer => "after-baxter-behringer",
+            Self::AfterKarolyiKertesz => "after-karolyi-kertesz",
         }
     }
 }

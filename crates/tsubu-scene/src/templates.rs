@@ -129,6 +129,26 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/pile-forces.toml"),
     },
     Template {
+        name: "gas-channel",
+        about: "particles on a lattice flow down a channel between rough walls, as a liquid would",
+        text: include_str!("../../../scenes/gas-channel.toml"),
+    },
+    Template {
+        name: "gas-pipe",
+        about: "grains fall through a pipe without end and gather in waves: a lattice gas that loses energy",
+        text: include_str!("../../../scenes/gas-pipe.toml"),
+    },
+    Template {
+        name: "elongated-hopper",
+        about: "elongated grains of a lattice gas run out of a hopper and line up with the flow",
+        text: include_str!("../../../scenes/elongated-hopper.toml"),
+    },
+    Template {
+        name: "poured-silo",
+        about: "smooth and rough grains poured into a silo part on the slope: avalanches on a lattice",
+        text: include_str!("../../../scenes/poured-silo.toml"),
+    },
+    Template {
         name: "debris-flow",
         about: "stones of 10 to 100 cm and water down 15 degrees, in space: momentum both ways below a free surface",
         text: include_str!("../../../scenes/debris-flow.toml"),

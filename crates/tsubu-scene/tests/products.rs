@@ -94,6 +94,27 @@ time-step = "0.1 ms"
 split = "random"
 arching = 0.1
 
+[fhp]
+rules = "two"
+walls = "smooth"
+spacing = "1 mm"
+time-step = "1 ms"
+
+[after-peng-herrmann]
+roughness = 0.5
+spacing = "1 mm"
+time-step = "1 ms"
+
+[after-baxter-behringer]
+way = 2
+spacing = "1 mm"
+time-step = "1 ms"
+
+[after-karolyi-kertesz]
+dissipation = 0.5
+spacing = "1 mm"
+time-step = "1 ms"
+
 [dem]
 time-step = "20 us"
 integrator = "forward-euler"

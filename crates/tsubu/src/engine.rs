@@ -108,7 +108,11 @@ pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
         | Method::AfterCaramHong
         | Method::AfterSavage
         | Method::GuttHaff
-        | Method::AfterHemmingssonHerrmann => Box::new(crate::lattice::site::build::open(plan, hosts)?),
+        | Method::AfterHemmingssonHerrmann
+        | Method::Fhp
+        | Method::AfterPengHerrmann
+        | Method::AfterBaxterBehringer
+        | Method::AfterKarolyiKertesz => Box::new(crate::lattice::site::build::open(plan, hosts)?),
         Method::ClCa => Box::new(crate::clca::engine::ClCaEngine::new(plan, hosts)?),
     })
 }

@@ -11,7 +11,7 @@ const STEP: Key = Key::new(
 .above(0.0)
 .word("automatic");
 
-const fn chance(name: &'static str, default: &'static str, about: &'static str) -> Key {
+pub(super) const fn chance(name: &'static str, default: &'static str, about: &'static str) -> Key {
     Key::new(name, Kind::Quantity(&NUMBER), about).default(default).at_least(0.0).at_most(1.0)
 }
 

@@ -1,6 +1,6 @@
 //! The top of a scene, and its materials.
 
-use super::{Key, Kind, Word, contact, grains, hosts, methods, sites, study, walls, watch, water};
+use super::{Key, Kind, Word, contact, gases, grains, hosts, methods, sites, study, walls, watch, water};
 use crate::units::{ANGLE, DENSITY, NUMBER, PRESSURE, SPEED, SURFACE_ENERGY, TIME};
 
 /// The keys at the top of a scene, in the order of the plan.
@@ -78,6 +78,25 @@ pub static SCENE: &[Key] = &[
         "What only the forces in a pile after Hemmingsson and Herrmann read",
     )
     .default("{}"),
+    Key::new("fhp", Kind::Table(gases::FHP), "What only the lattice gases FHP read").default("{}"),
+    Key::new(
+        "after-peng-herrmann",
+        Kind::Table(gases::AFTER_PENG_HERRMANN),
+        "What only the gas of grains after Peng and Herrmann reads",
+    )
+    .default("{}"),
+    Key::new(
+        "after-baxter-behringer",
+        Kind::Table(gases::AFTER_BAXTER_BEHRINGER),
+        "What only the gas of elongated grains after Baxter and Behringer reads",
+    )
+    .default("{}"),
+    Key::new(
+        "after-karolyi-kertesz",
+        Kind::Table(gases::AFTER_KAROLYI_KERTESZ),
+        "What only the piles after Karolyi and Kertesz read",
+    )
+    .default("{}"),
     Key::new("response", Kind::Table(study::RESPONSE), "What `tsubu response` reads: a sweep over frequency")
         .optional(),
     Key::new("sweep", Kind::Table(study::SWEEP), "What `tsubu sweep` reads: every combination of values is a run")
@@ -104,6 +123,16 @@ static METHOD: &[Word] = &[
     Word { name: "after-savage", about: "a square lattice: flow down a chute that sorts by size" },
     Word { name: "gutt-haff", about: "one grain a node, with velocity and offset; contacts are collisions" },
     Word { name: "after-hemmingsson-herrmann", about: "forces handed down through a pile at rest, row by row" },
+    Word { name: "fhp", about: "a lattice gas: particles of one speed that flow like a liquid" },
+    Word {
+        name: "after-peng-herrmann",
+        about: "a lattice gas of grains that fall and lose energy: density waves in a pipe",
+    },
+    Word { name: "after-baxter-behringer", about: "the same with elongated grains that lie along their way" },
+    Word {
+        name: "after-karolyi-kertesz",
+        about: "grains that fall, slide, stop and are knocked loose: piles, avalanches",
+    },
 ];
 
 static MATERIAL: &[Key] = &[

@@ -196,6 +196,10 @@ fn step_key(plan: &Plan) -> &'static str {
         Method::AfterSavage => "after-savage.time-step",
         Method::GuttHaff => "gutt-haff.time-step",
         Method::AfterHemmingssonHerrmann => "duration",
+        Method::Fhp => "fhp.time-step",
+        Method::AfterPengHerrmann => "after-peng-herrmann.time-step",
+        Method::AfterBaxterBehringer => "after-baxter-behringer.time-step",
+        Method::AfterKarolyiKertesz => "after-karolyi-kertesz.time-step",
     }
 }
 

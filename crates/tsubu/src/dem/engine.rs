@@ -73,6 +73,7 @@ pub struct DemEngine {
 
 impl DemEngine {
     /// Builds the engine at time 0; grains that the scene wants settled have settled.
+    #[expect(clippy::too_many_lines, reason = "a third of them names the fields of the plan, one each")]
     pub fn new(plan: &Plan, hosts: &Hosts) -> Result<Self, OpenError> {
         // Every field is named: a new one does not compile until it is decided here.
         let Plan {
@@ -100,6 +101,10 @@ impl DemEngine {
             after_savage: _,
             gutt_haff: _,
             after_hemmingsson_herrmann: _,
+            fhp: _,
+            after_peng_herrmann: _,
+            after_baxter_behringer: _,
+            after_karolyi_kertesz: _,
             response: _,
             sweep: _,
             watch: _,

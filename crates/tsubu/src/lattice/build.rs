@@ -3,7 +3,7 @@
 use super::damper::{BoxPlace, Damper, Rules};
 use super::fixed::{Restitution, Scale};
 use super::grid::COLUMN_SPACING;
-use super::remarks::Remarks;
+use super::remarks::{Remarks, World};
 use super::start;
 use crate::engine::{Note, Refusal};
 use crate::view::Wants;
@@ -50,7 +50,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
     let Plan {
         title: _,
         method: _,
-        dimension,
+        dimension: _, // As gravity, periodic and water: read by `Remarks::world`.
         seed,
         gravity,
         duration: _,
@@ -59,9 +59,9 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         material_pair,
         particles: _,
         walls: _,
-        periodic,
+        periodic: _,
         removal,
-        water,
+        water: _,
         hosts,
         contact,
         dem: _,
@@ -72,6 +72,10 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         after_savage: _,
         gutt_haff: _,
         after_hemmingsson_herrmann: _,
+        fhp: _,
+        after_peng_herrmann: _,
+        after_baxter_behringer: _,
+        after_karolyi_kertesz: _,
         response: _,
         sweep: _,
         watch,
@@ -79,21 +83,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         claim: _,
     } = plan;
     let mut remarks = Remarks::of("lattice");
-    if *dimension != 2 {
-        remarks.refuse("dimension", "the automaton lives in the plane; set `dimension = 2`, or use `method = \"dem\"`");
-    }
-    if gravity[0] != 0.0 || gravity[1] != 0.0 || gravity[2] > 0.0 {
-        remarks.refuse(
-            "gravity",
-            "the lattice has gravity along -z or none; set `gravity = [0, -9.8]`, or turn the scene",
-        );
-    }
-    if *periodic != plan::Periodic::default() {
-        remarks.refuse("periodic", "the automaton's balls live in a closed box; use `method = \"dem\"`");
-    }
-    if water.is_some() {
-        remarks.refuse("water", "the automaton's balls fall in air; use `method = \"dem\"`");
-    }
+    remarks.world(plan, World { noun: "the automaton's balls", tilted: false, weightless: true, periodic: [false; 2] });
     if !removal.is_empty() {
         remarks.refuse("removal", "the automaton keeps its balls; use `method = \"dem\"`");
     }

@@ -3,7 +3,20 @@
 use crate::engine::{Note, Refusal, Verdict};
 use crate::view::Wants;
 use std::collections::BTreeMap;
-use tsubu_scene::plan::{Plan, Watch};
+use tsubu_scene::plan::{self, Plan, Watch};
+
+/// What of a scene's world a lattice has room for.
+#[derive(Clone, Copy, Debug)]
+pub struct World {
+    /// What its grains are called.
+    pub noun: &'static str,
+    /// Whether gravity may point anywhere in the plane, not only along -z.
+    pub tilted: bool,
+    /// Whether there may be none.
+    pub weightless: bool,
+    /// Whether the world may repeat itself along x and along z.
+    pub periodic: [bool; 2],
+}
 
 /// Collects remarks; a refused entry refuses the run.
 #[derive(Debug)]
@@ -27,6 +40,30 @@ impl Remarks {
     /// The method does something near it; the text says what.
     pub fn approximate(&mut self, key: impl Into<String>, text: impl Into<String>) {
         self.notes.push(Note { key: key.into(), verdict: Verdict::Approximated, text: text.into() });
+    }
+
+    /// Refuses what of a scene's world the method has no room for: space, water, gravity, ends that meet.
+    pub fn world(&mut self, plan: &Plan, world: World) {
+        let World { noun, tilted, weightless, periodic } = world;
+        if plan.dimension != 2 {
+            let text = format!("{noun} live in the plane; set `dimension = 2`, or use `method = \"dem\"`");
+            self.refuse("dimension", text);
+        }
+        if plan.water.is_some() {
+            self.refuse("water", format!("{noun} fall in air; use `method = \"dem\"`"));
+        }
+        let [x, y, z] = plan.gravity;
+        if y != 0.0 || (!tilted && (x != 0.0 || z > 0.0)) || (!weightless && plan.gravity == [0.0; 3]) {
+            let or = if weightless { " or none" } else { "" };
+            let text = format!("the lattice has gravity along -z{or}; set `gravity` to one number, or turn the scene");
+            self.refuse("gravity", text);
+        }
+        let plan::Periodic { x, y, z } = &plan.periodic;
+        let refused = |ends: &Option<[f64; 2]>, can: bool| ends.is_some() && !can;
+        if refused(x, periodic[0]) || refused(z, periodic[1]) || y.is_some() {
+            let text = "the lattice ends at walls there; `after-savage` and `after-karolyi-kertesz` repeat themselves along x, `dem`, `fhp` and the gases of grains along both axes";
+            self.refuse("periodic", text);
+        }
     }
 
     /// Watches that want to see what the method does not have.

@@ -176,6 +176,12 @@ pub static CASES: &[Case] = &[
     quick("pile-angle", "lattice-review", "R-3.4: the slope of a pile grows with friction", lattice_review::pile_angle),
     quick("pile-avalanches", "lattice-review", "R-3.4: avalanches are bounded", lattice_review::pile_avalanches),
     quick("pile-segregation", "lattice-review", "R-3.4: smooth grains go farther", lattice_review::pile_segregation),
+    long(
+        "fhp-viscosity-plain",
+        "lattice-review",
+        "R-3.0: the same in FHP-II and III as they are, where correlations tell",
+        lattice_review::viscosity_plain,
+    ),
     long("pipe-spectrum", "lattice-review", "R-3.1: spectrum of the density in a pipe", lattice_review::pipe_spectrum),
     long("drum-regimes", "dem-benchmarks", "V-37: rolling, cascading, cataracting", drum_regimes::regimes),
     long("rheology", "dem-benchmarks", "V-35: friction against inertial number", rheology::friction),

@@ -1,4 +1,4 @@
-//! Methods with one grain a site, from their scenes: books, resume, gates, refusals.
+//! Methods with grains on sites, from their scenes: books, resume, gates, refusals.
 
 use tsubu::engine::{self, Engine, OpenError};
 use tsubu::ledger::Ledger;
@@ -7,37 +7,41 @@ use tsubu_frame::State;
 use tsubu_scene::plan::{Method, Plan};
 use tsubu_scene::{Scene, plan};
 
-const SCENES: [(&str, u64); 4] = [
+const SCENES: [(&str, u64); 8] = [
     (include_str!("../../../../scenes/voids.toml"), 60),
     (include_str!("../../../../scenes/sorting-chute.toml"), 60),
     (include_str!("../../../../scenes/lattice-grains.toml"), 400),
     (include_str!("../../../../scenes/pile-forces.toml"), 15),
+    (include_str!("../../../../scenes/gas-channel.toml"), 40),
+    (include_str!("../../../../scenes/gas-pipe.toml"), 200),
+    (include_str!("../../../../scenes/elongated-hopper.toml"), 100),
+    (include_str!("../../../../scenes/poured-silo.toml"), 2000),
 ];
 
-fn plan(text: &str) -> Plan {
+pub(super) fn plan(text: &str) -> Plan {
     let scene = Scene::parse("test", text, std::path::Path::new("."), &[]).map_err(|c| c.to_string()).unwrap();
     scene.plan().clone()
 }
 
-struct Run {
-    engine: Box<dyn Engine>,
+pub(super) struct Run {
+    pub engine: Box<dyn Engine>,
     hosts: Hosts,
-    ledger: Ledger,
+    pub ledger: Ledger,
 }
 
 impl Run {
-    fn new(plan: &Plan) -> Self {
+    pub fn new(plan: &Plan) -> Self {
         let hosts = Hosts::new(&plan.hosts);
         let engine = engine::open(plan, &hosts).unwrap();
         let ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
         Self { engine, hosts, ledger }
     }
 
-    fn steps(&mut self, count: u64) {
+    pub fn steps(&mut self, count: u64) {
         self.engine.advance(count, &mut self.hosts, &mut self.ledger).unwrap();
     }
 
-    fn state(&self) -> State {
+    pub fn state(&self) -> State {
         let mut state = State::default();
         self.engine.save(&mut state);
         state
@@ -115,7 +119,7 @@ fn gates_open_on_sites() {
     assert!(front(&run) > 0.0105, "{}", front(&run));
 }
 
-fn refused(change: impl Fn(&mut Plan), text: &str) -> String {
+pub(super) fn refused(change: impl Fn(&mut Plan), text: &str) -> String {
     let mut plan = plan(text);
     change(&mut plan);
     match engine::open(&plan, &Hosts::new(&plan.hosts)) {

@@ -1,8 +1,9 @@
-//! The damper automaton, judged by its physics; models with one grain a site, by their invariants.
+//! The damper automaton, judged by its physics; models with grains on sites, by their invariants.
 
 mod books;
 mod coupling;
 mod free;
+mod gases;
 mod methods;
 mod plans;
 mod refusal;

@@ -4,6 +4,8 @@
 use super::bits::WIDE;
 use super::chance::fair;
 use super::collide::{REST, Rules, SLOTS, collide};
+use super::numbers::{Crew, EMPTY, NOBODY, Numbers, go_on};
+use super::sites::Sites;
 use super::step::MIRRORED;
 use crate::lattice::direction::{Direction, Vector};
 use crate::random::{Purpose, words};
@@ -19,15 +21,28 @@ pub struct Habits {
     pub roughness: f64,
 }
 
+/// Slots after a wall that sends back.
+const REVERSED: [usize; 6] = [3, 4, 5, 0, 1, 2];
+
 /// How often a surplus grain hops in a step before it gives up until the next.
 const HOPS: u32 = 10_000;
+
+/// Grains that came to rest on a site whose place for one was taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Surplus {
+    /// Where.
+    pub site: u32,
+    /// How many there are.
+    pub count: u8,
+    /// Their numbers, the first to go first.
+    pub who: Crew,
+}
 
 /// A gas of grains.
 #[derive(Clone, Debug)]
 pub struct Grains {
-    pub(super) columns: usize,
-    pub(super) rows: usize,
-    periodic: [bool; 2],
+    /// Who is next to whom.
+    pub sites: Sites,
     habits: Habits,
     pub(super) seed: u64,
     pub(super) step: u64,
@@ -35,13 +50,14 @@ pub struct Grains {
     table: [[u8; 1 << SLOTS]; 2],
     pub(super) state: Vec<u8>,
     next: Vec<u8>,
-    /// 0: gas; 1: an upright wall; 2: a wall that lies flat.
+    /// 0: gas; 1: an upright wall; 2: a wall that lies flat; 3: one that sends back whatever its roughness.
     pub(super) wall: Vec<u8>,
-    /// Grains at rest that found no place, by site, and their axes, two bits each.
-    surplus: Vec<(u32, u8, u16)>,
-    /// Axis of the grain in every slot, two bits each; nothing for round grains.
-    pub(super) axes: Vec<u16>,
-    pub(super) next_axes: Vec<u16>,
+    /// Grains at rest that found no place.
+    surplus: Vec<Surplus>,
+    /// Who is who, if anybody asked.
+    pub(super) numbers: Option<Numbers>,
+    /// Axis of every grain by its number; nothing for round grains.
+    pub(super) axes: Vec<u8>,
     /// Momentum that gravity gave in the last step, in the basis (h, k).
     pulled: Vector,
 }
@@ -53,7 +69,7 @@ impl Grains {
     ///
     /// Where columns of one kind would meet: a lattice periodic along x needs an even number of them.
     pub fn new(columns: usize, rows: usize, periodic: [bool; 2], habits: Habits, seed: u64) -> Self {
-        assert!(!periodic[0] || columns.is_multiple_of(2), "odd columns stand higher");
+        let sites = Sites::new(columns, rows, periodic);
         let mut table = [[0; 1 << SLOTS]; 2];
         for (turn, table) in table.iter_mut().enumerate() {
             for (state, after) in table.iter_mut().enumerate() {
@@ -62,43 +78,46 @@ impl Grains {
                 *after = (0..SLOTS).map(|slot| ((new[slot] & 1) as u8) << slot).sum();
             }
         }
-        let sites = columns * rows;
         Self {
-            columns,
-            rows,
-            periodic,
+            sites,
             habits,
             seed,
             step: 0,
             table,
-            state: vec![0; sites],
-            next: vec![0; sites],
-            wall: vec![0; sites],
+            state: vec![0; sites.count()],
+            next: vec![0; sites.count()],
+            wall: vec![0; sites.count()],
             surplus: Vec::new(),
+            numbers: None,
             axes: Vec::new(),
-            next_axes: Vec::new(),
             pulled: Vector::default(),
         }
     }
 
-    /// Makes a site a wall, upright or flat.
-    pub fn set_wall(&mut self, column: usize, row: usize, flat: bool) {
-        self.wall[column * self.rows + row] = 1 + u8::from(flat);
+    /// Makes a site a wall; `mirror` is Some(0) for an upright one, Some(1) for one that lies flat, None for one that
+    /// always sends back.
+    pub fn set_wall(&mut self, column: usize, row: usize, mirror: Option<usize>) {
+        self.wall[self.sites.index(column, row)] = mirror.map_or(3, |axis| 1 + axis as u8);
+    }
+
+    /// Makes a wall a site of the gas.
+    pub fn free(&mut self, site: usize) {
+        self.wall[site] = 0;
     }
 
     /// Whether a site is wall.
     pub fn is_wall(&self, column: usize, row: usize) -> bool {
-        self.wall[column * self.rows + row] > 0
+        self.wall[self.sites.index(column, row)] > 0
     }
 
-    /// Puts grains into a site: bit i for slot i.
+    /// Puts grains into a site: bit i for slot i. Not in a gas whose grains have numbers.
     pub fn set_site(&mut self, column: usize, row: usize, state: u8) {
-        self.state[column * self.rows + row] = state;
+        self.state[self.sites.index(column, row)] = state;
     }
 
     /// Who is in a site.
     pub fn site(&self, column: usize, row: usize) -> u8 {
-        self.state[column * self.rows + row]
+        self.state[self.sites.index(column, row)]
     }
 
     /// Steps done.
@@ -106,22 +125,49 @@ impl Grains {
         self.step
     }
 
-    /// The neighbour of a site, if there is one.
-    #[inline]
-    pub(super) fn neighbour(&self, column: usize, row: usize, way: Direction) -> Option<(usize, usize)> {
-        let wrap = |at: i64, size: usize, ends: bool| {
-            let inside = (0..size as i64).contains(&at);
-            if inside {
-                Some(at as usize)
-            } else if ends {
-                Some(at.rem_euclid(size as i64) as usize)
-            } else {
-                None
+    /// Who is who, if the grains have numbers.
+    pub fn numbers(&self) -> Option<&Numbers> {
+        self.numbers.as_ref()
+    }
+
+    /// Grains at rest that found no place, in the order in which they look for one.
+    pub fn surplus(&self) -> &[Surplus] {
+        &self.surplus
+    }
+
+    /// Gives the grains of a gas the numbers of another time, where they were then, and the steps done.
+    pub fn restore(&mut self, numbers: Numbers, surplus: Vec<Surplus>, step: u64) {
+        (self.surplus, self.step) = (surplus, step);
+        for (site, state) in self.state.iter_mut().enumerate() {
+            *state = numbers.state(site);
+        }
+        self.numbers = Some(numbers);
+    }
+
+    /// Puts a grain with a number into a slot of a site; false if somebody is there.
+    pub fn put(&mut self, site: usize, slot: usize, number: u32) -> bool {
+        let free = self.wall[site] == 0 && self.state[site] >> slot & 1 == 0;
+        if free {
+            self.state[site] |= 1 << slot;
+            if let Some(numbers) = &mut self.numbers {
+                numbers.set(site, slot, number);
             }
-        };
-        let to = wrap(column as i64 + way.h(), self.columns, self.periodic[0])?;
-        let row = (2 * row as i64 + (column % 2) as i64 + way.k() - (to % 2) as i64) >> 1;
-        Some((to, wrap(row, self.rows, self.periodic[1])?))
+        }
+        free
+    }
+
+    /// Takes everybody from a site who is there; on walls nobody is gone.
+    pub fn clear(&mut self, site: usize) {
+        if self.wall[site] > 0 {
+            return;
+        }
+        if self.state[site] > 0 {
+            self.state[site] = 0;
+            if let Some(numbers) = &mut self.numbers {
+                numbers.clear(site);
+            }
+        }
+        self.surplus.retain(|waiting| waiting.site as usize != site);
     }
 
     /// One step: fly, meet walls, collide, fall, hop.
@@ -135,10 +181,13 @@ impl Grains {
 
     fn fly(&mut self) {
         self.next.fill(0);
-        self.next_axes.fill(0);
-        for column in 0..self.columns {
-            for row in 0..self.rows {
-                let at = column * self.rows + row;
+        if let Some(numbers) = &mut self.numbers {
+            numbers.cross();
+            numbers.next.fill(EMPTY);
+        }
+        for column in 0..self.sites.columns {
+            for row in 0..self.sites.rows {
+                let at = self.sites.index(column, row);
                 let state = self.state[at];
                 if state == 0 {
                     continue;
@@ -147,57 +196,77 @@ impl Grains {
                 self.carry(at, REST, at);
                 for way in Direction::ALL {
                     if state >> way as u8 & 1 == 1
-                        && let Some((c, r)) = self.neighbour(column, row, way)
+                        && let Some((c, r)) = self.sites.neighbour(column, row, way)
                     {
-                        self.next[c * self.rows + r] |= 1 << way as u8;
-                        self.carry(at, way as usize, c * self.rows + r);
+                        let to = self.sites.index(c, r);
+                        self.next[to] |= 1 << way as u8;
+                        self.carry(at, way as usize, to);
                     }
                 }
             }
         }
         std::mem::swap(&mut self.state, &mut self.next);
-        std::mem::swap(&mut self.axes, &mut self.next_axes);
-    }
-
-    /// Takes the axis of a slot along to the next state of a site.
-    #[inline]
-    fn carry(&mut self, from: usize, slot: usize, to: usize) {
-        if !self.axes.is_empty() {
-            self.next_axes[to] |= self.axes[from] & 3 << (2 * slot);
+        if let Some(numbers) = &mut self.numbers {
+            std::mem::swap(&mut numbers.crews, &mut numbers.next);
         }
     }
 
-    /// Gives a site a new state; whoever was there takes his axis along, in the order of slots.
+    /// Takes the number of a slot along to the next state of a site.
+    #[inline]
+    fn carry(&mut self, from: usize, slot: usize, to: usize) {
+        if let Some(numbers) = &mut self.numbers
+            && numbers.crews[from][slot] != NOBODY
+        {
+            numbers.next[to][slot] = numbers.crews[from][slot];
+        }
+    }
+
+    /// Gives a site a new state; whoever was there takes his number along, in the order of slots.
     #[inline]
     fn become_state(&mut self, at: usize, new: u8) {
         let old = std::mem::replace(&mut self.state[at], new);
-        if !self.axes.is_empty() && old != new {
-            let slots = |state: u8| (0..SLOTS).filter(move |slot| state >> slot & 1 == 1);
-            let axes = self.axes[at];
-            self.axes[at] = slots(old).zip(slots(new)).map(|(from, to)| (axes >> (2 * from) & 3) << (2 * to)).sum();
+        if let Some(numbers) = &mut self.numbers
+            && old != new
+        {
+            numbers.crews[at] = go_on(numbers.crews[at], new);
         }
     }
 
+    /// Those who met on a site come to rest: the first of them keeps it, the others have to look for a place.
+    fn come_to_rest(&mut self, at: usize) {
+        let count = self.state[at].count_ones() as u8 - 1;
+        self.state[at] = 1 << REST;
+        let mut waiting = Surplus { site: at as u32, count, who: EMPTY };
+        if let Some(numbers) = &mut self.numbers {
+            let mut there = numbers.crews[at].into_iter().filter(|who| *who != NOBODY);
+            let mut crew = EMPTY;
+            crew[REST] = there.next().unwrap_or(NOBODY);
+            waiting.who.iter_mut().zip(there).for_each(|(to, who)| *to = who);
+            numbers.crews[at] = crew;
+        }
+        self.surplus.push(waiting);
+    }
+
     fn collide(&mut self) {
-        let pairs = self.rows.div_ceil(128 * WIDE);
+        let pairs = self.sites.rows.div_ceil(128 * WIDE);
         let odds = (self.habits.dissipation * f64::from(u16::MAX)) as u16;
         let rough = (self.habits.roughness * f64::from(u32::MAX)) as u32;
         let mut turns = Vec::with_capacity(2 * WIDE * pairs);
-        for column in 0..self.columns {
+        for column in 0..self.sites.columns {
             // The bits that the planes of FHP have there.
             turns.clear();
             for pair in 0..pairs {
                 let drawn = fair(self.seed, Purpose::Turn, (column * pairs + pair) as u32, self.step);
                 turns.extend(drawn.iter().flat_map(|wide| wide.0));
             }
-            for row in 0..self.rows {
-                let at = column * self.rows + row;
+            for row in 0..self.sites.rows {
+                let at = self.sites.index(column, row);
                 let state = self.state[at];
                 if state.trailing_zeros() >= REST as u32 {
                     continue;
                 }
                 if self.wall[at] > 0 {
-                    let mirror = MIRRORED[usize::from(self.wall[at]) - 1];
+                    let mirror = MIRRORED.get(usize::from(self.wall[at]) - 1).copied().unwrap_or(REVERSED);
                     let back = words(self.seed, Purpose::Rebound, at as u32, self.step);
                     let word = |slot: usize| back[slot % 4].rotate_left(7 * slot as u32);
                     let out = |slot: usize| {
@@ -209,20 +278,7 @@ impl Grains {
                 if odds > 0 && self.table[0][usize::from(state)] != state {
                     let [word, ..] = words(self.seed, Purpose::Order, at as u32, self.step);
                     if (word as u16) < odds {
-                        let met = state.count_ones() as u8;
-                        // The first of them keeps the site.
-                        let mut axes = 0;
-                        if !self.axes.is_empty() {
-                            let there = (0..SLOTS).filter(|slot| state >> slot & 1 == 1);
-                            let all = there
-                                .enumerate()
-                                .map(|(i, slot)| (self.axes[at] >> (2 * slot) & 3) << (2 * i))
-                                .sum::<u16>();
-                            self.axes[at] = (all & 3) << (2 * REST);
-                            axes = all >> 2;
-                        }
-                        self.state[at] = 1 << REST;
-                        self.surplus.push((at as u32, met - 1, axes));
+                        self.come_to_rest(at);
                         continue;
                     }
                 }
@@ -250,9 +306,8 @@ impl Grains {
             for (slot, to) in [(2, 3), (4, 3), (REST, 3), (1, 2), (5, 4), (0, if side { 1 } else { 5 })] {
                 if state >> slot & 1 == 1 && state >> to & 1 == 0 && draw(slot) < odds {
                     state ^= 1 << slot | 1 << to;
-                    if !self.axes.is_empty() {
-                        let axis = self.axes[at] >> (2 * slot) & 3;
-                        self.axes[at] = self.axes[at] & !(3 << (2 * slot)) | axis << (2 * to);
+                    if let Some(numbers) = &mut self.numbers {
+                        numbers.crews[at].swap(slot, to);
                     }
                     let way = |slot: usize| {
                         if slot == REST { Vector::default() } else { Direction::from_index(slot).times(1) }
@@ -268,26 +323,29 @@ impl Grains {
     /// Surplus grains hop from site to site until one has room for a grain at rest.
     fn hop(&mut self) {
         let mut waiting = std::mem::take(&mut self.surplus);
-        for (index, (at, count, axes)) in waiting.iter_mut().enumerate() {
+        for (index, Surplus { site, count, who }) in waiting.iter_mut().enumerate() {
             while *count > 0 {
-                let (mut column, mut row) = (*at as usize / self.rows, *at as usize % self.rows);
-                let mut found = false;
+                let (mut column, mut row) = self.sites.place(*site as usize);
+                let (mut found, mut laps) = (false, [0, 0]);
                 for hop in 0..HOPS {
                     let key = self.step << 20 | u64::from(hop) << 4 | u64::from(*count);
-                    let [word, ..] = words(self.seed, Purpose::Lottery, index as u32 ^ *at, key);
+                    let [word, ..] = words(self.seed, Purpose::Lottery, index as u32 ^ *site, key);
                     let way = Direction::from_index(((u64::from(word) * 6) >> 32) as usize);
-                    let Some(to) = self.neighbour(column, row, way) else { continue };
+                    let Some(to) = self.sites.neighbour(column, row, way) else { continue };
                     if self.is_wall(to.0, to.1) {
                         continue;
                     }
+                    let [x, z] = self.sites.crossing(column, row, way);
+                    laps = [laps[0] + x, laps[1] + z];
                     (column, row) = to;
-                    let place = &mut self.state[column * self.rows + row];
-                    if *place >> REST & 1 == 0 {
-                        *place |= 1 << REST;
-                        if let Some(there) = self.axes.get_mut(column * self.rows + row) {
-                            *there |= (*axes & 3) << (2 * REST);
+                    let place = self.sites.index(column, row);
+                    if self.state[place] >> REST & 1 == 0 {
+                        self.state[place] |= 1 << REST;
+                        if let Some(numbers) = &mut self.numbers {
+                            numbers.crews[place][REST] = who[0];
+                            numbers.lap(who[0], laps);
+                            who.rotate_left(1);
                         }
-                        *axes >>= 2;
                         found = true;
                         break;
                     }
@@ -298,7 +356,7 @@ impl Grains {
                 *count -= 1;
             }
         }
-        waiting.retain(|(_, count, _)| *count > 0);
+        waiting.retain(|waiting| waiting.count > 0);
         self.surplus = waiting;
     }
 
@@ -310,7 +368,7 @@ impl Grains {
     /// Number of grains.
     pub fn mass(&self) -> u64 {
         let there: u64 = self.state.iter().map(|s| u64::from(s.count_ones())).sum();
-        there + self.surplus.iter().map(|(_, count, _)| u64::from(*count)).sum::<u64>()
+        there + self.surplus.iter().map(|waiting| u64::from(waiting.count)).sum::<u64>()
     }
 
     /// Momentum in the basis (h, k).
@@ -348,7 +406,7 @@ mod tests {
         for row in 0..40 {
             for column in 0..10 {
                 if walls && (row % 39 == 0 || (column == 3 && row < 20)) {
-                    grains.set_wall(column, row, row % 39 == 0);
+                    grains.set_wall(column, row, Some(usize::from(row % 39 == 0)));
                 } else {
                     let drawn =
                         crate::random::words(4, crate::random::Purpose::Placement, (column * 40 + row) as u32, 0);

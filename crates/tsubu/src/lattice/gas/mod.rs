@@ -2,7 +2,7 @@
 //!
 //! [`bits`], [`chance`], [`collide`], [`step`], [`sweep`] and [`planes`] are the gas of Frisch, Hasslacher and Pomeau (1986) in its three
 //! forms, 64 sites a word. [`grains`] and [`pile`] are gases of grains, which lose energy and fall;
-//! [`elongated`] gives grains an axis.
+//! [`elongated`] gives grains an axis, [`numbers`] particles a number to be followed by; [`sites`] says who is next to whom.
 
 #![expect(
     clippy::inline_always,
@@ -14,7 +14,9 @@ pub mod chance;
 pub mod collide;
 pub mod elongated;
 pub mod grains;
+pub mod numbers;
 pub mod pile;
 pub mod planes;
+pub mod sites;
 pub mod step;
 pub mod sweep;

@@ -3,23 +3,26 @@
 //! A site holds at most one grain at rest and at most one flying in each direction; a grain at rest lies on what is straight
 //! below it. Few grains fly at a time, so they are a list. They move from the lowest up, each once a step.
 
+use super::sites::Sites;
 use crate::lattice::direction::Direction;
 use crate::random::{Purpose, unit, words};
+use std::collections::VecDeque;
 
 /// What happens how often.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Habits {
     /// Probability that gravity turns a flying grain by 60 degrees downward in a step.
     pub gravity: f64,
     /// Probability that a grain which hits another or a wall stays low instead of leaping off.
     pub dissipation: f64,
     /// Probability that a grain which slides over others stops, in a step; that one which is hit holds; for each kind.
-    pub friction: [f64; 2],
+    pub friction: Vec<f64>,
 }
 
-/// What is at rest in a site: nobody, a grain of kind 0 or 1, or wall.
-const NOBODY: u8 = 0;
-const WALL: u8 = 3;
+/// Nobody is at rest in a site.
+const NOBODY: u32 = u32::MAX;
+/// The site is wall. Else the number of a grain.
+const WALL: u32 = u32::MAX - 1;
 
 /// A flying grain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -27,54 +30,160 @@ struct Flyer {
     row: u32,
     column: u32,
     way: u8,
-    kind: u8,
+    who: u32,
+}
+
+/// Where a grain is: at rest in a site, or flying from there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The site.
+    pub site: usize,
+    /// Where it flies; `None`: it rests.
+    pub way: Option<Direction>,
 }
 
 /// A pile, and what flies around it.
 #[derive(Clone, Debug)]
 pub struct Pile {
-    columns: usize,
-    rows: usize,
+    /// Who is next to whom.
+    pub sites: Sites,
     habits: Habits,
     seed: u64,
     step: u64,
-    rest: Vec<u8>,
+    /// Who is at rest in a site.
+    rest: Vec<u32>,
     /// Directions in which somebody flies, by site.
     taken: Vec<u8>,
     flyers: Vec<Flyer>,
+    /// Kind of every grain by its number.
+    kinds: Vec<u32>,
     /// Grains that left the lattice, by kind.
-    gone: [u64; 2],
+    gone: Vec<u64>,
     /// Grains at rest that were knocked loose or lost their ground.
     loosened: u64,
+    /// How often each grain has crossed the high end of a periodic x, less how often the low one.
+    pub laps: Vec<i32>,
 }
 
 impl Pile {
-    /// An empty lattice without walls; grains that leave it at the sides or below are gone.
-    pub fn new(columns: usize, rows: usize, habits: Habits, seed: u64) -> Self {
-        let sites = columns * rows;
-        let (rest, taken) = (vec![NOBODY; sites], vec![0; sites]);
-        Self { columns, rows, habits, seed, step: 0, rest, taken, flyers: Vec::new(), gone: [0; 2], loosened: 0 }
+    /// An empty lattice without walls; grains that leave it at open sides or below are gone.
+    pub fn new(sites: Sites, habits: Habits, seed: u64) -> Self {
+        let (rest, taken) = (vec![NOBODY; sites.count()], vec![0; sites.count()]);
+        let gone = vec![0; habits.friction.len()];
+        let (flyers, kinds, laps) = (Vec::new(), Vec::new(), Vec::new());
+        Self { sites, habits, seed, step: 0, rest, taken, flyers, kinds, gone, loosened: 0, laps }
     }
 
     /// Makes a site a wall.
     pub fn set_wall(&mut self, column: usize, row: usize) {
-        self.rest[column * self.rows + row] = WALL;
+        self.rest[self.sites.index(column, row)] = WALL;
+    }
+
+    /// Makes a wall a free site; whoever lay on it falls.
+    pub fn free(&mut self, site: usize) {
+        if self.rest[site] == WALL {
+            self.rest[site] = NOBODY;
+            let (column, row) = self.sites.place(site);
+            self.fall_from_above(column, row);
+        }
     }
 
     /// The kind of the grain at rest in a site.
     pub fn at_rest(&self, column: usize, row: usize) -> Option<usize> {
-        let who = self.rest[column * self.rows + row];
-        (who != NOBODY && who != WALL).then(|| usize::from(who) - 1)
+        self.who_rests(column, row).map(|who| self.kinds[who as usize] as usize)
     }
 
-    /// Lets a grain of a kind go at a site, downward; false if somebody is there.
-    pub fn drop_at(&mut self, column: usize, row: usize, kind: usize) -> bool {
-        let site = column * self.rows + row;
-        let free = self.rest[site] == NOBODY && self.taken[site] & 1 << Direction::S as u8 == 0;
+    /// The number of the grain at rest in a site.
+    fn who_rests(&self, column: usize, row: usize) -> Option<u32> {
+        let who = self.rest[self.sites.index(column, row)];
+        (who != NOBODY && who != WALL).then_some(who)
+    }
+
+    /// Says of what kind a new grain is; its number. It is not there yet.
+    pub fn announce(&mut self, kind: u32) -> u32 {
+        self.kinds.push(kind);
+        self.laps.push(0);
+        self.kinds.len() as u32 - 1
+    }
+
+    /// Lets a new grain of a kind go at a site, downward; false if somebody is there.
+    pub fn drop_at(&mut self, column: usize, row: usize, kind: u32) -> bool {
+        let free = self.is_open(column, row);
         if free {
-            self.launch(column, row, Direction::S, kind as u8);
+            let who = self.announce(kind);
+            self.launch(column, row, Direction::S, who);
         }
         free
+    }
+
+    /// Lets an announced grain go at a site, downward; false if somebody is there.
+    pub fn release(&mut self, site: usize, who: u32) -> bool {
+        let (column, row) = self.sites.place(site);
+        let free = self.is_open(column, row);
+        if free {
+            self.launch(column, row, Direction::S, who);
+        }
+        free
+    }
+
+    /// Whether a grain can be let go downward at a site.
+    fn is_open(&self, column: usize, row: usize) -> bool {
+        let site = self.sites.index(column, row);
+        self.rest[site] == NOBODY && self.taken[site] & 1 << Direction::S as u8 == 0
+    }
+
+    /// Puts an announced grain to rest on a site, or lets it go if there is no ground below; from the lowest up.
+    pub fn lay(&mut self, site: usize, who: u32) {
+        let (column, row) = self.sites.place(site);
+        self.stop(column, row, who);
+    }
+
+    /// Where every grain is; `None`: not there.
+    pub fn places(&self) -> Vec<Option<Place>> {
+        let mut places = vec![None; self.kinds.len()];
+        for (site, &who) in self.rest.iter().enumerate().filter(|(_, who)| **who < WALL) {
+            places[who as usize] = Some(Place { site, way: None });
+        }
+        for flyer in &self.flyers {
+            let site = self.sites.index(flyer.column as usize, flyer.row as usize);
+            places[flyer.who as usize] = Some(Place { site, way: Some(Direction::from_index(flyer.way.into())) });
+        }
+        places
+    }
+
+    /// Puts announced grains where they were at another time, and goes on from the steps done then.
+    pub fn restore(&mut self, places: &[Option<Place>], step: u64) {
+        self.rest.iter_mut().filter(|who| **who != WALL).for_each(|who| *who = NOBODY);
+        self.taken.fill(0);
+        self.flyers.clear();
+        for (who, place) in places.iter().enumerate() {
+            match *place {
+                Some(Place { site, way: Some(way) }) => {
+                    let (column, row) = self.sites.place(site);
+                    self.launch(column, row, way, who as u32);
+                }
+                Some(Place { site, way: None }) => self.rest[site] = who as u32,
+                None => {}
+            }
+        }
+        self.step = step;
+    }
+
+    /// Takes everybody from some sites who is there; on walls nobody is.
+    pub fn clear(&mut self, sites: &[bool]) {
+        let Self { sites: lattice, taken, .. } = self;
+        self.flyers.retain(|flyer| {
+            let site = lattice.index(flyer.column as usize, flyer.row as usize);
+            taken[site] &= if sites[site] { !(1 << flyer.way) } else { !0 };
+            !sites[site]
+        });
+        for site in (0..sites.len()).filter(|site| sites[*site]) {
+            if self.rest[site] < WALL {
+                self.rest[site] = NOBODY;
+                let (column, row) = self.sites.place(site);
+                self.fall_from_above(column, row);
+            }
+        }
     }
 
     /// Steps done.
@@ -88,8 +197,8 @@ impl Pile {
     }
 
     /// Grains that left, by kind.
-    pub fn gone(&self) -> [u64; 2] {
-        self.gone
+    pub fn gone(&self) -> &[u64] {
+        &self.gone
     }
 
     /// How many grains at rest have been knocked loose or have lost their ground so far.
@@ -99,30 +208,23 @@ impl Pile {
 
     /// Number of grains, at rest and flying.
     pub fn grains(&self) -> u64 {
-        let resting = self.rest.iter().filter(|&&who| who != NOBODY && who != WALL).count();
+        let resting = self.rest.iter().filter(|&&who| who < WALL).count();
         (resting + self.flyers.len()) as u64
     }
 
     /// Height of the pile in a column: one row above its highest grain at rest.
     pub fn height(&self, column: usize) -> usize {
-        (0..self.rows).rev().find(|&row| self.at_rest(column, row).is_some()).map_or(0, |row| row + 1)
+        (0..self.sites.rows).rev().find(|&row| self.at_rest(column, row).is_some()).map_or(0, |row| row + 1)
     }
 
-    fn launch(&mut self, column: usize, row: usize, way: Direction, kind: u8) {
-        self.taken[column * self.rows + row] |= 1 << way as u8;
-        self.flyers.push(Flyer { row: row as u32, column: column as u32, way: way as u8, kind });
-    }
-
-    /// The neighbour of a site; `None` beyond the lattice.
-    fn neighbour(&self, column: usize, row: usize, way: Direction) -> Option<(usize, usize)> {
-        let to = usize::try_from(column as i64 + way.h()).ok().filter(|c| *c < self.columns)?;
-        let row = (2 * row as i64 + (column % 2) as i64 + way.k() - (to % 2) as i64) >> 1;
-        Some((to, usize::try_from(row).ok().filter(|r| *r < self.rows)?))
+    fn launch(&mut self, column: usize, row: usize, way: Direction, who: u32) {
+        self.taken[self.sites.index(column, row)] |= 1 << way as u8;
+        self.flyers.push(Flyer { row: row as u32, column: column as u32, way: way as u8, who });
     }
 
     /// Whether a grain finds room next to a site: nobody rests there. Beyond the lattice there is room.
     fn room(&self, column: usize, row: usize, way: Direction) -> bool {
-        self.neighbour(column, row, way).is_none_or(|(c, r)| self.rest[c * self.rows + r] == NOBODY)
+        self.sites.neighbour(column, row, way).is_none_or(|(c, r)| self.rest[self.sites.index(c, r)] == NOBODY)
     }
 
     /// One step: every flying grain moves, stops, or takes another direction.
@@ -136,9 +238,9 @@ impl Pile {
     }
 
     fn fly(&mut self, flyer: Flyer) {
-        let Flyer { row, column, way, kind } = flyer;
-        let (row, column) = (row as usize, column as usize);
-        let site = column * self.rows + row;
+        let Flyer { row, column, way, who } = flyer;
+        let (row, column, kind) = (row as usize, column as usize, self.kinds[who as usize] as usize);
+        let site = self.sites.index(column, row);
         self.taken[site] &= !(1 << way);
         let draw = words(self.seed, Purpose::Rebound, site as u32, self.step << 3 | u64::from(way));
         let chance = |index: usize| unit(draw[index], draw[(index + 1) % 4]);
@@ -154,21 +256,22 @@ impl Pile {
             };
         }
         if self.room(column, row, way) {
-            let Some((c, r)) = self.neighbour(column, row, way) else {
+            let Some((c, r)) = self.sites.neighbour(column, row, way) else {
                 if way.k() < 0 || way.h() != 0 {
-                    self.gone[usize::from(kind)] += 1;
+                    self.gone[kind] += 1;
                     return;
                 }
-                return self.turn(column, row, &[Direction::S], kind);
+                return self.turn(column, row, &[Direction::S], who);
             };
-            if self.taken[c * self.rows + r] & 1 << way as u8 != 0 {
-                return self.turn(column, row, &[way], kind);
+            if self.taken[self.sites.index(c, r)] & 1 << way as u8 != 0 {
+                return self.turn(column, row, &[way], who);
             }
+            self.laps[who as usize] += self.sites.crossing(column, row, way)[0];
             let slides = way.h() != 0 && way.k() < 0 && !self.room(c, r, Direction::S);
-            if slides && chance(1) < self.habits.friction[usize::from(kind)] {
-                return self.stop(c, r, kind);
+            if slides && chance(1) < self.habits.friction[kind] {
+                return self.stop(c, r, who);
             }
-            return self.turn(c, r, &[way], kind);
+            return self.turn(c, r, &[way], who);
         }
         self.knock(column, row, way, chance(2));
         let mirrored = |way: Direction| Direction::from_index((6 - way as usize) % 6);
@@ -178,67 +281,103 @@ impl Pile {
                 Direction::S | Direction::N => [sides[0].opposite(), sides[1].opposite()],
                 other => [mirrored(other), other.opposite()],
             };
-            return self.turn(column, row, &off, kind);
+            return self.turn(column, row, &off, who);
         }
         let lower: Vec<Direction> = sides.into_iter().filter(|side| self.room(column, row, *side)).collect();
         if self.room(column, row, Direction::S) {
-            self.turn(column, row, &[Direction::S, Direction::SW, Direction::SE], kind);
-        } else if lower.is_empty() || chance(3) < self.habits.friction[usize::from(kind)] {
-            self.stop(column, row, kind);
+            self.turn(column, row, &[Direction::S, Direction::SW, Direction::SE], who);
+        } else if lower.is_empty() || chance(3) < self.habits.friction[kind] {
+            self.stop(column, row, who);
         } else {
-            self.turn(column, row, &lower, kind);
+            self.turn(column, row, &lower, who);
         }
     }
 
     /// Goes on from a site in the first of some directions that nobody has, or in any other.
-    fn turn(&mut self, column: usize, row: usize, ways: &[Direction], kind: u8) {
-        let taken = self.taken[column * self.rows + row];
+    fn turn(&mut self, column: usize, row: usize, ways: &[Direction], who: u32) {
+        let taken = self.taken[self.sites.index(column, row)];
         let free = |way: &&Direction| taken & 1 << **way as u8 == 0;
         match ways.iter().find(free).or_else(|| Direction::ALL.iter().find(free)) {
-            Some(way) => self.launch(column, row, *way, kind),
-            None => self.stop(column, row, kind),
+            Some(way) => self.launch(column, row, *way, who),
+            None => self.stop(column, row, who),
         }
     }
 
     /// Comes to rest at a site, or at the first one above it where nobody is; falls on if there is no ground.
-    fn stop(&mut self, column: usize, mut row: usize, kind: u8) {
-        while row + 1 < self.rows && self.rest[column * self.rows + row] != NOBODY {
+    fn stop(&mut self, column: usize, mut row: usize, who: u32) {
+        let first = row;
+        while row + 1 < self.sites.rows && self.who_rests(column, row).is_some() {
             row += 1;
         }
-        if self.room(column, row, Direction::S) && self.taken[column * self.rows + row] & 1 << Direction::S as u8 == 0 {
-            return self.launch(column, row, Direction::S, kind);
+        let site = self.sites.index(column, row);
+        if self.rest[site] != NOBODY {
+            return self.stop_near(column, first, who);
         }
-        self.rest[column * self.rows + row] = kind + 1;
+        if self.room(column, row, Direction::S) && self.taken[site] & 1 << Direction::S as u8 == 0 {
+            return self.launch(column, row, Direction::S, who);
+        }
+        self.rest[site] = who;
+    }
+
+    /// Comes to rest as near as can be to a site that is full up to a wall; where all are, flies on.
+    fn stop_near(&mut self, column: usize, row: usize, who: u32) {
+        let mut seen = vec![(column, row, 0)];
+        let mut next = VecDeque::from(seen.clone());
+        while let Some((c, r, lap)) = next.pop_front() {
+            for way in Direction::ALL {
+                let Some(to) = self.sites.neighbour(c, r, way) else { continue };
+                let lap = lap + self.sites.crossing(c, r, way)[0];
+                let there = self.rest[self.sites.index(to.0, to.1)];
+                if there == NOBODY {
+                    self.laps[who as usize] += lap;
+                    return self.stop(to.0, to.1, who);
+                }
+                if there != WALL && !seen.iter().any(|(c, r, _)| (*c, *r) == to) {
+                    seen.push((to.0, to.1, lap));
+                    next.push_back((to.0, to.1, lap));
+                }
+            }
+        }
+        // Seven can be at a site, and whoever flies has just left a place: there is one.
+        if let Some(&(c, r, lap)) = seen.iter().find(|(c, r, _)| self.taken[self.sites.index(*c, *r)] != 0x3F) {
+            self.laps[who as usize] += lap;
+            self.turn(c, r, &[Direction::N], who);
+        }
     }
 
     /// The grain at rest that is in the way may be knocked loose; whoever lay on it falls.
     fn knock(&mut self, column: usize, row: usize, way: Direction, chance: f64) {
-        let Some((c, r)) = self.neighbour(column, row, way) else { return };
-        let Some(kind) = self.at_rest(c, r) else { return };
-        if chance < self.habits.friction[kind] {
+        let Some((c, r)) = self.sites.neighbour(column, row, way) else { return };
+        let Some(who) = self.who_rests(c, r) else { return };
+        if chance < self.habits.friction[self.kinds[who as usize] as usize] {
             return;
         }
         let sides = [Direction::SE, Direction::SW];
         let Some(side) = sides.into_iter().find(|side| self.room(c, r, *side)) else { return };
-        self.rest[c * self.rows + r] = NOBODY;
+        self.rest[self.sites.index(c, r)] = NOBODY;
         self.loosened += 1;
-        self.turn(c, r, &[side], kind as u8);
-        let mut above = r + 1;
-        while above < self.rows
-            && self.at_rest(c, above).is_some()
-            && self.taken[c * self.rows + above] & 1 << Direction::S as u8 == 0
-        {
-            let who = self.rest[c * self.rows + above] - 1;
-            self.rest[c * self.rows + above] = NOBODY;
+        self.turn(c, r, &[side], who);
+        self.fall_from_above(c, r);
+    }
+
+    /// Grains at rest straight above a site that nobody holds any more set out.
+    fn fall_from_above(&mut self, column: usize, row: usize) {
+        for above in row + 1..self.sites.rows {
+            let site = self.sites.index(column, above);
+            let Some(who) = self.who_rests(column, above) else { break };
+            if self.taken[site] & 1 << Direction::S as u8 != 0 {
+                break;
+            }
+            self.rest[site] = NOBODY;
             self.loosened += 1;
-            self.launch(c, above, Direction::S, who);
-            above += 1;
+            self.launch(column, above, Direction::S, who);
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::sites::Sites;
     use super::{Habits, Pile};
     use proptest::prelude::*;
 
@@ -246,13 +385,36 @@ mod tests {
         /// Grains that were dropped rest, fly, or are gone; who rests lies on something.
         #[test]
         fn grains_are_kept(g in 0.1..1.0_f64, d in 0.3..1.0_f64, rough in 0.0..0.9_f64, edge in 0_usize..6) {
-            let mut pile = Pile::new(31, 60, Habits { gravity: g, dissipation: d, friction: [0.1, rough] }, 7);
+            let habits = Habits { gravity: g, dissipation: d, friction: vec![0.1, rough] };
+            let mut pile = Pile::new(Sites::new(31, 60, [false, false]), habits, 7);
             (edge..31 - edge).for_each(|column| pile.set_wall(column, 0));
             let mut dropped = 0;
             for step in 0..400 {
-                dropped += u64::from(pile.drop_at(10 + step % 12, 55, step % 2));
+                dropped += u64::from(pile.drop_at(10 + step % 12, 55, step as u32 % 2));
                 pile.step();
                 prop_assert_eq!(pile.grains() + pile.gone().iter().sum::<u64>(), dropped);
+            }
+        }
+
+        /// In a closed box that is filled to its lid nobody gets into the walls or is lost.
+        #[test]
+        fn a_box_holds_its_grains(d in 0.0..1.0_f64, rough in 0.0..1.0_f64, wraps: bool) {
+            let habits = Habits { gravity: 0.5, dissipation: d, friction: vec![rough] };
+            let sites = Sites::new(8, 12, [wraps, false]);
+            let mut pile = Pile::new(sites, habits, 3);
+            for column in 0..8 {
+                let side = !wraps && column % 7 == 0;
+                (0..12).filter(|row| side || row % 11 == 0).for_each(|row| pile.set_wall(column, row));
+            }
+            pile.set_wall(4, 6);
+            let mut dropped = 0;
+            for step in 0..600 {
+                dropped += u64::from(pile.drop_at(1 + step % 6, 10, 0));
+                pile.step();
+                let places = pile.places();
+                prop_assert_eq!(places.iter().flatten().count(), dropped as usize);
+                let inside = |site: usize| (1..11).contains(&(site % 12)) && (wraps || (1..7).contains(&(site / 12)));
+                prop_assert!(places.iter().flatten().all(|p| inside(p.site) && p.site != 4 * 12 + 6));
             }
         }
     }

@@ -65,6 +65,11 @@ impl Gas {
         self.spec.step
     }
 
+    /// Goes on as if so many steps had been done.
+    pub fn set_steps(&mut self, steps: u64) {
+        self.spec.step = steps;
+    }
+
     /// Puts a force: the mean number of turns that a site which can make one makes in a step, along x and z, with the sign
     /// of the force.
     pub fn push(&mut self, odds: [f64; 2]) {
@@ -89,11 +94,20 @@ impl Gas {
         let (word, bit) = Self::word(row);
         let at = column * self.spec.blocks * WIDE + word;
         self.solid[at] |= bit;
+        for plane in self.smooth.iter_mut().filter(|plane| !plane.is_empty()) {
+            plane[at] &= !bit;
+        }
         if let Some(axis) = smooth {
             let length = self.solid.len();
             self.smooth[axis].resize(length, 0);
             self.smooth[axis][at] |= bit;
         }
+    }
+
+    /// Makes a wall a site of the gas.
+    pub fn free(&mut self, column: usize, row: usize) {
+        let (word, bit) = Self::word(row);
+        self.solid[column * self.spec.blocks * WIDE + word] &= !bit;
     }
 
     /// Whether a site is wall.

@@ -3,14 +3,14 @@
 use super::engine::{Scene, SiteEngine};
 use super::ground::{Ground, Sites};
 use super::pile::Stack;
-use super::{Model, start};
+use super::{Model, gas, start};
 use crate::engine::Refusal;
 use crate::lattice::build::restitution;
 use crate::lattice::caram_hong::{CaramHong, Chances};
 use crate::lattice::gutt_haff::{Grain, LatticeGrains};
 use crate::lattice::hemmingsson_herrmann::{Pile, Rule, Split};
 use crate::lattice::litwiniszyn::Litwiniszyn;
-use crate::lattice::remarks::Remarks;
+use crate::lattice::remarks::{Remarks, World};
 use crate::lattice::savage::{Chute, Moves};
 use crate::lattice::sheet::{Layout, OUT, ROW_SPACING};
 use crate::lattice::stage;
@@ -22,7 +22,7 @@ use tsubu_scene::plan::{self, Method, Plan, Region};
 /// Share of a spacing that the fastest lattice grain flies in an automatic step.
 const SHARE: f64 = 0.02;
 
-/// The engine of a plan whose method is one of the models with one grain a site.
+/// The engine of a plan whose method is one of the models with grains on sites.
 pub fn open(plan: &Plan, hosts: &Hosts) -> Result<SiteEngine, Refusal> {
     let mut remarks = Remarks::of(plan.method.name());
     let built = scene(plan, hosts, &mut remarks).map(|(scene, cells)| {
@@ -43,18 +43,18 @@ fn scene(plan: &Plan, hosts: &Hosts, remarks: &mut Remarks) -> Option<(Scene, Ve
     let Plan {
         title: _,
         method,
-        dimension,
-        seed: _,
+        dimension: _, // As periodic and water: read by `Remarks::world`.
+        seed,
         gravity,
         duration: _,
         speed_scale: _, // Only chooses DEM's step.
-        materials: _,   // Restitution is read by `model`; friction and stiffness the remark below is about.
+        materials: _,   // Restitution is read by `model`, friction by piles; the remark below is about the others.
         material_pair: _,
         particles,
         walls,
         periodic,
         removal,
-        water,
+        water: _,
         hosts: _,
         contact: _,
         dem: _,
@@ -65,25 +65,17 @@ fn scene(plan: &Plan, hosts: &Hosts, remarks: &mut Remarks) -> Option<(Scene, Ve
         after_savage: _,
         gutt_haff: _,
         after_hemmingsson_herrmann: _,
+        fhp: _,
+        after_peng_herrmann: _,
+        after_baxter_behringer: _,
+        after_karolyi_kertesz: _,
         response: _,
         sweep: _,
         watch: _, // Once the model is there.
         output: _,
         claim: _,
     } = plan;
-    if *dimension != 2 {
-        remarks.refuse("dimension", "the lattice lies in the plane; set `dimension = 2`, or use `method = \"dem\"`");
-    }
-    if water.is_some() {
-        remarks.refuse("water", "grains of this lattice fall in air; use `method = \"dem\"`");
-    }
-    let slope = *method == Method::AfterSavage;
-    if gravity[2] >= 0.0 || gravity[1] != 0.0 || (gravity[0] != 0.0 && !slope) {
-        remarks.refuse("gravity", "the lattice has gravity along -z; set `gravity` to one number above 0");
-    }
-    if *periodic != plan::Periodic::default() && !slope {
-        remarks.refuse("periodic", "the lattice has walls at its ends; use `method = \"after-savage\"` or \"dem\"");
-    }
+    remarks.world(plan, world(*method));
     for (name, wall) in walls {
         refuse_motion(name, wall, remarks);
     }
@@ -100,24 +92,31 @@ fn scene(plan: &Plan, hosts: &Hosts, remarks: &mut Remarks) -> Option<(Scene, Ve
     let spacing = spacing(plan, remarks)?;
     let walls: Vec<Wall> =
         walls.iter().map(|(name, wall)| Wall::new(name, wall, 2, hosts, DVec3::from_array(*gravity))).collect();
+    let gas = gas::layers(plan);
     let sites = match method {
+        _ if gas.is_some() => Sites::Upright,
         Method::GuttHaff => Sites::Upright,
         Method::AfterSavage => Sites::Level(Layout::Square),
         _ => Sites::Level(Layout::Triangular),
     };
     let mut region = stage::region(plan, &walls, 4.0 * spacing);
-    if let (Some(region), Some([low, high])) = (&mut region, periodic.x) {
-        (region.low[0], region.high[0]) = (low, high);
+    for (axis, ends) in [(0, periodic.x), (2, periodic.z)] {
+        if let (Some(region), Some([low, high])) = (&mut region, ends) {
+            (region.low[axis], region.high[axis]) = (low, high);
+        }
     }
-    let ground = region.as_ref().and_then(|region: &Region| Ground::new(sites, region, spacing));
+    let repeats = if gas.is_some() { [periodic.x.is_some(), periodic.z.is_some()] } else { [false; 2] };
+    let ground = region.as_ref().and_then(|region: &Region| Ground::repeating(sites, region, spacing, repeats));
     let Some(ground) = ground else {
         let text = "nothing in the scene tells how large the lattice is, or it would have less than one site across or more than 1e8; draw a box around the grains";
         remarks.refuse("walls", text);
         return None;
     };
     let removal: Vec<_> = removal.values().cloned().collect();
-    let (mut cells, owner) = ground.paint(&walls, &removal);
-    start::place(plan, &ground, &mut cells, remarks);
+    remark_ends(plan, &ground, remarks);
+    let (painted, owner) = ground.paint(&walls, &removal);
+    let mut cells = painted.repeat(gas.unwrap_or(1));
+    let streams = start::place(plan, &ground, &mut cells, gas.is_some(), remarks);
     let each = |of: &dyn Fn(usize, &plan::Particles) -> f64| -> Vec<f64> {
         let groups = particles.values().enumerate();
         groups.flat_map(|(number, group)| vec![of(number, group); group.count]).collect()
@@ -131,8 +130,38 @@ fn scene(plan: &Plan, hosts: &Hosts, remarks: &mut Remarks) -> Option<(Scene, Ve
         walls,
         owner,
         removal,
+        streams,
+        seed: *seed,
     };
     Some((scene, cells))
+}
+
+/// What the lattice of a method has room for.
+fn world(method: Method) -> World {
+    let (noun, weightless) = ("grains of this lattice", false);
+    match method {
+        Method::AfterSavage => World { noun, tilted: true, weightless, periodic: [true, false] },
+        Method::Fhp => World { noun, tilted: true, weightless: true, periodic: [true; 2] },
+        Method::AfterPengHerrmann | Method::AfterBaxterBehringer => {
+            World { noun, tilted: false, weightless: true, periodic: [true; 2] }
+        }
+        Method::AfterKarolyiKertesz => World { noun, tilted: false, weightless, periodic: [true, false] },
+        _ => World { noun, tilted: false, weightless, periodic: [false; 2] },
+    }
+}
+
+/// Says where the ends of a world that repeats itself are moved to a whole number of sites.
+fn remark_ends(plan: &Plan, ground: &Ground, remarks: &mut Remarks) {
+    let [x, _, z] = ground.ends();
+    for (axis, typed, ends) in [("x", plan.periodic.x, x), ("z", plan.periodic.z, z)] {
+        if let (Some([low, high]), Some([first, last])) = (typed, ends) {
+            let (typed, real) = (high - low, last - first);
+            if (typed - real).abs() > 1e-6 * typed {
+                let text = format!("a whole number of sites: {:.4} mm instead of {:.4} mm", 1e3 * real, 1e3 * typed);
+                remarks.approximate(format!("periodic.{axis}"), text);
+            }
+        }
+    }
 }
 
 /// What the method makes of the contact law.
@@ -143,6 +172,13 @@ fn law(method: Method) -> &'static str {
         }
         Method::AfterHemmingssonHerrmann => {
             "contacts push as balance asks for, with the friction of the method's own table"
+        }
+        Method::Fhp => "no forces: particles fly at one speed, and turn where they meet, without loss",
+        Method::AfterPengHerrmann | Method::AfterBaxterBehringer => {
+            "no forces: grains fly at one speed or rest; what they lose the method's own table says"
+        }
+        Method::AfterKarolyiKertesz => {
+            "no forces: the friction of a material is the probability that a grain of it stops when it slides, or holds when it is hit"
         }
         _ => "no forces: grains move where there is room, whatever their stiffness, restitution and friction",
     }
@@ -179,7 +215,13 @@ fn spacing(plan: &Plan, remarks: &mut Remarks) -> Option<f64> {
         remarks.refuse("particles", "there are no grains; their diameter is the width of a site");
         return None;
     }
-    let mean = sum / count;
+    let mean = gas::spacing(plan).unwrap_or(sum / count);
+    if gas::layers(plan).is_some() {
+        if most > least * (1.0 + 1e-9) {
+            remarks.approximate("particles", "grains of a gas are alike but for their masses, whatever their sizes");
+        }
+        return Some(mean);
+    }
     if most > least * (1.0 + 1e-9) {
         let text =
             format!("a site holds one grain of any size; sites are as wide as the mean grain, {:.3} mm", 1e3 * mean);
@@ -190,6 +232,9 @@ fn spacing(plan: &Plan, remarks: &mut Remarks) -> Option<f64> {
 
 /// The model of the plan's method, and its time step [s].
 fn model(plan: &Plan, scene: &Scene, cells: &[i32], remarks: &mut Remarks) -> (Box<dyn Model>, f64) {
+    if gas::layers(plan).is_some() {
+        return gas::model(plan, scene, cells, remarks);
+    }
     let Scene { ground, mass, .. } = scene;
     let (spacing, gravity) = (ground.spacing, -scene.gravity.z);
     let fall = |height: f64| (2.0 * height / gravity).sqrt();

@@ -1,14 +1,16 @@
-//! A model with one grain a site as an engine: lengths, times, masses, gates, and the books.
+//! A model whose grains are on sites as an engine: lengths, times, masses, gates, and the books.
 //!
 //! What gravity gives to grains that hop, and what walls and collisions take, is posted as one row, `lattice rules`, and as
 //! rule impulse: the books say how much the rules did, not why.
 
 use super::ground::{Ground, NOBODY};
-use super::{ForceUnit, Link, Model, Seat};
+use super::start::Stream;
+use super::{ForceUnit, Link, Model, Seat, section};
 use crate::engine::{Engine, Fault, Note};
 use crate::lattice::sheet::WALL;
 use crate::ledger::{Account, Ledger, Stocks};
 use crate::partner::Hosts;
+use crate::random::{Purpose, words};
 use crate::view::{Columns, Contact, Contacts, View, WallLoad, Wants};
 use crate::wall::{Outline, Wall};
 use glam::DVec3;
@@ -34,6 +36,10 @@ pub(super) struct Scene {
     pub group: Vec<u32>,
     /// Gravity as drawn [m/s^2].
     pub gravity: DVec3,
+    /// Grains that come in later.
+    pub streams: Vec<Stream>,
+    /// Seed of the places where they do.
+    pub seed: u64,
 }
 
 /// A model on the ground of a scene.
@@ -51,6 +57,8 @@ struct Body {
     grain: usize,
     position: DVec3,
     velocity: DVec3,
+    /// What periodic ends have taken from the position [m].
+    wrapped: DVec3,
 }
 
 impl SiteEngine {
@@ -63,9 +71,12 @@ impl SiteEngine {
     fn bodies(&self) -> Vec<Body> {
         let mut bodies = Vec::new();
         let (spacing, speed) = (self.scene.ground.spacing, self.scene.ground.spacing / self.dt);
-        self.model.seats(&mut |Seat { grain, site, offset, velocity }| {
+        let [x, _, z] = self.scene.ground.ends().map(|ends| ends.map_or(0.0, |[low, high]| high - low));
+        self.model.seats(&mut |Seat { grain, site, offset, velocity, laps }| {
             let position = self.scene.ground.point(site) + spacing * DVec3::new(offset[0], 0.0, offset[1]);
-            bodies.push(Body { grain, position, velocity: speed * DVec3::new(velocity[0], 0.0, velocity[1]) });
+            let velocity = speed * DVec3::new(velocity[0], 0.0, velocity[1]);
+            let wrapped = DVec3::new(x * f64::from(laps[0]), 0.0, z * f64::from(laps[1]));
+            bodies.push(Body { grain, position, velocity, wrapped });
         });
         bodies
     }
@@ -73,15 +84,15 @@ impl SiteEngine {
     /// Energy and momentum of every grain.
     fn count(&self) -> Vec<Option<(f64, DVec3)>> {
         let mut books = vec![None; self.scene.mass.len()];
-        for Body { grain, position, velocity } in self.bodies() {
+        for Body { grain, position, velocity, wrapped } in self.bodies() {
             let mass = self.scene.mass[grain];
-            let energy = mass * (0.5 * velocity.length_squared() - self.scene.gravity.dot(position));
+            let energy = mass * (0.5 * velocity.length_squared() - self.scene.gravity.dot(position + wrapped));
             books[grain] = Some((energy, mass * velocity));
         }
         books
     }
 
-    /// Posts what grains took that left, and what the rules did to the others.
+    /// Posts what grains took that left or brought that came, and what the rules did to the others.
     fn close(&mut self, ledger: &mut Ledger) {
         let now = self.count();
         let (mut left, mut lost) = (0.0, 0.0);
@@ -96,7 +107,11 @@ impl SiteEngine {
                     lost += e - f;
                     made += *q - *p;
                 }
-                (None, _) => {}
+                (None, Some((f, q))) => {
+                    left -= f;
+                    taken -= *q;
+                }
+                (None, None) => {}
             }
         }
         ledger.post(Account::Exchange, -left);
@@ -123,6 +138,23 @@ impl SiteEngine {
             }
         }
         self.scene.owner = owner;
+    }
+
+    /// Grains of streams come in where there is room, from a site drawn at random on.
+    fn arrive(&mut self, time: f64) {
+        for Stream { first, count, sites, rate, from, placed } in &mut self.scene.streams {
+            let due = ((time - *from) * *rate + 1.0).max(0.0) as usize;
+            while *placed < due.min(*count) {
+                let grain = *first + *placed;
+                let [draw, ..] = words(self.scene.seed, Purpose::Stream, grain as u32, self.model.step());
+                let begin = ((u64::from(draw) * sites.len() as u64) >> 32) as usize;
+                let (before, after) = sites.split_at(begin);
+                if !after.iter().chain(before).any(|&site| self.model.enter(grain, site)) {
+                    break;
+                }
+                *placed += 1;
+            }
+        }
     }
 
     /// Newtons in the model's unit of force, for a grain.
@@ -209,6 +241,7 @@ impl Engine for SiteEngine {
         for _ in 0..steps {
             let time = self.time();
             self.open_gates(time);
+            self.arrive(time);
             self.model.advance().map_err(|text| Fault::Lattice { step: self.model.step(), time, text })?;
             for host in &mut hosts.list {
                 host.runge_kutta(time, self.dt, 0.0, ledger);
@@ -220,9 +253,9 @@ impl Engine for SiteEngine {
 
     fn grain_stocks(&self) -> Stocks {
         let mut stocks = Stocks::default();
-        for Body { grain, position, velocity } in self.bodies() {
+        for Body { grain, position, velocity, wrapped } in self.bodies() {
             stocks.kinetic += 0.5 * self.scene.mass[grain] * velocity.length_squared();
-            stocks.potential -= self.scene.mass[grain] * self.scene.gravity.dot(position);
+            stocks.potential -= self.scene.mass[grain] * self.scene.gravity.dot(position + wrapped);
         }
         stocks
     }
@@ -256,6 +289,11 @@ impl Engine for SiteEngine {
         frame.scalar(Kind::Grain, "radius", "m", real(&|b| 0.5 * self.scene.diameter[b.grain]));
         frame.scalar(Kind::Grain, "mass", "kg", real(&|b| self.scene.mass[b.grain]));
         frame.integer(Kind::Grain, "group", "-", whole(&|b| i64::from(self.scene.group[b.grain])));
+        let axes: Vec<[f64; 3]> =
+            bodies.iter().filter_map(|b| self.model.axis(b.grain)).map(|[x, z]| [x, 0.0, z]).collect();
+        if axes.len() == bodies.len() && !axes.is_empty() {
+            frame.vector(Kind::Grain, "axis", "-", axes);
+        }
         if self.model.offers().contacts == Contacts::Forces {
             let mut load = vec![[0.0; 3]; bodies.len()];
             for contact in self.forces(&bodies).0.iter().filter(|contact| contact.force.z > 0.0) {
@@ -280,7 +318,7 @@ impl Engine for SiteEngine {
         let vectors = |of: &dyn Fn(&Body) -> DVec3| bodies.iter().map(of).collect::<Vec<_>>();
         let grains = Columns {
             position: vectors(&|b| b.position).into(),
-            wrapped: vec![DVec3::ZERO; n].into(),
+            wrapped: vectors(&|b| b.wrapped).into(),
             velocity: vectors(&|b| b.velocity).into(),
             spin: vec![DVec3::ZERO; n].into(),
             radius: real(&|b| 0.5 * self.scene.diameter[b.grain]).into(),
@@ -291,15 +329,24 @@ impl Engine for SiteEngine {
         };
         let needs = wants.walls || wants.contacts > Contacts::Nothing;
         let (contacts, walls) = if needs { self.forces(&bodies) } else { (Vec::new(), Vec::new()) };
-        View { time: self.time(), ends: [None; 3], grains, contacts, walls, water: None }
+        View { time: self.time(), ends: self.scene.ground.ends(), grains, contacts, walls, water: None }
     }
 
     fn save(&self, state: &mut State) {
         self.model.save(state);
+        if !self.scene.streams.is_empty() {
+            state.put_integer("sites.placed", self.scene.streams.iter().map(|s| s.placed as i64).collect::<Vec<_>>());
+        }
     }
 
     fn load(&mut self, state: &State) -> Result<(), MissingSection> {
         self.model.load(state)?;
+        if !self.scene.streams.is_empty() {
+            let placed = section(state, "sites.placed", self.scene.streams.len())?;
+            for (stream, &placed) in self.scene.streams.iter_mut().zip(placed) {
+                stream.placed = placed as usize;
+            }
+        }
         // The walls of the last step: those that vanish now do so in the next.
         let time = self.model.step().saturating_sub(1) as f64 * self.dt;
         self.open_gates(time);

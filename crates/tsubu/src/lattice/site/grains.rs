@@ -23,7 +23,7 @@ impl Model for LatticeGrains {
 
     fn seats(&self, each: &mut dyn FnMut(Seat)) {
         for (grain, g) in self.grains.iter().enumerate().filter(|(_, g)| !g.gone) {
-            each(Seat { grain, site: g.node, offset: g.offset, velocity: g.velocity });
+            each(Seat { grain, site: g.node, offset: g.offset, velocity: g.velocity, laps: [0; 2] });
         }
     }
 

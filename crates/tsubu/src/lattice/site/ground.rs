@@ -2,7 +2,8 @@
 //!
 //! A site is as wide as a grain. It belongs to a wall if a grain on it would be cut by one: if its centre is behind, or
 //! less than half a spacing before, one of its planes, or within half a spacing of another surface. It is an outlet if it
-//! lies where the scene removes grains. Whatever lies beyond the rim of the lattice is wall.
+//! lies where the scene removes grains. Whatever lies beyond the rim of the lattice is wall; along an axis that repeats itself
+//! there is no rim.
 
 use crate::lattice::grid::{COLUMN_SPACING, Grid};
 use crate::lattice::sheet::{EMPTY, Layout, OUT, ROW_SPACING, Sheet, WALL};
@@ -22,6 +23,17 @@ pub enum Sites {
     Upright,
 }
 
+impl Sites {
+    /// Distances of columns and of rows, in spacings.
+    const fn pitch(self) -> (f64, f64) {
+        match self {
+            Self::Level(Layout::Triangular) => (1.0, ROW_SPACING),
+            Self::Level(Layout::Square) => (1.0, 1.0),
+            Self::Upright => (COLUMN_SPACING, 1.0),
+        }
+    }
+}
+
 /// A lattice over a scene.
 #[derive(Clone, Debug)]
 pub struct Ground {
@@ -33,6 +45,8 @@ pub struct Ground {
     pub columns: usize,
     /// Rows, with the rim.
     pub rows: usize,
+    /// Whether the last column is next to the first, and the last row to the first.
+    pub periodic: [bool; 2],
     /// Where column 0 and row 0 are [m].
     origin: DVec3,
 }
@@ -44,20 +58,45 @@ impl Ground {
     /// A lattice over a region, its outermost grains half a spacing from the ends. `None` if the region is not wider than
     /// a grain or has more than [`LARGEST`] sites.
     pub fn new(sites: Sites, region: &Region, spacing: f64) -> Option<Self> {
-        let (wide, high) = match sites {
-            Sites::Level(Layout::Triangular) => (1.0, ROW_SPACING),
-            Sites::Level(Layout::Square) => (1.0, 1.0),
-            Sites::Upright => (COLUMN_SPACING, 1.0),
-        };
+        Self::repeating(sites, region, spacing, [false; 2])
+    }
+
+    /// The same; along periodic axes the nearest whole number of sites, of columns an even one.
+    pub fn repeating(sites: Sites, region: &Region, spacing: f64, periodic: [bool; 2]) -> Option<Self> {
+        let (wide, high) = sites.pitch();
         let size = (DVec3::from_array(region.high) - DVec3::from_array(region.low)) / spacing;
-        let columns = ((size.x - 1.0) / wide + 1e-6).floor() + 1.0;
-        let rows = ((size.z - 1.0) / high - 1e-6).ceil() + 1.0;
+        let columns = if periodic[0] {
+            2.0 * (0.5 * size.x / wide).round()
+        } else {
+            ((size.x - 1.0) / wide + 1e-6).floor() + 1.0
+        };
+        let rows = if periodic[1] { (size.z / high).round() } else { ((size.z - 1.0) / high - 1e-6).ceil() + 1.0 };
         if !(columns >= 1.0 && rows >= 1.0 && columns * rows <= LARGEST) {
             return None;
         }
-        let first = DVec3::new(0.5 - wide, 0.0, 0.5 - high) * spacing;
-        let origin = DVec3::from_array(region.low) + first;
-        Some(Self { sites, spacing, columns: columns as usize + 2, rows: rows as usize + 2, origin })
+        let first = |periodic: bool, pitch: f64| if periodic { 0.5 * pitch } else { 0.5 - pitch };
+        // Odd columns stand half a site higher: both kinds lie between the ends.
+        let low = if periodic[1] && sites == Sites::Upright { 0.25 } else { first(periodic[1], high) };
+        let origin = DVec3::from_array(region.low) + DVec3::new(first(periodic[0], wide), 0.0, low) * spacing;
+        let rim = |periodic: bool| if periodic { 0 } else { 2 };
+        let (columns, rows) = (columns as usize + rim(periodic[0]), rows as usize + rim(periodic[1]));
+        Some(Self { sites, spacing, columns, rows, periodic, origin })
+    }
+
+    /// Ends of the world along the axes that repeat themselves [m].
+    pub fn ends(&self) -> [Option<[f64; 2]>; 3] {
+        let (wide, high) = self.sites.pitch();
+        let low = self.origin - self.spacing * DVec3::new(0.5 * wide, 0.0, 0.25);
+        let end =
+            |axis: usize, low: f64, length: f64| self.periodic[axis].then_some([low, low + length * self.spacing]);
+        [end(0, low.x, wide * self.columns as f64), None, end(1, low.z, high * self.rows as f64)]
+    }
+
+    /// Whether a site is on the rim.
+    fn on_rim(&self, site: usize) -> bool {
+        let (column, row) = self.place(site);
+        let end = |at: usize, size: usize, axis: usize| !self.periodic[axis] && (at == 0 || at + 1 == size);
+        end(column, self.columns, 0) || end(row, self.rows, 1)
     }
 
     /// Number of sites.
@@ -100,20 +139,17 @@ impl Ground {
     /// The site nearest to a point in the plane, and its distance [m]; the rim does not count.
     pub fn nearest(&self, point: DVec3) -> Option<(usize, f64)> {
         let at = (point - self.origin) / self.spacing;
-        let (wide, high) = match self.sites {
-            Sites::Level(Layout::Triangular) => (1.0, ROW_SPACING),
-            Sites::Level(Layout::Square) => (1.0, 1.0),
-            Sites::Upright => (COLUMN_SPACING, 1.0),
-        };
+        let (wide, high) = self.sites.pitch();
         let around = |x: f64, end: usize| {
-            let low = (x.floor() - 1.0).max(1.0) as usize;
-            (low..low + 4).filter(move |&index| index + 1 < end)
+            let low = (x.floor() - 1.0).max(0.0) as usize;
+            (low..low + 4).filter(move |&index| index < end)
         };
         let candidates = around(at.x / wide, self.columns)
             .flat_map(|column| around(at.z / high, self.rows).map(move |row| (column, row)));
         let flat = |p: DVec3| p.x.hypot(p.z);
         candidates
             .map(|(column, row)| self.index(column, row))
+            .filter(|site| !self.on_rim(*site))
             .map(|site| (site, flat(self.point(site) - point)))
             .min_by(|a, b| a.1.total_cmp(&b.1))
     }
@@ -141,9 +177,7 @@ impl Ground {
                     break;
                 }
             }
-            let (column, row) = self.place(site);
-            let rim = column == 0 || row == 0 || column + 1 == self.columns || row + 1 == self.rows;
-            if rim {
+            if self.on_rim(site) {
                 cells[site] = WALL;
             } else if cells[site] == EMPTY && removal.iter().any(|removal| removal.takes(point.to_array())) {
                 cells[site] = OUT;

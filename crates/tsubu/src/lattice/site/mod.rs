@@ -1,12 +1,17 @@
-//! Models with one grain a site, as engines: what they share.
+//! Models whose grains are on sites, as engines: what they share.
 //!
 //! A [`Model`] is a rule on sites, in spacings and steps. [`ground`] paints the walls and outlets of a scene onto its
 //! lattice, [`start`] says where grains begin, [`build`] takes the plan apart and [`engine`] gives lengths, times and
-//! masses to what the model does. [`voids`], [`chute`], [`grains`] and [`pile`] are the models as seen from there.
+//! masses to what the model does. [`voids`], [`chute`], [`grains`] and [`pile`] are the models as seen from there, those with one
+//! grain a site; [`gas`] builds the lattice gases, [`fhp`], [`grain_gas`] and [`avalanche`].
 
+pub mod avalanche;
 pub mod build;
 pub mod chute;
 pub mod engine;
+pub mod fhp;
+pub mod gas;
+pub mod grain_gas;
 pub mod grains;
 pub mod ground;
 pub mod pile;
@@ -28,6 +33,8 @@ pub struct Seat {
     pub offset: [f64; 2],
     /// Velocity, in spacings a step.
     pub velocity: [f64; 2],
+    /// How often it has crossed the high end of a world that repeats itself along x and z, less how often the low one.
+    pub laps: [i32; 2],
 }
 
 /// A force between a grain and another or a wall, on the sites of the lattice.
@@ -54,6 +61,16 @@ pub trait Model: Send {
 
     /// A wall has gone from a site.
     fn free(&mut self, site: usize);
+
+    /// A grain comes in at a site if it can, and then moves down.
+    fn enter(&mut self, _grain: usize, _site: usize) -> bool {
+        false
+    }
+
+    /// The way that an elongated grain lies: a unit vector, to the right and up.
+    fn axis(&self, _grain: usize) -> Option<[f64; 2]> {
+        None
+    }
 
     /// What it can show beside grains.
     fn offers(&self) -> Wants {

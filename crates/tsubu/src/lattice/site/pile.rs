@@ -29,7 +29,7 @@ impl Model for Stack {
     fn seats(&self, each: &mut dyn FnMut(Seat)) {
         for (site, &cell) in self.pile.sheet.cells.iter().enumerate() {
             if let Ok(grain) = usize::try_from(cell) {
-                each(Seat { grain, site, offset: [0.0; 2], velocity: [0.0; 2] });
+                each(Seat { grain, site, offset: [0.0; 2], velocity: [0.0; 2], laps: [0; 2] });
             }
         }
     }

@@ -1,7 +1,9 @@
 //! Which sites the grains begin on.
 //!
 //! `rows` fills its region from the lowest sites up, `settled` all that is free, with the groups mixed; `random` draws
-//! sites in its region; `at` and `file` take the nearest site.
+//! sites in its region; `at` and `file` take the nearest site; `stream` lets grains of a gas in one by one.
+//!
+//! Where a site holds several grains there are as many layers of sites, one over the other; `rows` fills the first layer first.
 
 use super::ground::Ground;
 use crate::lattice::remarks::Remarks;
@@ -10,13 +12,31 @@ use crate::random::{Purpose, words};
 use glam::DVec3;
 use tsubu_scene::plan::{Plan, Region, Start};
 
-/// Puts every grain of the plan onto a site; `cells` gets their numbers.
-pub(super) fn place(plan: &Plan, ground: &Ground, cells: &mut [i32], remarks: &mut Remarks) {
+/// Grains that come in one by one.
+#[derive(Clone, Debug)]
+pub(super) struct Stream {
+    /// Number of the first.
+    pub first: usize,
+    /// How many there are.
+    pub count: usize,
+    /// Where they come in.
+    pub sites: Vec<usize>,
+    /// Grains per second.
+    pub rate: f64,
+    /// When the first comes [s].
+    pub from: f64,
+    /// How many have come.
+    pub placed: usize,
+}
+
+/// Puts every grain of the plan onto a site; `cells` gets their numbers, layer after layer. `gas`: grains are those of a
+/// lattice gas, which may come in later.
+pub(super) fn place(plan: &Plan, ground: &Ground, cells: &mut [i32], gas: bool, remarks: &mut Remarks) -> Vec<Stream> {
     let mut first = 0;
     let mut settled: Vec<usize> = Vec::new();
+    let mut streams = Vec::new();
     for (name, group) in &plan.particles {
         let numbers: Vec<usize> = (first..first + group.count).collect();
-        first += numbers.len();
         let key = format!("particles.{name}.start");
         match &group.start {
             Start::At { position, velocity, spin } => {
@@ -26,6 +46,17 @@ pub(super) fn place(plan: &Plan, ground: &Ground, cells: &mut [i32], remarks: &m
                 }
             }
             Start::File { grains, .. } => at(&key, &grains.position, &numbers, ground, cells, remarks),
+            Start::Stream { region, rate, velocity, speed, from } if gas => {
+                let sites = sites(ground, &cells[..ground.len()], Some(region));
+                if sites.is_empty() {
+                    remarks.refuse(format!("{key}.stream.region"), "no free site of the lattice is in it; enlarge it");
+                }
+                if *speed != 0.0 || *velocity != [0.0; 3] {
+                    let text = "grains come in straight down, one spacing a step";
+                    remarks.approximate(format!("{key}.stream"), text);
+                }
+                streams.push(Stream { first, count: group.count, sites, rate: *rate, from: *from, placed: 0 });
+            }
             Start::Stream { .. } => remarks.refuse(
                 format!("{key}.stream"),
                 "on this lattice all grains are there from the start; fill by `rows`, `settled` or `random`",
@@ -33,40 +64,45 @@ pub(super) fn place(plan: &Plan, ground: &Ground, cells: &mut [i32], remarks: &m
             Start::Settled { .. } => settled.extend(numbers),
             Start::Rows { region, speed, .. } => {
                 fill(&format!("{key}.rows"), &numbers, sites(ground, cells, region.as_ref()), cells, remarks);
-                rest(&format!("{key}.rows.speed"), *speed != 0.0, remarks);
+                rest(&format!("{key}.rows.speed"), *speed != 0.0, gas, remarks);
             }
             Start::Random { region, velocity, speed } => {
                 let mut free = sites(ground, cells, region.as_ref());
                 free.sort_by_key(|&site| words(plan.seed, Purpose::Placement, site as u32, 1));
                 fill(&format!("{key}.random"), &numbers, free, cells, remarks);
-                rest(&format!("{key}.random"), *speed != 0.0 || *velocity != [0.0; 3], remarks);
+                rest(&format!("{key}.random"), *speed != 0.0 || *velocity != [0.0; 3], gas, remarks);
             }
         }
+        first += group.count;
     }
     if !settled.is_empty() {
         settled.sort_by_key(|&number| words(plan.seed, Purpose::Placement, number as u32, 0));
         fill("particles", &settled, sites(ground, cells, None), cells, remarks);
     }
+    streams
 }
 
-fn rest(key: &str, moves: bool, remarks: &mut Remarks) {
-    if moves {
+fn rest(key: &str, moves: bool, gas: bool, remarks: &mut Remarks) {
+    if moves && gas {
+        remarks.approximate(key, "grains of a gas begin at rest or at its one speed, where the rules tell");
+    } else if moves {
         remarks.approximate(key, "grains begin at rest");
     }
 }
 
-/// Free sites of a region, from the lowest up.
+/// Free sites of a region, layer by layer from the lowest up.
 fn sites(ground: &Ground, cells: &[i32], region: Option<&Region>) -> Vec<usize> {
     let slack = 1e-6 * ground.spacing;
+    let point = |s: usize| ground.point(s % ground.len());
     let inside = |p: DVec3| {
         region.is_none_or(|r| {
             p.x > r.low[0] - slack && p.x < r.high[0] + slack && p.z > r.low[2] - slack && p.z < r.high[2] + slack
         })
     };
-    let mut free: Vec<usize> = (0..cells.len()).filter(|&s| cells[s] == EMPTY && inside(ground.point(s))).collect();
+    let mut free: Vec<usize> = (0..cells.len()).filter(|&s| cells[s] == EMPTY && inside(point(s))).collect();
     free.sort_by(|&a, &b| {
-        let (p, q) = (ground.point(a), ground.point(b));
-        p.z.total_cmp(&q.z).then(p.x.total_cmp(&q.x))
+        let (p, q) = (point(a), point(b));
+        (a / ground.len()).cmp(&(b / ground.len())).then(p.z.total_cmp(&q.z)).then(p.x.total_cmp(&q.x))
     });
     free
 }
@@ -90,7 +126,11 @@ fn fill(key: &str, numbers: &[usize], sites: Vec<usize>, cells: &mut [i32], rema
 fn at(key: &str, position: &[[f64; 3]], numbers: &[usize], ground: &Ground, cells: &mut [i32], remarks: &mut Remarks) {
     let mut farthest = 0.0_f64;
     for (index, (point, &number)) in position.iter().zip(numbers).enumerate() {
-        match ground.nearest(DVec3::from_array(*point)).filter(|(site, _)| cells[*site] == EMPTY) {
+        let nearest = ground.nearest(DVec3::from_array(*point)).and_then(|(site, distance)| {
+            let free = (site..cells.len()).step_by(ground.len()).find(|site| cells[*site] == EMPTY);
+            free.map(|site| (site, distance))
+        });
+        match nearest {
             Some((site, distance)) => {
                 cells[site] = number as i32;
                 farthest = farthest.max(distance);

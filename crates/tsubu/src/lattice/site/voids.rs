@@ -13,7 +13,7 @@ pub(super) fn seats(sheet: &Sheet, trail: &Trail, step: u64, row: f64, each: &mu
         if let Ok(grain) = usize::try_from(cell) {
             let [half, rows] = trail.during(grain, step);
             let velocity = [0.5 * f64::from(half), row * f64::from(rows)];
-            each(Seat { grain, site, offset: [0.0; 2], velocity });
+            each(Seat { grain, site, offset: [0.0; 2], velocity, laps: [0; 2] });
         }
     }
 }

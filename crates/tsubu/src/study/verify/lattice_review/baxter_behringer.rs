@@ -35,7 +35,7 @@ fn hopper(elongated: bool) -> Grains {
     for column in 0..COLUMNS {
         for row in 0..ROWS {
             if from_middle(column) > half_width(row) {
-                grains.set_wall(column, row, false);
+                grains.set_wall(column, row, Some(0));
             } else if row > THROAT {
                 let drawn = words(1, Purpose::Placement, (column * ROWS + row) as u32, 0);
                 let there = |slot: &usize| drawn[slot % 4].rotate_left(5 * *slot as u32) < u32::MAX / 7 * 2;
@@ -44,6 +44,7 @@ fn hopper(elongated: bool) -> Grains {
         }
     }
     if elongated {
+        grains.number();
         grains.elongate();
     }
     grains

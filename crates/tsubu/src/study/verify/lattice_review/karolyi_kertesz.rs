@@ -3,6 +3,7 @@
 use super::super::bench::refused;
 use super::fhp::slope;
 use crate::lattice::gas::pile::{Habits, Pile};
+use crate::lattice::gas::sites::Sites;
 use crate::lattice::grid::COLUMN_SPACING;
 use crate::random::{Purpose, words};
 use tsubu_frame::Claim;
@@ -11,8 +12,8 @@ const SOURCE: &str = "Karolyi and Kertesz 1998, from memory; rules after them";
 
 /// A table on which grains are dropped one by one, each when all are at rest, and how many fell off for each.
 fn heap(friction: f64, half: usize, count: usize) -> (Pile, Vec<u64>) {
-    let habits = Habits { gravity: 0.5, dissipation: 0.8, friction: [friction; 2] };
-    let mut pile = Pile::new(2 * half + 1, 3 * half, habits, 1);
+    let habits = Habits { gravity: 0.5, dissipation: 0.8, friction: vec![friction; 2] };
+    let mut pile = Pile::new(Sites::new(2 * half + 1, 3 * half, [false, false]), habits, 1);
     (0..=2 * half).for_each(|column| pile.set_wall(column, 0));
     let mut fell = Vec::new();
     for _ in 0..count {
@@ -111,12 +112,13 @@ pub(crate) fn pile_avalanches(spoiler: f64) -> Result<Vec<Claim>, String> {
 fn farther(friction: [f64; 2]) -> f64 {
     const COLUMNS: usize = 80;
     const ROWS: usize = 200;
-    let mut pile = Pile::new(COLUMNS, ROWS, Habits { gravity: 0.5, dissipation: 0.8, friction }, 1);
+    let habits = Habits { gravity: 0.5, dissipation: 0.8, friction: friction.to_vec() };
+    let mut pile = Pile::new(Sites::new(COLUMNS, ROWS, [false, false]), habits, 1);
     (0..COLUMNS).for_each(|column| pile.set_wall(column, 0));
     (0..ROWS).for_each(|row| [0, COLUMNS - 1].into_iter().for_each(|column| pile.set_wall(column, row)));
     for grain in 0..4000 {
         let kind = words(1, Purpose::Stream, grain, 0)[0] & 1;
-        pile.drop_at(2, (pile.height(2) + 10).min(ROWS - 2), kind as usize);
+        pile.drop_at(2, (pile.height(2) + 10).min(ROWS - 2), kind);
         settle(&mut pile);
     }
     let mean = |kind: usize| {

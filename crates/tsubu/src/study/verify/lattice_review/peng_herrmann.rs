@@ -17,8 +17,8 @@ const WIDTH: usize = 10;
 fn pipe(density: f64, habits: Habits) -> Grains {
     let mut grains = Grains::new(WIDTH + 2, LENGTH, [true, true], habits, 1);
     for row in 0..LENGTH {
-        grains.set_wall(0, row, false);
-        grains.set_wall(WIDTH + 1, row, false);
+        grains.set_wall(0, row, Some(0));
+        grains.set_wall(WIDTH + 1, row, Some(0));
         for column in 1..=WIDTH {
             let there = |slot: &u64| {
                 let w = words(1, Purpose::Placement, (column * LENGTH + row) as u32, *slot);

@@ -1,0 +1,147 @@
+//! The lattice gases FHP as models of the engine, and what all gases in slots share: seats, and places in a checkpoint.
+
+use super::{Model, Seat, section, wrong};
+use crate::lattice::direction::Direction;
+use crate::lattice::gas::collide::{REST, SLOTS};
+use crate::lattice::gas::numbers::{NOBODY, Numbers};
+use crate::lattice::gas::planes::Gas;
+use crate::lattice::gas::sites::Sites;
+use tsubu_frame::State;
+use tsubu_frame::state::MissingSection;
+
+/// A gas whose particles have numbers.
+#[derive(Clone, Debug)]
+pub struct Fhp {
+    gas: Gas,
+    sites: Sites,
+    numbers: Numbers,
+    /// Sites where particles vanish, unless they are wall.
+    outlets: Vec<usize>,
+    /// Whether walls mirror.
+    smooth: bool,
+}
+
+impl Fhp {
+    /// A gas with the particles of `numbers`, on whose walls nobody is yet.
+    pub fn new(gas: Gas, sites: Sites, numbers: Numbers, outlets: Vec<usize>, smooth: bool) -> Self {
+        let mut fhp = Self { gas, sites, numbers, outlets, smooth };
+        fhp.fill();
+        fhp
+    }
+
+    /// The gas itself.
+    pub fn gas(&self) -> &Gas {
+        &self.gas
+    }
+
+    /// Gives the gas the particles of the numbers.
+    fn fill(&mut self) {
+        for site in 0..self.sites.count() {
+            let (column, row) = self.sites.place(site);
+            let state = self.numbers.state(site);
+            if state != self.gas.site(column, row) {
+                self.gas.set_site(column, row, state);
+            }
+        }
+    }
+}
+
+impl Model for Fhp {
+    fn advance(&mut self) -> Result<(), String> {
+        self.gas.step();
+        self.numbers.follow(&self.gas);
+        for &site in &self.outlets {
+            let (column, row) = self.sites.place(site);
+            if self.numbers.state(site) != 0 && !self.gas.is_wall(column, row) {
+                self.gas.set_site(column, row, 0);
+                self.numbers.clear(site);
+            }
+        }
+        Ok(())
+    }
+
+    fn step(&self) -> u64 {
+        self.gas.steps()
+    }
+
+    fn seats(&self, each: &mut dyn FnMut(Seat)) {
+        seats(&self.numbers, self.sites.count(), each);
+    }
+
+    fn free(&mut self, site: usize) {
+        let (column, row) = self.sites.place(site);
+        self.gas.free(column, row);
+        let Self { gas, sites, smooth, .. } = self;
+        let beside = Direction::ALL.into_iter().filter_map(|way| sites.neighbour(column, row, way));
+        for (c, r) in beside.filter(|_| *smooth) {
+            if gas.is_wall(c, r) {
+                let mirror = sites.mirror(c, r, |site| gas.is_wall(site / sites.rows, site % sites.rows));
+                gas.wall(c, r, mirror);
+            }
+        }
+    }
+
+    fn enter(&mut self, grain: usize, site: usize) -> bool {
+        let (column, row) = self.sites.place(site);
+        let state = self.numbers.state(site);
+        let free = state >> Direction::S as u8 & 1 == 0 && !self.gas.is_wall(column, row);
+        if free {
+            self.gas.set_site(column, row, state | 1 << Direction::S as u8);
+            self.numbers.set(site, Direction::S as usize, grain as u32);
+        }
+        free
+    }
+
+    fn save(&self, state: &mut State) {
+        save(&self.numbers, self.sites.count(), self.gas.steps(), state);
+    }
+
+    fn load(&mut self, state: &State) -> Result<(), MissingSection> {
+        let (numbers, step) = load(self.sites, self.numbers.laps.len(), state)?;
+        self.numbers = numbers;
+        self.gas.set_steps(step);
+        self.fill();
+        Ok(())
+    }
+}
+
+/// Grains of a gas in slots.
+pub(super) fn seats(numbers: &Numbers, sites: usize, each: &mut dyn FnMut(Seat)) {
+    for site in 0..sites {
+        for (slot, who) in numbers.at(site).into_iter().enumerate().filter(|(_, who)| *who != NOBODY) {
+            let way = if slot == REST { [0.0; 3] } else { Direction::from_index(slot).unit() };
+            let (grain, laps) = (who as usize, numbers.laps[who as usize]);
+            each(Seat { grain, site, offset: [0.0; 2], velocity: [way[0], way[2]], laps });
+        }
+    }
+}
+
+/// Writes where everybody is: site and slot in one number.
+pub(super) fn save(numbers: &Numbers, sites: usize, step: u64, state: &mut State) {
+    let mut places = vec![-1; numbers.laps.len()];
+    for site in 0..sites {
+        for (slot, who) in numbers.at(site).into_iter().enumerate().filter(|(_, who)| *who != NOBODY) {
+            places[who as usize] = (site * SLOTS + slot) as i64;
+        }
+    }
+    state.put_integer("gas.places", places);
+    state.put_integer("gas.laps", numbers.laps.iter().flatten().map(|lap| i64::from(*lap)).collect::<Vec<_>>());
+    state.put_integer("gas.step", vec![step as i64]);
+}
+
+/// Takes it back.
+pub(super) fn load(sites: Sites, count: usize, state: &State) -> Result<(Numbers, u64), MissingSection> {
+    let mut numbers = Numbers::new(sites, count);
+    for (who, &place) in section(state, "gas.places", count)?.iter().enumerate() {
+        if let Ok(place) = usize::try_from(place) {
+            let (site, slot) = (place / SLOTS, place % SLOTS);
+            if site >= sites.count() || numbers.at(site)[slot] != NOBODY {
+                return Err(wrong("gas.places"));
+            }
+            numbers.set(site, slot, who as u32);
+        }
+    }
+    let laps = section(state, "gas.laps", 2 * count)?;
+    numbers.laps = laps.chunks_exact(2).map(|lap| [lap[0] as i32, lap[1] as i32]).collect();
+    Ok((numbers, section(state, "gas.step", 1)?[0] as u64))
+}
