@@ -81,9 +81,10 @@ impl Lines {
         if done < self.next || done >= 1.0 || self.spoke.elapsed() < PAUSE {
             return;
         }
-        let left = self.started.elapsed().as_secs_f64() * (1.0 - done) / (done - first).max(1e-9);
-        let (name, percent, left) = (&self.name, 100.0 * done, human_time(left.max(1.0).round()));
-        crate::output::tell(&format!("{name}: {percent:.0} %, about {left} left\n"));
+        // The first news says nothing about how fast this goes.
+        let left = (done > first).then(|| self.started.elapsed().as_secs_f64() * (1.0 - done) / (done - first));
+        let left = left.map_or(String::new(), |left| format!(", about {} left", human_time(left.max(1.0).round())));
+        crate::output::tell(&format!("{}: {:.0} %{left}\n", self.name, 100.0 * done));
         self.spoke = Instant::now();
         self.next = (10.0 * done + 1e-9).floor() / 10.0 + 0.1;
     }

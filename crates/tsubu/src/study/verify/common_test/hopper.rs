@@ -83,7 +83,10 @@ fn judge(of: &Measured) -> Vec<Claim> {
         5.0,
         "three kinds of DEM, CL-CA, and one more at least",
     )];
-    claims.extend(flowing.into_iter().map(|name| steady(name, of.value(name, STEADY))));
+    // A plain lattice gas is a fluid: no grains, and a second thing for the gate to refuse.
+    let grains = flowing.into_iter().filter(|name| *name != "fhp");
+    claims.extend(grains.map(|name| steady(name, of.value(name, STEADY))));
+    claims.push(refused("hopper, a gas (FHP)", &[steady("fhp", of.value("fhp", STEADY))], 1));
     // The speed of a liquid goes with the root of what is left: so does the time to let out the next share.
     let time = |from: f64, to: f64| f64::sqrt(1.0 - from) - f64::sqrt(1.0 - to);
     claims.push(refused("hopper, a liquid", &[steady("", time(0.1, 0.4) / time(0.4, 0.7))], 1));
