@@ -34,7 +34,7 @@ pub use sites::{GuttHaff, Heap, Savage, Split, Voids};
 pub use study::{Claim, Output, Response, Sweep};
 pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall};
 pub use watch::{Axis, Bed, Heading, Kernel, Measure, Quantity, Watch, submerged};
-pub use water::{Buoyancy, Drag, Flow, Fluctuation, Hindrance, Lid, Lift, StreamStart, Torque, Water};
+pub use water::{Buoyancy, Directions, Drag, Flow, Fluctuation, Hindrance, Lid, Lift, StreamStart, Torque, Water};
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -130,7 +130,7 @@ fn a_free_surface_and_its_reach() {
     let Flow::Coupled { lid: Lid::Free, reach: Some(reach), .. } = water.flow else { panic!("{water:?}") };
     assert!((reach - 0.01).abs() < 1e-15);
     let shear = (9.8 * 3f64.to_radians().sin() * 0.02).sqrt();
-    assert!((water.fluctuation.expect("fluctuation").time - 0.02 / (15.0 * shear)).abs() < 1e-12);
+    assert!((water.fluctuation.expect("fluctuation").time - 2.0 * 0.02 / (15.0 * shear)).abs() < 1e-12);
     let again = read(&scene.resolved_toml(), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
     assert_eq!(again.plan(), scene.plan());
     let beyond = text.replace("[water]", "[water]\nsurface = \"3 cm\"").replace("slope = \"3 deg\"", "");
@@ -165,6 +165,11 @@ fn turbulence_needs_a_log_law_and_a_time() {
     let water = scene.plan().water.as_ref().expect("water");
     let (Flow::LogLaw { shear_velocity, .. }, Some(told)) = (&water.flow, water.fluctuation) else { panic!() };
     assert!((told.time - 0.02 / (15.0 * shear_velocity)).abs() < 1e-12 && (told.strength - 1.0).abs() < 1e-12);
+    // Of 1.785, the root mean square of 2.30, 1.63 and 1.27, a stream has 1.27 upwards.
+    let scene = read(STREAM, &["water.fluctuation={strength=1.785,directions='stream'}"]);
+    let water = scene.unwrap_or_else(|wrong| panic!("{wrong}")).plan().water.clone().expect("water");
+    let time = water.fluctuation.expect("fluctuation").time;
+    assert!((time * 15.0 * shear_velocity * 1.27f64.powi(2) / 0.02 - 1.0).abs() < 1e-3, "{time}");
     insta::assert_snapshot!(about("flow.log-law = { depth = \"2 cm\" }", "flow.still = {}\nfluctuation = {}"));
     insta::assert_snapshot!(about("depth = \"2 cm\" }", "shear-velocity = 0.1 }\nfluctuation.strength = 2"));
     insta::assert_snapshot!(about("[water]", "[water]\nfluctuation = { strength = -1, time = 0 }"));

@@ -41,12 +41,25 @@ pub(super) static WATER: &[Key] = &[
 ];
 
 static FLUCTUATION: &[Key] = &[
-    Key::new("strength", Kind::Quantity(&NUMBER), "Root-mean-square velocity in each direction over U*")
-        .default("1")
-        .above(0.0),
+    Key::new(
+        "strength",
+        Kind::Quantity(&NUMBER),
+        "Root-mean-square velocity over U*, mean of the squares of the three directions; 1.78 at a rough bed",
+    )
+    .default("1")
+    .above(0.0),
+    Key::new("directions", Kind::OneOf(DIRECTIONS), "What each direction has of it").default("'even'"),
     Key::new("time", Kind::Quantity(&TIME), "Lagrangian time: how long the water around a grain keeps its velocity")
         .above(0.0)
-        .derived("depth/(15 strength^2 U*) below a surface: the diffusivity of a stream, 0.067 U* depth in the mean over the depth; of a coupled stream from `bottom` to `top` at time 0, U* what drives it"),
+        .derived("depth/(15 S^2 U*) below a surface, S the strength upwards: the diffusivity of a stream, 0.067 U* depth in the mean over the depth; of a coupled stream, whose strength falls towards the surface, twice that, from `bottom` to `top` at time 0, U* what drives it"),
+];
+
+static DIRECTIONS: &[Word] = &[
+    Word { name: "even", about: "the same along, across and up" },
+    Word {
+        name: "stream",
+        about: "as over a rough bed, 2.30 : 1.63 : 1.27 along, across and up (Nezu and Nakagawa 1993): `strength` times 1.29, 0.92, 0.71",
+    },
 ];
 
 static BUOYANCY: &[Word] = &[

@@ -36,10 +36,37 @@ pub struct Water {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Fluctuation {
-    /// Root-mean-square velocity in each direction over the shear velocity [-].
+    /// Root-mean-square velocity over the shear velocity, mean of the squares of the three directions [-].
     pub strength: f64,
+    /// What each direction has of it.
+    pub directions: Directions,
     /// Lagrangian time: the integral of the correlation [s].
     pub time: f64,
+}
+
+/// What each direction has of a fluctuation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Directions {
+    /// All the same.
+    Even,
+    /// As over a rough bed: most along the stream, least upwards.
+    Stream,
+}
+
+impl Directions {
+    /// Strengths along, across and up over that of the fluctuation; the mean of their squares is 1. `Stream`: 2.30, 1.63 and 1.27
+    /// (Nezu and Nakagawa 1993) over 1.78.
+    pub fn shares(self) -> [f64; 3] {
+        match self {
+            Self::Even => [1.0; 3],
+            Self::Stream => {
+                let measured = [2.30, 1.63, 1.27f64];
+                let mean = (measured.iter().map(|s| s * s).sum::<f64>() / 3.0).sqrt();
+                measured.map(|strength| strength / mean)
+            }
+        }
+    }
 }
 
 /// Which part of the stress in the water carries the grains.

@@ -198,7 +198,7 @@ fn drift_on(s: &mut Slice, offset: DVec3, motion: &Motion) -> (DVec3, f64) {
 /// energy, with it 0.02 %.
 #[multiversion(targets = "simd")]
 fn complete(s: &mut Slice, blocks: &[Block], incoming: &[Incoming], block: usize, motion: &Motion) -> Report {
-    let share = if motion.integrator == Integrator::VelocityVerlet { 0.5 * motion.dt } else { 0.0 };
+    let share = motion.predicts();
     let mut report = Report::default();
     let own = &blocks[block].loads;
     let mut next = 0;
@@ -239,4 +239,11 @@ pub(super) struct Motion {
     pub gravity: DVec3,
     pub rotation: bool,
     pub dt: f64,
+}
+
+impl Motion {
+    /// How long velocities go with the old acceleration until [`after`] puts the new one in its place [s].
+    pub fn predicts(&self) -> f64 {
+        if self.integrator == Integrator::VelocityVerlet { 0.5 * self.dt } else { 0.0 }
+    }
 }

@@ -143,7 +143,7 @@ impl DemEngine {
         self.fixed = (report.fixed_force, report.driven_power);
     }
 
-    fn motion(&self, dt: f64) -> Motion {
+    pub(super) fn motion(&self, dt: f64) -> Motion {
         let integrator = if dt > 0.0 { self.integrator } else { Integrator::SymplecticEuler };
         Motion { integrator, gravity: self.gravity, rotation: self.rotation, dt }
     }

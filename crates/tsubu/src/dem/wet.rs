@@ -165,8 +165,9 @@ fn block_of_grains(
 
 impl DemEngine {
     /// Gives every grain the added mass of where it is, but those `deep` radii and more below the surface. Returns what the
-    /// motion of that water has gained: energy [J] and momentum [N.s].
-    pub(super) fn immerse(&mut self, deep: f64) -> (f64, DVec3) {
+    /// motion of that water has gained: energy [J] and momentum [N.s], where velocities are ahead of the moment by their last
+    /// acceleration over `ahead` [s].
+    pub(super) fn immerse(&mut self, deep: f64, ahead: f64) -> (f64, DVec3) {
         let Some(wet) = &self.wet else { return Default::default() };
         let grains = &mut self.grains;
         let (mut energy, mut momentum) = (0.0, DVec3::ZERO);
@@ -177,8 +178,9 @@ impl DemEngine {
                 continue;
             }
             let added = wet.water.added_mass(grains.radius[i], grains.position[i].z);
-            let gained = (added - grains.added_mass(i)) * grains.velocity[i];
-            energy += 0.5 * gained.dot(grains.velocity[i]);
+            let velocity = grains.velocity[i] - ahead * grains.acceleration[i];
+            let gained = (added - grains.added_mass(i)) * velocity;
+            energy += 0.5 * gained.dot(velocity);
             momentum += gained;
             grains.inverse_mass[i] = 1.0 / (grains.mass[i] + added);
         }
@@ -190,8 +192,9 @@ impl DemEngine {
         if !self.wet.as_ref().is_some_and(|wet| wet.water.has_surface()) {
             return;
         }
-        // Whatever is two radii down now has been under water in the last step as well.
-        let (energy, momentum) = self.immerse(2.0);
+        // Whatever is two radii down now has been under water in the last step as well. The mass changes between the two halves of
+        // the step, so what it brings has the velocity between them, not the predicted one.
+        let (energy, momentum) = self.immerse(2.0, self.motion(self.dt).predicts());
         ledger.post(Account::Buoyancy, energy);
         for (axis, impulse) in ledger.water_impulse.iter_mut().enumerate() {
             *impulse += momentum[axis];

@@ -11,7 +11,8 @@
 //! t = rho max(nu, l^2 |dU/dz|) dU/dz,      l = 0.40 s sqrt(1 - s/S),  s = integral of (1 - (1-e)/0.61) dZ
 //!
 //! with Prandtl's mixing length l, which grains shorten (Li and Sawamoto 1995) and the surface, where s = S, ends: without grains
-//! the log law over the whole depth. Between two middles l grows nearly evenly, so the difference of U is dU/dz times h over the
+//! the log law over the whole depth. The integral begins above the highest layer that grains fill by half: in a bed nothing mixes,
+//! however loose and deep it is (the stream in YADE, of Maurin et al. 2015, does likewise below the highest layer of 0.61). Between two middles l grows nearly evenly, so the difference of U is dU/dz times h over the
 //! logarithmic mean of l: with it the discrete stream has the log law without error. The bottom drags with
 //! rho (0.40 / ln(Z0/z0))^2 U0^2 at the lowest middle Z0, z0 = k exp(-8.5 x 0.40) (Nikuradse 1933). The top, a lid or
 //! a free surface, has no stress. Stresses are taken at the end of the step, with the viscosity of its begin. Over a rough bottom the log law
@@ -32,6 +33,10 @@ use tsubu_frame::state::MissingSection;
 
 /// Solid fraction at which nothing mixes any more.
 const PACKED: f64 = 0.61;
+
+/// Share left to the water below which nothing mixes in a layer and in those under it. Beds are packed looser than [`PACKED`], in
+/// the plane above all: what is missing, layer by layer, would add up to eddies as long as the bed is deep.
+const DENSE: f64 = 0.5;
 
 /// Share left to the water below which a layer belongs to the bed when the stream begins.
 const FILLED: f64 = 0.8;
@@ -204,10 +209,19 @@ impl Coupled {
         [bottom].into_iter().chain(between).chain([0.0]).collect()
     }
 
-    /// What the water brings to the bed over its area [Pa]: its stress at the top of the highest layer that grains fill by three
-    /// tenths, half of what a packing has, and all that it gives to grains above.
+    /// The first layer over the bed, which ends with the highest layer that grains fill by three tenths, half of what a packing has.
+    fn bed(&self) -> usize {
+        self.layers.open.iter().rposition(|open| *open < BED).map_or(0, |k| k + 1)
+    }
+
+    /// Volume of water over the bed over the plan area [m].
+    pub fn over_bed(&self) -> f64 {
+        (self.bed()..self.layers.len()).map(|k| self.layers.water(k)).sum()
+    }
+
+    /// What the water brings to the bed over its area [Pa]: its stress at the top of the bed, and all that it gives to grains above.
     pub fn bed_stress(&self) -> f64 {
-        let bed = self.layers.open.iter().rposition(|open| *open < BED).map_or(0, |k| k + 1);
+        let bed = self.bed();
         self.stresses()[bed] + self.taken[bed..].iter().sum::<f64>() / self.layers.area
     }
 
@@ -304,12 +318,13 @@ impl Coupled {
     fn stiffness(&mut self) {
         let n = self.layers.len();
         let h = self.layers.thickness;
+        let bed = self.layers.open.iter().rposition(|open| *open < DENSE).map_or(0, |k| k + 1);
         let mixing = |open: f64| (1.0 - (1.0 - open) / PACKED).max(0.0) * h;
-        let depth: f64 = self.layers.open.iter().map(|open| mixing(*open)).sum();
+        let depth: f64 = self.layers.open[bed..].iter().map(|open| mixing(*open)).sum();
         let mut below = 0.0;
         let mut last = 0.0;
         for k in 0..n {
-            let here = mixing(self.layers.open[k]);
+            let here = if k < bed { 0.0 } else { mixing(self.layers.open[k]) };
             let length = karman() * (below + 0.5 * here);
             if k > 0 {
                 let surface = 1.0 - below / depth;

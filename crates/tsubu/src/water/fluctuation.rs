@@ -18,10 +18,11 @@ use tsubu_scene::plan;
 pub static ABOUT: About = About {
     name: "fluctuation",
     models: "Turbulence as a grain on its way sees it: a velocity of the water that wanders about the mean, drawn for each grain.",
-    formula: "U' = min(strength U*, |U|) g, g normal with variance 1 in each direction, correlated over the Lagrangian time T; \
+    formula: "U' = min(strength U*, |U|) g, g normal, correlated over the Lagrangian time T, with variances 1 in each direction or, as \
+a `stream` has them, 1.67, 0.84 and 0.51 along, across and up; \
 independent draws every pi^2/8 T, between them a cos(pi s/2) + b sin(pi s/2)",
     symbols: "U* shear velocity, in a coupled stream that of the turbulent stress at the height of the grain [m/s], U mean velocity at the grain [m/s], T [s], s share of the interval that has passed [-]",
-    limits: "Neighbours see independent water; the same strength in all directions, the same T at all heights; what falls through \
+    limits: "Neighbours see independent water; no correlation between directions; the same T at all heights; what falls through \
 eddies keeps their time all the same (no crossing trajectories). Correlations end after 2.5 T and do not decay as exp(-t/T).",
     reference: "Taylor (1921); Nezu and Nakagawa (1993) for strengths: 2.3, 1.6 and 1.3 along, across and up at a bed, less above",
 };
@@ -29,8 +30,10 @@ eddies keeps their time all the same (no crossing trajectories). Correlations en
 /// Which numbers the water around each grain goes between.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fluctuation {
-    /// Root-mean-square in each direction over the shear velocity [-].
+    /// Root-mean-square over the shear velocity, mean of the squares of the directions [-].
     pub strength: f64,
+    /// Strengths of the directions over that [-].
+    pub shares: [f64; 3],
     /// Time between two draws [s].
     interval: f64,
     pub(super) seed: u64,
@@ -55,7 +58,13 @@ impl Default for Gust {
 impl Fluctuation {
     /// The fluctuation of a plan.
     pub fn new(plan: &plan::Fluctuation) -> Self {
-        Self { strength: plan.strength, interval: PI * PI / 8.0 * plan.time, seed: 0, in_space: true }
+        Self {
+            strength: plan.strength,
+            shares: plan.directions.shares(),
+            interval: PI * PI / 8.0 * plan.time,
+            seed: 0,
+            in_space: true,
+        }
     }
 
     /// Numbers of variance 1 for grain `id` at a time [s].

@@ -176,7 +176,8 @@ impl Water {
     /// Fastest water that grains of this diameter [m] meet: at the surface, or ten diameters above the bed [m/s].
     pub fn fastest(&self, diameter: f64) -> f64 {
         // A normal number is rarely beyond two.
-        let gust = self.fluctuation.map_or(0.0, |fluctuation| fluctuation.strength * self.stream.most_turbulent());
+        let strength = |fluctuation: Fluctuation| fluctuation.strength * fluctuation.shares[0];
+        let gust = self.fluctuation.map_or(0.0, strength) * self.stream.most_turbulent();
         self.stream.fastest(self.surface(), diameter) + 2.0 * gust
     }
 
@@ -199,7 +200,7 @@ impl Water {
             self.stream.fill(parcel, self.crowd, self.turns);
             if let Some(fluctuation) = &self.fluctuation {
                 self.stream.fill_turbulence(parcel);
-                parcel.fluctuate(fluctuation.strength);
+                parcel.fluctuate(fluctuation.strength, fluctuation.shares);
             }
         }
         parcel.slip();

@@ -176,13 +176,13 @@ impl Parcel {
         begin(self, surface);
     }
 
-    /// Adds the fluctuation to a stream along x. It is not stronger than the stream itself: among the grains of a bed, where
-    /// the stream ends, it ends too.
-    pub(super) fn fluctuate(&mut self, strength: f64) {
+    /// Adds the fluctuation to a stream along x, with the strengths of the directions over its own. It is not stronger than the
+    /// stream itself: among the grains of a bed, where the stream ends, it ends too.
+    pub(super) fn fluctuate(&mut self, strength: f64, shares: [f64; 3]) {
         for i in 0..self.rows() {
             let rms = (strength * self.turbulence[i]).min(self.flow[0][i].abs());
-            for (flow, gust) in self.flow.iter_mut().zip(&mut self.gust) {
-                gust[i] *= rms;
+            for ((flow, gust), share) in self.flow.iter_mut().zip(&mut self.gust).zip(shares) {
+                gust[i] *= share * rms;
                 flow[i] += gust[i];
             }
         }

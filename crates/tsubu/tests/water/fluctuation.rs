@@ -16,7 +16,7 @@ const TIME: f64 = 0.05;
 const INTERVAL: f64 = PI * PI / 8.0 * TIME;
 
 fn told() -> Fluctuation {
-    Fluctuation::new(&plan::Fluctuation { strength: 1.0, time: TIME })
+    Fluctuation::new(&plan::Fluctuation { strength: 1.0, directions: plan::Directions::Even, time: TIME })
 }
 
 fn at(id: u32, time: f64) -> [f64; 3] {
@@ -73,47 +73,65 @@ fn the_lagrangian_time_is_that_of_dispersion() {
     assert!((ratio(INTERVAL) - 1.0).abs() > 0.1);
 }
 
-/// Small grains as heavy as water take part in it: velocities about the stream's with the strength that was asked for; at the
-/// bed, where the stream ends, they rest. Books close.
-#[test]
-fn small_grains_take_part() {
+/// Mean velocities of 300 small grains as heavy as water at a height in the log law of U* = 0.01 m/s, and their spread, along the
+/// stream and up [m/s]. Books close.
+fn spread(fluctuation: &str, z: f64) -> [(f64, f64); 2] {
     let n = 300;
     let places = |z: f64| {
         let places: Vec<String> = (0..n).map(|k| format!("[{},0,{z}]", f64::from(k) * 1e-3)).collect();
         format!("particles.grain.start.at.position=[{}]", places.join(","))
     };
-    let spread = |z: f64| {
-        let changes = [
-            places(z).as_str(),
-            "particles.grain.diameter=1e-4",
-            "gravity=0",
-            "water.density=2650",
-            "water.float=true",
-            "water.flow.log-law={shear-velocity=0.01,roughness=2e-3}",
-            "water.fluctuation={strength=1.5,time='50 ms'}",
-            "speed-scale=0.1",
-        ]
-        .map(str::to_owned);
-        let (mut engine, mut hosts, mut ledger) = open_text(GRAIN, &changes.each_ref().map(String::as_str));
-        let steps = (0.1 / engine.time_step()) as u64;
-        engine.advance(steps, &mut hosts, &mut ledger).unwrap();
-        let missing = ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs();
-        assert!(missing < 1e-3, "{missing:e}");
-        let view = engine.view(Wants::GRAINS);
-        let of = |k: usize| {
-            let v: Vec<f64> = view.grains.velocity.iter().map(|v| v[k]).collect();
-            let mean = v.iter().sum::<f64>() / v.len() as f64;
-            (mean, (v.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / v.len() as f64).sqrt())
-        };
-        [of(0), of(2)]
+    let changes = [
+        places(z).as_str(),
+        "particles.grain.diameter=1e-4",
+        "gravity=0",
+        "water.density=2650",
+        "water.float=true",
+        "water.flow.log-law={shear-velocity=0.01,roughness=2e-3}",
+        fluctuation,
+        "speed-scale=0.1",
+    ]
+    .map(str::to_owned);
+    let (mut engine, mut hosts, mut ledger) = open_text(GRAIN, &changes.each_ref().map(String::as_str));
+    let steps = (0.1 / engine.time_step()) as u64;
+    engine.advance(steps, &mut hosts, &mut ledger).unwrap();
+    let missing = ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs();
+    assert!(missing < 1e-3, "{missing:e}");
+    let view = engine.view(Wants::GRAINS);
+    let of = |k: usize| {
+        let v: Vec<f64> = view.grains.velocity.iter().map(|v| v[k]).collect();
+        let mean = v.iter().sum::<f64>() / v.len() as f64;
+        (mean, (v.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / v.len() as f64).sqrt())
     };
-    let [(along, x), (up, z)] = spread(0.5);
+    [of(0), of(2)]
+}
+
+/// Small grains take part in it: velocities about the stream's with the strength that was asked for; at the bed, where the stream
+/// ends, they rest.
+#[test]
+fn small_grains_take_part() {
+    let told = "water.fluctuation={strength=1.5,time='50 ms'}";
+    let [(along, x), (up, z)] = spread(told, 0.5);
     let stream = 0.01 * (8.5 + 5.75 * 250f64.log10());
     assert!((along / stream - 1.0).abs() < 0.03 && up.abs() < 0.003, "{along} {stream} {up}");
     for rms in [x, z] {
         assert!((rms / 0.015 - 1.0).abs() < 0.1, "{rms}");
     }
-    assert_eq!(spread(0.0), [(0.0, 0.0); 2]);
+    assert_eq!(spread(told, 0.0), [(0.0, 0.0); 2]);
+}
+
+/// As a stream over a rough bed has it, 2.30 U* go along and 1.27 up (Nezu and Nakagawa 1993); an even fluctuation of the same energy
+/// is refused.
+#[test]
+fn a_stream_fluctuates_most_along_itself() {
+    let misses = |told: &str| {
+        let [(_, x), (_, z)] = spread(told, 0.5);
+        (x / 0.0230 - 1.0).abs().max((z / 0.0127 - 1.0).abs())
+    };
+    let stream = misses("water.fluctuation={strength=1.78,directions='stream',time='50 ms'}");
+    assert!(stream < 0.12, "{stream}");
+    let even = misses("water.fluctuation={strength=1.78,time='50 ms'}");
+    assert!(even > 0.2, "{even}");
 }
 
 /// In a coupled stream small grains take part with the shear velocity of their own height, sqrt(1 - z/h) of that of the bottom, in

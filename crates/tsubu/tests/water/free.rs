@@ -43,6 +43,8 @@ fn grains_that_fall_in_raise_the_surface() {
     let missing = now.momentum() - begin.momentum() - drive - bottom + grains;
     assert!(missing.abs() < 1e-12 * now.momentum(), "{missing:e}");
     assert!(grains > 1e-3 * now.momentum());
+    let missing = ledger.momentum_residual(engine.momentum());
+    assert!(missing.iter().all(|missing| missing.abs() < 1e-12 * now.momentum()), "{missing:?}");
     let missing = ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs();
     assert!(missing < 1e-3, "{missing:e}");
 

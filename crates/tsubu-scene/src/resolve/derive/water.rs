@@ -2,6 +2,7 @@
 
 use super::{Derive, table_at};
 use crate::complaint::Complaint;
+use crate::plan::Directions;
 use toml::Value;
 
 /// What the log law's slope and its constant say: U = U* (8.5 + 5.75 log10(Z/k)).
@@ -46,8 +47,9 @@ impl Derive<'_> {
         self.fluctuation(resolved);
     }
 
-    /// How long the water around a grain keeps its velocity: with the variance of the fluctuation, what Rouse's parabola
-    /// k U* Z (1 - Z/h), k = 0.40, diffuses in the mean over the depth h.
+    /// How long the water around a grain keeps its velocity: with the variance of the fluctuation upwards, what Rouse's parabola
+    /// k U* Z (1 - Z/h), k = 0.40, diffuses in the mean over the depth h. In a coupled stream the variance goes with the stress, as
+    /// 1 - Z/h: its mean is half of that at the bed.
     fn fluctuation(&mut self, resolved: &mut toml::Table) {
         let path = ["water", "fluctuation"];
         if !self.typed(&path) {
@@ -58,9 +60,10 @@ impl Derive<'_> {
         let Some(water) = resolved.get_mut("water").and_then(Value::as_table_mut) else { return };
         let number = |table: &toml::Table, key: &str| table.get(key).and_then(Value::as_float);
         let law = |name: &str| water.get("flow")?.get(name)?.as_table();
-        let (shear, depth) = if let Some(law) = law("log-law") {
+        let (shear, depth, mean) = if let Some(law) = law("log-law") {
             let shear = number(law, "shear-velocity");
-            (shear, number(law, "zero-level").zip(number(water, "surface")).map(|(level, surface)| surface - level))
+            let depth = number(law, "zero-level").zip(number(water, "surface")).map(|(level, surface)| surface - level);
+            (shear, depth, 1.0)
         } else if let Some(law) = law("coupled") {
             let depth = number(law, "bottom").zip(number(law, "top")).map(|(bottom, top)| top - bottom);
             let driven = || depth.filter(|_| along > 0.0).map(|depth| (along * depth).sqrt());
@@ -68,7 +71,7 @@ impl Derive<'_> {
                 let (depth, k) = (depth?, number(law, "roughness")?);
                 Some(number(law, "discharge")? / mean_speed(depth / k) / depth)
             };
-            (number(law, "shear-velocity").or_else(driven).or_else(carried), depth)
+            (number(law, "shear-velocity").or_else(driven).or_else(carried), depth, 0.5)
         } else {
             let flow = self.root.locate(&["water", "flow"]);
             self.complain(
@@ -83,9 +86,11 @@ impl Derive<'_> {
         if told.contains_key("time") || self.typed(&[path[0], path[1], "time"]) {
             return;
         }
-        match (depth.filter(|depth| *depth > 0.0), shear, number(told, "strength")) {
+        let stream = told.get("directions").and_then(Value::as_str) == Some("stream");
+        let [_, _, up] = if stream { Directions::Stream } else { Directions::Even }.shares();
+        match (depth.filter(|depth| *depth > 0.0), shear, number(told, "strength").map(|strength| strength * up)) {
             (Some(depth), Some(shear), Some(strength)) => {
-                told.insert("time".into(), Value::Float(0.40 / 6.0 * depth / (strength * strength * shear)));
+                told.insert("time".into(), Value::Float(0.40 / 6.0 * depth / (mean * strength * strength * shear)));
             }
             (None, Some(_), _) => self.complain(
                 Complaint::new("nothing says how long the water around a grain keeps its velocity")

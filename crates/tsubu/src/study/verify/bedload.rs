@@ -1,6 +1,6 @@
 //! Transport by a stream that the grains slow (V-57).
 
-use super::bench::{Rig, refused};
+use super::bench::{Rig, refused, within};
 use crate::state::sphere;
 use crate::view::Wants;
 use crate::water::Stream;
@@ -13,30 +13,45 @@ const S: f64 = 2.65;
 const LONG: f64 = 24.0;
 const WIDE: f64 = 6.0;
 const DEEP: f64 = 5.0;
-/// Looks begin and end [s].
-const FROM: f64 = 1.5;
-const UNTIL: f64 = 5.0;
+/// When looks begin and end [s]. Grains that fall to the bed take its speed from the stream, and the slope gives it back within some
+/// U/(g sin(slope)), 2 to 3 s: before, the bed feels less than the weight of the water.
+const STEADY: [f64; 2] = [10.0, 16.0];
+const EARLY: [f64; 2] = [1.0, 2.0];
+/// Strength of turbulence over U* at a rough bed: 2.30, 1.63 and 1.27 along, across and up (Nezu and Nakagawa 1993).
+const STRENGTH: f64 = 1.78;
+const UPWARDS: f64 = 1.27;
 
 /// How the water moves.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     /// In layers, by its mean velocity alone.
     Mean,
-    /// In layers, with fluctuations of the strength 1 over the time of the depth of water.
+    /// In layers, with fluctuations as over a rough bed, for the time that the depth of water tells.
     Turbulent,
     /// By the log law, whatever the grains do.
     Unslowed,
 }
 
-/// What a stream of a slope [rad] and a depth of water over its bed, in diameters, comes to: Shields number at the bed and the rate over sqrt((s-1) g d^3), both measured.
-fn transport([slope, water]: [f64; 2], stream: Kind, spoiler: f64) -> Result<[f64; 2], String> {
+/// What a stream comes to.
+#[derive(Clone, Copy)]
+struct Load {
+    /// Stress on the bed over (s-1) rho g d.
+    shields: f64,
+    /// The same over the weight of the water along the slope.
+    balance: f64,
+    /// Rate over sqrt((s-1) g d^3).
+    rate: f64,
+}
+
+/// What a stream of a slope [rad] and a depth of water over its bed, in diameters, comes to in a time.
+fn transport([slope, water]: [f64; 2], stream: Kind, [from, until]: [f64; 2], spoiler: f64) -> Result<Load, String> {
     let height = (DEEP + water) * D;
     let coupled = format!("flow.coupled = {{ bottom = 0, top = {height} }}\nhindrance.richardson-zaki = {{}}");
     let flow = match stream {
         Kind::Mean => coupled,
         Kind::Turbulent => {
-            let time = water * D / (15.0 * (9.8 * slope.sin() * water * D).sqrt());
-            format!("{coupled}\nfluctuation.time = {time}")
+            let time = 2.0 * water * D / (15.0 * UPWARDS.powi(2) * (9.8 * slope.sin() * water * D).sqrt());
+            format!("{coupled}\nfluctuation = {{ strength = {STRENGTH}, directions = \"stream\", time = {time} }}")
         }
         // The log law over a bed that is not there would press on all grains alike.
         Kind::Unslowed => format!("flow.log-law = {{ depth = {height} }}"),
@@ -82,46 +97,55 @@ fn transport([slope, water]: [f64; 2], stream: Kind, spoiler: f64) -> Result<[f6
     );
     let mut rig = Rig::new(&text, spoiler)?;
     let area = LONG * WIDE * D * D;
-    rig.until(FROM)?;
-    let (mut rate, mut looks, mut time) = (0.0, 0.0, FROM);
-    while time < UNTIL {
+    rig.until(from)?;
+    let (mut rate, mut stress, mut weight, mut looks, mut time) = (0.0, 0.0, 0.0, 0.0, from);
+    while time < until {
         time += 0.02;
         rig.until(time)?;
         let view = rig.engine.view(Wants::GRAINS);
         let free = (0..view.len()).filter(|&i| view.free(i));
         rate += free.map(|i| sphere::volume(view.grains.radius[i]) * view.grains.velocity[i].x).sum::<f64>() / area;
         looks += 1.0;
-    }
-    // The stress at the top of the bed is the weight of the water above it along the slope.
-    let view = rig.engine.view(Wants::GRAINS);
-    let top = match view.water.map(|water| &water.stream) {
-        Some(Stream::Coupled(stream)) => {
-            let bed = stream.layers.open.iter().rposition(|open| *open < 0.7).unwrap_or(0);
-            stream.layers.bottom + (bed as f64 + 1.0) * stream.layers.thickness
+        if let Some(Stream::Coupled(stream)) = view.water.map(|water| &water.stream) {
+            stress += stream.bed_stress();
+            weight += 1000.0 * 9.8 * slope.sin() * stream.over_bed();
+        } else {
+            stress += 1000.0 * 9.8 * slope.sin() * water * D;
+            weight = stress;
         }
-        _ => DEEP * D,
-    };
-    let shields = (height - top) * slope.sin() / ((S - 1.0) * D);
-    Ok([shields, rate / looks / ((S - 1.0) * 9.8 * D.powi(3)).sqrt()])
+    }
+    Ok(Load {
+        shields: stress / looks / ((S - 1.0) * 1000.0 * 9.8 * D),
+        balance: stress / weight,
+        rate: rate / looks / ((S - 1.0) * 9.8 * D.powi(3)).sqrt(),
+    })
 }
 
 /// V-57: rates within a factor of 2 of published ones.
 pub(super) fn rates(spoiler: f64) -> Result<Vec<Claim>, String> {
     let published = |t: f64| (8.0 * (t - 0.047).powf(1.5), 3.97 * (t - 0.0495).powf(1.5));
     let source = "between half of Wong and Parker 2006 and twice Meyer-Peter and Mueller 1948 (V-57)";
-    let gate = |[shields, rate]: [f64; 2], what: &str| {
+    let gate = |Load { shields, rate, .. }: Load, what: &str| {
         let (high, low) = published(shields);
         let name = format!("{what}, Shields number {shields:.3}: rate over sqrt((s-1) g d^3)");
         Claim::judge(name, rate, Some(0.5 * low), Some(2.0 * high), source)
     };
+    let steady = |Load { shields, balance, .. }: Load, what: &str| {
+        let name =
+            format!("{what}, Shields number {shields:.3}: stress at the bed over weight of the water along the slope");
+        within(name, balance, 1.0, 0.05, "momentum of a steady stream: what drives it arrives at the bed")
+    };
     let mut claims = Vec::new();
     for (kind, name) in [(Kind::Mean, "bedload, mean stream"), (Kind::Turbulent, "bedload, turbulent stream")] {
         for stream in [[0.025, 8.0], [0.06, 8.0], [0.06, 15.0]] {
-            let found = transport(stream, kind, spoiler)?;
+            let found = transport(stream, kind, STEADY, spoiler)?;
             claims.push(gate(found, name));
+            claims.push(steady(found, name));
         }
     }
-    let wrong = transport([0.06, 8.0], Kind::Unslowed, spoiler)?;
+    let early = transport([0.025, 8.0], Kind::Turbulent, EARLY, spoiler)?;
+    claims.push(refused("a stream that is not steady yet", &[gate(early, ""), steady(early, "")], 1));
+    let wrong = transport([0.06, 8.0], Kind::Unslowed, STEADY, spoiler)?;
     claims.push(refused("a stream that grains do not slow, down to the bottom of the bed", &[gate(wrong, "")], 1));
     Ok(claims)
 }

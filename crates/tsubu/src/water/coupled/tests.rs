@@ -143,3 +143,25 @@ fn turbulence_follows_the_stress() {
         assert!((bottom / wanted - 1.0).abs() > 0.02);
     }
 }
+
+/// Above a bed eddies are as long as the height over it lets them be, however deep the bed is: layers filled by 0.55, looser than
+/// the densest packing, add nothing. Those of a suspension, filled by 0.45, do.
+#[test]
+fn a_deep_bed_mixes_no_more_than_a_shallow_one() {
+    let stress_above = |bed: usize, filled: f64| {
+        let mut stream = stream(40, false);
+        stream.layers.open[..bed].fill(1.0 - filled);
+        for k in 0..40 {
+            stream.velocity[k] = 0.01 * k as f64;
+        }
+        // The water over the bed is as deep, so that its surface is as near.
+        stream.layers.open.truncate(bed + 20);
+        stream.velocity.truncate(bed + 20);
+        stream.stiffness();
+        stream.stiff[bed + 2]
+    };
+    let (shallow, deep) = (stress_above(4, 0.55), stress_above(16, 0.55));
+    assert!((deep / shallow - 1.0).abs() < 1e-12 && shallow > 0.0, "{shallow} {deep}");
+    let (shallow, deep) = (stress_above(4, 0.45), stress_above(16, 0.45));
+    assert!(deep > 1.5 * shallow, "{shallow} {deep}");
+}

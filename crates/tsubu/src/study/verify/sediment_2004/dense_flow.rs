@@ -19,6 +19,8 @@ const PAUSE: f64 = 0.02;
 const FOLLOWED: usize = 10;
 /// Layers, a diameter thick each.
 const LAYERS: usize = 24;
+/// The turbulence of a stream over a rough bed.
+const TURBULENT: &str = "water.fluctuation={strength=1.78,directions='stream'}";
 /// Speed of a layer over that of the fastest from which it flows.
 const FLOWS: f64 = 0.05;
 
@@ -118,10 +120,12 @@ pub(in super::super) fn dense_flow(spoiler: f64) -> Result<Vec<Claim>, String> {
         spoiler,
     )?;
     let coupled = flow(&[], spoiler)?;
-    let gentle = flow(&["slope='2 deg'"], spoiler)?;
+    let turbulent = flow(&[TURBULENT], spoiler)?;
+    let gentle = flow(&["slope='2 deg'", TURBULENT], spoiler)?;
     let source = "depth of the flume test, 1.48 cm (Osada 2004)";
-    let equal = |value: f64, friction: f64| {
-        let name = format!("dense flow, coupled: solid fraction over Takahashi's for {friction} degrees");
+    let deep = |value: f64, what: &str| within(format!("dense flow, {what}: depth m"), value, 0.0148, 0.003, source);
+    let equal = |value: f64, what: &str, friction: f64| {
+        let name = format!("dense flow, {what}: solid fraction over Takahashi's for {friction} degrees");
         within(name, value / takahashi(15.2, friction), 1.0, 0.25, "Takahashi 1978: 0.324 at 15.2 degrees (V-59)")
     };
     let mut claims = vec![
@@ -129,8 +133,12 @@ pub(in super::super) fn dense_flow(spoiler: f64) -> Result<Vec<Claim>, String> {
         strong(driven.zigzag, "log law"),
         upper(coupled.upper, "coupled"),
         strong(coupled.zigzag, "coupled"),
-        within("dense flow, coupled: depth m", coupled.depth, 0.0148, 0.003, source),
-        equal(coupled.fraction, 38.0),
+        deep(coupled.depth, "coupled"),
+        equal(coupled.fraction, "coupled", 38.0),
+        upper(turbulent.upper, "coupled and turbulent"),
+        strong(turbulent.zigzag, "coupled and turbulent"),
+        deep(turbulent.depth, "coupled and turbulent"),
+        equal(turbulent.fraction, "coupled and turbulent", 38.0),
         Claim::judge(
             "dense flow: speed in the log law over that of the coupled stream",
             driven.speed / coupled.speed,
@@ -139,8 +147,12 @@ pub(in super::super) fn dense_flow(spoiler: f64) -> Result<Vec<Claim>, String> {
             "grains slow a stream that hears of them",
         ),
     ];
-    let wrong = [upper(gentle.upper, ""), strong(gentle.zigzag, ""), equal(gentle.fraction, 38.0)];
+    let wrong = [upper(gentle.upper, ""), strong(gentle.zigzag, ""), equal(gentle.fraction, "", 38.0)];
     claims.push(refused("a slope of 2 degrees", &wrong, 2));
-    claims.push(refused("Takahashi's fraction for a friction of 25 degrees", &[equal(coupled.fraction, 25.0)], 1));
+    claims.push(refused(
+        "Takahashi's fraction for a friction of 25 degrees",
+        &[equal(turbulent.fraction, "", 25.0)],
+        1,
+    ));
     Ok(claims)
 }
