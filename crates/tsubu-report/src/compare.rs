@@ -1,6 +1,6 @@
 //! The report of one scene by several methods.
 
-use tsubu_frame::{Summary, Table, csv::split_unit, read_frame, snapshots, summary::read_json};
+use tsubu_frame::{Cell, Summary, Table, csv::split_unit, read_frame, snapshots, summary::read_json};
 
 use crate::balls::{Balls, ColourBy, Look};
 use crate::figure::{Axis, Bars, Figure, Series, Style};
@@ -89,8 +89,8 @@ pub(crate) fn build(source: &mut Source) -> Report {
         cost.push(cost_table(&runs));
     }
     report.section("To be noted", source.note_blocks());
-    let mut differs: Vec<Block> = table.iter().map(shown).collect();
-    differs.extend(last_pictures(source, &methods));
+    let mut differs: Vec<Block> = last_pictures(source, &methods).into_iter().collect();
+    differs.extend(table.as_ref().map(|table| shown(&told(table))));
     report.section("What differs", differs);
     if !compared.refused.is_empty() {
         report.section("Who cannot run it", vec![refusals(&compared.refused)]);
@@ -130,6 +130,13 @@ fn refusals(refused: &[Refused]) -> Block {
         }
     }
     Block::Table(grid)
+}
+
+/// The rows in which any method has something to say: most of the books' causes are not at work in a scene.
+fn told(table: &Table) -> Table {
+    let says = |cell: &Cell| cell.number().is_some_and(|x| x.is_finite() && x != 0.0);
+    let rows = table.rows.iter().filter(|row| row.iter().skip(1).any(says)).cloned().collect();
+    Table { header: table.header.clone(), rows }
 }
 
 /// The last moment by each method side by side, grains coloured by where they began: which of them have moved, and how far.
