@@ -5,7 +5,7 @@
 //! and look again: whose way has been taken tries its other directions, or rests.
 //!
 //! A grain that cannot move sleeps until a point beside it is left, so a step costs only what moves. Many movers of one rank take
-//! their turns in [strips](super::strips) of the lattice, side by side; ties are then drawn within a strip.
+//! their turns in strips of the lattice, side by side; ties are then drawn within a strip.
 
 use super::bed::{Bed, Grains, Kind, NOWHERE};
 use super::order::{Pull, rank};
