@@ -147,12 +147,13 @@ impl ClCaEngine {
             let (now, then) = (shift(wall, &self.stage, time), shift(wall, &self.stage, before));
             pusher.moved = Vector { h: now.h - then.h, k: now.k - then.k };
             let grid = &self.bed.grid;
-            let nowhere = || vec![false; grid.columns() * grid.rows()];
+            let count = grid.columns() * grid.rows();
             if wall.goes_by(time) {
-                pusher.cells = nowhere();
+                pusher.cells.clear();
+                pusher.cells.resize(count, false);
             } else if pusher.cells.is_empty() || now != then {
                 pusher.stand(now, || {
-                    let mut cells = nowhere();
+                    let mut cells = vec![false; count];
                     self.stage.covered(grid, wall, now, |cell| cells[cell] = true);
                     cells
                 });

@@ -209,9 +209,14 @@ impl Coupled {
         [bottom].into_iter().chain(between).chain([0.0]).collect()
     }
 
+    /// The first layer over the highest one that leaves less than this share to the water.
+    fn above(&self, share: f64) -> usize {
+        self.layers.open.iter().rposition(|open| *open < share).map_or(0, |k| k + 1)
+    }
+
     /// The first layer over the bed, which ends with the highest layer that grains fill by three tenths, half of what a packing has.
     fn bed(&self) -> usize {
-        self.layers.open.iter().rposition(|open| *open < BED).map_or(0, |k| k + 1)
+        self.above(BED)
     }
 
     /// Volume of water over the bed over the plan area [m].
@@ -318,7 +323,7 @@ impl Coupled {
     fn stiffness(&mut self) {
         let n = self.layers.len();
         let h = self.layers.thickness;
-        let bed = self.layers.open.iter().rposition(|open| *open < DENSE).map_or(0, |k| k + 1);
+        let bed = self.above(DENSE);
         let mixing = |open: f64| (1.0 - (1.0 - open) / PACKED).max(0.0) * h;
         let depth: f64 = self.layers.open[bed..].iter().map(|open| mixing(*open)).sum();
         let mut below = 0.0;

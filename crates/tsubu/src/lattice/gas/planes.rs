@@ -172,9 +172,12 @@ impl Gas {
         self.go(false);
     }
 
-    /// Two steps: the same as one after the other, but the memory is read and written once.
-    pub fn two_steps(&mut self) {
-        self.go(true);
+    /// So many steps, two in a sweep: the same as one after the other, but the memory is read and written once for both.
+    pub fn steps_on(&mut self, count: u64) {
+        (0..count / 2).for_each(|_| self.go(true));
+        if count % 2 == 1 {
+            self.go(false);
+        }
     }
 
     fn go(&mut self, two: bool) {
@@ -229,7 +232,7 @@ impl Gas {
         (0..self.columns).for_each(|column| self.close(column));
     }
 
-    /// What the force gave in the last step, or the last two at once, in the basis (h, k).
+    /// What the force gave in the last sweep, of one step or of two, in the basis (h, k).
     pub fn pushed(&self) -> Vector {
         let turns = self.sweep.turns().map(|turns| turns as i64);
         let sign = self.spec.negative.map(|n| if n { -1 } else { 1 });
@@ -384,7 +387,7 @@ mod tests {
             let mut pushed = [Vector::default(); 2];
             let mut other = gas.clone();
             for _ in 0..3 {
-                gas.two_steps();
+                gas.steps_on(2);
                 pushed[0] = pushed[0].plus(gas.pushed());
                 for _ in 0..2 {
                     other.step();

@@ -170,6 +170,16 @@ pub(super) fn within(name: impl Into<String>, value: f64, expected: f64, distanc
     Claim::judge(name, value, Some(expected - distance), Some(expected + distance), source)
 }
 
+/// A claim with two ends.
+pub(super) fn between(name: impl Into<String>, value: f64, low: f64, high: f64, source: &str) -> Claim {
+    Claim::judge(name, value, Some(low), Some(high), source)
+}
+
+/// A claim with a lower end.
+pub(super) fn at_least(name: impl Into<String>, value: f64, low: f64, source: &str) -> Claim {
+    Claim::judge(name, value, Some(low), None, source)
+}
+
 /// A claim that something wrong on purpose is refused by at least so many of the same gates.
 pub(super) fn refused(what: &str, gates: &[Claim], least: u32) -> Claim {
     let count = gates.iter().filter(|c| !c.pass).count();

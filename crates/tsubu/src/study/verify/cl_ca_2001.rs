@@ -4,7 +4,7 @@
 //! what each effect needs: the wall stays, the large grain is as small as the others, the walls are smooth, nothing is
 //! poured or pushed.
 
-use super::bench::{Rig, refused};
+use super::bench::{Rig, at_least, between, refused};
 use crate::view::{Contact, Contacts, Wants};
 use crate::watch::slope::line as least_squares;
 use glam::DVec3;
@@ -14,14 +14,6 @@ use tsubu_frame::Claim;
 use tsubu_scene::Scene;
 
 const SOURCE: &str = "Sakaguchi et al. (2001), figures 9 to 11: pictures (C-6)";
-
-fn between(name: impl Into<String>, value: f64, low: f64, high: f64, source: &str) -> Claim {
-    Claim::judge(name, value, Some(low), Some(high), source)
-}
-
-fn at_least(name: impl Into<String>, value: f64, low: f64, source: &str) -> Claim {
-    Claim::judge(name, value, Some(low), None, source)
-}
 
 /// The scene of the collapse by a method, with changes; the wall on the right stays if `opened` is false.
 fn collapsing(method: &str, opened: bool, changes: &[&str]) -> Result<Rig, String> {

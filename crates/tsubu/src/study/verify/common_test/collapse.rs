@@ -1,8 +1,8 @@
 //! A bed loses its right wall.
 
-use super::super::bench::refused;
+use super::super::bench::{at_least, between, refused};
 use super::super::cl_ca_2001::slope;
-use super::seen::{Measured, Picture, Seen, Test, at_least, between};
+use super::seen::{Measured, Picture, Seen, Test};
 use tsubu_frame::Claim;
 
 const FRONT: &str = "front beyond the wall's place [mm]";

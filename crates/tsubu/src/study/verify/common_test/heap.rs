@@ -1,7 +1,7 @@
 //! A heap grows below a funnel.
 
-use super::super::bench::refused;
-use super::seen::{Measured, Picture, Seen, Test, at_least, between, quantile};
+use super::super::bench::{at_least, between, refused};
+use super::seen::{Measured, Picture, Seen, Test, quantile};
 use tsubu_frame::Claim;
 
 const ANGLE: &str = "slope of the heap [deg]";

@@ -1,7 +1,7 @@
 //! A silo runs out through a slot in its floor.
 
-use super::super::bench::refused;
-use super::seen::{Measured, Picture, Seen, Test, at_least, between, spread};
+use super::super::bench::{at_least, between, refused};
+use super::seen::{Measured, Picture, Seen, Test, spread};
 use tsubu_frame::Claim;
 
 const RATE: &str = "discharge [1/s]";

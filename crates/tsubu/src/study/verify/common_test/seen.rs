@@ -225,16 +225,6 @@ fn keep(test: &Test, measured: &Measured, folder: &Path) -> Result<(), FileError
     )
 }
 
-/// A claim with two ends.
-pub(super) fn between(name: impl Into<String>, value: f64, low: f64, high: f64, source: &str) -> Claim {
-    Claim::judge(name, value, Some(low), Some(high), source)
-}
-
-/// A claim with a lower end.
-pub(super) fn at_least(name: impl Into<String>, value: f64, low: f64, source: &str) -> Claim {
-    Claim::judge(name, value, Some(low), None, source)
-}
-
 /// Standard deviation of places about their mean, with weights.
 pub(super) fn spread(places: &[(f64, f64)]) -> f64 {
     let weight: f64 = places.iter().map(|(_, w)| w).sum();

@@ -1,7 +1,7 @@
 //! Two sizes in a box that is shaken up and down.
 
-use super::super::bench::refused;
-use super::seen::{Measured, Picture, Seen, Test, at_least, between};
+use super::super::bench::{at_least, between, refused};
+use super::seen::{Measured, Picture, Seen, Test};
 use tsubu_frame::Claim;
 
 const RISE: &str = "large over small at the end, of the bed's height [-]";
