@@ -1,5 +1,6 @@
 //! The DEM engine: its state, how it is built from a plan, and how it answers.
 
+use super::awake::awake;
 use super::integrate::Report;
 use super::orientation::Orientation;
 use super::place;
@@ -11,6 +12,7 @@ use super::wet::Wet;
 use crate::check;
 use crate::contact::Table;
 use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
+use crate::find::candidates::worth_threads;
 use crate::find::{Candidates, Search};
 use crate::ledger::{Ledger, Stocks};
 use crate::partner::Hosts;
@@ -226,10 +228,9 @@ impl Engine for DemEngine {
     }
 
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
-        for step in 0..steps {
-            self.step(hosts, ledger, step + 1 < steps)?;
-        }
-        Ok(())
+        let threaded = worth_threads(self.grains.len());
+        let mut go = || (0..steps).try_for_each(|step| self.step(hosts, ledger, step + 1 < steps));
+        if threaded { awake(go) } else { go() }
     }
 
     fn grain_stocks(&self) -> Stocks {

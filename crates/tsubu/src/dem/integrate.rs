@@ -3,7 +3,7 @@
 
 use super::touch::Block;
 use crate::find::Candidates;
-use crate::find::candidates::{BLOCK, Incoming, WORTH_THREADS};
+use crate::find::candidates::{BLOCK, Incoming, worth_threads};
 use crate::find::drift::Drift;
 use crate::state::Grains;
 use glam::DVec3;
@@ -53,7 +53,6 @@ fn each(
 ) -> Report {
     let n = grains.len();
     reports.resize(n.div_ceil(BLOCK), Report::default());
-    let threaded = n >= WORTH_THREADS && rayon::current_num_threads() > 1;
     macro_rules! zipped {
         ($chunks:ident, $chunks_mut:ident, $iter:ident $(, $split:ident)?) => {
             grains
@@ -95,7 +94,7 @@ fn each(
                 )
         };
     }
-    if threaded {
+    if worth_threads(n) {
         zipped!(par_chunks, par_chunks_mut, par_iter_mut, with_max_len);
     } else {
         zipped!(chunks, chunks_mut, iter_mut);
@@ -219,7 +218,7 @@ fn complete(s: &mut Slice, blocks: &[Block], incoming: &[Incoming], block: usize
         let change = (acceleration - s.acceleration[i]) * share;
         s.acceleration[i] = acceleration;
         s.velocity[i] += change;
-        report.correction += load.lossy.dot(change);
+        report.correction += load.lossy.as_dvec3().dot(change);
         if motion.rotation {
             let rate = load.torque * (1.0 / s.inertia[i]);
             let change = (rate - s.spin_rate[i]) * share;

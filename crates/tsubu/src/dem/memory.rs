@@ -1,8 +1,9 @@
 //! What contacts remember: history, kept for touching pairs alone.
 //!
 //! Every block has the contacts of the last step in the order of its candidates. A step walks candidates and contacts side
-//! by side, takes along what goes on and leaves what has opened; nothing is looked up. Two lists are used in turns, so
-//! that a step reads one and writes the other.
+//! by side, takes along what goes on and leaves what has opened; nothing is looked up. What it writes goes into memory that
+//! the thread has at hand from the block before, and changes places with what it has read: so a step fetches and stores
+//! every history once.
 
 use crate::contact::Law;
 use crate::contact::chunk::Column;
@@ -111,36 +112,27 @@ pub(super) struct WallKey {
     pub patch: u32,
 }
 
-/// The contacts of one block under one law: those of the last step, and those that this step writes.
+/// The contacts of one block under one law.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Memory {
-    /// Grain-grain contacts of the last step by number of the candidate.
+    /// Grain-grain contacts by number of the candidate.
     pub pairs: Contacts<u32>,
-    /// Grain-wall contacts of the last step.
+    /// Grain-wall contacts.
     pub walls: Contacts<WallKey>,
-    /// Written by this step.
-    pub next_pairs: Contacts<u32>,
-    /// Written by this step.
-    pub next_walls: Contacts<WallKey>,
 }
 
 impl Memory {
-    /// What this step has written becomes what the next one reads.
-    pub fn turn(&mut self, width: usize) {
-        std::mem::swap(&mut self.pairs, &mut self.next_pairs);
-        std::mem::swap(&mut self.walls, &mut self.next_walls);
-        self.next_pairs.clear(width);
-        self.next_walls.clear(width);
+    /// Nothing to remember, `width` numbers a contact.
+    pub fn new(width: usize) -> Self {
+        let mut memory = Self::default();
+        memory.clear(width);
+        memory
     }
 
-    /// Forgets all.
+    /// Forgets all; from now on there are `width` numbers a contact.
     pub fn clear(&mut self, width: usize) {
-        for pairs in [&mut self.pairs, &mut self.next_pairs] {
-            pairs.clear(width);
-        }
-        for walls in [&mut self.walls, &mut self.next_walls] {
-            walls.clear(width);
-        }
+        self.pairs.clear(width);
+        self.walls.clear(width);
     }
 }
 

@@ -1,5 +1,6 @@
 //! The discrete element method.
 
+mod awake;
 mod drawn;
 pub mod engine;
 mod fill;

@@ -12,12 +12,12 @@ use super::sieve::{Hits, Spheres};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::contact::{Law, Table};
 use crate::find::Candidates;
-use crate::find::candidates::{List, WORTH_THREADS};
+use crate::find::candidates::{List, worth_threads};
 use crate::state::Grains;
 use crate::view::{Contact, WallLoad};
 use crate::wall::{self, Wall};
 use crate::water::Gust;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 use walls::{react, walls};
@@ -56,15 +56,19 @@ impl Sums {
     }
 }
 
-/// What contacts do to a grain.
+/// What contacts do to a grain: one line of the cache.
+///
+/// Grains are met in any order, by their own block and by others; across two lines each would wait twice. So the part of the
+/// force that only corrects the books is in single precision.
 #[derive(Clone, Copy, Debug, Default)]
+#[repr(align(64))]
 pub(super) struct Load {
     /// Force [N].
     pub force: DVec3,
-    /// The part of the force that takes energy away: damping and friction [N].
-    pub lossy: DVec3,
     /// Torque [N.m].
     pub torque: DVec3,
+    /// The part of the force that takes energy away: damping and friction [N].
+    pub lossy: Vec3,
 }
 
 impl Load {
@@ -116,6 +120,8 @@ pub(super) struct Scene<'a> {
 struct Scratch {
     /// Of each law: what no part of a law writes stays zero in its chunk.
     rows: Vec<Rows>,
+    /// What the contacts of the block will remember, of each law.
+    next: Vec<Memory>,
     /// Contact of the last step that each row goes on from.
     old: [u32; ROWS],
     /// Keys of wall rows.
@@ -131,6 +137,7 @@ impl Scratch {
     fn new(laws: &[Law]) -> Self {
         Self {
             rows: laws.iter().map(|law| Rows::new(law.width())).collect(),
+            next: laws.iter().map(|law| Memory::new(law.width())).collect(),
             old: [FRESH; ROWS],
             keys: Vec::with_capacity(ROWS),
             spheres: Spheres::default(),
@@ -138,6 +145,13 @@ impl Scratch {
             elements: Vec::with_capacity(64),
             touching: Vec::with_capacity(64),
             went_on: Vec::with_capacity(64),
+        }
+    }
+
+    /// Makes room for what the contacts of the next block will remember.
+    fn forget(&mut self, laws: &[Law]) {
+        for (next, law) in self.next.iter_mut().zip(laws) {
+            next.clear(law.width());
         }
     }
 }
@@ -148,17 +162,16 @@ impl Touch {
         let laws = scene.table.laws();
         let lists = &scene.candidates.lists;
         self.blocks.resize_with(lists.len(), Block::default);
+        // Blocks pass their memory on, so each is as large as the largest.
+        let pairs = lists.iter().map(|list| list.pairs.len()).max().unwrap_or_default();
         for (block, list) in self.blocks.iter_mut().zip(lists) {
             block.loads.resize(list.own + list.halo.len(), Load::default());
             block.walls.resize(scene.walls.len(), WallLoad::default());
-            block.memory.resize_with(laws.len(), Memory::default);
+            if block.memory.is_empty() {
+                block.memory.extend(laws.iter().map(|law| Memory::new(law.width())));
+            }
             for (memory, _) in block.memory.iter_mut().zip(laws).filter(|(_, law)| law.width() > 0) {
-                for contacts in [&mut memory.pairs, &mut memory.next_pairs] {
-                    contacts.reserve(list.pairs.len());
-                }
-                for contacts in [&mut memory.walls, &mut memory.next_walls] {
-                    contacts.reserve(list.walls.len());
-                }
+                memory.pairs.reserve(pairs);
             }
         }
     }
@@ -177,7 +190,7 @@ impl Touch {
             block.evaluate(scene, list, &mut scratch);
         };
         let lists = &scene.candidates.lists;
-        if scene.grains.len() >= WORTH_THREADS && rayon::current_num_threads() > 1 {
+        if worth_threads(scene.grains.len()) {
             // Block by block: a thread that is done early finds work as long as there is any.
             self.blocks.par_iter_mut().zip(lists).with_max_len(1).for_each(work);
         } else {
@@ -223,10 +236,10 @@ impl Touch {
                     });
                 }
             };
-            let mut memory = block.memory.clone();
             let mut sums = Sums::default();
-            pairs(&scene, list, &mut memory, &mut scratch, &mut sums, |rows| take(rows, false));
-            walls(&scene, list, &mut memory, &mut scratch, &mut sums, |rows| take(rows, true));
+            pairs(&scene, list, &block.memory, &mut scratch, &mut sums, |rows| take(rows, false));
+            walls(&scene, list, &block.memory, &mut scratch, &mut sums, |rows| take(rows, true));
+            scratch.forget(scene.table.laws());
         }
         contacts
     }
@@ -240,11 +253,8 @@ impl Block {
         *sums = Sums::default();
         pairs(scene, list, memory, scratch, sums, |rows| scatter(rows, loads, scene.rotation));
         walls(scene, list, memory, scratch, sums, |rows| react(scene, list, rows, loads, wall_loads));
-        for (memory, law) in memory.iter_mut().zip(scene.table.laws()) {
-            if law.width() > 0 {
-                memory.turn(law.width());
-            }
-        }
+        memory.swap_with_slice(&mut scratch.next);
+        scratch.forget(scene.table.laws());
     }
 }
 
@@ -252,18 +262,18 @@ impl Block {
 fn pairs(
     scene: &Scene,
     list: &List,
-    memory: &mut [Memory],
+    memory: &[Memory],
     scratch: &mut Scratch,
     sums: &mut Sums,
     mut visit: impl FnMut(&Rows),
 ) {
-    let Scratch { spheres, hits, rows, old, .. } = scratch;
+    let Scratch { spheres, hits, rows, old, next, .. } = scratch;
     spheres.place(scene.grains, list, &scene.candidates.shifts);
     hits.sieve(list, spheres, scene.reach);
     if scene.reaches.len() > 1 {
         hits.part(scene.grains, list, spheres, scene.table, scene.reaches);
     }
-    for (k, (law, (memory, rows))) in scene.table.laws().iter().zip(memory.iter_mut().zip(rows)).enumerate() {
+    for (k, (law, ((memory, next), rows))) in scene.table.laws().iter().zip(memory.iter().zip(next).zip(rows)).enumerate() {
         let width = law.width();
         let mut cursor = 0;
         let mut released = 0.0;
@@ -284,8 +294,8 @@ fn pairs(
             }
             apply(scene, k, rows, sums);
             if width > 0 {
-                memory.next_pairs.keys.extend(hits.iter().map(|hit| hit.candidate));
-                memory.next_pairs.remember(hits.len(), &rows.chunk.history);
+                next.pairs.keys.extend(hits.iter().map(|hit| hit.candidate));
+                next.pairs.remember(hits.len(), &rows.chunk.history);
             }
             visit(rows);
         }
@@ -325,7 +335,7 @@ fn apply(scene: &Scene, k: usize, rows: &mut Rows, sums: &mut Sums) {
 fn scatter(rows: &Rows, loads: &mut [Load], rotation: bool) {
     for r in 0..rows.chunk.rows() {
         let force = Chunk::vector(&rows.force, r);
-        let lossy = Chunk::vector(&rows.lossy, r);
+        let lossy = Chunk::vector(&rows.lossy, r).as_vec3();
         let first = &mut loads[rows.first[r] as usize];
         first.force += force;
         first.lossy += lossy;

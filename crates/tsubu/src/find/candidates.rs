@@ -14,12 +14,18 @@ use crate::state::Grains;
 use crate::wall::{Pose, Wall};
 use glam::DVec3;
 use rayon::prelude::*;
+use std::sync::{Mutex, PoisonError};
 
 /// Grains of a block.
 pub const BLOCK: usize = 512;
 
 /// Fewer grains than this are not worth waking threads for.
 pub const WORTH_THREADS: usize = 2000;
+
+/// Whether `grains` are worth the other threads, and there are others.
+pub fn worth_threads(grains: usize) -> bool {
+    grains >= WORTH_THREADS && rayon::current_num_threads() > 1
+}
 
 /// Below this many grains all pairs are looked at: a grid would cost more than it saves, and nothing needs sorting.
 const SMALL: usize = 96;
@@ -77,14 +83,25 @@ pub struct List {
     pub walls: Vec<WallCandidate>,
     /// What other blocks hold for own grains, by grain and then in the order of the blocks.
     pub incoming: Vec<Incoming>,
-    near: Vec<u32>,
-    met: Met,
-    /// Second grains of all pairs.
-    seconds: Vec<Image>,
 }
 
+/// Memory of one thread that makes lists.
+#[derive(Debug, Default)]
+struct Finder {
+    met: Met,
+    /// Second grains of all pairs of the block.
+    seconds: Vec<Image>,
+    /// Place of every grain in the halo of the block; [`NOWHERE`] between blocks.
+    places: Vec<u32>,
+    /// Wall elements near a grain.
+    elements: Vec<u32>,
+}
+
+/// The place of what is not in the halo.
+const NOWHERE: u32 = u32::MAX;
+
 /// Candidate lists of all blocks, and where everything was when they were made.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Candidates {
     /// One list a block.
     pub lists: Vec<List>,
@@ -100,6 +117,7 @@ pub struct Candidates {
     level_of: Vec<u8>,
     largest: Vec<f64>,
     order: Grid,
+    finders: Vec<Mutex<Finder>>,
 }
 
 /// How the search is made.
@@ -163,26 +181,32 @@ impl Candidates {
             self.fill_levels(grains, search);
         }
         self.lists.resize_with(n.div_ceil(BLOCK), List::default);
+        self.finders.resize_with(self.finders.len().max(rayon::current_num_threads()), Mutex::default);
         let mut lists = std::mem::take(&mut self.lists);
         let make = |(block, list): (usize, &mut List)| {
+            let mine = rayon::current_thread_index().unwrap_or(0);
+            // Nobody else has this thread's finder, so the lock is free.
+            let mut finder = self.finders[mine].lock().unwrap_or_else(PoisonError::into_inner);
+            let finder = &mut *finder;
+            finder.seconds.clear();
+            finder.places.resize(n, NOWHERE);
             list.first = block * BLOCK;
             list.own = BLOCK.min(n - list.first);
             list.clear();
             for own in 0..list.own {
                 let i = list.first + own;
-                let begin = list.seconds.len();
                 if small {
-                    self.later(list, grains, search, i);
+                    self.later(finder, grains, search, i);
                 } else {
-                    self.neighbours(list, grains, search, i);
+                    self.neighbours(finder, grains, search, i);
                 }
-                list.seconds[begin..].sort_unstable();
-                list.start.push(list.seconds.len() as u32);
-                list.near_walls(walls, own as u32, self.reference[i], grains.radius[i] + search.skin + search.reach);
+                list.start.push(finder.seconds.len() as u32);
+                let reach = grains.radius[i] + search.skin + search.reach;
+                list.near_walls(walls, own as u32, self.reference[i], reach, &mut finder.elements);
             }
-            list.place();
+            list.place(finder);
         };
-        if n >= WORTH_THREADS && rayon::current_num_threads() > 1 {
+        if worth_threads(n) {
             lists.par_iter_mut().enumerate().with_max_len(1).for_each(make);
         } else {
             lists.iter_mut().enumerate().for_each(make);
@@ -228,28 +252,33 @@ impl Candidates {
         }
     }
 
+    /// Finds the grains that are paired with grain `i` in its list: those of its size in half of the directions, since the
+    /// other half finds it, and larger ones in all.
     #[inline]
-    fn neighbours(&self, list: &mut List, grains: &Grains, search: &Search, i: usize) {
+    fn neighbours(&self, finder: &mut Finder, grains: &Grains, search: &Search, i: usize) {
         let level = usize::from(self.level_of[i]);
         let reach = grains.radius[i] + search.skin + search.reach;
         let moves = grains.inverse_mass[i] > 0.0;
         for (higher, grid) in self.levels.iter().enumerate().skip(level) {
-            let from = if higher > level { 0 } else { i as u32 + 1 };
-            list.met.clear();
-            grid.near(self.reference[i], reach, &self.shifts, from, &mut list.met);
+            finder.met.clear();
+            if higher > level {
+                grid.near(self.reference[i], reach, &self.shifts, &mut finder.met);
+            } else {
+                grid.ahead(i as u32, self.reference[i], reach, &self.shifts, &mut finder.met);
+            }
             // Two grains that nothing moves need not be watched.
             let watched = |m: &&Image| moves || grains.inverse_mass[m.grain as usize] > 0.0;
-            list.seconds.extend(list.met.found().iter().filter(watched));
+            finder.seconds.extend(finder.met.found().iter().filter(watched));
         }
     }
 
     /// The same for few grains, without a grid.
-    fn later(&self, list: &mut List, grains: &Grains, search: &Search, i: usize) {
+    fn later(&self, finder: &mut Finder, grains: &Grains, search: &Search, i: usize) {
         for j in i + 1..grains.len() {
             let limit = grains.radius[i] + grains.radius[j] + search.skin + search.reach;
             let near = self.reference[i].distance_squared(self.reference[j]) < limit * limit;
             if near && grains.inverse_mass[i] + grains.inverse_mass[j] > 0.0 {
-                list.seconds.push(Image { grain: j as u32, image: HERE });
+                finder.seconds.push(Image { grain: j as u32, image: HERE });
             }
         }
     }
@@ -258,7 +287,6 @@ impl Candidates {
 impl List {
     fn clear(&mut self) {
         self.pairs.clear();
-        self.seconds.clear();
         self.walls.clear();
         self.halo.clear();
         self.incoming.clear();
@@ -266,29 +294,46 @@ impl List {
         self.start.push(0);
     }
 
-    fn near_walls(&mut self, walls: &[Wall], own: u32, centre: DVec3, reach: f64) {
+    fn near_walls(&mut self, walls: &[Wall], own: u32, centre: DVec3, reach: f64, elements: &mut Vec<u32>) {
         for (k, wall) in walls.iter().enumerate() {
-            self.near.clear();
-            wall.near(centre, reach, &mut self.near);
-            self.walls.extend(self.near.iter().map(|&element| WallCandidate { own, wall: k as u32, element }));
+            elements.clear();
+            wall.near(centre, reach, elements);
+            self.walls.extend(elements.iter().map(|&element| WallCandidate { own, wall: k as u32, element }));
         }
     }
 
     /// Gives every second grain its place in the block.
-    fn place(&mut self) {
+    fn place(&mut self, finder: &mut Finder) {
+        let Finder { seconds, places, .. } = finder;
         let inside = self.first as u32..(self.first + self.own) as u32;
         let own = |c: &Image| c.image == HERE && inside.contains(&c.grain);
-        self.halo.extend(self.seconds.iter().filter(|c| !own(c)));
+        for second in seconds.iter().filter(|c| !own(c)) {
+            // What is met across a periodic end is rare, and may be met as several images.
+            if second.image != HERE {
+                self.halo.push(*second);
+            } else if places[second.grain as usize] == NOWHERE {
+                self.halo.push(*second);
+                places[second.grain as usize] = 0;
+            }
+        }
         self.halo.sort_unstable();
         self.halo.dedup();
+        for (place, h) in (self.own as u32..).zip(&self.halo).filter(|(_, h)| h.image == HERE) {
+            places[h.grain as usize] = place;
+        }
         self.at.clear();
         self.at.extend(inside.clone().chain(self.halo.iter().map(|h| h.grain)));
-        let place = |c: &Image| {
-            if own(c) { c.grain - inside.start } else { self.own as u32 + self.halo.partition_point(|h| h < c) as u32 }
+        let place = |c: &Image| match c {
+            c if own(c) => c.grain - inside.start,
+            c if c.image == HERE => places[c.grain as usize],
+            c => self.own as u32 + self.halo.partition_point(|h| h < c) as u32,
         };
         for (grain, ends) in (0..).zip(self.start.windows(2)) {
-            let seconds = &self.seconds[ends[0] as usize..ends[1] as usize];
+            let seconds = &seconds[ends[0] as usize..ends[1] as usize];
             self.pairs.extend(seconds.iter().map(|second| Pair { own: grain, place: place(second) }));
+        }
+        for h in &self.halo {
+            places[h.grain as usize] = NOWHERE;
         }
     }
 }

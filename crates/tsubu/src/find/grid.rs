@@ -38,6 +38,9 @@ pub struct Image {
     pub image: u32,
 }
 
+/// Cells along an axis, from and to, and the image they are met in: 0, 1, 2 for a period back, none, a period on.
+type Run = ([usize; 2], u32);
+
 /// Grains found near a point. There is more room than grains: what is looked at is written down before it is known whether
 /// it stays, for a branch that goes either way costs more.
 #[derive(Clone, Debug, Default)]
@@ -57,8 +60,18 @@ impl Met {
         &self.room[..self.count]
     }
 
+    /// Forgets `grain` among what was found from the place `found` on.
+    fn forget(&mut self, found: usize, grain: u32) {
+        let mut kept = found;
+        for k in found..self.count {
+            self.room[kept] = self.room[k];
+            kept += usize::from(self.room[k].grain != grain);
+        }
+        self.count = kept;
+    }
+
     #[inline]
-    fn meet(&mut self, spheres: &[[f64; 4]], members: &[u32], from: u32, image: u32, (p, reach): (DVec3, f64)) {
+    fn meet(&mut self, spheres: &[[f64; 4]], members: &[u32], image: u32, (p, reach): (DVec3, f64)) {
         if self.room.len() < self.count + members.len() {
             self.room.resize(2 * (self.count + members.len()), Image::default());
         }
@@ -69,7 +82,7 @@ impl Met {
             let limit = sphere[3] + reach;
             let near = usize::from(dx * dx + dy * dy + dz * dz < limit * limit);
             room[count] = Image { grain, image };
-            count += near & usize::from(grain >= from);
+            count += near;
         }
         self.count += count;
     }
@@ -172,40 +185,90 @@ impl Grid {
         &self.members
     }
 
-    /// Finds every member numbered `from` or higher whose surface is nearer to a point than `reach` [m], which must not be
-    /// above the cells' size less the member's radius. An image is met where `shifts` puts it.
+    /// Finds every member whose surface is nearer to a point than `reach` [m], which must not be above the cells' size less
+    /// the member's radius. An image is met where `shifts` puts it.
     #[inline]
-    pub fn near(&self, p: DVec3, reach: f64, shifts: &[DVec3], from: u32, met: &mut Met) {
+    pub fn near(&self, p: DVec3, reach: f64, shifts: &[DVec3], met: &mut Met) {
         if self.members.is_empty() {
             return;
         }
-        let at = self.place(p);
-        let (rx, ry, rz) = (self.runs(0, at[0]), self.runs(1, at[1]), self.runs(2, at[2]));
-        for &(zs, iz) in &rz {
-            for z in zs[0]..zs[1] {
-                for &(ys, iy) in &ry {
-                    for y in ys[0]..ys[1] {
-                        for &(xs, ix) in rx.iter().filter(|(xs, _)| xs[0] < xs[1]) {
-                            let image = 9 * iz + 3 * iy + ix;
-                            let p = if image == HERE { p } else { p - shifts[image as usize] };
-                            // Neighbours along x lie side by side.
-                            let first = self.start[self.number([xs[0], y, z])] as usize;
-                            let last = self.start[self.number([xs[1] - 1, y, z]) + 1] as usize;
-                            met.meet(&self.spheres[first..last], &self.members[first..last], from, image, (p, reach));
-                        }
-                    }
+        let [x, y, z] = self.place(p);
+        let (rows, planes) = (self.around(1, y), self.around(2, z));
+        for plane in planes {
+            for row in rows {
+                self.meet(self.around(0, x), row, plane, (p, reach), shifts, met);
+            }
+        }
+    }
+
+    /// The same for a member, in half of the directions: of two members that are near one another one finds the other. No
+    /// member finds itself.
+    #[inline]
+    pub fn ahead(&self, member: u32, p: DVec3, reach: f64, shifts: &[DVec3], met: &mut Met) {
+        let [x, y, z] = self.place(p);
+        // Members of a cell keep their order.
+        let cell = self.number([x, y, z]);
+        let mates = self.start[cell] as usize..self.start[cell + 1] as usize;
+        let later = mates.start + self.members[mates.clone()].partition_point(|&m| m <= member);
+        met.meet(&self.spheres[later..mates.end], &self.members[later..mates.end], HERE, (p, reach));
+        let (found, across) = (met.count, self.around(0, x));
+        self.meet([self.after(0, x)], ([y, y + 1], 1), ([z, z + 1], 1), (p, reach), shifts, met);
+        self.meet(across, self.after(1, y), ([z, z + 1], 1), (p, reach), shifts, met);
+        let plane = self.after(2, z);
+        for row in self.around(1, y) {
+            self.meet(across, row, plane, (p, reach), shifts, met);
+        }
+        if self.images() {
+            met.forget(found, member);
+        }
+    }
+
+    /// Meets the members of rows of cells along x: `rows` and `planes` say which, each with the image along its axis.
+    #[inline]
+    fn meet<const N: usize>(
+        &self,
+        cells: [Run; N],
+        (rows, iy): Run,
+        (planes, iz): Run,
+        (p, reach): (DVec3, f64),
+        shifts: &[DVec3],
+        met: &mut Met,
+    ) {
+        for z in planes[0]..planes[1] {
+            for y in rows[0]..rows[1] {
+                for (xs, ix) in cells.into_iter().filter(|(xs, _)| xs[0] < xs[1]) {
+                    let image = 9 * iz + 3 * iy + ix;
+                    let p = if image == HERE { p } else { p - shifts[image as usize] };
+                    // Neighbours along x lie side by side.
+                    let first = self.start[self.number([xs[0], y, z])] as usize;
+                    let last = self.start[self.number([xs[1] - 1, y, z]) + 1] as usize;
+                    met.meet(&self.spheres[first..last], &self.members[first..last], image, (p, reach));
                 }
             }
         }
     }
 
-    /// The cells before, at and after `k` along an axis, in runs from and to, each with the image it is met in.
-    fn runs(&self, axis: usize, k: usize) -> [([usize; 2], u32); 3] {
+    /// The cells before, at and after `k` along an axis.
+    fn around(&self, axis: usize, k: usize) -> [Run; 3] {
         let n = self.extent[axis];
-        let wrap = self.wraps[axis];
-        let before = if wrap && k == 0 { [n - 1, n] } else { [0, 0] };
-        let after = if wrap && k + 1 == n { [0, 1] } else { [0, 0] };
-        [(before, 0), ([k.saturating_sub(1), (k + 2).min(n)], 1), (after, 2)]
+        let before = if self.wraps[axis] && k == 0 { [n - 1, n] } else { [0, 0] };
+        let (beyond, image) = self.after(axis, k);
+        let beyond = if image == 1 { [0, 0] } else { beyond };
+        [(before, 0), ([k.saturating_sub(1), (k + 2).min(n)], 1), (beyond, 2)]
+    }
+
+    /// The cell after `k` along an axis.
+    fn after(&self, axis: usize, k: usize) -> Run {
+        match k + 1 < self.extent[axis] {
+            true => ([k + 1, k + 2], 1),
+            false if self.wraps[axis] => ([0, 1], 2),
+            false => ([0, 0], 1),
+        }
+    }
+
+    /// Whether a member may meet an image of itself: where the cells of a periodic axis are too few to keep it away.
+    fn images(&self) -> bool {
+        self.wraps.iter().zip(self.extent).any(|(&wraps, n)| wraps && n == 1)
     }
 
     fn place(&self, p: DVec3) -> [usize; 3] {

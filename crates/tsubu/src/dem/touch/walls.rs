@@ -12,12 +12,12 @@ use crate::wall::{self, Wall};
 pub(super) fn walls(
     scene: &Scene,
     list: &List,
-    memory: &mut [Memory],
+    memory: &[Memory],
     scratch: &mut Scratch,
     sums: &mut Sums,
     mut visit: impl FnMut(&Rows),
 ) {
-    for (law, memory) in memory.iter_mut().enumerate() {
+    for (law, memory) in memory.iter().enumerate() {
         walls_under(scene, law, list, memory, scratch, sums, &mut visit);
     }
 }
@@ -27,7 +27,7 @@ fn walls_under(
     scene: &Scene,
     number: usize,
     list: &List,
-    memory: &mut Memory,
+    memory: &Memory,
     scratch: &mut Scratch,
     sums: &mut Sums,
     visit: &mut impl FnMut(&Rows),
@@ -137,13 +137,13 @@ fn place(c: usize) -> u32 {
 fn finish_walls(
     scene: &Scene,
     number: usize,
-    memory: &mut Memory,
+    memory: &Memory,
     scratch: &mut Scratch,
     sums: &mut Sums,
     visit: &mut impl FnMut(&Rows),
 ) {
-    let Scratch { rows, old, keys, .. } = scratch;
-    let rows = &mut rows[number];
+    let Scratch { rows, next, old, keys, .. } = scratch;
+    let (rows, next) = (&mut rows[number], &mut next[number]);
     let remembers = scene.table.laws()[number].width() > 0;
     let n = rows.chunk.rows();
     rows.motion(scene.rotation);
@@ -152,8 +152,8 @@ fn finish_walls(
     }
     apply(scene, number, rows, sums);
     if remembers {
-        memory.next_walls.keys.extend_from_slice(keys);
-        memory.next_walls.remember(n, &rows.chunk.history);
+        next.walls.keys.extend_from_slice(keys);
+        next.walls.remember(n, &rows.chunk.history);
     }
     visit(rows);
     keys.clear();
@@ -168,7 +168,7 @@ pub(super) fn react(scene: &Scene, list: &List, rows: &Rows, loads: &mut [Load],
         let turn = Chunk::vector(&rows.turn[0], r);
         let load = &mut loads[own];
         load.force += force;
-        load.lossy += Chunk::vector(&rows.lossy, r);
+        load.lossy += Chunk::vector(&rows.lossy, r).as_vec3();
         if scene.rotation {
             load.torque += turn;
         }
