@@ -273,7 +273,9 @@ fn pairs(
     if scene.reaches.len() > 1 {
         hits.part(scene.grains, list, spheres, scene.table, scene.reaches);
     }
-    for (k, (law, ((memory, next), rows))) in scene.table.laws().iter().zip(memory.iter().zip(next).zip(rows)).enumerate() {
+    for (k, (law, ((memory, next), rows))) in
+        scene.table.laws().iter().zip(memory.iter().zip(next).zip(rows)).enumerate()
+    {
         let width = law.width();
         let mut cursor = 0;
         let mut released = 0.0;

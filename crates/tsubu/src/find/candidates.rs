@@ -266,8 +266,8 @@ impl Candidates {
             } else {
                 grid.ahead(i as u32, self.reference[i], reach, &self.shifts, &mut finder.met);
             }
-            // Two grains that nothing moves need not be watched.
-            let watched = |m: &&Image| moves || grains.inverse_mass[m.grain as usize] > 0.0;
+            // Two grains that nothing moves need not be watched, nor a grain and its own image.
+            let watched = |m: &&Image| (moves || grains.inverse_mass[m.grain as usize] > 0.0) && m.grain as usize != i;
             finder.seconds.extend(finder.met.found().iter().filter(watched));
         }
     }

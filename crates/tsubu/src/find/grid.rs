@@ -60,16 +60,6 @@ impl Met {
         &self.room[..self.count]
     }
 
-    /// Forgets `grain` among what was found from the place `found` on.
-    fn forget(&mut self, found: usize, grain: u32) {
-        let mut kept = found;
-        for k in found..self.count {
-            self.room[kept] = self.room[k];
-            kept += usize::from(self.room[k].grain != grain);
-        }
-        self.count = kept;
-    }
-
     #[inline]
     fn meet(&mut self, spheres: &[[f64; 4]], members: &[u32], image: u32, (p, reach): (DVec3, f64)) {
         if self.room.len() < self.count + members.len() {
@@ -201,8 +191,8 @@ impl Grid {
         }
     }
 
-    /// The same for a member, in half of the directions: of two members that are near one another one finds the other. No
-    /// member finds itself.
+    /// The same for a member, in half of the directions: of two members that are near one another one finds the other. It
+    /// may find its own image.
     #[inline]
     pub fn ahead(&self, member: u32, p: DVec3, reach: f64, shifts: &[DVec3], met: &mut Met) {
         let [x, y, z] = self.place(p);
@@ -211,15 +201,12 @@ impl Grid {
         let mates = self.start[cell] as usize..self.start[cell + 1] as usize;
         let later = mates.start + self.members[mates.clone()].partition_point(|&m| m <= member);
         met.meet(&self.spheres[later..mates.end], &self.members[later..mates.end], HERE, (p, reach));
-        let (found, across) = (met.count, self.around(0, x));
+        let across = self.around(0, x);
         self.meet([self.after(0, x)], ([y, y + 1], 1), ([z, z + 1], 1), (p, reach), shifts, met);
         self.meet(across, self.after(1, y), ([z, z + 1], 1), (p, reach), shifts, met);
         let plane = self.after(2, z);
         for row in self.around(1, y) {
             self.meet(across, row, plane, (p, reach), shifts, met);
-        }
-        if self.images() {
-            met.forget(found, member);
         }
     }
 
@@ -264,11 +251,6 @@ impl Grid {
             false if self.wraps[axis] => ([0, 1], 2),
             false => ([0, 0], 1),
         }
-    }
-
-    /// Whether a member may meet an image of itself: where the cells of a periodic axis are too few to keep it away.
-    fn images(&self) -> bool {
-        self.wraps.iter().zip(self.extent).any(|(&wraps, n)| wraps && n == 1)
     }
 
     fn place(&self, p: DVec3) -> [usize; 3] {

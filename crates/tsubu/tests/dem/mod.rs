@@ -11,6 +11,7 @@ mod plane;
 mod rest;
 mod same_bits;
 mod seams;
+mod search;
 
 use tsubu::engine::{self, Engine};
 use tsubu::ledger::Ledger;

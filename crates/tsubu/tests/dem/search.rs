@@ -1,0 +1,92 @@
+//! The search finds every pair, once.
+
+use glam::DVec3;
+use proptest::prelude::*;
+use std::collections::BTreeMap;
+use tsubu::find::grid::HERE;
+use tsubu::find::{Candidates, Search};
+use tsubu::random::philox;
+use tsubu::state::Grains;
+
+/// Grains in a box of sides 1, some of them near its faces; radii from `small` to `large`, most of them small.
+fn strewn(count: usize, small: f64, large: f64, frozen: bool, seed: u64) -> Grains {
+    let key = [seed as u32, (seed >> 32) as u32];
+    let mut grains = Grains::default();
+    for id in 0..count as u32 {
+        let row = philox([id, 0, 0, 0], key).map(|word| f64::from(word) / (f64::from(u32::MAX) + 1.0));
+        grains.position.push(DVec3::new(row[0], row[1], row[2]));
+        grains.radius.push(small * (large / small).powf(row[3].powi(4)));
+        grains.inverse_mass.push(if frozen && id % 3 == 0 { 0.0 } else { 1.0 });
+        grains.id.push(id);
+        for column in [&mut grains.velocity, &mut grains.acceleration, &mut grains.spin, &mut grains.spin_rate] {
+            column.push(DVec3::ZERO);
+        }
+        grains.wrapped.push(DVec3::ZERO);
+        grains.mass.push(1.0);
+        grains.inertia.push(1.0);
+        grains.material.push(0);
+        grains.group.push(0);
+    }
+    grains
+}
+
+/// How often the lists have each pair: ids, the lower first, and the periods that the second is away.
+fn listed(candidates: &Candidates, grains: &Grains) -> BTreeMap<(u32, u32, [i32; 3]), usize> {
+    let mut pairs = BTreeMap::new();
+    for list in &candidates.lists {
+        for pair in &list.pairs {
+            let place = pair.place as usize;
+            let image = if place < list.own { HERE } else { list.halo[place - list.own].image };
+            let periods = [image % 3, image / 3 % 3, image / 9].map(|k| k as i32 - 1);
+            let (i, j) = (grains.id[list.first + pair.own as usize], grains.id[list.at[place] as usize]);
+            let key = if i < j { (i, j, periods) } else { (j, i, periods.map(|k| -k)) };
+            *pairs.entry(key).or_default() += 1;
+        }
+    }
+    pairs
+}
+
+/// All pairs whose gap is below the skin and of which one can move, by looking at every image of every pair.
+fn all(grains: &Grains, search: &Search) -> Vec<(u32, u32, [i32; 3])> {
+    let mut pairs = Vec::new();
+    let turns = |axis: usize| if search.ends[axis].is_some() { -1..=1 } else { 0..=0 };
+    for i in 0..grains.len() {
+        for j in (0..grains.len()).filter(|&j| grains.id[i] < grains.id[j]) {
+            if grains.inverse_mass[i] + grains.inverse_mass[j] == 0.0 {
+                continue;
+            }
+            for (x, y, z) in turns(0).flat_map(|x| turns(1).flat_map(move |y| turns(2).map(move |z| (x, y, z)))) {
+                let image = grains.position[j] + DVec3::new(f64::from(x), f64::from(y), f64::from(z));
+                let limit = grains.radius[i] + grains.radius[j] + search.skin;
+                if grains.position[i].distance_squared(image) < limit * limit {
+                    pairs.push((grains.id[i], grains.id[j], [x, y, z]));
+                }
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    /// Any number of grains and sizes, any axes periodic, from cells as large as the box to small ones.
+    #[test]
+    fn every_near_pair_is_listed_once(
+        seed in any::<u64>(), count in 2_usize..700, small in 0.01..0.12_f64, ratio in 1.0..12.0_f64, skin in 0.0..0.04_f64,
+        periodic in any::<[bool; 3]>(), frozen in any::<bool>(),
+    ) {
+        // A grain may be near its own image, which is no pair, but not near an image two periods away.
+        let large = (small * ratio).min(0.45);
+        let search = Search { skin, ends: periodic.map(|p| p.then_some([0.0, 1.0])), ..Search::default() };
+        let mut grains = strewn(count, small, large, frozen, seed);
+        let mut candidates = Candidates::default();
+        candidates.sort(&mut grains, &search);
+        candidates.search(&grains, &[], &search);
+        let listed = listed(&candidates, &grains);
+        prop_assert!(listed.values().all(|&times| times == 1), "a pair is listed twice");
+        let all = all(&grains, &search);
+        prop_assert!(listed.keys().eq(&all), "{} pairs listed, {} near", listed.len(), all.len());
+    }
+}
