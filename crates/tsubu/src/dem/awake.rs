@@ -11,9 +11,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// look for work would wait for each other.
 static TAKEN: AtomicBool = AtomicBool::new(false);
 
-/// Runs `work` on this thread, while the other threads of its pool take their share of what it hands out without going to
-/// sleep.
-pub(super) fn awake<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+/// Runs `work` on this thread, while other threads of its pool take their share of what it hands out without going to sleep:
+/// no more of them than there are `shares`.
+pub(super) fn awake<R: Send>(shares: usize, work: impl FnOnce() -> R + Send) -> R {
     if TAKEN.swap(true, Ordering::Acquire) {
         return work();
     }
@@ -21,7 +21,8 @@ pub(super) fn awake<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     rayon::scope(|scope| {
         let mine = rayon::current_thread_index();
         scope.spawn_broadcast(move |_, thread| {
-            while Some(thread.index()) != mine && !done.load(Ordering::Relaxed) {
+            let useful = thread.index() < shares && Some(thread.index()) != mine;
+            while useful && !done.load(Ordering::Relaxed) {
                 if rayon::yield_now() != Some(Yield::Executed) {
                     spin_loop();
                 }

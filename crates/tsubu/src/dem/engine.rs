@@ -12,7 +12,7 @@ use super::wet::Wet;
 use crate::check;
 use crate::contact::Table;
 use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
-use crate::find::candidates::worth_threads;
+use crate::find::candidates::{BLOCK, worth_threads};
 use crate::find::{Candidates, Search};
 use crate::ledger::{Ledger, Stocks};
 use crate::partner::Hosts;
@@ -228,9 +228,9 @@ impl Engine for DemEngine {
     }
 
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
-        let threaded = worth_threads(self.grains.len());
+        let grains = self.grains.len();
         let mut go = || (0..steps).try_for_each(|step| self.step(hosts, ledger, step + 1 < steps));
-        if threaded { awake(go) } else { go() }
+        if worth_threads(grains) { awake(grains.div_ceil(BLOCK), go) } else { go() }
     }
 
     fn grain_stocks(&self) -> Stocks {
