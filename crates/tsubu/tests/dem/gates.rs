@@ -6,7 +6,7 @@ use tsubu::engine::{self, Engine};
 use tsubu::ledger::{Account, Ledger};
 use tsubu::partner::Hosts;
 use tsubu::view::Wants;
-use tsubu_frame::{Kind, State};
+use tsubu_frame::Kind;
 use tsubu_scene::Scene;
 
 /// A ball on a floor is pulled along x and leans on a gate, which is soft, so that the contact holds energy.
@@ -181,28 +181,19 @@ time-step = "1e-5 s"
 const GOES: u64 = 1000;
 
 fn hash(threads: usize, resume: Option<u64>) -> String {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| {
-        let (mut engine, mut hosts, mut ledger) = open_text(DAM, &[]);
-        let first = resume.unwrap_or(GOES / 2);
-        engine.advance(first, &mut hosts, &mut ledger).unwrap();
-        if resume.is_some() {
-            let mut state = State::default();
-            engine.save(&mut state);
-            ledger.save(&mut state);
-            (engine, hosts, _) = open_text(DAM, &[]);
-            engine.load(&state).unwrap();
-            ledger = Ledger::load(&state).unwrap();
-        }
-        engine.advance(GOES + 700 - first, &mut hosts, &mut ledger).unwrap();
-        assert!(ledger.flow(Account::Gates) < 0.0, "the gate held nothing");
-        let residual = ledger.residual_relative(&engine::stocks(&*engine, &hosts));
-        assert!(residual.abs() < 1e-3, "{residual:e}");
-        let mut state = State::default();
-        engine.save(&mut state);
-        ledger.save(&mut state);
-        state.hash()
-    })
+    let first = resume.unwrap_or(GOES / 2);
+    super::hash(
+        || open_text(DAM, &[]),
+        [first, GOES + 700 - first],
+        threads,
+        resume.is_some(),
+        |engine, hosts, ledger| {
+            assert!(ledger.flow(Account::Gates) < 0.0, "the gate held nothing");
+            let missing = super::missing(engine, hosts, ledger);
+            assert!(missing < 1e-3, "{missing:e}");
+        },
+    )
+    .0
 }
 
 /// Resumed before the gate goes, at the very step, and after it.

@@ -16,6 +16,7 @@ mod search;
 use tsubu::engine::{self, Engine};
 use tsubu::ledger::Ledger;
 use tsubu::partner::Hosts;
+use tsubu_frame::State;
 use tsubu_scene::{Scene, TEMPLATES};
 
 /// A template scene with some keys changed, at time 0.
@@ -37,4 +38,39 @@ pub fn run_text(text: &str, folder: &std::path::Path, changes: &[&str]) -> (Box<
     let engine = engine::open(scene.plan(), &hosts).unwrap();
     let ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
     (engine, hosts, ledger)
+}
+
+/// Hash of all there is after two lots of steps on `threads` threads, and what `look` makes of the end. With `resume` a fresh
+/// engine goes on from the checkpoint between the two.
+pub fn hash<R: Send>(
+    open: impl Fn() -> (Box<dyn Engine>, Hosts, Ledger) + Sync,
+    steps: [u64; 2],
+    threads: usize,
+    resume: bool,
+    look: impl Fn(&dyn Engine, &Hosts, &Ledger) -> R + Sync,
+) -> (String, R) {
+    let checkpoint = |engine: &dyn Engine, ledger: &Ledger| {
+        let mut state = State::default();
+        engine.save(&mut state);
+        ledger.save(&mut state);
+        state
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| {
+        let (mut engine, mut hosts, mut ledger) = open();
+        engine.advance(steps[0], &mut hosts, &mut ledger).unwrap();
+        if resume {
+            let state = checkpoint(&*engine, &ledger);
+            (engine, hosts, _) = open();
+            engine.load(&state).unwrap();
+            ledger = Ledger::load(&state).unwrap();
+        }
+        engine.advance(steps[1], &mut hosts, &mut ledger).unwrap();
+        (checkpoint(&*engine, &ledger).hash(), look(&*engine, &hosts, &ledger))
+    })
+}
+
+/// Share that the books miss of what was turned over.
+pub fn missing(engine: &dyn Engine, hosts: &Hosts, ledger: &Ledger) -> f64 {
+    ledger.residual_relative(&engine::stocks(engine, hosts)).abs()
 }

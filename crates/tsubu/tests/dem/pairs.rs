@@ -8,9 +8,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 use tsubu::check;
 use tsubu::engine;
-use tsubu::ledger::Ledger;
 use tsubu::partner::Hosts;
-use tsubu_frame::{Frame, Kind, State, Values};
+use tsubu_frame::{Frame, Kind, Values};
 use tsubu_scene::Scene;
 
 const E: f64 = 0.8;
@@ -289,26 +288,17 @@ fn mixed_contacts(frame: &Frame) -> usize {
 
 fn hash(laws: &str, threads: usize, resume: bool) -> (String, f64) {
     let text = bed(laws);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| {
-        let (mut engine, mut hosts, mut ledger) = open_text(&text, &[]);
-        engine.advance(700, &mut hosts, &mut ledger).unwrap();
-        let mut state = State::default();
-        engine.save(&mut state);
-        ledger.save(&mut state);
-        if resume {
-            (engine, hosts, _) = open_text(&text, &[]);
-            engine.load(&state).unwrap();
-            ledger = Ledger::load(&state).unwrap();
-        }
-        engine.advance(800, &mut hosts, &mut ledger).unwrap();
-        let mixed = mixed_contacts(&engine.frame(&hosts));
-        assert!(engine.grains() < 2500 && engine.contacts() > 2000 && mixed > 100, "{} {mixed}", engine.contacts());
-        let mut state = State::default();
-        engine.save(&mut state);
-        ledger.save(&mut state);
-        (state.hash(), ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs())
-    })
+    super::hash(
+        || open_text(&text, &[]),
+        [700, 800],
+        threads,
+        resume,
+        |engine, hosts, ledger| {
+            let mixed = mixed_contacts(&engine.frame(hosts));
+            assert!(engine.grains() < 2500 && engine.contacts() > 2000 && mixed > 100, "{} {mixed}", engine.contacts());
+            super::missing(engine, hosts, ledger)
+        },
+    )
 }
 
 #[test]

@@ -1,8 +1,6 @@
 //! The same bits for any number of threads, and after a resume.
 
 use super::{open, open_text};
-use tsubu::ledger::Ledger;
-use tsubu_frame::State;
 
 /// 2,500 balls, enough for threads to be worth it, with friction springs, spin and rolling friction.
 const MANY: &str = r#"
@@ -30,24 +28,7 @@ time-step = "1e-5 s"
 "#;
 
 fn hash(threads: usize, resume: bool) -> String {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| {
-        let (mut engine, mut hosts, mut ledger) = open_text(MANY, &[]);
-        engine.advance(700, &mut hosts, &mut ledger).unwrap();
-        let mut state = State::default();
-        engine.save(&mut state);
-        ledger.save(&mut state);
-        if resume {
-            (engine, hosts, _) = open_text(MANY, &[]);
-            engine.load(&state).unwrap();
-            ledger = Ledger::load(&state).unwrap();
-        }
-        engine.advance(800, &mut hosts, &mut ledger).unwrap();
-        let mut state = State::default();
-        engine.save(&mut state);
-        ledger.save(&mut state);
-        state.hash()
-    })
+    super::hash(|| open_text(MANY, &[]), [700, 800], threads, resume, |_, _, _| ()).0
 }
 
 #[test]

@@ -2,13 +2,11 @@
 
 use super::GRAIN;
 use super::coupled::{FLUME, stream};
-use crate::dem::open_text;
+use crate::dem::{self, open_text};
 use std::f64::consts::{FRAC_PI_2, PI};
 use tsubu::engine;
-use tsubu::ledger::Ledger;
 use tsubu::view::Wants;
 use tsubu::water::{Fluctuation, Gust};
-use tsubu_frame::State;
 use tsubu_scene::plan;
 
 const TIME: f64 = 0.05;
@@ -213,26 +211,17 @@ time-step = "1e-5 s"
 "#;
 
 fn hash(changes: &[&str], threads: usize, resume: bool) -> String {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| {
-        let (mut engine, mut hosts, mut ledger) = open_text(MANY, changes);
-        engine.advance(400, &mut hosts, &mut ledger).unwrap();
-        let mut state = State::default();
-        engine.save(&mut state);
-        ledger.save(&mut state);
-        if resume {
-            (engine, hosts, _) = open_text(MANY, changes);
-            engine.load(&state).unwrap();
-            ledger = Ledger::load(&state).unwrap();
-        }
-        engine.advance(500, &mut hosts, &mut ledger).unwrap();
-        let missing = ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs();
-        assert!(missing < 1e-3, "{missing:e}");
-        let mut state = State::default();
-        engine.save(&mut state);
-        ledger.save(&mut state);
-        state.hash()
-    })
+    dem::hash(
+        || open_text(MANY, changes),
+        [400, 500],
+        threads,
+        resume,
+        |engine, hosts, ledger| {
+            let missing = dem::missing(engine, hosts, ledger);
+            assert!(missing < 1e-3, "{missing:e}");
+        },
+    )
+    .0
 }
 
 /// What is drawn depends on the grain and the moment, not on who asks first, where the grain is stored, or whether the run was

@@ -1,10 +1,8 @@
 //! Streams.
 
 use super::{GRAIN, after, grain};
-use crate::dem::open_text;
-use tsubu::engine;
-use tsubu::ledger::{Account, Ledger};
-use tsubu_frame::State;
+use crate::dem::{self, open_text};
+use tsubu::ledger::Account;
 
 /// A grain as heavy as water goes along with the log law, U = U* (8.5 + 5.75 log10(Z/k)), wherever it is; with natural
 /// logarithms instead the same gate fails.
@@ -70,28 +68,22 @@ fn a_table_is_followed() {
 #[test]
 fn a_leaping_grain_keeps_its_books_and_bits() {
     let text = tsubu_scene::TEMPLATES.iter().find(|t| t.name == "saltation").unwrap().text;
-    let (mut engine, mut hosts, mut ledger) = open_text(text, &[]);
-    let half = (0.5 / engine.time_step()) as u64;
-    engine.advance(half, &mut hosts, &mut ledger).unwrap();
-    let mut middle = State::default();
-    engine.save(&mut middle);
-    ledger.save(&mut middle);
-    engine.advance(half, &mut hosts, &mut ledger).unwrap();
-    let missing = ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs();
-    assert!(missing < 1e-3, "{missing:e}");
-    for missing in ledger.momentum_residual(engine.momentum()) {
-        assert!(missing.abs() < 1e-11 * ledger.gravity_impulse[2].abs(), "{missing:e}");
-    }
-    let end = |engine: &dyn engine::Engine, ledger: &Ledger| {
-        let mut state = State::default();
-        engine.save(&mut state);
-        ledger.save(&mut state);
-        state.hash()
+    let half = (0.5 / open_text(text, &[]).0.time_step()) as u64;
+    let end = |resume: bool| {
+        let (hash, ()) = dem::hash(
+            || open_text(text, &[]),
+            [half, half],
+            1,
+            resume,
+            |engine, hosts, ledger| {
+                let missing = dem::missing(engine, hosts, ledger);
+                assert!(missing < 1e-3, "{missing:e}");
+                for missing in ledger.momentum_residual(engine.momentum()) {
+                    assert!(missing.abs() < 1e-11 * ledger.gravity_impulse[2].abs(), "{missing:e}");
+                }
+            },
+        );
+        hash
     };
-    let straight = end(&*engine, &ledger);
-    let (mut again, mut hosts, _) = open_text(text, &[]);
-    again.load(&middle).unwrap();
-    let mut ledger = Ledger::load(&middle).unwrap();
-    again.advance(half, &mut hosts, &mut ledger).unwrap();
-    assert_eq!(straight, end(&*again, &ledger));
+    assert_eq!(end(false), end(true));
 }
