@@ -6,9 +6,8 @@ use std::path::Path;
 use std::process::ExitCode;
 use tsubu::engine::OpenError;
 use tsubu::run::RunError;
+use tsubu::study::cases::CasesError;
 use tsubu::study::compare::CompareError;
-use tsubu::study::response::ResponseError;
-use tsubu::study::sweep::SweepError;
 use tsubu_frame::{CheckpointError, FileError, checkpoint};
 use tsubu_report::ReportError;
 use tsubu_scene::Complaints;
@@ -148,21 +147,12 @@ impl Failure {
         }
     }
 
-    /// What went wrong in a response, sweep or comparison into `folder`; a case is named with its own trouble.
-    pub fn of_response(error: &ResponseError, folder: &Path) -> Self {
+    /// What went wrong in a response or a sweep into `folder`; a case is named with its own trouble.
+    pub fn of_cases(error: &CasesError, folder: &Path) -> Self {
         match error {
-            ResponseError::Scene(message) => Self::wrong(message.as_str()),
-            ResponseError::Run { case, error } => Self::of_run(error, folder).about("case", case),
-            ResponseError::File(error) => Self::of_file(error, folder),
-        }
-    }
-
-    /// The same for a sweep.
-    pub fn of_sweep(error: &SweepError, folder: &Path) -> Self {
-        match error {
-            SweepError::Scene(message) => Self::wrong(message.as_str()),
-            SweepError::Run { case, error } => Self::of_run(error, folder).about("case", case),
-            SweepError::File(error) => Self::of_file(error, folder),
+            CasesError::Scene(message) => Self::wrong(message.as_str()),
+            CasesError::Run { case, error } => Self::of_run(error, folder).about("case", case),
+            CasesError::File(error) => Self::of_file(error, folder),
         }
     }
 

@@ -50,7 +50,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     let watcher = Watcher { interrupted, progress: &|done| progress.set(done) };
     let done = pool.install(|| tsubu::study::sweep::sweep(&scene, &folder, &watcher));
     progress.end();
-    let summaries = done.map_err(|error| Failure::of_sweep(&error, &folder))?;
+    let summaries = done.map_err(|error| Failure::of_cases(&error, &folder))?;
     if interrupted.load(Ordering::Relaxed) {
         let message = format!("interrupted; finished cases and checkpoints are in {}", folder.display());
         return Err(Failure::interrupted(message).hint(format!("go on with `{}`", command_to_resume())));

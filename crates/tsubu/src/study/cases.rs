@@ -1,8 +1,29 @@
 //! Every combination of the values that a study varies.
 
+use crate::run::RunError;
 use std::collections::BTreeMap;
 use toml::Value;
+use tsubu_frame::FileError;
 use tsubu_scene::{Complaints, Scene};
+
+/// Why a study of many cases has no result.
+#[derive(Debug, thiserror::Error)]
+pub enum CasesError {
+    /// The scene does not say what the study needs, or a case of it is wrong.
+    #[error("{0}")]
+    Scene(String),
+    /// A case went wrong.
+    #[error("case `{case}`: {error}")]
+    Run {
+        /// Name of the case.
+        case: String,
+        /// What went wrong.
+        error: RunError,
+    },
+    /// A file or folder.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
 
 /// One combination.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,7 +11,7 @@ mod write;
 pub use curve::{CaseResult, Peak, peak};
 pub use tasks::{Point, measure};
 
-use super::cases::{Case, cases};
+use super::cases::{Case, CasesError, cases};
 use crate::engine::OpenError;
 use crate::run::{RunError, Watcher, scene_hash};
 use crate::scene_files;
@@ -27,25 +27,6 @@ use std::time::Instant;
 use tsubu_frame::{Existing, FileError, RunFolder, State, Status, Summary};
 use tsubu_scene::{Plan, Scene, plan};
 
-/// Why there is no response.
-#[derive(Debug, thiserror::Error)]
-pub enum ResponseError {
-    /// The scene says nothing about a response, or its host is not shaken by a sine.
-    #[error("{0}")]
-    Scene(String),
-    /// A run went wrong.
-    #[error("case `{case}`: {error}")]
-    Run {
-        /// Name of the case.
-        case: String,
-        /// What went wrong.
-        error: RunError,
-    },
-    /// A file or folder.
-    #[error(transparent)]
-    File(#[from] FileError),
-}
-
 /// One run of the response.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 struct Key {
@@ -55,7 +36,7 @@ struct Key {
 }
 
 /// Computes the frequency response of a scene into `folder`. An existing folder of the same scene is gone on with.
-pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Summary, ResponseError> {
+pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Summary, CasesError> {
     let begun = Instant::now();
     let task = Task::new(scene)?;
     let resolved = scene.resolved_toml();
@@ -65,7 +46,7 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
     // Only now, so that a scene that a method refuses leaves nothing behind.
     let (folder, mut points) = open_folder(folder, earlier, scene, overwrite)?;
     let journal = Mutex::new(journal(&folder)?);
-    let record = |key: &Key, point: &Point| -> Result<(), ResponseError> {
+    let record = |key: &Key, point: &Point| -> Result<(), CasesError> {
         if let Ok(mut file) = journal.lock() {
             let line = serde_json::to_string(&(key, point)).unwrap_or_default();
             writeln!(file, "{line}").map_err(FileError::write(&folder.file("progress.jsonl")))?;
@@ -82,7 +63,7 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
 }
 
 /// The curves of a scene's response, without any file.
-pub fn curves(scene: &Scene) -> Result<Vec<CaseResult>, ResponseError> {
+pub fn curves(scene: &Scene) -> Result<Vec<CaseResult>, CasesError> {
     let task = Task::new(scene)?;
     let keys = task.missing(None);
     let beds = task.settle(&keys)?;
@@ -105,12 +86,12 @@ struct Task {
 }
 
 impl Task {
-    fn new(scene: &Scene) -> Result<Self, ResponseError> {
+    fn new(scene: &Scene) -> Result<Self, CasesError> {
         let plan = scene.plan();
         let wanted = plan.response.clone().ok_or_else(|| {
-            ResponseError::Scene("the scene has no `[response]`: say which frequencies, for example `frequency-ratio = { from = 0.85, to = 1.15, step = 0.01 }`".to_owned())
+            CasesError::Scene("the scene has no `[response]`: say which frequencies, for example `frequency-ratio = { from = 0.85, to = 1.15, step = 0.01 }`".to_owned())
         })?;
-        let reference = tasks::reference_frequency(plan, &wanted.host).map_err(ResponseError::Scene)?;
+        let reference = tasks::reference_frequency(plan, &wanted.host).map_err(CasesError::Scene)?;
         let cases = cases(&wanted.vary);
         let plans = case_plans(scene, &cases)?;
         Ok(Self { wanted, reference, cases, plans })
@@ -135,12 +116,12 @@ impl Task {
         keys
     }
 
-    fn fail(&self, case: usize, error: RunError) -> ResponseError {
-        ResponseError::Run { case: self.cases[case].name.clone(), error }
+    fn fail(&self, case: usize, error: RunError) -> CasesError {
+        CasesError::Run { case: self.cases[case].name.clone(), error }
     }
 
     /// Settles the bed of every case and seed among the keys.
-    fn settle(&self, keys: &[Key]) -> Result<Beds, ResponseError> {
+    fn settle(&self, keys: &[Key]) -> Result<Beds, CasesError> {
         let needed: BTreeSet<(usize, u32)> = keys.iter().map(|k| (k.case, k.seed)).collect();
         needed
             .par_iter()
@@ -156,9 +137,9 @@ impl Task {
         &self,
         keys: &[Key],
         beds: &Beds,
-        record: &(dyn Fn(&Key, &Point) -> Result<(), ResponseError> + Sync),
+        record: &(dyn Fn(&Key, &Point) -> Result<(), CasesError> + Sync),
         watcher: &Watcher,
-    ) -> Result<Done, ResponseError> {
+    ) -> Result<Done, CasesError> {
         let total = self.total();
         let counter = AtomicUsize::new(total - keys.len());
         keys.par_iter()
@@ -180,7 +161,7 @@ impl Task {
     }
 
     /// Eight pictures of one period of the fullest case at its peak.
-    fn film(&self, results: &[CaseResult], folder: &RunFolder) -> Result<(), ResponseError> {
+    fn film(&self, results: &[CaseResult], folder: &RunFolder) -> Result<(), CasesError> {
         let fullest = results.iter().enumerate().max_by_key(|(_, case)| case.particles);
         let Some((index, peak)) = fullest.and_then(|(i, case)| Some((i, case.peak?))) else { return Ok(()) };
         let bed = tasks::bed(&self.plans[index], 0).map_err(|e| self.fail(index, e.into()))?;
@@ -203,9 +184,9 @@ impl Task {
     }
 }
 
-fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, ResponseError> {
+fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, CasesError> {
     list.iter()
-        .map(|case| Ok(case.scene(scene).map_err(|c| ResponseError::Scene(c.to_string()))?.plan().clone()))
+        .map(|case| Ok(case.scene(scene).map_err(|c| CasesError::Scene(c.to_string()))?.plan().clone()))
         .collect()
 }
 
@@ -253,7 +234,7 @@ fn journal(folder: &RunFolder) -> Result<File, FileError> {
     Ok(file)
 }
 
-impl From<OpenError> for ResponseError {
+impl From<OpenError> for CasesError {
     fn from(error: OpenError) -> Self {
         Self::Scene(error.to_string())
     }

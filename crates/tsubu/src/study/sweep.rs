@@ -1,48 +1,29 @@
 //! A parameter sweep: every case is a run of its own.
 
-use super::cases::{Case, cases};
+use super::cases::{Case, CasesError, cases};
 use crate::engine;
 use crate::partner::Hosts;
-use crate::run::{self, RunError, Watcher};
+use crate::run::{self, Watcher};
 use crate::scene_files;
 use rayon::prelude::*;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use tsubu_frame::{Cell, Existing, FileError, ResultValue, RunFolder, Status, Summary, Table};
+use tsubu_frame::{Cell, Existing, ResultValue, RunFolder, Status, Summary, Table};
 use tsubu_scene::Scene;
-
-/// Why a sweep has no result.
-#[derive(Debug, thiserror::Error)]
-pub enum SweepError {
-    /// The scene says nothing about a sweep, or a case of it is wrong.
-    #[error("{0}")]
-    Scene(String),
-    /// A case went wrong.
-    #[error("case `{case}`: {error}")]
-    Run {
-        /// Name of the case.
-        case: String,
-        /// What went wrong.
-        error: RunError,
-    },
-    /// A file or folder.
-    #[error(transparent)]
-    File(#[from] FileError),
-}
 
 /// Runs every case of the scene's `[sweep]` into a folder of its own below `folder/cases`; finished cases are kept, cut
 /// ones go on from their checkpoint. Writes `sweep.csv`.
-pub fn sweep(scene: &Scene, folder: &Path, watcher: &Watcher) -> Result<Vec<Summary>, SweepError> {
+pub fn sweep(scene: &Scene, folder: &Path, watcher: &Watcher) -> Result<Vec<Summary>, CasesError> {
     let wanted = scene.plan().sweep.as_ref().ok_or_else(|| {
-        SweepError::Scene("the scene has no `[sweep]`: say what varies, for example `vary = { \"particles.balls.count\" = [10, 20] }`".to_owned())
+        CasesError::Scene("the scene has no `[sweep]`: say what varies, for example `vary = { \"particles.balls.count\" = [10, 20] }`".to_owned())
     })?;
     let list = cases(&wanted.vary);
     // A case that its method refuses must say so before the others have run, and leave nothing behind.
     for case in &list {
-        let scene = case.scene(scene).map_err(|c| SweepError::Scene(c.to_string()))?;
+        let scene = case.scene(scene).map_err(|c| CasesError::Scene(c.to_string()))?;
         let plan = super::unsettled(scene.plan());
         engine::open(&plan, &Hosts::new(&plan.hosts))
-            .map_err(|error| SweepError::Run { case: case.name.clone(), error: error.into() })?;
+            .map_err(|error| CasesError::Run { case: case.name.clone(), error: error.into() })?;
     }
     let existing = if folder.join("cases").is_dir() { Existing::Resume } else { Existing::Refuse };
     let folder = RunFolder::create(folder, existing)?;
@@ -60,15 +41,15 @@ pub fn sweep(scene: &Scene, folder: &Path, watcher: &Watcher) -> Result<Vec<Summ
             (watcher.progress)(done as f64 / list.len() as f64);
             Ok(Some(summary))
         })
-        .collect::<Result<_, SweepError>>()?;
+        .collect::<Result<_, CasesError>>()?;
     let done: Vec<(&Case, &Summary)> =
         list.iter().zip(&summaries).filter_map(|(c, s)| Some((c, s.as_ref()?))).collect();
     table(&done).write(&folder.file("sweep.csv"))?;
     Ok(summaries.into_iter().flatten().collect())
 }
 
-fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<Summary, SweepError> {
-    let scene = case.scene(scene).map_err(|c| SweepError::Scene(c.to_string()))?;
+fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<Summary, CasesError> {
+    let scene = case.scene(scene).map_err(|c| CasesError::Scene(c.to_string()))?;
     let same = std::fs::read_to_string(folder.join("scene.toml")).is_ok_and(|text| text == scene.resolved_toml());
     let earlier = Summary::read(&folder.join("summary.json")).ok().filter(|_| same);
     if let Some(summary) = earlier.filter(|s| s.status == Status::Finished) {
@@ -77,7 +58,7 @@ fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<S
     let cut = same && tsubu_frame::checkpoint::path(folder).exists();
     let existing = if cut { Existing::Resume } else { Existing::Overwrite };
     let quiet = Watcher { interrupted: watcher.interrupted, progress: &|_| {} };
-    run::run(&scene, folder, existing, &quiet).map_err(|error| SweepError::Run { case: case.name.clone(), error })
+    run::run(&scene, folder, existing, &quiet).map_err(|error| CasesError::Run { case: case.name.clone(), error })
 }
 
 /// One row a case: what varied, what it cost, what came out.
