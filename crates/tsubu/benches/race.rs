@@ -9,6 +9,7 @@ use std::time::Instant;
 use tsubu::engine::{self, Engine};
 use tsubu::ledger::Ledger;
 use tsubu::partner::Hosts;
+use tsubu::threads::alone;
 use tsubu_frame::{Frame, Kind, Values};
 use tsubu_scene::Scene;
 use tsubu_scene::plan::{GrainMotion, Plan};
@@ -23,7 +24,7 @@ fn main() {
     let number = |text: &str| text.parse::<u64>().unwrap_or_else(|e| panic!("{text}: {e}"));
     let (warm, steps) = (number(warm), number(steps));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(number(threads) as usize).build();
-    pool.unwrap_or_else(|e| panic!("{e}")).install(|| race(Path::new(scene), changes, warm, steps));
+    pool.unwrap_or_else(|e| panic!("{e}")).install(|| alone(|| race(Path::new(scene), changes, warm, steps)));
 }
 
 fn race(path: &Path, changes: &[String], warm: u64, steps: u64) {

@@ -20,6 +20,7 @@ pub mod run;
 pub(crate) mod scene_files;
 pub mod state;
 pub mod study;
+pub mod threads;
 pub mod view;
 pub mod wall;
 pub mod watch;

@@ -11,6 +11,7 @@ use std::path::Path;
 use tsubu::run::Watcher;
 use tsubu::study::compare::compare;
 use tsubu::study::variant::Variant;
+use tsubu::threads::alone;
 use tsubu_frame::{Status, Table};
 
 #[derive(Args)]
@@ -42,7 +43,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     let pool = options.work.pool()?;
     let progress = Progress::new("compare", options.work.quiet);
     let watcher = Watcher { interrupted: stop::listen(), progress: &|done| progress.set(done) };
-    let done = pool.install(|| compare(&scene, &variants, &folder, options.folder.existing(), &watcher));
+    let done = pool.install(|| alone(|| compare(&scene, &variants, &folder, options.folder.existing(), &watcher)));
     progress.end();
     let compared = done.map_err(|error| Failure::of_compare(&error, &folder))?;
     if compared.done.iter().any(|(_, summary)| summary.status == Status::Interrupted) {

@@ -10,6 +10,7 @@ use clap::Args;
 use std::fmt::Write as _;
 use tsubu::check::human_time;
 use tsubu::run::Watcher;
+use tsubu::threads::alone;
 use tsubu_frame::{Existing, ResultValue, Status, Summary};
 
 #[derive(Args)]
@@ -40,7 +41,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     let pool = options.work.pool()?;
     let progress = Progress::new("run", options.work.quiet);
     let watcher = Watcher { interrupted: stop::listen(), progress: &|done| progress.set(done) };
-    let done = pool.install(|| tsubu::run::run(&scene, &folder, existing, &watcher));
+    let done = pool.install(|| alone(|| tsubu::run::run(&scene, &folder, existing, &watcher)));
     progress.end();
     let summary = done.map_err(|error| Failure::of_run(&error, &folder))?;
     if summary.status == Status::Interrupted {

@@ -10,6 +10,7 @@ use crate::engine::{self, Engine, OpenError};
 use crate::ledger::Ledger;
 use crate::partner::Hosts;
 use crate::run::Watcher;
+use crate::threads::alone;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
@@ -136,7 +137,8 @@ impl Job<'_> {
                 return Err(BenchError::Interrupted);
             }
             let took = Instant::now();
-            let done = pool.install(|| self.engine.advance(block, &mut self.hosts, &mut self.ledger));
+            let step = || alone(|| self.engine.advance(block, &mut self.hosts, &mut self.ledger));
+            let done = pool.install(step);
             done.map_err(|fault| BenchError::Work { work: self.work, error: fault.into() })?;
             block = if took.elapsed().as_millis() < 50 { (2 * block).min(1 << 16) } else { (block / 2).max(1) };
         }

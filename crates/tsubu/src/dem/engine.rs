@@ -1,6 +1,5 @@
 //! The DEM engine: its state, how it is built from a plan, and how it answers.
 
-use super::awake::awake;
 use super::integrate::Report;
 use super::orientation::Orientation;
 use super::place;
@@ -17,6 +16,7 @@ use crate::find::{Candidates, Search};
 use crate::ledger::{Ledger, Stocks};
 use crate::partner::Hosts;
 use crate::state::Grains;
+use crate::threads::awake;
 use crate::view::{View, WallLoad, Wants};
 use crate::wall::{Mover, Wall};
 use crate::water::{self, Water};

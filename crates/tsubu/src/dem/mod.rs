@@ -1,6 +1,5 @@
 //! The discrete element method.
 
-mod awake;
 mod drawn;
 pub mod engine;
 mod fill;

@@ -16,6 +16,7 @@ mod search;
 use tsubu::engine::{self, Engine};
 use tsubu::ledger::Ledger;
 use tsubu::partner::Hosts;
+use tsubu::threads::alone;
 use tsubu_frame::State;
 use tsubu_scene::{Scene, TEMPLATES};
 
@@ -65,7 +66,8 @@ pub fn hash<R: Send>(
             engine.load(&state).unwrap();
             ledger = Ledger::load(&state).unwrap();
         }
-        engine.advance(steps[1], &mut hosts, &mut ledger).unwrap();
+        // What keeps threads awake must not matter either.
+        alone(|| engine.advance(steps[1], &mut hosts, &mut ledger)).unwrap();
         (checkpoint(&*engine, &ledger).hash(), look(&*engine, &hosts, &ledger))
     })
 }

@@ -1,0 +1,52 @@
+//! Threads that wait for work with open eyes.
+//!
+//! A step of many grains has two short pieces of work for all threads, with a shorter one for a single thread between them. A
+//! thread that goes to sleep in the gap is woken a tenth of a step later; so while steps are made, threads without work look for
+//! it. Only where one run has the threads for itself: with several in one pool, whoever waits for a thread of another run waits
+//! for that run.
+
+use rayon::Yield;
+use std::hint::spin_loop;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// How many pieces of work of this process are [`alone`] with their threads.
+static ALONE: AtomicUsize = AtomicUsize::new(0);
+
+/// Runs `work`, which makes one run at a time and has the threads of its pool for itself: the run may keep them awake between
+/// its steps. Results are the same without.
+pub fn alone<R>(work: impl FnOnce() -> R) -> R {
+    ALONE.fetch_add(1, Ordering::Relaxed);
+    let _end = Finally(|| _ = ALONE.fetch_sub(1, Ordering::Relaxed));
+    work()
+}
+
+/// Runs `work` on this thread. Where a run is [`alone`], other threads of its pool take their share of what it hands out without
+/// going to sleep: no more of them than there are `shares`.
+pub(crate) fn awake<R: Send>(shares: usize, work: impl FnOnce() -> R + Send) -> R {
+    if ALONE.load(Ordering::Relaxed) == 0 {
+        return work();
+    }
+    let looking = &AtomicBool::new(true);
+    rayon::scope(|scope| {
+        let mine = rayon::current_thread_index();
+        scope.spawn_broadcast(move |_, thread| {
+            let useful = thread.index() < shares && Some(thread.index()) != mine;
+            while useful && looking.load(Ordering::Relaxed) {
+                if rayon::yield_now() != Some(Yield::Executed) {
+                    spin_loop();
+                }
+            }
+        });
+        let _end = Finally(|| looking.store(false, Ordering::Relaxed));
+        work()
+    })
+}
+
+/// Does something when dropped, however the work before has ended.
+struct Finally<F: Fn()>(F);
+
+impl<F: Fn()> Drop for Finally<F> {
+    fn drop(&mut self) {
+        self.0();
+    }
+}
