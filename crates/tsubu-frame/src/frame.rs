@@ -12,7 +12,8 @@ pub enum Kind {
     /// One row a vertex of a wall; consecutive rows of equal `outline` index form a closed line, or a polygon where
     /// the column `face` is not 0.
     Surface,
-    /// One row in all.
+    /// Of no row in particular: mostly one row in all. Where grains have outlines, `shape of corner` and `corner` have a
+    /// row a corner; consecutive rows of equal shape form a closed line round the position of grains of that `shape`.
     Global,
 }
 

@@ -1,5 +1,6 @@
 //! Particle pictures: what is to be drawn of a frame, and how large.
 
+use std::collections::BTreeMap;
 use tsubu_frame::{Frame, Kind, Values};
 
 /// What the colour of a grain tells.
@@ -52,6 +53,10 @@ pub struct Balls {
     pub centres: Vec<[f64; 3]>,
     /// Radii [m].
     pub radii: Vec<f64>,
+    /// Numbers of the outlines of grains that are no discs or spheres; empty where all are.
+    pub shape: Vec<i64>,
+    /// Outlines by number: corners round the centre [m], turned like it.
+    pub shapes: BTreeMap<i64, Vec<[f64; 3]>>,
     /// Velocities, turned like the centres [m/s].
     pub velocities: Vec<[f64; 3]>,
     /// Values behind the colours.
@@ -96,6 +101,8 @@ impl Balls {
             time: frame.time,
             centres: position.iter().map(|p| turn(*p)).collect(),
             radii,
+            shape: frame.integers(Kind::Grain, "shape").to_vec(),
+            shapes: shapes(frame, &turn),
             velocities: velocity.iter().map(|v| turn(*v)).collect(),
             values,
             quantity,
@@ -103,6 +110,13 @@ impl Balls {
             faces,
             space: view == View::Slant,
         }
+    }
+
+    /// Corners of a grain's outline, turned to the viewer [m]; `None`: it is a disc or a sphere.
+    pub fn outline(&self, grain: usize) -> Option<impl Iterator<Item = [f64; 3]> + Clone> {
+        let centre = self.centres[grain];
+        let corners = self.shapes.get(self.shape.get(grain)?)?;
+        Some(corners.iter().map(move |corner| std::array::from_fn(|k| centre[k] + corner[k])))
     }
 
     /// Whether there is nothing to see: neither grains nor walls.
@@ -113,14 +127,18 @@ impl Balls {
     /// The rectangle that holds all grains and walls: left, bottom, right, top.
     pub fn extent(&self) -> [f64; 4] {
         let mut e = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
-        let spheres = self.centres.iter().zip(&self.radii).map(|(c, r)| (c, *r));
-        for (c, r) in spheres.chain(self.outlines.iter().flatten().chain(self.faces.iter().flatten()).map(|c| (c, 0.0)))
-        {
+        let round = (0..self.centres.len()).filter(|&grain| self.outline(grain).is_none());
+        let spheres = round.map(|grain| (self.centres[grain], self.radii[grain]));
+        let corners = (0..self.centres.len()).filter_map(|grain| self.outline(grain)).flatten();
+        let walls = self.outlines.iter().flatten().chain(self.faces.iter().flatten());
+        for (c, r) in spheres.chain(corners.chain(walls.copied()).map(|corner| (corner, 0.0))) {
             if c.iter().all(|x| x.is_finite()) {
                 e = [e[0].min(c[0] - r), e[1].min(c[1] - r), e[2].max(c[0] + r), e[3].max(c[1] + r)];
             }
         }
-        if e[0] < e[2] && e[1] < e[3] { e } else { [0.0, 0.0, 1.0, 1.0] }
+        // A lone level wall has a width and no height, and is something to see.
+        let (width, height) = (e[2] - e[0], e[3] - e[1]);
+        if width.min(height) >= 0.0 && width.max(height) > 0.0 { e } else { [0.0, 0.0, 1.0, 1.0] }
     }
 
     /// Lowest and highest value behind the colours.
@@ -173,6 +191,16 @@ fn fallback_radius(position: &[[f64; 3]]) -> f64 {
 }
 
 type Points = Vec<[f64; 3]>;
+
+/// Outlines of grains, by number.
+fn shapes(frame: &Frame, turn: impl Fn([f64; 3]) -> [f64; 3]) -> BTreeMap<i64, Points> {
+    let number = frame.integers(Kind::Global, "shape of corner");
+    let mut shapes = BTreeMap::<i64, Points>::new();
+    for (number, corner) in number.iter().zip(frame.vectors(Kind::Global, "corner")) {
+        shapes.entry(*number).or_default().push(turn(*corner));
+    }
+    shapes
+}
 
 /// Outlines and triangles of the walls.
 fn walls(frame: &Frame, turn: impl Fn([f64; 3]) -> [f64; 3]) -> (Vec<Points>, Vec<[[f64; 3]; 3]>) {

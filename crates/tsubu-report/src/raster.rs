@@ -1,4 +1,4 @@
-//! Particle pictures in pixels: shaded spheres, any number, no display needed.
+//! Particle pictures in pixels: shaded spheres and flat grains of any outline, any number, no display needed.
 
 use std::fmt::Write as _;
 use std::sync::{Arc, OnceLock};
@@ -152,6 +152,25 @@ impl Canvas {
         [(p[0] - self.corner[0]) * self.scale, self.height as f64 - up, p[2] * self.scale]
     }
 
+    /// A flat grain with a dark edge; `radius` is that of the disc of its area.
+    fn flat(&mut self, line: impl Iterator<Item = [f64; 3]>, radius: f64, base: [u8; 3]) {
+        let line: Vec<_> = line.map(|corner| self.place(&corner)).collect();
+        let edge = (0.08 * radius * self.scale).max(0.3 * self.fine as f64);
+        let ends = |k: usize| line.iter().fold((f64::MAX, f64::MIN), |e, c| (e.0.min(c[k]), e.1.max(c[k])));
+        let ((left, right), (top, bottom)) = (ends(0), ends(1));
+        let front = line.first().map_or(0.0, |corner| corner[2]) as f32;
+        for row in span(f64::midpoint(top, bottom), 0.5 * (bottom - top), self.height) {
+            for column in span(f64::midpoint(left, right), 0.5 * (right - left), self.width) {
+                let (inside, near) = within(&line, column as f64 + 0.5, row as f64 + 0.5);
+                let at = row * self.width + column;
+                if inside && front > self.depth[at] {
+                    self.depth[at] = front;
+                    self.colours[at] = if near < edge { base.map(|c| (0.65 * f64::from(c)) as u8) } else { base };
+                }
+            }
+        }
+    }
+
     fn sphere(&mut self, centre: &[f64; 3], radius: f64, base: [u8; 3]) {
         let [x, y, front] = self.place(centre);
         // A grain smaller than a pixel still shows.
@@ -173,6 +192,22 @@ impl Canvas {
     }
 }
 
+/// Whether a point lies inside a closed line, which its way to the right then crosses an odd number of times; and how far
+/// off the nearest side is.
+fn within(line: &[[f64; 3]], x: f64, y: f64) -> (bool, f64) {
+    let (mut inside, mut near) = (false, f64::INFINITY);
+    for (a, b) in line.iter().zip(line.iter().cycle().skip(1)) {
+        let (along, down) = (b[0] - a[0], b[1] - a[1]);
+        if (a[1] > y) != (b[1] > y) && a[0] + (y - a[1]) / down * along > x {
+            inside = !inside;
+        }
+        let length = (along * along + down * down).max(f64::MIN_POSITIVE);
+        let part = (((x - a[0]) * along + (y - a[1]) * down) / length).clamp(0.0, 1.0);
+        near = near.min((x - a[0] - part * along).hypot(y - a[1] - part * down));
+    }
+    (inside, near)
+}
+
 /// The grains alone, on nothing, filling `width` by `height` pixels with the window of the look and its margin; in space
 /// with the walls, as one sees through them.
 pub fn spheres(balls: &Balls, look: &Look, width: u32, height: u32) -> Image {
@@ -187,7 +222,11 @@ pub fn spheres(balls: &Balls, look: &Look, width: u32, height: u32) -> Image {
     let mut canvas = Canvas::new(w, width, height, fine);
     for (i, (c, r)) in balls.centres.iter().zip(&balls.radii).enumerate() {
         if c.iter().all(|x| x.is_finite()) && r.is_finite() {
-            canvas.sphere(c, *r, colour::at(balls.shade(i, range)));
+            let base = colour::at(balls.shade(i, range));
+            match balls.outline(i) {
+                Some(line) => canvas.flat(line, *r, base),
+                None => canvas.sphere(c, *r, base),
+            }
         }
     }
     let veil = balls.space.then(|| Veil::of(balls, &canvas));

@@ -8,8 +8,8 @@ use crate::figure::prefix;
 use crate::plot::{AXIS, FAINT, INK};
 use crate::raster;
 
-/// Above this many grains a picture is drawn in pixels inside the SVG: circles would make it too heavy to open.
-const MOST_CIRCLES: usize = 1500;
+/// Above this many grains a picture is drawn in pixels inside the SVG: shapes would make it too heavy to open.
+const MOST_SHAPES: usize = 1500;
 const GAP: f64 = 12.0;
 const WIDTH: f64 = 1000.0;
 
@@ -125,7 +125,7 @@ fn draw(out: &mut String, balls: &Balls, look: &Look, range: (f64, f64), place: 
             "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"none\" stroke=\"{FAINT}\"/>"
         );
     }
-    if balls.space || balls.centres.len() > MOST_CIRCLES {
+    if balls.space || balls.centres.len() > MOST_SHAPES {
         let look = Look { range: Some(range), ..look.clone() };
         let png = raster::spheres(balls, &look, (2.0 * w) as u32, (2.0 * h) as u32).to_png();
         let data = crate::page::base64(&png);
@@ -146,12 +146,18 @@ fn draw(out: &mut String, balls: &Balls, look: &Look, range: (f64, f64), place: 
         let (u, v) = place.of(centre);
         let r = balls.radii[i] * place.scale;
         let fill = colour::hex(balls.shade(i, range));
-        let _ = write!(
-            out,
-            "<circle cx=\"{u:.2}\" cy=\"{v:.2}\" r=\"{:.2}\" fill=\"{fill}\" stroke=\"#000\" stroke-opacity=\".35\" stroke-width=\"{:.2}\"/>",
-            r,
-            (0.08 * r).clamp(0.2, 1.0)
-        );
+        if let Some(corners) = balls.outline(i) {
+            out.push_str("<path d=\"");
+            for (number, corner) in corners.enumerate() {
+                let (u, v) = place.of(&corner);
+                let _ = write!(out, "{}{u:.2} {v:.2}", if number == 0 { 'M' } else { 'L' });
+            }
+            out.push_str("Z\" fill-rule=\"evenodd\"");
+        } else {
+            let _ = write!(out, "<circle cx=\"{u:.2}\" cy=\"{v:.2}\" r=\"{r:.2}\"");
+        }
+        let edge = (0.08 * r).clamp(0.2, 1.0);
+        let _ = write!(out, " fill=\"{fill}\" stroke=\"#000\" stroke-opacity=\".35\" stroke-width=\"{edge:.2}\"/>");
         if let Some(velocity) = balls.velocities.get(i).filter(|_| look.arrows && fastest > 0.0) {
             let reach = 3.0 * r / fastest;
             arrow_on_grain(

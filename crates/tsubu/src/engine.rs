@@ -136,6 +136,11 @@ pub trait Engine: Send {
     /// Number of grains.
     fn grains(&self) -> usize;
 
+    /// Number of places for grains on the lattice, taken or not; none where there is none.
+    fn places(&self) -> usize {
+        0
+    }
+
     /// Steps of single grains since time 0: what the computing time was spent on.
     fn grain_steps(&self) -> u64 {
         self.steps() * self.grains() as u64

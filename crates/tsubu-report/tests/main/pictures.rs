@@ -1,5 +1,6 @@
 //! Figures and particle pictures: drawable, honest about missing values, the right colour at the right place.
 
+use tsubu_frame::Kind;
 use tsubu_report::animation::{apng, gif};
 use tsubu_report::balls::{Balls, ColourBy, Look, View, common};
 use tsubu_report::figure::{Axis, Bars, Figure, Mark, Series, Style, prefix};
@@ -159,13 +160,50 @@ fn pictures_become_png_gif_and_apng() {
 fn views_turn_the_right_way() {
     let mut frame = tsubu_frame::Frame::default();
     let points = vec![[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]];
-    frame.vector(tsubu_frame::Kind::Grain, "position", "m", points);
+    frame.vector(Kind::Grain, "position", "m", points);
     let seen = |view| Balls::of(&frame, &Look { view, ..Look::default() }).centres[1];
     assert_eq!(seen(View::Front), [1.0, 2.0, 3.0]);
     assert_eq!(seen(View::Side), [1.0, 3.0, -2.0]);
     let [_, up, _] = seen(View::Slant);
     assert!(up > 0.0);
     assert_eq!(seen(View::Auto), seen(View::Slant));
+}
+
+/// Two grains with outlines, seen along y: a square and, beside it, a bar that stands on end.
+fn outlined(shape: Vec<i64>) -> Balls {
+    let mut frame = tsubu_frame::Frame::default();
+    let count = shape.len();
+    frame.vector(Kind::Grain, "position", "m", (0..count).map(|i| [i as f64, 0.0, 0.0]).collect());
+    frame.vector(Kind::Grain, "velocity", "m/s", vec![[0.0; 3]; count]);
+    frame.scalar(Kind::Grain, "radius", "m", vec![0.4; count]);
+    frame.integer(Kind::Grain, "shape", "-", shape);
+    let rectangle = |x: f64, z: f64| [[-x, 0.0, -z], [x, 0.0, -z], [x, 0.0, z], [-x, 0.0, z]];
+    frame.integer(Kind::Global, "shape of corner", "-", vec![3, 3, 3, 3, 7, 7, 7, 7]);
+    frame.vector(Kind::Global, "corner", "m", [rectangle(0.4, 0.4), rectangle(0.1, 0.9)].concat());
+    Balls::of(&frame, &Look::default())
+}
+
+#[test]
+fn grains_with_outlines_are_drawn_by_them() {
+    let balls = outlined(vec![3, 7]);
+    assert_eq!(balls.extent(), [-0.4, -0.9, 1.1, 0.9]);
+    let svg = strip(&[Panel { balls: balls.clone(), ..Panel::default() }], &Look::default(), 1);
+    assert_eq!((svg.matches("<path d=\"M").count(), svg.matches("<circle").count()), (2, 0));
+    drawable(&svg);
+    // A picture of 200 pixels a metre: inside the square's corner, which its disc leaves out, and beside the bar, which its
+    // disc would cover.
+    let look = Look { window: Some([-0.5, -1.0, 1.5, 1.0]), ..Look::default() };
+    let image = spheres(&balls, &look, 424, 424);
+    let alpha = |x: f64, z: f64| {
+        let (column, row) = ((212.0 + 200.0 * (x - 0.5)) as usize, (212.0 - 200.0 * z) as usize);
+        image.rgba[4 * (424 * row + column) + 3]
+    };
+    assert_eq!((alpha(0.38, 0.38), alpha(1.0, 0.85)), (255, 255));
+    assert_eq!((alpha(1.3, 0.0), alpha(0.45, 0.0)), (0, 0));
+    // A shape that the frame does not draw is a disc.
+    let discs = outlined(vec![3, 8]);
+    let svg = strip(&[Panel { balls: discs, ..Panel::default() }], &Look::default(), 1);
+    assert_eq!((svg.matches("<path d=\"M").count(), svg.matches("<circle").count()), (1, 1));
 }
 
 /// One grain behind a triangle, seen in space.
@@ -203,7 +241,10 @@ fn walls_in_space_let_grains_shine_through() {
 #[test]
 fn an_empty_moment_says_nothing_about_window_and_scale() {
     let full = behind_a_wall();
-    let look = common(&[Balls::default(), full.clone()], &Look::default());
+    // Before the first grain comes there may be a floor alone, which has no height.
+    let floor = Balls { outlines: vec![vec![[-0.5, 0.0, 0.0], [0.5, 0.0, 0.0]]], ..Balls::default() };
+    assert_eq!(floor.extent(), [-0.5, 0.0, 0.5, 0.0]);
+    let look = common(&[Balls::default(), floor, full.clone()], &Look::default());
     assert_eq!(look.window, Some(full.extent()));
     assert_eq!(look.range, Some((0.0, 0.0)));
 }

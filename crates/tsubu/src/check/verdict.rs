@@ -163,7 +163,7 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         verdict.say(format!("approximated: `{}`: {}", note.key, note.text));
     }
     let steps = plan.duration / dt;
-    let bytes = memory(plan.method, engine.grains(), engine.contacts());
+    let bytes = memory(plan.method, engine);
     verdict.say(format!(
         "{} grains, {steps:.0} steps of {dt:.3e} s, {:.3e} particle-steps, about {:.1} MB of memory",
         engine.grains(),
@@ -174,15 +174,18 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
 }
 
 /// Bytes that a run takes at most. Measured for DEM: beds of 1,000 to 1,000,000 spheres with friction springs, whole
-/// program with its checkpoints. A bed that has yet to settle will have two contacts a grain.
-fn memory(method: Method, grains: usize, contacts: usize) -> f64 {
+/// program with its checkpoints; a bed that has yet to settle will have two contacts a grain. For lattices: 1000 grains on a
+/// million sites, the whole program.
+fn memory(method: Method, engine: &dyn Engine) -> f64 {
+    let (grains, places) = (engine.grains() as f64, engine.places() as f64);
     match method {
-        Method::Dem => 12e6 + 700.0 * grains as f64 + 150.0 * contacts.max(2 * grains) as f64,
-        Method::Lattice => 2e5 + 1000.0 * grains as f64,
-        // Four bytes for each point of the lattice, of which a grain has some forty with the gaps around it.
-        Method::ClCa => 2e5 + 400.0 * grains as f64,
-        // A site and the grain on it, for some two sites a grain.
-        _ => 2e5 + 300.0 * grains as f64,
+        Method::Dem => 12e6 + 700.0 * grains + 150.0 * (engine.contacts() as f64).max(2.0 * grains),
+        Method::Lattice => 8e6 + 1000.0 * grains,
+        Method::ClCa => 8e6 + 240.0 * grains + 9.0 * places,
+        // Seven slots a site, before and after a step, with a number each.
+        Method::Fhp | Method::AfterPengHerrmann | Method::AfterBaxterBehringer => 8e6 + 240.0 * grains + 120.0 * places,
+        Method::AfterHemmingssonHerrmann => 8e6 + 300.0 * grains + 46.0 * places,
+        _ => 8e6 + 240.0 * grains + 29.0 * places,
     }
 }
 

@@ -213,6 +213,32 @@ impl Bed {
         (self.step, self.moves) = (0, 0);
     }
 
+    /// The first invariant that a step from the cells `before` has broken: grains move as they remember, by one spacing at
+    /// most; no point is a wall's. `owned`, under the active rule: every point is its grain's own, and no other is anybody's.
+    pub fn fault(&self, owned: bool, before: &[u32]) -> Option<String> {
+        if before.len() != self.len() {
+            return Some(format!("{} grains instead of {}", self.len(), before.len()));
+        }
+        let mut points = 0;
+        for grain in self.present().filter(|&grain| self.kind(grain).free) {
+            let (from, to) = (self.vector(before[grain] as usize), self.vector(self.grains.cell[grain] as usize));
+            let moved = self.grains.last[grain].map_or(Vector::default(), |direction| direction.times(1));
+            if from.plus(moved) != to {
+                return Some(format!("grain {grain} goes from {from:?} to {to:?}, by {moved:?}"));
+            }
+            let stencil = self.kind(grain).stencil + self.grains.turn[grain] as usize;
+            for cell in self.cells(stencil, self.grains.cell[grain] as usize) {
+                let owner = self.grid.at(cell);
+                if owner == WALL || owned && owner != grain as i32 {
+                    return Some(format!("a point of grain {grain} belongs to {owner}"));
+                }
+                points += 1;
+            }
+        }
+        let taken = (0..self.grid.columns() * self.grid.rows()).filter(|&cell| self.grid.at(cell) >= 0).count();
+        (owned && taken != points).then(|| format!("{taken} points are taken, but grains have {points}"))
+    }
+
     /// What every kind did in the last step, counted again from the grains: after a checkpoint.
     pub fn count_motion(&mut self) {
         self.motion.fill(Motion::default());

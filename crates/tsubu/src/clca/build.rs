@@ -7,7 +7,7 @@ use crate::check;
 use crate::dem::sizes;
 use crate::engine::{Note, Refusal};
 use crate::lattice::direction::Vector;
-use crate::lattice::remarks::Remarks;
+use crate::lattice::remarks::{Remarks, World};
 use crate::lattice::stage::{self, LARGEST, Stage};
 use crate::partner::Hosts;
 use crate::view::{Contacts, Wants};
@@ -51,12 +51,11 @@ const LARGEST_RADIUS: usize = 12;
 const REACH: i64 = stage::RIM as i64 - 2;
 
 /// Takes the plan apart, every field by name, so that a new field does not compile until it has been decided on here.
-#[expect(clippy::too_many_lines, reason = "a third of them names the fields of the plan, one each")]
 pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
     let Plan {
         title: _,
         method: _,
-        dimension,
+        dimension: _, // As periodic and water: read by `Remarks::world`.
         seed,
         gravity,
         duration,
@@ -65,9 +64,9 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
         material_pair: _,
         particles: _,
         walls: _,
-        periodic,
+        periodic: _,
         removal: _,
-        water,
+        water: _,
         hosts: _,
         contact: _,
         dem: _,
@@ -89,24 +88,8 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
         claim: _,
     } = plan;
     let mut remarks = Remarks::of("cl-ca");
-    for (key, wrong, text) in [
-        ("dimension", *dimension != 2, "the lattice lies in the plane; set `dimension = 2`, or use `method = \"dem\"`"),
-        (
-            "gravity",
-            gravity[0] != 0.0 || gravity[1] != 0.0 || gravity[2] > 0.0,
-            "the lattice has gravity along -z or none; set `gravity` to one number, or turn the scene",
-        ),
-        (
-            "periodic",
-            *periodic != plan::Periodic::default(),
-            "the lattice has walls at its ends; use `method = \"dem\"`",
-        ),
-        ("water", water.is_some(), "grains of lattice points fall in air; use `method = \"dem\"`"),
-    ] {
-        if wrong {
-            remarks.refuse(key, text);
-        }
-    }
+    let noun = "grains of lattice points";
+    remarks.world(plan, World { noun, tilted: false, weightless: true, periodic: [false; 2] });
     if let Some(refusal) = remarks.refusal() {
         return Err(refusal);
     }

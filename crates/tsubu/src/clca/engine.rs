@@ -108,13 +108,6 @@ impl ClCaEngine {
         }
     }
 
-    /// Lets a point of the first grain go, to show that the checks of the invariants can fail; for tests.
-    #[doc(hidden)]
-    pub fn forget_a_point(&mut self) {
-        let cell = self.bed.grains.cell[0] as usize;
-        self.bed.grid.set(cell, EMPTY);
-    }
-
     /// Paints the lattice anew: rims, walls that stand at `time`, frozen grains, and under the active rule all others.
     fn paint(&mut self, time: f64) {
         self.bed.grid = self.stage.grid();
@@ -186,6 +179,7 @@ impl ClCaEngine {
         self.arrive(time, ledger);
         self.place_movers(step + 1);
         let pull = self.pull(step);
+        let before = if cfg!(debug_assertions) { self.bed.grains.cell.clone() } else { Vec::new() };
         match &mut self.rule {
             Rule::Active(active) => match pull {
                 Some(pull) => _ = active.step(&mut self.bed, pull),
@@ -195,6 +189,7 @@ impl ClCaEngine {
                 passive.step(&mut self.bed, pull, pushers, driven);
             }
         }
+        debug_assert_eq!(self.bed.fault(matches!(self.rule, Rule::Active(_)), &before), None, "step {step}");
         let risen: f64 = self.of_kinds(|kind, motion| kind.mass * self.stage.step(motion.sum).z);
         ledger.post(Account::LatticeRules, kinetic - self.kinetic() - self.gravity * risen);
         let now = self.momentum();
@@ -311,6 +306,10 @@ impl Engine for ClCaEngine {
         self.bed.present().count()
     }
 
+    fn places(&self) -> usize {
+        self.bed.grid.columns() * self.bed.grid.rows()
+    }
+
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
         for _ in 0..steps {
             let time = self.time();
@@ -359,6 +358,7 @@ impl Engine for ClCaEngine {
         frame.scalar(Of::Grain, "mass", "kg", real(&|grain| self.bed.kind(grain).mass));
         frame.integer(Of::Grain, "group", "-", whole(&|grain| i64::from(self.bed.kind(grain).group)));
         frame.integer(Of::Grain, "points", "-", whole(&|grain| self.bed.kind(grain).shape.points().len() as i64));
+        self.draw_grains(&present, &mut frame);
         self.draw_walls(&mut frame);
         frame
     }

@@ -67,6 +67,24 @@ impl ClCaEngine {
         self.pairs().into_iter().filter_map(contact).collect()
     }
 
+    /// The outline of every grain: its `shape`, and for every shape, turned ones too, a closed line round the grain's position.
+    pub(super) fn draw_grains(&self, present: &[usize], frame: &mut Frame) {
+        let shape = |grain: usize| self.bed.kind(grain).stencil + usize::from(self.bed.grains.turn[grain]);
+        frame.integer(Kind::Grain, "shape", "-", present.iter().map(|&grain| shape(grain) as i64).collect());
+        let (mut number, mut corner) = (Vec::new(), Vec::new());
+        for kind in &self.bed.kinds {
+            let mut shape = kind.shape.clone();
+            for turn in 0..usize::from(kind.orientations) {
+                let line = shape.outline();
+                number.extend(std::iter::repeat_n((kind.stencil + turn) as i64, line.len()));
+                corner.extend(line.into_iter().map(|at| (0.5 * self.stage.step(at)).to_array()));
+                shape = shape.turned();
+            }
+        }
+        frame.integer(Kind::Global, "shape of corner", "-", number);
+        frame.vector(Kind::Global, "corner", "m", corner);
+    }
+
     /// Outlines of the walls that stand, where the lattice has them.
     pub(super) fn draw_walls(&self, frame: &mut Frame) {
         let (mut number, mut position) = (Vec::new(), Vec::new());

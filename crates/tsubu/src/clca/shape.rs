@@ -80,6 +80,44 @@ impl Shape {
         Self { points }
     }
 
+    /// Corners of its outline as a closed line, in half spacings from the reference point.
+    ///
+    /// The line runs through the middles between the grain's points and those beside it that are not the grain's: straight
+    /// along straight sides, half a row off them. Grains that touch have a stretch of line in common, and no two lines
+    /// cross. The line round a hole hangs on the first by a way there and back.
+    pub fn outline(&self) -> Vec<Vector> {
+        let own: BTreeSet<(i64, i64)> = self.points.iter().map(|p| (p.h, p.k)).collect();
+        let beside = |(h, k): (i64, i64), d: Direction| (h + d.h(), k + d.k());
+        // Points with a way out of the grain: the line crosses each of these once.
+        let ways = own.iter().flat_map(|&point| Direction::ALL.map(|out| (point, out)));
+        let mut ways: Vec<_> = ways.filter(|&(point, out)| !own.contains(&beside(point, out))).collect();
+        let mut corners: Vec<Vector> = Vec::new();
+        while let Some(&first) = ways.first() {
+            let (mut middles, mut at) = (Vec::new(), first);
+            while let Some(here) = ways.iter().position(|way| *way == at) {
+                ways.remove(here);
+                let (point, out) = at;
+                middles.push(Vector { h: 2 * point.0 + out.h(), k: 2 * point.1 + out.k() });
+                // The next way out clockwise: from the same point, or from the one that stands there.
+                let next = beside(point, out.clockwise());
+                at = if own.contains(&next) { (next, out.counter_clockwise()) } else { (point, out.clockwise()) };
+            }
+            let count = middles.len();
+            let side = |from: usize| {
+                let (a, b) = (middles[from % count], middles[(from + 1) % count]);
+                (b.h - a.h, b.k - a.k)
+            };
+            let bends = |i: &usize| side(i + count - 1) != side(*i);
+            let mut line: Vec<Vector> = (0..count).filter(bends).map(|i| middles[i]).collect();
+            if let Some(&hook) = corners.first() {
+                line.extend(line.first().copied());
+                corners.push(hook);
+            }
+            corners.append(&mut line);
+        }
+        corners
+    }
+
     /// Diameter of the disc of the same area, in spacings: each point stands for an area of sqrt(3)/2.
     pub fn diameter(&self) -> f64 {
         (self.points.len() as f64 * 4.0 * 0.75_f64.sqrt() / std::f64::consts::PI).sqrt()
@@ -178,6 +216,44 @@ mod tests {
         let rod = Shape::new(&vectors(&[(0, 0), (0, 2), (0, 4)])).expect("a grain");
         assert_ne!(rod.turned(), rod);
         assert_eq!(rod.turned().turned().turned(), rod);
+    }
+
+    /// The outline of a hexagon has six corners, each half a point farther out than its own; that of three points in a row
+    /// six as well. Every point is inside, every neighbour outside, whatever the shape and however it is turned: a hole is.
+    #[test]
+    fn outlines_part_a_grain_from_its_neighbours() {
+        let ring: Vec<Vector> = Direction::ALL.iter().map(|d| d.times(1)).collect();
+        let hook = vectors(&[(0, 0), (0, 2), (1, 3), (2, 2), (2, 0), (2, -2)]);
+        let rod = vectors(&[(0, 0), (0, 2), (0, 4)]);
+        let triangle = vectors(&[(0, 0), (0, 2), (1, 1)]);
+        for (points, corners) in [(rod, 6), (triangle, 6), (hook, 15), (ring, 14)] {
+            let mut shape = Shape::new(&points).expect("a grain");
+            for turn in 0..6 {
+                let line = shape.outline();
+                assert_eq!(line.len(), corners, "{points:?} turned {turn} times");
+                let near = shape.points().iter().flat_map(|p| Direction::ALL.map(|d| p.plus(d.times(1))));
+                for point in shape.points().iter().copied().chain(near) {
+                    assert_eq!(holds(&line, point), shape.points().contains(&point), "{point:?} of {points:?}");
+                }
+                shape = shape.turned();
+            }
+        }
+        for radius in 0..4 {
+            let mut line = Shape::hexagon(radius).outline();
+            let mut far: Vec<Vector> = Direction::ALL.map(|d| d.times(2 * radius as i64 + 1)).to_vec();
+            for corners in [&mut line, &mut far] {
+                corners.sort_by_key(|p| (p.h, p.k));
+            }
+            assert_eq!(line, far);
+        }
+    }
+
+    /// Whether a point of the lattice is inside a closed line of half spacings: how often the line crosses the way right.
+    fn holds(line: &[Vector], point: Vector) -> bool {
+        let (x, z) = (2.0 * point.h as f64, 2.0 * point.k as f64 + 0.1);
+        let sides = line.iter().zip(line.iter().cycle().skip(1)).map(|(a, b)| [a.h, a.k, b.h, b.k].map(|c| c as f64));
+        let right = |[h, k, i, l]: &[f64; 4]| (*k > z) != (*l > z) && h + (z - k) / (l - k) * (i - h) > x;
+        sides.filter(right).count() % 2 == 1
     }
 
     #[test]

@@ -105,6 +105,7 @@ impl LatticeEngine {
         let wall_speed = wall as f64 * scale.speed;
         let level = (place.z / self.geometry.spacing).round() as i64;
         self.damper.advance(wall, level).map_err(|e| self.fault(e))?;
+        debug_assert_eq!(self.damper.fault(), None, "step {}", self.damper.step);
         let impulse = self.post(wall_speed, ledger);
         self.push_hosts(time, impulse, wall_speed, hosts, ledger);
         Ok(())

@@ -39,11 +39,18 @@ pub struct Litwiniszyn {
 impl Litwiniszyn {
     /// A bed on a sheet; its outlets are the sites [`OUT`] with another site above.
     pub fn new(sheet: Sheet, left: f64, rate: f64, seed: u64) -> Self {
+        let trail = Trail::new(&sheet);
+        let mut bed = Self { sheet, left, rate, seed, step: 0, trail, outlets: Vec::new() };
+        bed.find_outlets();
+        bed
+    }
+
+    /// Looks for outlets anew, after somebody else has changed the sheet.
+    pub fn find_outlets(&mut self) {
+        let sheet = &self.sheet;
         let rim = sheet.columns() * (sheet.rows() - 1);
         let open = |site: &usize| *site < rim && sheet.above(*site).iter().any(|&s| sheet.cells[s] != OUT);
-        let outlets = sheet.sites(OUT).filter(open).collect();
-        let trail = Trail::new(&sheet);
-        Self { sheet, left, rate, seed, step: 0, trail, outlets }
+        self.outlets = sheet.sites(OUT).filter(open).collect();
     }
 
     /// One step: every outlet sends a void with probability `rate`; calls for every site at which a void arrives.

@@ -79,13 +79,14 @@ impl Remarks {
             let wants = crate::watch::open(&watch.measure, plan).wants();
             match wants.missing(offered) {
                 None => {}
-                Some("spins") => self.approximate(key, "the automaton knows no spin; it is given as zero"),
-                Some(what) => self.refuse(
-                    key,
-                    format!(
-                        "it looks at {what}, which the automaton does not have; {way_out}, or use `method = \"dem\"`"
-                    ),
-                ),
+                Some("spins") => self.approximate(key, format!("`{}` knows no spin; it is given as zero", self.method)),
+                Some(what) => {
+                    let method = self.method;
+                    let text = format!(
+                        "it looks at {what}, which `{method}` does not have; {way_out}, or use `method = \"dem\"`"
+                    );
+                    self.refuse(key, text);
+                }
             }
         }
     }

@@ -26,6 +26,7 @@ mod open_dem_benchmark;
 mod orifice;
 mod outlet;
 mod pile_stress;
+mod pile_twin;
 mod random_loads;
 mod rheology;
 mod rolling;
@@ -140,6 +141,7 @@ pub static CASES: &[Case] = &[
     quick("convection", "cl-ca-2001", "C-x2: rolls between rough walls", cl_ca_2001::convection),
     quick("poured-heap", "cl-ca-2001", "C-x3: slopes of a poured heap", cl_ca_2001::pour),
     quick("pushed-plate", "cl-ca-2001", "C-x4: a plate pushed into a bed", cl_ca_2001::plate),
+    quick("cl-ca-invariants", "cl-ca-2001", "C-6: what holds after every step", cl_ca_2001::invariants),
     quick("turning", "cl-ca-2001", "C-7: the collapse of triangles that may turn", cl_ca_2001::turning),
     long("plate-twin", "cl-ca-2001", "C-x4: the network of the plate beside forces of DEM", cl_ca_2001::plate_twin),
     long("collapse-twin", "cl-ca-2001", "C-F9 to F11: the same by DEM, and what both cost", cl_ca_2001::twin),
@@ -165,6 +167,7 @@ pub static CASES: &[Case] = &[
     quick("gutt-haff", "lattice-review", "R-4, A-F8: free fall, rebounds, momentum", lattice_grain::drop),
     quick("gutt-haff-silo", "lattice-review", "R-4: load on the floor of a silo", lattice_grain::janssen),
     quick("hemmingsson-herrmann", "lattice-review", "R-5: forces in a pile, row by row", pile_stress::pile),
+    long("pile-twin", "lattice-review", "R-5: forces of a pile beside those of DEM", pile_twin::twin),
     quick("pipe-limit", "lattice-review", "R-3.1: grains that lose no energy are FHP-II", lattice_review::pipe_limit),
     quick("pipe-waves", "lattice-review", "R-3.1: when density waves run through a pipe", lattice_review::pipe_waves),
     quick(
@@ -182,6 +185,9 @@ pub static CASES: &[Case] = &[
         "R-3.0: the same in FHP-II and III as they are, where correlations tell",
         lattice_review::viscosity_plain,
     ),
+    long("pipe-smooth", "lattice-review", "R-3.1: a pipe with smooth walls", lattice_review::pipe_smooth),
+    long("hopper-walls", "lattice-review", "R-3.2: order of elongated grains near walls", lattice_review::hopper_walls),
+    long("silo-layers", "lattice-review", "R-3.4: whether a poured silo has layers", lattice_review::silo_layers),
     long("pipe-spectrum", "lattice-review", "R-3.1: spectrum of the density in a pipe", lattice_review::pipe_spectrum),
     long("drum-regimes", "dem-benchmarks", "V-37: rolling, cascading, cataracting", drum_regimes::regimes),
     long("rheology", "dem-benchmarks", "V-35: friction against inertial number", rheology::friction),

@@ -76,21 +76,6 @@ impl Run {
         energy.abs().max(momentum.iter().fold(0.0, |m, p| p.abs().max(m)))
     }
 
-    /// Every point of a grain is its own, and no other point of the lattice is a grain's.
-    pub fn nobody_shares_a_point(&self) {
-        let bed = self.engine.bed();
-        let mut points = 0;
-        for grain in bed.present().filter(|&grain| bed.kind(grain).free) {
-            let stencil = bed.kind(grain).stencil + bed.grains.turn[grain] as usize;
-            for cell in bed.cells(stencil, bed.grains.cell[grain] as usize) {
-                assert_eq!(bed.grid.at(cell), grain as i32, "a point of grain {grain}");
-                points += 1;
-            }
-        }
-        let cells = bed.grid.columns() * bed.grid.rows();
-        assert_eq!((0..cells).filter(|&cell| bed.grid.at(cell) >= 0).count(), points);
-    }
-
     /// Cells of all grains.
     pub fn cells(&self) -> Vec<u32> {
         let cells = self.engine.bed().grains.cell.clone();

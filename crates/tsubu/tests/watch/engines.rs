@@ -216,7 +216,7 @@ fn the_automaton_says_what_it_cannot_show() {
     assert!(refused("profile.quantities = [\"coordination\"]").unwrap().contains("leave `coordination` out"));
     assert!(!refused("slope.touching = false").unwrap_err().contains("watch.w"));
     assert!(!refused("profile = {}").unwrap_err().contains("watch.w"));
-    assert!(refused("track.ids = [1]").unwrap_err().contains("watch.w.track: the automaton knows no spin"));
+    assert!(refused("track.ids = [1]").unwrap_err().contains("watch.w.track: `lattice` knows no spin"));
 }
 
 #[test]

@@ -273,6 +273,14 @@ impl Damper {
         Ok(())
     }
 
+    /// The first ball that is not alone in a cell of the box.
+    pub fn fault(&self) -> Option<String> {
+        let astray = |i: &usize| self.grid.at(self.cell[*i]) != *i as i32;
+        (0..self.balls())
+            .find(astray)
+            .map(|i| format!("the cell of ball {i} belongs to {}", self.grid.at(self.cell[i])))
+    }
+
     /// Velocity of a ball [speed units].
     pub fn velocity(&self, i: usize) -> Vector {
         if self.resting[i] { Direction::N.times(self.rest.speed) } else { self.direction[i].times(self.speed[i]) }

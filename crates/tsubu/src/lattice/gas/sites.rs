@@ -82,6 +82,14 @@ impl Sites {
         sides.chain((0..columns).filter(inner).flat_map(move |c| [(c, 0), (c, rows - 1)].into_iter().take(rows)))
     }
 
+    /// The walls beside a site, and how each [mirrors](Self::mirror).
+    pub fn walls_beside(&self, site: usize, wall: impl Fn(usize) -> bool) -> Vec<(usize, usize, Option<usize>)> {
+        let (column, row) = self.place(site);
+        let beside = Direction::ALL.into_iter().filter_map(|way| self.neighbour(column, row, way));
+        let walls = beside.filter(|(c, r)| wall(self.index(*c, *r)));
+        walls.map(|(c, r)| (c, r, self.mirror(c, r, &wall))).collect()
+    }
+
     /// How a smooth wall at a site mirrors: Some(0) as an upright one, Some(1) as a level one; `None` if either would send
     /// somebody who comes from the gas anywhere but into the gas. `wall` tells of a site whether it is wall.
     pub fn mirror(&self, column: usize, row: usize, wall: impl Fn(usize) -> bool) -> Option<usize> {

@@ -53,8 +53,13 @@ impl Model for Avalanche {
         }
     }
 
-    fn free(&mut self, site: usize) {
+    fn free(&mut self, site: usize, _outlet: bool) {
         self.pile.free(site);
+    }
+
+    /// Who stops where others rest is set down on top of them, wherever that is.
+    fn limits(&self) -> (usize, f64) {
+        (REST + 1, f64::INFINITY)
     }
 
     fn enter(&mut self, grain: usize, site: usize) -> bool {

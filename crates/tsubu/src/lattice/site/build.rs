@@ -238,7 +238,9 @@ fn model(plan: &Plan, scene: &Scene, cells: &[i32], remarks: &mut Remarks) -> (B
     let Scene { ground, mass, .. } = scene;
     let (spacing, gravity) = (ground.spacing, -scene.gravity.z);
     let fall = |height: f64| (2.0 * height / gravity).sqrt();
-    let outlets = cells.contains(&OUT);
+    // What a gate stands on may become an outlet.
+    let gate = plan.walls.values().any(|wall| wall.until.is_some());
+    let outlets = cells.contains(&OUT) || (gate && !plan.removal.is_empty());
     match plan.method {
         Method::Litwiniszyn => {
             let plan::Voids { left, rate, time_step } = plan.litwiniszyn;

@@ -7,7 +7,7 @@ use super::ground::{Ground, NOBODY};
 use super::start::Stream;
 use super::{ForceUnit, Link, Model, Seat, section};
 use crate::engine::{Engine, Fault, Note};
-use crate::lattice::sheet::WALL;
+use crate::lattice::sheet::{OUT, WALL};
 use crate::ledger::{Account, Ledger, Stocks};
 use crate::partner::Hosts;
 use crate::random::{Purpose, words};
@@ -134,7 +134,7 @@ impl SiteEngine {
         let (cells, owner) = self.scene.ground.paint(&self.scene.walls, &self.scene.removal);
         for (site, (&cell, &mine)) in cells.iter().zip(&owner).enumerate() {
             if self.scene.owner[site] != NOBODY && mine == NOBODY && cell != WALL {
-                self.model.free(site);
+                self.model.free(site, cell == OUT);
             }
         }
         self.scene.owner = owner;
@@ -155,6 +155,43 @@ impl SiteEngine {
                 *placed += 1;
             }
         }
+    }
+
+    /// Where every grain is, without the ends of a world that repeats itself; nowhere: it has not come yet, or is gone [m].
+    fn seated(&self) -> Vec<Option<DVec3>> {
+        let mut places = vec![None; self.scene.mass.len()];
+        let [x, _, z] = self.scene.ground.ends().map(|ends| ends.map_or(0.0, |[low, high]| high - low));
+        self.model.seats(&mut |Seat { grain, site, laps, .. }| {
+            let laps = DVec3::new(x * f64::from(laps[0]), 0.0, z * f64::from(laps[1]));
+            places[grain] = Some(self.scene.ground.point(site) + laps);
+        });
+        places
+    }
+
+    /// The first invariant that a step from the places `before` has broken: nobody comes from nowhere or is lost without an
+    /// outlet, nobody is twice or on a crowded site, nobody goes too far.
+    fn fault(&self, before: &[Option<DVec3>]) -> Option<String> {
+        let (most, reach) = self.model.limits();
+        let mut sites = vec![0; self.scene.ground.len()];
+        let mut count = 0;
+        self.model.seats(&mut |seat| {
+            sites[seat.site] += 1;
+            count += 1;
+        });
+        if let Some(site) = sites.iter().position(|count| *count > most) {
+            return Some(format!("{} grains on site {site}", sites[site]));
+        }
+        let now = self.seated();
+        if now.iter().flatten().count() != count {
+            return Some("a grain is in two places".to_owned());
+        }
+        let farthest = reach * self.scene.ground.spacing * (1.0 + 1e-9);
+        before.iter().zip(&now).enumerate().find_map(|(grain, pair)| match pair {
+            (Some(from), Some(to)) if from.distance(*to) > farthest => Some(format!("grain {grain}: {from} to {to}")),
+            (None, Some(to)) => Some(format!("grain {grain} comes from nowhere to {to}")),
+            (Some(from), None) if self.scene.removal.is_empty() => Some(format!("grain {grain} is lost at {from}")),
+            _ => None,
+        })
     }
 
     /// Newtons in the model's unit of force, for a grain.
@@ -237,12 +274,18 @@ impl Engine for SiteEngine {
         self.books.iter().flatten().count()
     }
 
+    fn places(&self) -> usize {
+        self.scene.ground.len()
+    }
+
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
         for _ in 0..steps {
             let time = self.time();
             self.open_gates(time);
             self.arrive(time);
+            let before = if cfg!(debug_assertions) { self.seated() } else { Vec::new() };
             self.model.advance().map_err(|text| Fault::Lattice { step: self.model.step(), time, text })?;
+            debug_assert_eq!(self.fault(&before), None, "step {}", self.model.step());
             for host in &mut hosts.list {
                 host.runge_kutta(time, self.dt, 0.0, ledger);
             }

@@ -68,17 +68,23 @@ impl Model for Fhp {
         seats(&self.numbers, self.sites.count(), each);
     }
 
-    fn free(&mut self, site: usize) {
-        let (column, row) = self.sites.place(site);
-        self.gas.free(column, row);
+    fn free(&mut self, site: usize, _outlet: bool) {
         let Self { gas, sites, smooth, .. } = self;
-        let beside = Direction::ALL.into_iter().filter_map(|way| sites.neighbour(column, row, way));
-        for (c, r) in beside.filter(|_| *smooth) {
-            if gas.is_wall(c, r) {
-                let mirror = sites.mirror(c, r, |site| gas.is_wall(site / sites.rows, site % sites.rows));
-                gas.wall(c, r, mirror);
+        let (column, row) = sites.place(site);
+        gas.free(column, row);
+        let is_wall = |site: usize| {
+            let (column, row) = sites.place(site);
+            gas.is_wall(column, row)
+        };
+        if *smooth {
+            for (column, row, mirror) in sites.walls_beside(site, is_wall) {
+                gas.wall(column, row, mirror);
             }
         }
+    }
+
+    fn limits(&self) -> (usize, f64) {
+        (SLOTS, 1.0)
     }
 
     fn enter(&mut self, grain: usize, site: usize) -> bool {

@@ -56,16 +56,22 @@ impl Model for GrainGas {
         }
     }
 
-    fn free(&mut self, site: usize) {
-        self.grains.free(site);
-        let sites = self.grains.sites;
-        let (column, row) = sites.place(site);
-        for (c, r) in Direction::ALL.into_iter().filter_map(|way| sites.neighbour(column, row, way)) {
-            if self.grains.is_wall(c, r) {
-                let mirror = sites.mirror(c, r, |site| self.grains.is_wall(site / sites.rows, site % sites.rows));
-                self.grains.set_wall(c, r, mirror);
-            }
+    fn free(&mut self, site: usize, _outlet: bool) {
+        let Self { grains, .. } = self;
+        grains.free(site);
+        let sites = grains.sites;
+        let is_wall = |site: usize| {
+            let (column, row) = sites.place(site);
+            grains.is_wall(column, row)
+        };
+        for (column, row, mirror) in sites.walls_beside(site, is_wall) {
+            grains.set_wall(column, row, mirror);
         }
+    }
+
+    /// Surplus grains hop on until they find room.
+    fn limits(&self) -> (usize, f64) {
+        (usize::MAX, f64::INFINITY)
     }
 
     fn enter(&mut self, grain: usize, site: usize) -> bool {

@@ -27,8 +27,9 @@ impl Model for LatticeGrains {
         }
     }
 
-    fn free(&mut self, site: usize) {
+    fn free(&mut self, site: usize, outlet: bool) {
         self.grid.set(site, EMPTY);
+        self.outlet[site] = outlet;
     }
 
     fn offers(&self) -> Wants {

@@ -2,21 +2,20 @@
 //!
 //! A [`Model`] is a rule on sites, in spacings and steps. [`ground`] paints the walls and outlets of a scene onto its
 //! lattice, [`start`] says where grains begin, [`build`] takes the plan apart and [`engine`] gives lengths, times and
-//! masses to what the model does. [`voids`], [`chute`], [`grains`] and [`pile`] are the models as seen from there, those with one
+//! masses to what the model does. [`hopping`], [`grains`] and [`pile`] are the models as seen from there, those with one
 //! grain a site; [`gas`] builds the lattice gases, [`fhp`], [`grain_gas`] and [`avalanche`].
 
 pub mod avalanche;
 pub mod build;
-pub mod chute;
 pub mod engine;
 pub mod fhp;
 pub mod gas;
 pub mod grain_gas;
 pub mod grains;
 pub mod ground;
+pub mod hopping;
 pub mod pile;
 pub mod start;
-pub mod voids;
 
 use crate::view::Wants;
 use tsubu_frame::State;
@@ -59,8 +58,13 @@ pub trait Model: Send {
     /// Calls for every grain that is there.
     fn seats(&self, each: &mut dyn FnMut(Seat));
 
-    /// A wall has gone from a site.
-    fn free(&mut self, site: usize);
+    /// A wall has gone from a site, which is an outlet where grains are removed.
+    fn free(&mut self, site: usize, outlet: bool);
+
+    /// The most grains that a site holds, and how far one goes in a step at most [spacings].
+    fn limits(&self) -> (usize, f64) {
+        (1, 1.0)
+    }
 
     /// A grain comes in at a site if it can, and then moves down.
     fn enter(&mut self, _grain: usize, _site: usize) -> bool {

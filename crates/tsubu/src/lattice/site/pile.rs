@@ -34,7 +34,7 @@ impl Model for Stack {
         }
     }
 
-    fn free(&mut self, _site: usize) {}
+    fn free(&mut self, _site: usize, _outlet: bool) {}
 
     fn offers(&self) -> Wants {
         Wants::CONTACTS.and(Wants::WALLS)

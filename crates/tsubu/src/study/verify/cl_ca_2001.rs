@@ -5,12 +5,18 @@
 //! poured or pushed.
 
 use super::bench::{Rig, at_least, between, refused};
+use crate::clca::bed::Bed;
+use crate::clca::engine::ClCaEngine;
+use crate::engine::{self, Engine};
+use crate::lattice::grid::WALL as WALL_POINT;
+use crate::ledger::Ledger;
+use crate::partner::Hosts;
 use crate::view::{Contact, Contacts, Wants};
 use crate::watch::slope::line as least_squares;
 use glam::DVec3;
 use std::path::Path;
 use std::time::Instant;
-use tsubu_frame::Claim;
+use tsubu_frame::{Claim, State};
 use tsubu_scene::Scene;
 
 const SOURCE: &str = "Sakaguchi et al. (2001), figures 9 to 11: pictures (C-6)";
@@ -342,17 +348,90 @@ pub(super) fn pour(spoiler: f64) -> Result<Vec<Claim>, String> {
     let (left, right) = (flank(-1), flank(1));
     let tops: Vec<f64> = surface.values().copied().collect();
     let angles: Vec<f64> = tops.windows(4).map(|t| ((t[3] - t[0]) / (3.0 * width)).atan().abs().to_degrees()).collect();
-    let steep = angles.iter().filter(|angle| **angle > 62.0).count() as f64 / angles.len().max(1) as f64;
-    let plateaus = angles.iter().filter(|angle| (25.0..62.0).contains(*angle)).count() as f64;
     let source = "heaps of hexagons end between the lattice's 30 and 60 degrees (C-x3)";
-    Ok(vec![
+    let gates = |left: f64, right: f64, angles: &[f64]| {
+        let share = |of: &dyn Fn(f64) -> bool| {
+            angles.iter().filter(|angle| of(**angle)).count() as f64 / angles.len().max(1) as f64
+        };
+        vec![
+            between("left flank degrees", left, 30.0, 60.0, source),
+            between("right flank degrees", right, 30.0, 60.0, source),
+            between(
+                "share of the surface at 25 to 62 degrees",
+                share(&|angle| (25.0..62.0).contains(&angle)),
+                0.6,
+                1.0,
+                source,
+            ),
+            between("share of the surface steeper than 62 degrees", share(&|angle| angle > 62.0), 0.0, 0.1, source),
+        ]
+    };
+    let mut claims = vec![
         at_least("grains poured", grains.len() as f64, 600.0, "the scene"),
         between("grains that still move", still, 0.0, 0.0, "the scene"),
-        between("left flank degrees", left, 30.0, 60.0, source),
-        between("right flank degrees", right, 30.0, 60.0, source),
-        between("share of the surface at 25 to 62 degrees", plateaus / angles.len().max(1) as f64, 0.6, 1.0, source),
-        between("share of the surface steeper than 62 degrees", steep, 0.0, 0.1, source),
-    ])
+    ];
+    claims.extend(gates(left, right, &angles));
+    let any: Vec<f64> = (0..90).map(f64::from).collect();
+    claims.push(refused(
+        "flanks of 25 degrees, as of round grains, and a surface of every angle alike",
+        &gates(25.0, 25.0, &any),
+        4,
+    ));
+    Ok(claims)
+}
+
+/// C-6: what holds after every step, whatever the scene: the collapse under the active rule, the pushed plate under the passive
+/// one. The spoiler takes a point away from a grain.
+pub(super) fn invariants(spoiler: f64) -> Result<Vec<Claim>, String> {
+    const STEPS: u64 = 400;
+    let plate = super::bench::plan(include_str!("../../../../../studies/cl-ca-2001/plate.toml"))?;
+    let scenes = [("active rule", collapsing("cl-ca", true, &[])?.plan, 0.6), ("passive rule", plate, PUSHED)];
+    let source = "every step (C-6)";
+    let mut claims = Vec::new();
+    for (name, plan, begin) in scenes {
+        let owned = name == "active rule";
+        let hosts = &mut Hosts::new(&plan.hosts);
+        // From a little before the wall goes, or the plate meets the bed, on.
+        let run = |threads: usize, hosts: &mut Hosts| -> Result<_, String> {
+            let mut engine = ClCaEngine::new(&plan, hosts).map_err(|refusal| refusal.to_string())?;
+            let mut ledger = Ledger::open(engine::stocks(&engine, hosts), engine.momentum());
+            let grains = engine.grains();
+            let threads = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| e.to_string())?;
+            threads.install(|| {
+                let before = (begin / engine.time_step()) as u64 - STEPS / 2;
+                engine.advance(before, hosts, &mut ledger).map_err(|fault| fault.to_string())?;
+                let mut broken = 0;
+                for _ in 0..STEPS {
+                    let before = engine.bed().grains.cell.clone();
+                    engine.advance(1, hosts, &mut ledger).map_err(|fault| fault.to_string())?;
+                    broken += u32::from(engine.bed().fault(owned, &before).is_some());
+                }
+                let mut state = State::default();
+                engine.save(&mut state);
+                Ok((engine, broken, grains, state.hash()))
+            })
+        };
+        let (engine, broken, grains, hash) = run(1, hosts)?;
+        let seven = run(7, hosts)?.3;
+        let mut bed = engine.bed().clone();
+        let cells = bed.grains.cell.clone();
+        bed.grains.last.fill(None);
+        let gate = |bed: &Bed, broken: u32| {
+            let broken = broken + u32::from(bed.fault(owned, &cells).is_some());
+            let what = "steps with a point shared or on a wall, or a grain lost or moved by more than one spacing";
+            between(format!("{name}: of {STEPS}, {what}"), f64::from(broken), 0.0, 0.0, source)
+        };
+        let Some(free) = bed.present().find(|&grain| bed.kind(grain).free) else { return Err("no grain".to_owned()) };
+        let mut wrong = bed.clone();
+        wrong.grid.set(cells[free] as usize, WALL_POINT);
+        claims.push(gate(if spoiler == 1.0 { &bed } else { &wrong }, broken));
+        claims.push(refused("a wall where a grain is", &[gate(&wrong, 0)], 1));
+        let lost = (grains - engine.grains()) as f64;
+        claims.push(between(format!("{name}: grains lost"), lost, 0.0, 0.0, source));
+        let same = f64::from(u8::from(hash == seven));
+        claims.push(between(format!("{name}: same bits at 1 and 7 threads"), same, 1.0, 1.0, source));
+    }
+    Ok(claims)
 }
 
 /// When the plate has gone 1 mm into the bed of hexagons [s].
@@ -360,23 +439,27 @@ const PUSHED: f64 = 1.46;
 
 /// C-x4: shared points of a bed into which a plate has been pushed by 1 mm: some grains carry, most of them below the plate.
 pub(super) fn plate(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let text = include_str!("../../../../../studies/cl-ca-2001/plate.toml");
-    let mut plan = super::bench::plan(text)?;
-    if spoiler != 1.0 {
-        plan.particles.retain(|name, _| name != "plate");
-        plan.cl_ca.rule = tsubu_scene::plan::ClCaRule::Passive;
-    }
-    let mut rig = Rig::of(plan, 1.0)?;
-    // The plate comes down at 50 mm/s from 116 mm and meets the bed at 1.44 s: it has gone 1 mm into it.
-    rig.until(PUSHED)?;
-    let Network { loads, carry, under } = network(&rig, Contacts::Places);
-    let source = "chain-like, not uniform (C-x4)";
-    Ok(vec![
-        at_least("pairs that share points", loads.len() as f64, 20.0, source),
-        at_least("spread of shared points over their mean", scatter(&loads), 0.3, source),
-        between("share of grains that carry", carry, 0.02, 0.5, source),
-        at_least("of those, share below the plate", under, 0.45, "the plate covers 30 of 80 mm: 0.37 if all alike"),
-    ])
+    let pushed = |plate: bool| -> Result<_, String> {
+        let mut plan = super::bench::plan(include_str!("../../../../../studies/cl-ca-2001/plate.toml"))?;
+        if !plate {
+            plan.particles.retain(|name, _| name != "plate");
+            plan.cl_ca.rule = tsubu_scene::plan::ClCaRule::Passive;
+        }
+        let mut rig = Rig::of(plan, 1.0)?;
+        // The plate comes down at 50 mm/s from 116 mm and meets the bed at 1.44 s: it has gone 1 mm into it.
+        rig.until(PUSHED)?;
+        let Network { loads, carry, under } = network(&rig, Contacts::Places);
+        let source = "chain-like, not uniform (C-x4)";
+        Ok([
+            at_least("pairs that share points", loads.len() as f64, 20.0, source),
+            at_least("spread of shared points over their mean", scatter(&loads), 0.3, source),
+            between("share of grains that carry", carry, 0.02, 0.5, source),
+            at_least("of those, share below the plate", under, 0.45, "the plate covers 30 of 80 mm: 0.37 if all alike"),
+        ])
+    };
+    let mut claims = pushed(spoiler == 1.0)?.to_vec();
+    claims.push(refused("no plate", &pushed(false)?, 4));
+    Ok(claims)
 }
 
 /// What a bed hands on from grain to grain.

@@ -5,7 +5,7 @@ mod fhp;
 mod karolyi_kertesz;
 mod peng_herrmann;
 
-pub(super) use baxter_behringer::hopper_order;
+pub(super) use baxter_behringer::{hopper_order, hopper_walls};
 pub(super) use fhp::{channel, collisions, sound, viscosity, viscosity_plain};
-pub(super) use karolyi_kertesz::{pile_angle, pile_avalanches, pile_segregation};
-pub(super) use peng_herrmann::{pipe_limit, pipe_spectrum, pipe_waves};
+pub(super) use karolyi_kertesz::{pile_angle, pile_avalanches, pile_segregation, silo_layers};
+pub(super) use peng_herrmann::{pipe_limit, pipe_smooth, pipe_spectrum, pipe_waves};

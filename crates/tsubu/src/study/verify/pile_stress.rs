@@ -7,7 +7,7 @@ use crate::lattice::hemmingsson_herrmann::{Pile, Rule, Split};
 use crate::lattice::sheet::{Layout, Sheet, WALL};
 use tsubu_frame::Claim;
 
-const BALANCE: Rule = Rule { split: Split::Vector, friction: 0.0, arching: 0.0 };
+pub(super) const BALANCE: Rule = Rule { split: Split::Vector, friction: 0.0, arching: 0.0 };
 
 /// A pile of 60 degrees over `base` grains.
 fn triangle(base: usize) -> Sheet {
@@ -25,7 +25,7 @@ fn triangle(base: usize) -> Sheet {
 }
 
 /// Loads of the base grains, left to right, and the sum of what walls got.
-fn base(sheet: Sheet, rule: Rule, seed: u64, spoiler: f64) -> (Vec<[f64; 2]>, [f64; 2]) {
+pub(super) fn base(sheet: Sheet, rule: Rule, seed: u64, spoiler: f64) -> (Vec<[f64; 2]>, [f64; 2]) {
     let count = sheet.grains();
     let weight = (0..count).map(|grain| if grain < count / 2 { spoiler } else { 1.0 }).collect();
     let mut pile = Pile::new(sheet, rule, weight, seed);

@@ -268,34 +268,41 @@ fn emptied(left: f64) -> Result<Vec<Claim>, String> {
         early = early.or((gone >= 300).then(|| surface(&model.sheet)));
     }
     let early = early.ok_or("too few grains ran out")?;
-    let depression = early[MIDDLE - 20] as f64 - early[MIDDLE] as f64;
     let end = surface(&model.sheet);
-    let side = |columns: std::ops::Range<usize>| -> Vec<(f64, f64)> {
-        columns.map(|c| (c as f64, ROW_SPACING * end[c] as f64)).collect()
-    };
-    let angle = |points: &[(f64, f64)]| slope(points).atan().to_degrees();
-    let (falls, rises) = (angle(&side(12..MIDDLE - 3)), angle(&side(MIDDLE + 4..51)));
+    let level = surface(&bed(COLUMNS, 42, MIDDLE - 1..=MIDDLE + 1));
     let balance = (holes + gone) as f64 - model.sheet.sites(EMPTY).count() as f64;
     let lost = grains as f64 - (model.sheet.grains() + gone) as f64;
-    Ok(vec![
-        Claim::judge(
-            "after Caram and Hong: depth of the depression over the outlet, rows",
-            depression,
-            Some(5.0),
-            None,
-            "a V over the outlet",
-        ),
-        within("after Caram and Hong: slope left of the outlet, degrees", falls, -60.0, 2.0, "slope of the lattice"),
-        within("after Caram and Hong: slope right of the outlet, degrees", rises, 60.0, 2.0, "slope of the lattice"),
-        within(
-            "after Caram and Hong: voids that came in or were there, less those there now",
-            balance,
-            0.0,
-            0.0,
-            "voids are conserved",
-        ),
-        within("after Caram and Hong: grains lost", lost, 0.0, 0.0, "grains are conserved"),
-    ])
+    let gates = |early: &[usize], end: &[usize], balance: f64, lost: f64| {
+        let angle = |columns: std::ops::Range<usize>| {
+            let points: Vec<_> = columns.map(|c| (c as f64, ROW_SPACING * end[c] as f64)).collect();
+            slope(&points).atan().to_degrees()
+        };
+        let depth = early[MIDDLE - 20] as f64 - early[MIDDLE] as f64;
+        let side = "slope of the lattice";
+        let name = |what: &str| format!("after Caram and Hong: {what}");
+        vec![
+            Claim::judge(
+                name("depth of the depression over the outlet, rows"),
+                depth,
+                Some(5.0),
+                None,
+                "a V over the outlet",
+            ),
+            within(name("slope left of the outlet, degrees"), angle(12..MIDDLE - 3), -60.0, 2.0, side),
+            within(name("slope right of the outlet, degrees"), angle(MIDDLE + 4..51), 60.0, 2.0, side),
+            within(
+                name("voids that came in or were there, less those there now"),
+                balance,
+                0.0,
+                0.0,
+                "voids are conserved",
+            ),
+            within(name("grains lost"), lost, 0.0, 0.0, "grains are conserved"),
+        ]
+    };
+    let mut claims = gates(&early, &end, balance, lost);
+    claims.push(refused("a level surface, a void and a grain that are forgotten", &gates(&level, &level, 1.0, 1.0), 5));
+    Ok(claims)
 }
 
 /// Row of a site of the beds of [`COLUMNS`] columns.

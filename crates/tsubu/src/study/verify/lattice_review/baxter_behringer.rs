@@ -56,6 +56,8 @@ struct Seen {
     /// Share of upright grains in the throat, and above the slope.
     throat: f64,
     above: f64,
+    /// Shares of upright grains between the upright walls above the slope: within four columns of a wall, and in the middle.
+    shoulder: [f64; 2],
     /// Mean speed down in the lower half of the slope: in the middle, and within three columns of the walls.
     middle: f64,
     corner: f64,
@@ -68,6 +70,7 @@ struct Seen {
 fn run(alignment: Option<Alignment>) -> Seen {
     let mut grains = hopper(alignment.is_some());
     let (mut upright, mut speed, mut flow, mut looks) = ([[0.0; 2]; 2], [[0.0; 2]; 2], 0.0, 0.0);
+    let mut sides = [[0.0; 2]; 2];
     let inside: Vec<(usize, usize)> = (0..COLUMNS).flat_map(|c| (0..ROWS).map(move |r| (c, r))).collect();
     while grains.steps() < 1400 {
         grains.step();
@@ -82,14 +85,21 @@ fn run(alignment: Option<Alignment>) -> Seen {
             for slot in (0..SLOTS).filter(|slot| grains.site(column, row) >> slot & 1 == 1) {
                 let down = if slot == REST { 0.0 } else { -0.5 * Direction::from_index(slot).k() as f64 };
                 let zone = if (34..THROAT).contains(&row) { Some(0) } else { (row > SHOULDER).then_some(1) };
+                let to_wall = half_width(row) - from_middle(column);
                 if let (Some(zone), Some(axis)) = (zone, grains.axis(column, row, slot)) {
-                    upright[zone][0] += f64::from(axis == 0);
-                    upright[zone][1] += 1.0;
+                    let beside = zone == 1 && to_wall < 4.0;
+                    let apart = zone == 1 && from_middle(column) < 4.0;
+                    let [walls, middle] = &mut sides;
+                    for (sums, here) in [(&mut upright[zone], true), (walls, beside), (middle, apart)] {
+                        if here {
+                            sums[0] += f64::from(axis == 0);
+                            sums[1] += 1.0;
+                        }
+                    }
                 }
                 if (34..THROAT).contains(&row) {
                     flow += down / (THROAT - 34) as f64;
                 }
-                let to_wall = half_width(row) - from_middle(column);
                 if (50..75).contains(&row) && (to_wall < 3.0 || from_middle(column) < 3.0) {
                     let zone = usize::from(to_wall < 3.0);
                     speed[zone][0] += down;
@@ -102,7 +112,7 @@ fn run(alignment: Option<Alignment>) -> Seen {
     let sites = inside.iter().map(|(c, r)| grains.site(*c, *r)).collect();
     let [throat, above] = upright.map(share);
     let [middle, corner] = speed.map(share);
-    Seen { throat, above, middle, corner, flow: flow / looks, sites }
+    Seen { throat, above, shoulder: sides.map(share), middle, corner, flow: flow / looks, sites }
 }
 
 /// Grains that like to lie along their way stand upright where the hopper narrows; nothing else changes.
@@ -136,5 +146,21 @@ pub(crate) fn hopper_order(spoiler: f64) -> Result<Vec<Claim>, String> {
             Some(0.6),
             SOURCE,
         ),
+    ])
+}
+
+/// Order was to grow near walls as well as along the slope.
+#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
+pub(crate) fn hopper_walls(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let gate = |alignment: Alignment| {
+        let [walls, middle] = run(Some(alignment)).shoulder;
+        let name =
+            "hopper, above the slope: share of upright grains within four columns of the walls less that in the middle";
+        Claim::judge(name, walls - middle, Some(0.1), None, SOURCE)
+    };
+    let temperature = 1.0 / spoiler.powi(60);
+    Ok(vec![
+        gate(Alignment { neighbours: 0.5, way: 1.0, temperature }),
+        refused("no alignment", &[gate(Alignment { neighbours: 0.0, way: 0.0, temperature: 1.0 })], 1),
     ])
 }

@@ -108,10 +108,12 @@ pub(crate) fn pile_avalanches(spoiler: f64) -> Result<Vec<Claim>, String> {
     ])
 }
 
-/// How much farther from the spout grains of kind 0 come to rest than those of kind 1 [columns].
-fn farther(friction: [f64; 2]) -> f64 {
-    const COLUMNS: usize = 80;
-    const ROWS: usize = 200;
+/// Columns and rows of a silo.
+const COLUMNS: usize = 80;
+const ROWS: usize = 200;
+
+/// A silo into which 4000 grains of two kinds were poured at the left.
+fn silo(friction: [f64; 2]) -> Pile {
     let habits = Habits { gravity: 0.5, dissipation: 0.8, friction: friction.to_vec() };
     let mut pile = Pile::new(Sites::new(COLUMNS, ROWS, [false, false]), habits, 1);
     (0..COLUMNS).for_each(|column| pile.set_wall(column, 0));
@@ -121,6 +123,11 @@ fn farther(friction: [f64; 2]) -> f64 {
         pile.drop_at(2, (pile.height(2) + 10).min(ROWS - 2), kind);
         settle(&mut pile);
     }
+    pile
+}
+
+/// How much farther from the spout grains of kind 0 come to rest than those of kind 1 [columns].
+fn farther(pile: &Pile) -> f64 {
     let mean = |kind: usize| {
         let sites = (0..COLUMNS).flat_map(|c| (0..ROWS).map(move |r| (c, r)));
         let (sum, count) = sites
@@ -136,10 +143,46 @@ fn farther(friction: [f64; 2]) -> f64 {
 pub(crate) fn pile_segregation(spoiler: f64) -> Result<Vec<Claim>, String> {
     let rough = 0.02 + 0.38 * spoiler.powi(60);
     let gate = |name: &str, value: f64| Claim::judge(name, value, Some(4.0), None, SOURCE);
-    let equal = farther([0.2; 2]);
+    let equal = farther(&silo([0.2; 2]));
     Ok(vec![
-        gate("silo: smooth grains lie farther from the spout than rough ones [columns of 78]", farther([0.02, rough])),
+        gate(
+            "silo: smooth grains lie farther from the spout than rough ones [columns of 78]",
+            farther(&silo([0.02, rough])),
+        ),
         Claim::judge("silo: the same for equal grains", equal, Some(-2.0), Some(2.0), "symmetry"),
         refused("grains of equal friction", &[gate("equal", equal)], 1),
+    ])
+}
+
+/// Of neighbours at rest, how much more often those down the slope are of one kind than those straight above each other: layers
+/// lie along the slope.
+fn layered(kind: impl Fn(usize, usize) -> Option<usize>) -> f64 {
+    let alike = |next: &dyn Fn(usize, usize) -> (usize, usize)| {
+        let sites = (1..COLUMNS - 2).flat_map(|c| (1..ROWS - 1).map(move |r| (c, r)));
+        let pairs = sites.filter_map(|(c, r)| {
+            let (column, row) = next(c, r);
+            Some((kind(c, r)?, kind(column, row)?))
+        });
+        let (same, all) = pairs.fold((0.0, 0.0), |(same, all), (a, b)| (same + f64::from(u8::from(a == b)), all + 1.0));
+        same / all
+    };
+    // Odd columns stand half a site higher: the lower right neighbour.
+    alike(&|c, r| (c + 1, r - (c + 1) % 2)) - alike(&|c, r| (c, r + 1))
+}
+
+/// Grains of two kinds were to part into layers, as real ones do when they are poured.
+#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
+pub(crate) fn silo_layers(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let rough = 0.02 + 0.38 * spoiler.powi(60);
+    let gate = |name: &str, value: f64| Claim::judge(name, value, Some(0.1), None, SOURCE);
+    let at_rest = |pile: Pile| move |c: usize, r: usize| pile.at_rest(c, r);
+    let drawn = |c: usize, r: usize| Some((r + c.div_ceil(2)) / 4 % 2);
+    Ok(vec![
+        gate(
+            "silo: share of like neighbours down the slope less that of those above each other",
+            layered(at_rest(silo([0.02, rough]))),
+        ),
+        Claim::judge("silo: the same where layers of four rows are drawn", layered(drawn), Some(0.1), None, "by hand"),
+        refused("grains of equal friction", &[gate("equal", layered(at_rest(silo([0.2; 2]))))], 1),
     ])
 }
