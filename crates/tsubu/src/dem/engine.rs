@@ -186,7 +186,7 @@ impl DemEngine {
     /// Gives the first step what it needs.
     fn start(&mut self) {
         self.drive(0.0);
-        self.immerse(f64::INFINITY, 0.0);
+        self.immerse();
         self.make_room();
         self.find();
         self.stand();

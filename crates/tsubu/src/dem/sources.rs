@@ -136,7 +136,7 @@ impl DemEngine {
             self.grains.push(grain);
         }
         self.total_mass = self.grains.moved_mass();
-        self.immerse(f64::INFINITY, 0.0);
+        self.immerse();
         self.find_with(kept);
         // What the springs of those contacts held is in the difference below.
         self.released = 0.0;

@@ -7,7 +7,7 @@ use crate::engine::Engine;
 use crate::find::candidates::{BLOCK, WORTH_THREADS};
 use crate::ledger::{Account, Ledger};
 use crate::state::Grains;
-use crate::water::{EVERY, Flows, Gust, Parcel, Stream, Water};
+use crate::water::{EVERY, Flows, Given, Gust, Parcel, Stream, Water};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -21,14 +21,16 @@ pub(super) struct Wet {
     effects: Vec<Effect>,
     /// Force along x on the grains of every layer of a stream [N].
     taken: Vec<f64>,
+    /// Momentum along x of the water that grains have picked up in this step, by layers of a stream [N.s].
+    picked: Vec<f64>,
 }
 
 /// What one block does to the water.
 #[derive(Debug)]
 struct Effect {
     flows: Flows,
-    /// Force along x on its grains, by layers of a stream [N].
-    taken: Vec<f64>,
+    /// What the layers of a stream give to its grains along x.
+    given: Vec<Given>,
 }
 
 /// When the water acts, and on what.
@@ -43,7 +45,8 @@ struct Moment<'a> {
 impl Wet {
     pub fn new(water: Water) -> Self {
         let layers = if let Stream::Coupled(coupled) = &water.stream { coupled.layers.len() } else { 0 };
-        Self { water, scratch: Vec::new(), effects: Vec::new(), taken: vec![0.0; layers] }
+        let (taken, picked) = (vec![0.0; layers], vec![0.0; layers]);
+        Self { water, scratch: Vec::new(), effects: Vec::new(), taken, picked }
     }
 
     /// Whether there is a stream that gives to the grains and takes from them.
@@ -58,11 +61,14 @@ impl Wet {
 
     /// Adds the forces of the water to the loads of every block; returns what they do in all.
     fn act(&mut self, moment: &Moment, blocks: &mut [Block]) -> Flows {
-        let Self { water, scratch, effects, taken } = self;
+        let Self { water, scratch, effects, taken, picked: _ } = self;
         while scratch.len() < rayon::current_num_threads() {
             scratch.push(Mutex::default());
         }
-        effects.resize_with(blocks.len(), || Effect { flows: Flows::default(), taken: vec![0.0; taken.len()] });
+        effects.resize_with(blocks.len(), || Effect {
+            flows: Flows::default(),
+            given: vec![Given::default(); taken.len()],
+        });
         let (water, scratch) = (&*water, &*scratch);
         let work = |(number, (block, effect)): (usize, (&mut Block, &mut Effect))| {
             let mine = rayon::current_thread_index().unwrap_or(0);
@@ -70,17 +76,21 @@ impl Wet {
             let mut parcel = scratch[mine].lock().unwrap_or_else(PoisonError::into_inner);
             block_of_grains(water, moment, number * BLOCK, block, effect, &mut parcel);
         };
+        // Backwards: the contacts have left the last blocks in the cache, and the second half of the step begins with the first.
         if moment.grains.len() >= WORTH_THREADS && rayon::current_num_threads() > 1 {
-            blocks.par_iter_mut().zip(effects.par_iter_mut()).enumerate().with_max_len(1).for_each(work);
+            blocks.par_iter_mut().zip(effects.par_iter_mut()).enumerate().rev().with_max_len(1).for_each(work);
         } else {
-            blocks.iter_mut().zip(effects.iter_mut()).enumerate().for_each(work);
+            blocks.iter_mut().zip(effects.iter_mut()).enumerate().rev().for_each(work);
         }
         taken.fill(0.0);
         let mut flows = Flows::default();
         for effect in effects {
             flows.add(&effect.flows);
-            for (taken, effect) in taken.iter_mut().zip(&effect.taken) {
-                *taken += effect;
+            let mut from_below = 0.0;
+            for (taken, [even, odd]) in taken.iter_mut().zip(&effect.given) {
+                let above = even[1] + odd[1];
+                *taken += from_below + (even[0] + odd[0] - above);
+                from_below = above;
             }
         }
         flows
@@ -97,108 +107,150 @@ fn block_of_grains(
     effect: &mut Effect,
     parcel: &mut Parcel,
 ) {
-    let grains = moment.grains;
-    let (turns, slows) = (water.turns(), !effect.taken.is_empty());
-    let last = (first + BLOCK).min(grains.len());
     if water.fluctuation.is_some() {
         block.gusts.resize(BLOCK, Gust::default());
     }
     effect.flows = Flows::default();
-    effect.taken.fill(0.0);
-    let mut on_fixed = Flows::default();
-    let mut left = last - first;
-    for fixed in [false, true] {
-        if left == 0 || fixed && !slows {
-            break;
+    effect.given.fill(Given::default());
+    let own = &moment.grains.inverse_mass[first..(first + BLOCK).min(moment.grains.len())];
+    let slows = !effect.given.is_empty();
+    let mut bath = Bath { water, moment, first, block, given: &mut effect.given, parcel };
+    let fixed = own.iter().filter(|m| **m == 0.0).count();
+    if fixed == 0 {
+        // Nobody need be looked up in a list.
+        for begin in (0..own.len()).step_by(ROWS) {
+            bath.free((own.len() - begin).min(ROWS), |r| begin + r, &mut effect.flows);
         }
-        let mut rest = (first..last).filter(|i| (grains.inverse_mass[*i] == 0.0) == fixed);
-        loop {
-            let mut row = [0u16; ROWS];
-            parcel.len = 0;
-            for (r, i) in rest.by_ref().take(ROWS).enumerate() {
-                row[r] = (i - first) as u16;
-                parcel.height[r] = grains.position[i].z;
-                parcel.radius[r] = grains.radius[i];
-                let v = grains.velocity[i];
-                parcel.velocity[0][r] = v.x;
-                parcel.velocity[1][r] = v.y;
-                parcel.velocity[2][r] = v.z;
-                if turns {
-                    Chunk::set(&mut parcel.spin, r, grains.spin[i]);
-                }
-                if let Some(fluctuation) = &water.fluctuation {
-                    let gust = fluctuation.at(&mut block.gusts[i - first], grains.id[i], moment.time);
-                    for (column, gust) in parcel.gust.iter_mut().zip(gust) {
-                        column[r] = gust;
-                    }
-                }
-                parcel.len = r + 1;
+        return;
+    }
+    let sort = |fixed: bool| {
+        let (mut rows, mut len) = ([0u16; BLOCK], 0);
+        for (i, m) in own.iter().enumerate() {
+            rows[len] = i as u16;
+            len += usize::from((*m == 0.0) == fixed);
+        }
+        (rows, len)
+    };
+    let (rows, len) = sort(false);
+    for rows in rows[..len].chunks(ROWS) {
+        bath.free(rows.len(), |r| rows[r] as usize, &mut effect.flows);
+    }
+    if slows {
+        let mut on_fixed = Flows::default();
+        let (rows, len) = sort(true);
+        for rows in rows[..len].chunks(ROWS) {
+            bath.act(rows.len(), |r| rows[r] as usize, &mut on_fixed);
+        }
+        effect.flows.add_fixed(&on_fixed);
+    }
+}
+
+/// A block of grains under water.
+struct Bath<'a> {
+    water: &'a Water,
+    moment: &'a Moment<'a>,
+    first: usize,
+    block: &'a mut Block,
+    given: &'a mut [Given],
+    parcel: &'a mut Parcel,
+}
+
+impl Bath<'_> {
+    /// Forces on so many grains, of which `own` tells the places in the block, and what they take from a stream.
+    fn act(&mut self, len: usize, own: impl Fn(usize) -> usize, flows: &mut Flows) {
+        let Self { water, moment, first, block, given, parcel } = self;
+        let Moment { grains, time, held, .. } = **moment;
+        let turns = water.turns();
+        parcel.len = len;
+        for r in 0..parcel.rows() {
+            let i = *first + own(r);
+            parcel.height[r] = grains.position[i].z;
+            parcel.radius[r] = grains.radius[i];
+            Chunk::set(&mut parcel.velocity, r, grains.velocity[i]);
+            if turns {
+                Chunk::set(&mut parcel.spin, r, grains.spin[i]);
             }
-            if parcel.len == 0 {
-                break;
+            if let Some(fluctuation) = &water.fluctuation {
+                let gust = fluctuation.at(&mut block.gusts[own(r)], grains.id[i], time);
+                Chunk::set(&mut parcel.gust, r, DVec3::from_array(gust));
             }
-            left -= parcel.len;
-            water.act(parcel, if fixed { &mut on_fixed } else { &mut effect.flows }, moment.held);
-            if slows {
-                if water.fluctuation.is_some() && !moment.held {
-                    let flows = if fixed { &mut on_fixed } else { &mut effect.flows };
-                    flows.gust += parcel.gust_power();
-                }
-                parcel.give(&mut effect.taken);
+        }
+        water.act(parcel, flows, held);
+        if !given.is_empty() {
+            if water.fluctuation.is_some() && !held {
+                flows.gust += parcel.gust_power();
             }
-            if fixed {
-                continue;
-            }
-            // The step adds gravity to the acceleration; the added mass, which it moves too, has no weight.
-            parcel.weigh(water.added_mass * water.density, moment.gravity);
-            for (r, own) in row.iter().take(parcel.len).enumerate() {
-                let load = &mut block.loads[*own as usize];
-                load.force += parcel.total(r);
-                if turns {
-                    load.torque += parcel.total_torque(r);
-                }
+            parcel.give(given);
+        }
+    }
+
+    /// The same for grains that forces move.
+    fn free(&mut self, len: usize, own: impl Fn(usize) -> usize, flows: &mut Flows) {
+        self.act(len, &own, flows);
+        // The step adds gravity to the acceleration; the added mass, which it moves too, has no weight.
+        let weight = self.water.added_mass * self.water.density * self.moment.gravity;
+        let turns = self.water.turns();
+        for r in 0..self.parcel.rows() {
+            let load = &mut self.block.loads[own(r)];
+            load.force += self.parcel.total(r) - weight * self.parcel.volume[r];
+            if turns {
+                load.torque += self.parcel.total_torque(r);
             }
         }
     }
-    effect.flows.add_fixed(&on_fixed);
+}
+
+/// Gives every grain from a `level` [m] upwards the added mass of where it is. `gains` hears of each at
+/// which height what momentum [N.s] that water has gained, and with which velocity: `ahead` [s] of its last acceleration less
+/// than it has.
+fn immerse(grains: &mut Grains, water: &Water, level: f64, ahead: f64, mut gains: impl FnMut(f64, DVec3, DVec3)) {
+    for first in (0..grains.len()).step_by(ROWS) {
+        let rows = first..(first + ROWS).min(grains.len());
+        // Counting needs no branches: where all are deep it is all there is to do.
+        if grains.position[rows.clone()].iter().filter(|p| p.z >= level).count() == 0 {
+            continue;
+        }
+        for i in rows {
+            let height = grains.position[i].z;
+            if height < level || grains.inverse_mass[i] == 0.0 {
+                continue;
+            }
+            let added = water.added_mass(grains.radius[i], height);
+            let velocity = grains.velocity[i] - ahead * grains.acceleration[i];
+            gains(height, (added - grains.added_mass(i)) * velocity, velocity);
+            grains.inverse_mass[i] = 1.0 / (grains.mass[i] + added);
+        }
+    }
 }
 
 impl DemEngine {
-    /// Gives every grain the added mass of where it is, but those `deep` radii and more below the surface. Returns what the
-    /// motion of that water has gained: energy [J] and momentum [N.s], where velocities are ahead of the moment by their last
-    /// acceleration over `ahead` [s].
-    pub(super) fn immerse(&mut self, deep: f64, ahead: f64) -> (f64, DVec3) {
-        let Some(wet) = &self.wet else { return Default::default() };
-        let grains = &mut self.grains;
-        let (mut energy, mut momentum) = (0.0, DVec3::ZERO);
-        let surface = wet.water.surface();
-        for i in 0..grains.len() {
-            let under = surface - grains.position[i].z > deep * grains.radius[i];
-            if under || grains.inverse_mass[i] == 0.0 {
-                continue;
-            }
-            let added = wet.water.added_mass(grains.radius[i], grains.position[i].z);
-            let velocity = grains.velocity[i] - ahead * grains.acceleration[i];
-            let gained = (added - grains.added_mass(i)) * velocity;
-            energy += 0.5 * gained.dot(velocity);
-            momentum += gained;
-            grains.inverse_mass[i] = 1.0 / (grains.mass[i] + added);
+    /// Gives every grain the added mass of where it begins.
+    pub(super) fn immerse(&mut self) {
+        if let Some(wet) = &self.wet {
+            immerse(&mut self.grains, &wet.water, f64::NEG_INFINITY, 0.0, |_, _, _| ());
         }
-        (energy, momentum)
     }
 
     /// The same within a step, where there is a surface to go through.
     pub(super) fn sink(&mut self, ledger: &mut Ledger) {
-        if !self.wet.as_ref().is_some_and(|wet| wet.water.has_surface()) {
-            return;
-        }
-        // Whatever is two radii down now has been under water in the last step as well. The mass changes between the two halves of
+        let ahead = self.motion(self.dt).predicts();
+        let Some(Wet { water, picked, .. }) = self.wet.as_mut().filter(|wet| wet.water.has_surface()) else { return };
+        picked.fill(0.0);
+        let layers = water.stream.layers().filter(|_| !picked.is_empty());
+        // Whatever is a diameter down now has been under water in the last step as well. The mass changes between the two halves of
         // the step, so what it brings has the velocity between them, not the predicted one.
-        let (energy, momentum) = self.immerse(2.0, self.motion(self.dt).predicts());
-        ledger.post(Account::Buoyancy, energy);
-        for (axis, impulse) in ledger.water_impulse.iter_mut().enumerate() {
-            *impulse += momentum[axis];
-        }
+        let level = water.surface() - self.largest_diameter;
+        immerse(&mut self.grains, water, level, ahead, |height, momentum, velocity| {
+            ledger.post(Account::Buoyancy, 0.5 * momentum.dot(velocity));
+            for (axis, impulse) in ledger.water_impulse.iter_mut().enumerate() {
+                *impulse += momentum[axis];
+            }
+            if let Some(layers) = layers {
+                let (below, share) = layers.at(height);
+                picked[below] += momentum.x * (1.0 - share);
+                picked[below + 1] += momentum.x * share;
+            }
+        });
     }
 
     /// Adds the forces of the water to those of the contacts.
@@ -216,13 +268,14 @@ impl DemEngine {
         let looks = self.step.is_multiple_of(EVERY);
         match &mut wet.water.stream {
             Stream::Coupled(coupled) if !held => {
-                let mut turned = coupled.step(&wet.taken, self.dt);
+                let mut turned = coupled.step(&wet.taken, &wet.picked, self.dt);
                 if looks {
                     let seconds = EVERY as f64 * self.dt;
                     let mixed = coupled.look(&self.grains.position, &self.grains.radius, seconds);
                     (turned.work, turned.lost) = (turned.work + mixed.work, turned.lost + mixed.lost);
                 }
                 ledger.post(Account::StreamWork, turned.work);
+                ledger.post(Account::Buoyancy, -turned.picked);
                 ledger.post(Account::StreamFriction, turned.lost);
             }
             Stream::Column { layers, .. } if looks => {

@@ -5,7 +5,8 @@
 //! rho e h dU/dt = rho e h a + t(upper face) - t(lower face) - R/A
 //!
 //! a: what drives the stream along x (gravity on the slope, or what holds a shear velocity); R: what the grains of the layer
-//! get from the water, all of it: what they gain the water loses. The stress at a face is turbulent or, where
+//! get from the water, all of it: what they gain the water loses. What a grain picks up as added mass on its way through the
+//! surface, with its velocity, the stream loses as well. The stress at a face is turbulent or, where
 //! that is less, viscous,
 //!
 //! t = rho max(nu, l^2 |dU/dz|) dU/dz,      l = 0.40 s sqrt(1 - s/S),  s = integral of (1 - (1-e)/0.61) dZ
@@ -54,6 +55,8 @@ pub struct Turnover {
     pub work: f64,
     /// Lost in its own stress, at the bottom and in mixing [J].
     pub lost: f64,
+    /// Given to what grains have picked up [J].
+    pub picked: f64,
 }
 
 /// A stream in layers.
@@ -256,9 +259,10 @@ impl Coupled {
         self.taken.copy_from_slice(taken);
     }
 
-    /// Moves the stream by `dt` [s], in which the force on the grains has gone from what it was to `taken` [N], by layers.
+    /// Moves the stream by `dt` [s], in which the force on the grains has gone from what it was to `taken` [N] and grains have picked
+    /// up water with the momentum `picked` along x [N.s], by layers.
     #[expect(clippy::needless_range_loop, reason = "a grid: all columns at the same index")]
-    pub fn step(&mut self, taken: &[f64], dt: f64) -> Turnover {
+    pub fn step(&mut self, taken: &[f64], picked: &[f64], dt: f64) -> Turnover {
         self.stiffness();
         let n = self.layers.len();
         let area = self.layers.area;
@@ -267,7 +271,7 @@ impl Coupled {
         let mut before = 0.0;
         for k in 0..n {
             let mass = self.mass(k);
-            let given = -0.5 * dt * (self.taken[k] + taken[k]) / area;
+            let given = -(0.5 * dt * (self.taken[k] + taken[k]) + picked[k]) / area;
             let (low, high) =
                 (if k > 0 { self.stiff[k - 1] } else { 0.0 }, if k + 1 < n { self.stiff[k] } else { 0.0 });
             let ground = if k == 0 { bottom } else { 0.0 };
@@ -288,12 +292,13 @@ impl Coupled {
         for k in 0..n {
             let (old, new) = (self.velocity[k], self.next[k]);
             let (mass, middle) = (self.mass(k), 0.5 * (old + new));
-            let force = 0.5 * dt * (self.taken[k] + taken[k]);
+            let force = 0.5 * dt * (self.taken[k] + taken[k]) + picked[k];
             let drive = area * mass * (dt * self.drive + held);
             // What is left of the change of momentum is stress.
             let stress = area * mass * (new - old) - drive + force;
             turnover.work += middle * drive;
             turnover.lost -= middle * stress;
+            turnover.picked += middle * picked[k];
             self.impulses[0] += drive;
             given += force;
         }

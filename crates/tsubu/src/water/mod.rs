@@ -24,6 +24,7 @@ pub(crate) use coupled::EVERY;
 pub use coupled::{Coupled, Top, Turnover};
 pub use fluctuation::{ABOUT as ABOUT_FLUCTUATION, Fluctuation, Gust};
 pub use layers::Layers;
+pub(crate) use parcel::Given;
 pub use parcel::{Flows, Parcel};
 pub use part::{Kind, Part};
 pub use stream::Stream;

@@ -62,6 +62,10 @@ pub struct Parcel {
     pub total_torque: [Column; 3],
 }
 
+/// What a layer gives to the grains between its middle and the next one [N]: all, and of that the next layer's part. Rows with
+/// even numbers, and those with odd ones: neighbours are in the same layers, and one sum would have to wait for the last.
+pub(crate) type Given = [[f64; 2]; 2];
+
 /// What the water does to grains, summed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Flows {
@@ -147,15 +151,16 @@ impl Parcel {
     #[inline(always)]
     pub(super) fn read(&self, column: &[f64], i: usize) -> f64 {
         let (k, share) = (self.layer[i] as usize, self.share[i]);
-        column[k] * (1.0 - share) + column[k + 1] * share
+        let pair = &column[k..k + 2];
+        pair[0] * (1.0 - share) + pair[1] * share
     }
 
-    /// Adds the forces along x [N] to a column of layers, with the shares that the layers are read with.
-    pub(crate) fn give(&self, column: &mut [f64]) {
+    /// Adds the forces along x [N] to what layers give, with the shares that the layers are read with.
+    pub(crate) fn give(&self, column: &mut [Given]) {
         for i in 0..self.rows() {
-            let (k, share, force) = (self.layer[i] as usize, self.share[i], self.total[0][i]);
-            column[k] += force * (1.0 - share);
-            column[k + 1] += force * share;
+            let (force, given) = (self.total[0][i], &mut column[self.layer[i] as usize][i % 2]);
+            given[0] += force;
+            given[1] += force * self.share[i];
         }
     }
 
@@ -196,17 +201,7 @@ impl Parcel {
 
     /// The motion of the water relative to the grains.
     pub(super) fn slip(&mut self) {
-        self.speed = relative(self.rows(), &self.flow, &self.velocity, &mut self.slip);
-    }
-
-    /// Takes the weight of the added mass, `density` of it in a wet volume, from the total.
-    pub(crate) fn weigh(&mut self, density: f64, gravity: DVec3) {
-        let n = self.rows();
-        for (total, gravity) in self.total.iter_mut().zip(gravity.to_array()) {
-            for (total, volume) in total[..n].iter_mut().zip(&self.volume[..n]) {
-                *total -= density * gravity * volume;
-            }
-        }
+        relative(self.rows(), &self.flow, &self.velocity, &mut self.slip, &mut self.speed);
     }
 
     /// Water that does not turn, and no torque yet.
@@ -219,7 +214,7 @@ impl Parcel {
 
     /// The spin of the water relative to the grains.
     pub(super) fn turn(&mut self) {
-        self.turning = relative(self.rows(), &self.flow_spin, &self.spin, &mut self.turn);
+        relative(self.rows(), &self.flow_spin, &self.spin, &mut self.turn, &mut self.turning);
     }
 
     /// Adds the force or torque of a part to the total, and its work to the flows.
@@ -263,8 +258,7 @@ fn begin(p: &mut Parcel, surface: f64) {
 
 /// The motion of the water relative to the grains, and its size.
 #[multiversion(targets = "simd")]
-fn relative(n: usize, water: &[Column; 3], grain: &[Column; 3], relative: &mut [Column; 3]) -> Column {
-    let mut size = ZERO;
+fn relative(n: usize, water: &[Column; 3], grain: &[Column; 3], relative: &mut [Column; 3], size: &mut Column) {
     for i in 0..n.min(ROWS) {
         let [x, y, z] = [0, 1, 2].map(|k| water[k][i] - grain[k][i]);
         relative[0][i] = x;
@@ -272,7 +266,6 @@ fn relative(n: usize, water: &[Column; 3], grain: &[Column; 3], relative: &mut [
         relative[2][i] = z;
         size[i] = (x * x + y * y + z * z).sqrt();
     }
-    size
 }
 
 /// Sums of the force (or torque), of its power with the grains' motion, and with that of the water.
@@ -282,31 +275,31 @@ fn post(n: usize, force: &[Column; 3], total: &mut [Column; 3], [grain, water]: 
     let mut sums = [0.0; 5];
     for k in 0..3 {
         let (force, total) = (&force[k], &mut total[k]);
-        let (velocity, flow) = (&grain[k], &water[k]);
-        // Eight partial sums, so that additions need not wait for one another.
-        let mut parts = [[0.0; 8]; 3];
-        let mut i = 0;
-        while i + 8 <= n {
-            for j in 0..8 {
-                let f = force[i + j];
-                total[i + j] += f;
-                parts[0][j] += f;
-                parts[1][j] += f * velocity[i + j];
-                parts[2][j] += f * flow[i + j];
-            }
-            i += 8;
+        for i in 0..n {
+            total[i] += force[i];
         }
-        while i < n {
-            let f = force[i];
-            total[i] += f;
-            parts[0][0] += f;
-            parts[1][0] += f * velocity[i];
-            parts[2][0] += f * flow[i];
-            i += 1;
-        }
-        sums[k] = parts[0].iter().sum();
-        sums[3] += parts[1].iter().sum::<f64>();
-        sums[4] += parts[2].iter().sum::<f64>();
+        sums[k] = sum(n, |i| force[i]);
+        sums[3] += sum(n, |i| force[i] * grain[k][i]);
+        sums[4] += sum(n, |i| force[i] * water[k][i]);
     }
     sums
+}
+
+/// Sum over rows in eight parts, so that additions need not wait for one another. Three sums in one loop would be shuffled
+/// among one another instead of standing in a vector each.
+#[inline(always)]
+fn sum(n: usize, term: impl Fn(usize) -> f64) -> f64 {
+    let mut parts = [0.0; 8];
+    let mut i = 0;
+    while i + 8 <= n {
+        for (j, part) in parts.iter_mut().enumerate() {
+            *part += term(i + j);
+        }
+        i += 8;
+    }
+    while i < n {
+        parts[0] += term(i);
+        i += 1;
+    }
+    parts.iter().sum()
 }

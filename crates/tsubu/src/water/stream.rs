@@ -103,7 +103,7 @@ impl Stream {
                 }
             }
             Self::LogLaw { shear_velocity, roughness, zero_level } => {
-                log_laws(parcel, *shear_velocity, *roughness, *zero_level);
+                log_laws(parcel, *shear_velocity, 1.0 / roughness, *zero_level);
                 for i in (0..n).filter(|_| turns) {
                     let moves = parcel.flow[0][i] > 0.0;
                     let shear = shear_velocity * PER_DECADE / (LN_10 * (parcel.height[i] - zero_level));
@@ -164,7 +164,7 @@ impl Stream {
             Self::Coupled(coupled) => coupled.velocity.iter().fold(0.0, |most, v| v.abs().max(most)),
             Self::LogLaw { shear_velocity, roughness, zero_level } => {
                 let height = if surface.is_finite() { surface - zero_level } else { 10.0 * diameter };
-                log_law(height, *shear_velocity, *roughness)
+                log_law(height, *shear_velocity, 1.0 / roughness)
             }
             Self::Table { velocity, .. } => velocity.iter().fold(0.0, |most, v| v.abs().max(most)),
         }
@@ -220,15 +220,15 @@ fn between(height: &[f64], velocity: &[f64], z: f64) -> (f64, f64) {
 
 /// The log law at a height above its zero level.
 #[inline(always)]
-fn log_law(height: f64, shear_velocity: f64, roughness: f64) -> f64 {
+fn log_law(height: f64, shear_velocity: f64, per_roughness: f64) -> f64 {
     // A height below zero has no logarithm; the velocity is zero well above it already.
-    let depth = (height / roughness).max(1e-3);
+    let depth = (height * per_roughness).max(1e-3);
     (shear_velocity * (CONSTANT + PER_DECADE / LN_10 * ln(depth))).max(0.0)
 }
 
 #[multiversion(targets = "simd")]
-fn log_laws(p: &mut Parcel, shear_velocity: f64, roughness: f64, zero_level: f64) {
+fn log_laws(p: &mut Parcel, shear_velocity: f64, per_roughness: f64, zero_level: f64) {
     for i in 0..p.rows() {
-        p.flow[0][i] = log_law(p.height[i] - zero_level, shear_velocity, roughness);
+        p.flow[0][i] = log_law(p.height[i] - zero_level, shear_velocity, per_roughness);
     }
 }

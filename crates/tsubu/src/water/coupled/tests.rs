@@ -23,7 +23,7 @@ fn the_empty_stream_is_the_log_law() {
         let mut stream = stream(layers, true);
         let none = vec![0.0; layers];
         for _ in 0..40_000 {
-            stream.step(&none, 1e-3);
+            stream.step(&none, &none, 1e-3);
         }
         let shear = (0.49f64 * 0.02).sqrt();
         for k in 0..layers {
@@ -54,7 +54,7 @@ fn momentum_and_energy_close() {
         taken[8] = 1e-4 * (f64::from(step) * 0.01).sin().abs();
         let old = stream.velocity[8];
         let before = stream.taken[8];
-        let turned = stream.step(&taken, dt);
+        let turned = stream.step(&taken, &[0.0; 20], dt);
         given += 0.5 * dt * (before + taken[8]) * 0.5 * (old + stream.velocity[8]);
         books.work += turned.work;
         books.lost += turned.lost;
@@ -81,7 +81,7 @@ fn a_discharge_is_held() {
     };
     let mut stream = Coupled::new(Layers::new(0.0, 0.02, 20, 1e-3), &setting);
     for _ in 0..10_000 {
-        stream.step(&[0.0; 20], 1e-3);
+        stream.step(&[0.0; 20], &[0.0; 20], 1e-3);
     }
     assert!((stream.discharge() - 0.02).abs() < 1e-12);
     let shape = stream.velocity[19] / stream.velocity[0];
@@ -114,7 +114,7 @@ fn a_fed_reach_finds_its_depth() {
         let (momentum, energy, mut books) = (stream.momentum(), stream.energy(), Turnover::default());
         for _ in 0..1000 {
             for _ in 0..20 {
-                let turned = stream.step(&[0.0; 40], 1e-3);
+                let turned = stream.step(&[0.0; 40], &[0.0; 40], 1e-3);
                 (books.work, books.lost) = (books.work + turned.work, books.lost + turned.lost);
             }
             let turned = stream.look(&[], &[], 0.02);
