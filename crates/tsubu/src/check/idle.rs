@@ -1,9 +1,9 @@
-//! The verdict on what a scene asks for and will not get: parts of the contact law that do nothing, walls that vanish and
-//! grains that come after the end.
+//! The verdict on what a scene asks for and will not get: parts of the contact law that do nothing, walls that would vanish
+//! after the end.
 
 use super::{Bodies, Verdict};
 use crate::contact::Table;
-use tsubu_scene::plan::{Cohesion, Plan, Rolling, Start, Twisting};
+use tsubu_scene::plan::{Cohesion, Plan, Rolling, Twisting};
 
 /// Judges the contact law of every pair of bodies that can touch.
 pub(super) fn parts(verdict: &mut Verdict, plan: &Plan, table: &Table, bodies: &Bodies) {
@@ -39,39 +39,31 @@ pub(super) fn parts(verdict: &mut Verdict, plan: &Plan, table: &Table, bodies: &
         }
     }
     for (part, key, largest) in found.into_iter().flatten() {
-        let why = if part != "cohesion" && !plan.contact.rotation {
-            "grains do not spin, `contact.rotation` is false".to_owned()
+        let out = format!("leave `contact.{part}` out");
+        let (why, advice) = if part != "cohesion" && !plan.contact.rotation {
+            ("grains do not spin, `contact.rotation` is false".to_owned(), out)
         } else if part == "twisting" && plan.dimension == 2 {
-            "grains in the plane do not spin about a normal".to_owned()
+            ("grains in the plane do not spin about a normal".to_owned(), out)
         } else if largest == 0.0 {
-            format!("`{key}` is 0 for all that touch")
+            let told = format!("`materials.NAME.{key}`, or that of a `[[material-pair]]`; or {out}");
+            (format!("`{key}` is 0 for all that touch"), told)
         } else {
             continue;
         };
-        verdict.judge(false, format!("`contact.{part}` does nothing: {why}"), || {
-            let told = format!("`materials.NAME.{key}`, or that of a `[[material-pair]]`; ");
-            format!("{}leave `contact.{part}` out", if largest == 0.0 { &told } else { "" })
-        });
+        verdict.judge(false, format!("`contact.{part}` does nothing: {why}"), || advice);
     }
 }
 
-/// Judges what is to happen at a time.
-pub(super) fn times(verdict: &mut Verdict, plan: &Plan) {
+/// Judges the gates.
+pub(super) fn gates(verdict: &mut Verdict, plan: &Plan) {
     let end = plan.duration;
     for (name, wall) in &plan.walls {
         if let Some(until) = wall.until.filter(|until| *until >= end) {
-            verdict.judge(false, format!("wall `{name}` never vanishes: `until` is {until} s, the run ends at {end} s"), || {
-                format!("`duration`, or `walls.{name}.until`")
-            });
-        }
-    }
-    for (name, group) in &plan.particles {
-        if let Start::Stream { from, .. } = group.start
-            && from >= end
-        {
-            verdict.judge(false, format!("no grain of `{name}` comes: `from` is {from} s, the run ends at {end} s"), || {
-                format!("`duration`, or `particles.{name}.start.stream.from`")
-            });
+            verdict.judge(
+                false,
+                format!("wall `{name}` never vanishes: `until` is {until} s, the run ends at {end} s"),
+                || format!("`duration`, or `walls.{name}.until`"),
+            );
         }
     }
 }

@@ -150,7 +150,7 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         _ => {}
     }
     mesh::meshes(&mut verdict, plan);
-    idle::times(&mut verdict, plan);
+    idle::gates(&mut verdict, plan);
     let period = shortest_period(hosts);
     if period.is_finite() {
         let steps = period / dt;

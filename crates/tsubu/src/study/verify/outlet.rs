@@ -100,9 +100,8 @@ pub(super) struct Fit {
 
 impl Fit {
     pub fn of(points: &[[f64; 3]], power: f64, short: f64) -> Self {
-        let straight = |points: &[[f64; 3]]| {
-            line(&points.iter().map(|[d, w, _]| (*d, w.powf(1.0 / power))).collect::<Vec<_>>())
-        };
+        let straight =
+            |points: &[[f64; 3]]| line(&points.iter().map(|[d, w, _]| (*d, w.powf(1.0 / power))).collect::<Vec<_>>());
         let end = |points: &[[f64; 3]]| {
             let (slope, offset) = straight(points);
             -offset / slope
