@@ -89,6 +89,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/wet-rebound.toml"),
     },
     Template {
+        name: "sinking-ball",
+        about: "in space: a hollow ball, a free body among the walls, falls into sand of a sieve curve",
+        text: include_str!("../../../scenes/sinking-ball.toml"),
+    },
+    Template {
         name: "press",
         about: "a lid under constant pressure sinks onto a bed and stops",
         text: include_str!("../../../scenes/press.toml"),

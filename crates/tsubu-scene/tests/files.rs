@@ -148,6 +148,11 @@ fn malformed_data() {
         DATA.replace("4 2 0.004 2500", "four 2 0.004 2500").replace("0.06 0 0 0", "0.06 0 0 0 0"),
         DATA.replace("0.05 0.06 0 0 0", "0.05 0.06"),
         DATA.replace("4 0 0 -1 7 8 9", "4 0 0 -1"),
+        // Once passed over in silence: velocities of nobody, of one atom alone, before the atoms, and a type too many.
+        DATA.replace("4 0 0 -1 7 8 9", "5 0 0 -1 7 8 9"),
+        DATA.replace("4 0 0 -1 7 8 9", ""),
+        DATA.replace("Atoms # sphere", "Velocities\n\n9 0 0 0 0 0 0\n\nAtoms # sphere"),
+        DATA.replace("4 2 0.004", "4 3 0.004"),
     ];
     insta::assert_snapshot!(texts.map(|text| about("a.data", &text)).join("\n\n"));
 }

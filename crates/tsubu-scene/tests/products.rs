@@ -238,7 +238,7 @@ fn a_scene_with_files_means_the_same_in_its_run_folder() {
     let atoms = "1 1 0.01 1 0 0 0\n7 2 0.02 1 0.1 0.1 0.1\n";
     write(
         "some/where/all.data",
-        &format!("title\n2 atoms\n\nAtoms # sphere\n\n{atoms}\nVelocities\n\n7 1 2 3 4 5 6\n"),
+        &format!("title\n2 atoms\n\nAtoms # sphere\n\n{atoms}\nVelocities\n\n1 0 0 0 0 0 0\n7 1 2 3 4 5 6\n"),
     );
     write("a.stl", "facet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\n");
     let scene = Scene::parse("scene.toml", IN_SPACE, folder.path(), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));

@@ -135,6 +135,8 @@ fn a_distribution_tells_its_mean() {
         "sieve = { diameter = [0.001, 0.002], passing = [0.1, 0.5, 1] }",
         "sieve = { diameter = [0.002, 0.001, 0.003], passing = [0.1, 0.05, 0.9] }",
         "equal = {}",
+        // Per cent instead of shares: one complaint a number, and none of a diameter that the sieves would tell.
+        "sieve = { diameter = [0.001, 0.002, 0.003], passing = [0, 50, 100] }",
     ];
     insta::assert_snapshot!(all(&wrong.map(sized)));
 }

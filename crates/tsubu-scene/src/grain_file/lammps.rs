@@ -4,7 +4,7 @@
 use super::{Column, Rows, Slot};
 use crate::complaint::Complaint;
 use crate::lines::{Line, lines};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Where in the file a line is.
 #[derive(Clone, Copy, PartialEq)]
@@ -19,10 +19,13 @@ pub(super) fn read(text: &str, rows: &mut Rows) {
     let mut section = Section::Head;
     let mut promised: Option<(usize, Line<'_>)> = None;
     let mut columns: Vec<Column> = Vec::new();
-    let mut grain_of: HashMap<u64, usize> = HashMap::new();
+    let mut most_kinds: Option<u64> = None;
+    // The grain of every atom; atoms of other types are not grains of this group.
+    let mut atoms: HashMap<u64, Option<usize>> = HashMap::new();
+    let mut moved: HashSet<u64> = HashSet::new();
     let mut kinds: Vec<u64> = Vec::new();
     let mut found = 0;
-    let mut velocity_seen = false;
+    let mut velocities: Option<Line<'_>> = None;
     // The first line is a title, whatever it says.
     for line in lines(text).skip(1) {
         let bare = line.before('#');
@@ -36,6 +39,19 @@ pub(super) fn read(text: &str, rows: &mut Rows) {
                 "Velocities" => Section::Velocities,
                 _ => Section::Other,
             };
+            if section == Section::Velocities {
+                if atoms.is_empty() && rows.complaints.is_empty() {
+                    rows.complain(
+                        Complaint::new("the section `Velocities` stands before the section `Atoms`")
+                            .at(&line.place(rows.source), "whose are they?")
+                            .hint("`Atoms` comes first, as LAMMPS wants it"),
+                    );
+                    return;
+                }
+                velocities = Some(line);
+                rows.grains.velocity = vec![[0.0; 3]; rows.grains.position.len()];
+                rows.grains.spin = vec![[0.0; 3]; rows.grains.position.len()];
+            }
             let style = line.text.split_once('#').map(|(_, style)| style.trim()).filter(|style| !style.is_empty());
             if let (Section::Atoms, Some(style)) = (section, style)
                 && style != "sphere"
@@ -53,6 +69,9 @@ pub(super) fn read(text: &str, rows: &mut Rows) {
                 if let Some(count) = bare.text.strip_suffix("atoms").and_then(|count| count.trim().parse().ok()) {
                     promised = Some((count, line));
                 }
+                if let Some(count) = bare.text.strip_suffix("atom types") {
+                    most_kinds = count.trim().parse().ok();
+                }
             }
             Section::Other => {}
             Section::Atoms => {
@@ -69,45 +88,65 @@ pub(super) fn read(text: &str, rows: &mut Rows) {
                 if !kinds.contains(&row.kind) {
                     kinds.push(row.kind);
                 }
-                if rows.how.kind.is_some_and(|kind| u64::from(kind) != row.kind) {
-                    continue;
+                if row.kind == 0 || most_kinds.is_some_and(|most| row.kind > most) {
+                    let most = most_kinds.map_or_else(String::new, |most| format!(" to {most}, as the head says"));
+                    rows.complain(
+                        Complaint::new(format!("there is no atom type {}", row.kind))
+                            .at(&line.place(rows.source), format!("types go from 1{most}")),
+                    );
+                    return;
                 }
-                if grain_of.insert(row.id, rows.grains.position.len()).is_some() {
+                let kept = rows.how.kind.is_none_or(|kind| u64::from(kind) == row.kind);
+                if atoms.insert(row.id, kept.then_some(rows.grains.position.len())).is_some() {
                     rows.complain(
                         Complaint::new(format!("the atom {} is there twice", row.id))
                             .at(&line.place(rows.source), "again"),
                     );
                     return;
                 }
+                if !kept {
+                    continue;
+                }
                 rows.keep(&row, &bare, &columns);
             }
             Section::Velocities => {
-                if !velocity_seen {
-                    velocity_seen = true;
-                    rows.grains.velocity = vec![[0.0; 3]; rows.grains.position.len()];
-                    rows.grains.spin = vec![[0.0; 3]; rows.grains.position.len()];
-                }
                 let Some(row) = rows.row(&bare, None, &velocity_columns()) else {
                     if rows.hopeless() {
                         return;
                     }
                     continue;
                 };
-                // Atoms of other types are not grains of this group.
-                if let Some(grain) = grain_of.get(&row.id) {
-                    rows.grains.velocity[*grain] = row.velocity;
-                    rows.grains.spin[*grain] = row.spin;
-                }
+                let unfit = match (atoms.get(&row.id), moved.insert(row.id)) {
+                    // The row of the atom has a complaint already.
+                    (None, _) if !rows.complaints.is_empty() => continue,
+                    (None, _) => format!("there is no atom {} to move", row.id),
+                    (Some(_), false) => format!("the velocity of the atom {} is there twice", row.id),
+                    (Some(grain), true) => {
+                        if let Some(grain) = *grain {
+                            rows.grains.velocity[grain] = row.velocity;
+                            rows.grains.spin[grain] = row.spin;
+                        }
+                        continue;
+                    }
+                };
+                rows.complain(Complaint::new(unfit).at(&line.place(rows.source), "in this line"));
+                return;
             }
         }
     }
     if rows.complaints.is_empty() {
-        whole(rows, promised, found, &kinds, velocity_seen && grain_of.is_empty());
+        whole(rows, promised, found, &kinds, velocities.map(|line| (moved.len(), line)));
     }
 }
 
 /// What only the end of the file can tell.
-fn whole(rows: &mut Rows, promised: Option<(usize, Line<'_>)>, found: usize, kinds: &[u64], too_early: bool) {
+fn whole(
+    rows: &mut Rows,
+    promised: Option<(usize, Line<'_>)>,
+    found: usize,
+    kinds: &[u64],
+    moved: Option<(usize, Line<'_>)>,
+) {
     if let Some((count, line)) = promised.filter(|(count, _)| *count != found) {
         rows.complain(
             Complaint::new(format!("the file promises {count} atoms and has {found}"))
@@ -122,8 +161,11 @@ fn whole(rows: &mut Rows, promised: Option<(usize, Line<'_>)>, found: usize, kin
             Complaint::new(format!("no atom of the file is of type {kind}"))
                 .hint(format!("types in the file: {}", kinds.join(", "))),
         );
-    } else if too_early {
-        rows.complain(Complaint::new("the section `Velocities` stands before the section `Atoms`"));
+    } else if let Some((moved, line)) = moved.filter(|(moved, _)| *moved < found) {
+        rows.complain(
+            Complaint::new(format!("the file has {found} atoms and the velocities of {moved}"))
+                .at(&line.place(rows.source), "needs a row for each atom"),
+        );
     }
 }
 

@@ -1,5 +1,6 @@
 //! The verdict on a scene before it runs.
 
+mod idle;
 mod mesh;
 mod rest;
 mod verdict;

@@ -1,7 +1,7 @@
 //! The verdict: is this scene resolved well enough, and what will it cost?
 
 use super::rest::{self, IN_A_BED, IN_A_FILM, IN_AN_IMPACT};
-use super::{bodies, mesh, shortest_period, speed_scale, water};
+use super::{bodies, idle, mesh, shortest_period, speed_scale, water};
 use crate::bench::Bench;
 use crate::contact::{Pair, Table};
 use crate::engine::{self, Engine, Fault, OpenError};
@@ -150,6 +150,7 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         _ => {}
     }
     mesh::meshes(&mut verdict, plan);
+    idle::gates(&mut verdict, plan);
     let period = shortest_period(hosts);
     if period.is_finite() {
         let steps = period / dt;
@@ -208,7 +209,8 @@ fn step_key(plan: &Plan) -> &'static str {
 
 fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
     let table = Table::new(plan);
-    for (a, b) in bodies(plan, &table, hosts).pairs() {
+    let bodies = bodies(plan, &table, hosts);
+    for (a, b) in bodies.pairs() {
         let label = format!("{} on {}", a.name, b.name);
         let pair = table.pair(a.body(), b.body());
         let time = pair.contact_time(speed);
@@ -249,6 +251,7 @@ fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
         damping_stable(verdict, plan, &label, &pair, dt, speed, depth);
         film(verdict, &label, &pair, dt, speed);
     }
+    idle::parts(verdict, plan, &table, &bodies);
     for (name, group) in &plan.particles {
         // A linear spring knows nothing of the modulus.
         let hertz = matches!(plan.contact_of(&group.material, &group.material).normal, Normal::Hertz {});

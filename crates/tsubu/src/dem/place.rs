@@ -35,12 +35,14 @@ pub(super) fn grains(plan: &Plan, table: &Table, walls: &[Wall]) -> Result<(Grai
             Start::Rows { spacing, jitter, speed, region } => {
                 let room = placing.inside(region.as_ref()).ok_or_else(|| no_room(key("rows")))?;
                 let first = placing.grains.len();
-                placing.rows(group, number, room, *spacing, *jitter, region.is_none());
+                placing
+                    .rows(group, number, room, *spacing, *jitter, region.is_none())
+                    .map_err(|text| (key("rows"), text))?;
                 placing.stir(first, DVec3::ZERO, *speed);
             }
             Start::Settled { time } => {
                 let room = placing.inside(None).ok_or_else(|| no_room(key("settled")))?;
-                placing.rows(group, number, room, 1.1, 0.9, true);
+                placing.rows(group, number, room, 1.1, 0.9, true).map_err(|text| (key("settled"), text))?;
                 if group.count > 0 {
                     settle = settle.max(*time);
                 }
@@ -161,17 +163,18 @@ impl Placing<'_> {
         }
     }
 
-    /// Fills rows from the floor up (in the box: from where the last group ended). Narrows the spacing if the group would
-    /// not fit otherwise.
+    /// Fills rows from the floor up (in the box: from where the last group ended), round whatever other walls are there.
+    /// Narrows the spacing if the group would not fit otherwise.
     fn rows(
         &mut self,
         group: &Particles,
         number: usize,
-        Room { centre, size }: Room,
+        room: Room,
         spacing: f64,
         jitter: f64,
         stack: bool,
-    ) {
+    ) -> Result<(), String> {
+        let Room { centre, size } = room;
         let space = self.plan.dimension == 3;
         let floor = if stack { self.floor } else { 0.0 };
         // Rows are as wide as the widest grain.
@@ -196,25 +199,44 @@ impl Placing<'_> {
         }
         let free = free(pitch);
         let offset = |n: usize, i: usize| (i as f64 - 0.5 * (n - 1) as f64) * pitch;
+        let layers = up(size.z - floor, pitch);
+        // What nothing moves may lie in a wall, as a rough floor does.
+        let free_to_move = matches!(group.motion, GrainMotion::Free {});
+        let mut clearance = Clearance::new(self.walls, &room, self.plan.dimension);
         let mut top = floor;
-        for k in 0..group.count {
-            let (x, y, z) = (k % nx, k / nx % ny, k / (nx * ny));
+        let mut place = 0;
+        for count in 0..group.count {
             let id = self.grains.len() as u32;
             let w = words(self.plan.seed, Purpose::Placement, id, 0);
             let v = words(self.plan.seed, Purpose::Placement, id, 2);
             let shake = |word: u32, other: u32| (2.0 * unit(word, other) - 1.0) * free;
-            let mut p = centre + DVec3::new(offset(nx, x), offset(ny, y), floor + 0.5 * pitch + z as f64 * pitch);
-            p += DVec3::new(shake(w[0], w[1]), 0.0, shake(w[2], w[3]));
-            if space {
-                p.y += shake(v[0], v[1]);
-            }
-            top = floor + (z + 1) as f64 * pitch;
             let diameter = sizes::diameter(group, self.plan.seed, id);
+            let p = loop {
+                let (x, y, z) = (place % nx, place / nx % ny, place / (nx * ny));
+                if place > count && z >= layers {
+                    return Err(format!(
+                        "there is room for {count} of {} grains only, for walls lie in their places; take a smaller `spacing`, \
+                         fewer grains, or `start.random`",
+                        group.count
+                    ));
+                }
+                place += 1;
+                top = floor + (z + 1) as f64 * pitch;
+                let mut p = centre + DVec3::new(offset(nx, x), offset(ny, y), floor + 0.5 * pitch + z as f64 * pitch);
+                p += DVec3::new(shake(w[0], w[1]), 0.0, shake(w[2], w[3]));
+                if space {
+                    p.y += shake(v[0], v[1]);
+                }
+                if !free_to_move || clearance.fits(p, 0.5 * diameter) {
+                    break p;
+                }
+            };
             self.push(group, number, p, diameter);
         }
         if stack {
             self.floor = top;
         }
+        Ok(())
     }
 
     /// Anywhere in the room without overlap, the largest first: they find room while there is most.

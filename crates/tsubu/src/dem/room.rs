@@ -2,7 +2,7 @@
 
 use crate::find::grid::Ends;
 use crate::random::{Purpose, unit, words};
-use crate::wall::Wall;
+use crate::wall::{Touch, Wall};
 use glam::DVec3;
 use tsubu_scene::plan::{Plan, Region};
 
@@ -81,6 +81,7 @@ pub(super) struct Clearance<'a> {
     /// Per wall: whether grains belong inside it, outside, or where they like.
     inside: Vec<Option<bool>>,
     near: Vec<u32>,
+    touches: Vec<Touch>,
 }
 
 impl<'a> Clearance<'a> {
@@ -92,7 +93,7 @@ impl<'a> Clearance<'a> {
             let inside = told.iter().filter(|inside| **inside).count();
             (!told.is_empty()).then_some(2 * inside >= told.len())
         };
-        Self { walls, inside: walls.iter().map(side).collect(), near: Vec::new() }
+        Self { walls, inside: walls.iter().map(side).collect(), near: Vec::new(), touches: Vec::new() }
     }
 
     /// Whether a sphere would touch no wall and lie on the right side of all.
@@ -100,6 +101,16 @@ impl<'a> Clearance<'a> {
         self.walls.iter().zip(&self.inside).all(|(wall, inside)| {
             wall.near(centre, radius, &mut self.near);
             self.near.is_empty() && wall.encloses(centre).zip(*inside).is_none_or(|(there, wanted)| there == wanted)
+        })
+    }
+
+    /// The same for a place in rows, which may touch the walls that they lie between.
+    pub fn fits(&mut self, centre: DVec3, radius: f64) -> bool {
+        let reach = 0.999 * radius;
+        self.walls.iter().zip(&self.inside).all(|(wall, inside)| {
+            wall.near(centre, reach, &mut self.near);
+            wall.touching(&self.near, centre, reach, &mut self.touches);
+            self.touches.is_empty() && wall.encloses(centre).zip(*inside).is_none_or(|(there, wanted)| there == wanted)
         })
     }
 }

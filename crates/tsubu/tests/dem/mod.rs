@@ -4,6 +4,7 @@ mod books;
 mod come_and_go;
 mod everything;
 mod gates;
+mod idle;
 mod orientation;
 mod pairs;
 mod place;

@@ -62,6 +62,31 @@ fn an_obstacle_in_a_room_is_gone_round() {
     assert!(positions(&*engine).iter().all(|p| away(p) > 0.023));
 }
 
+/// Rows went through whatever stood in the box, and the run ended in its first step with a word about neighbours.
+#[test]
+fn rows_go_round_what_stands_in_the_box() {
+    let ball = "[walls.ball]\nmaterial = \"glass\"\nshape.sphere = { centre = [0, 0, 0.05], radius = 0.02 }\n";
+    let scene = |count: usize, ball: &str| {
+        format!(
+            "{MATERIAL}[particles.beads]\nmaterial = \"glass\"\ncount = {count}\ndiameter = \"6 mm\"\nstart.rows = {{}}\n\
+             [walls.box]\nmaterial = \"glass\"\nshape.box = {{ width = 0.08, depth = 0.08, height = 0.1 }}\n{ball}"
+        )
+    };
+    let (engine, ..) = open_text(&scene(1500, ball), &[]);
+    let from_ball = |p: &[f64; 3]| p[0].hypot(p[1]).hypot(p[2] - 0.05);
+    assert_eq!(engine.grains(), 1500);
+    assert!(positions(&*engine).iter().all(|p| from_ball(p) > 0.02299));
+    // Without the ball some are where it stood, and all stand where they always did.
+    let (free, ..) = open_text(&scene(1500, ""), &[]);
+    assert!(positions(&*free).iter().any(|p| from_ball(p) < 0.017));
+    assert_eq!(positions(&*free)[..300], positions(&*engine)[..300]);
+    // Too many for what the ball leaves.
+    let scene = tsubu_scene::Scene::parse("test", &scene(2160, ball), std::path::Path::new("."), &[]).unwrap();
+    let wrong =
+        tsubu::engine::open(scene.plan(), &tsubu::partner::Hosts::default()).err().expect("no room").to_string();
+    assert!(wrong.contains("particles.beads.start.rows") && wrong.contains("of 2160 grains only"), "{wrong}");
+}
+
 #[test]
 fn a_stream_keeps_clear_of_a_mesh() {
     let folder = tempfile::tempdir().unwrap();

@@ -106,6 +106,7 @@ impl Derive<'_> {
             File::Wrong | File::None => None,
         };
         let size: Option<Size> = part(group, "size");
+        let equal = size == Some(Size::Equal {});
         let sized = size.as_ref().is_some_and(|size| *size != Size::Equal {});
         let mean = if sized {
             if !self.size_is_right(size.as_ref(), name) {
@@ -129,7 +130,7 @@ impl Derive<'_> {
                 group.insert("diameter".into(), Value::Float(mean));
             }
             // Where size or file are wrong they may be what would have told.
-            (None, None) if !typed && group.contains_key("size") && !matches!(file, File::Wrong) && !sized => {
+            (None, None) if !typed && equal && !matches!(file, File::Wrong) => {
                 let in_a_file = matches!(file, File::Read(_))
                     .then(|| "or put a column of diameters or radii into the file".to_string());
                 self.complain(

@@ -2,6 +2,7 @@
 
 use super::beds::{centres, law, sampled};
 use super::bench::{Rig, refused, within};
+use glam::DVec3;
 use std::fmt::Write;
 use tsubu_frame::Claim;
 
@@ -10,47 +11,77 @@ const LENGTH: f64 = 8.0;
 const WIDE: f64 = 6.0;
 /// Not looked at next to the base and to the surface.
 const EDGE: f64 = 3.0;
+/// Heights above its floor between which a bed at rest is cut to make the base: 1.2 diameters thick, as in Silbert et al.
+const CUT: [f64; 2] = [2.5, 3.7];
+
+/// Places of the frozen grains: cut out of a bed at rest, so dense that no grain gets in between. The highest are below 0.
+fn base(spoiler: f64) -> Result<Vec<DVec3>, String> {
+    let text = format!(
+        r#"
+        title = "the bed that a base is cut from"
+        dimension = 3
+        gravity = 1
+        duration = 100
+        periodic.x = [0, {LENGTH}]
+        periodic.y = [0, {WIDE}]
+        {law}
+        [particles.bed]
+        material = "grain"
+        count = {count}
+        diameter = 1
+        mass = 1
+        start.random.region = {{ low = [0, 0, 0], high = [{LENGTH}, {WIDE}, 20] }}
+        [walls.bottom]
+        material = "grain"
+        shape.plane.point = [0, 0, 0]
+        "#,
+        law = law(5e3, 0.5, 0.88),
+        count = (7.0 * LENGTH * WIDE) as u32,
+    );
+    let mut rig = Rig::new(&text, spoiler)?;
+    rig.until(40.0)?;
+    let inside = |p: &DVec3| (CUT[0]..CUT[1]).contains(&p.z);
+    let around = |p: DVec3| DVec3::new(p.x.rem_euclid(LENGTH), p.y.rem_euclid(WIDE), p.z - CUT[1]);
+    Ok(rig.vectors("position").into_iter().filter(inside).map(around).collect())
+}
 
 /// A layer of grains on a slope.
 #[derive(Clone, Copy)]
-struct Slope {
+struct Slope<'a> {
     degrees: f64,
     /// Grains above a unit of area.
     layers: f64,
     friction: f64,
-    /// On frozen grains at random places in a layer of two diameters, or on a plane.
-    rough: bool,
+    /// On frozen grains at these places, or on a plane where there are none.
+    base: &'a [DVec3],
     /// Speed of the surface at the beginning; deeper grains begin more slowly.
     start: f64,
 }
 
-impl Slope {
-    fn frozen(&self) -> usize {
-        if self.rough { (LENGTH * WIDE) as usize } else { 0 }
-    }
-
+impl Slope<'_> {
     fn rig(&self, spoiler: f64) -> Result<Rig, String> {
         let (sin, cos) = self.degrees.to_radians().sin_cos();
         let mut groups = String::new();
-        if self.rough {
+        if !self.base.is_empty() {
+            let places: Vec<String> = self.base.iter().map(|p| format!("[{}, {}, {}]", p.x, p.y, p.z)).collect();
             let _ = write!(
                 groups,
                 r#"
                 [particles.a-base]
                 material = "grain"
-                count = {}
                 diameter = 1
                 mass = 1
                 motion.frozen = {{}}
-                start.random.region = {{ low = [0, 0, -2], high = [{LENGTH}, {WIDE}, 0] }}
+                start.at.position = [{}]
                 "#,
-                self.frozen(),
+                places.join(", "),
             );
         }
         // Four sheets, so that the layer begins with about the profile that it will have.
         let (sheets, high) = (4, self.layers * 2.2 / 4.0);
         for sheet in 0..sheets {
-            let (low, middle) = (f64::from(sheet) * high, (f64::from(sheet) + 0.5) / f64::from(sheets));
+            // Above the highest of the frozen grains.
+            let (low, middle) = (0.5 + f64::from(sheet) * high, (f64::from(sheet) + 0.5) / f64::from(sheets));
             let _ = write!(
                 groups,
                 r#"
@@ -81,7 +112,7 @@ impl Slope {
             shape.plane.point = [0, 0, {bottom}]
             "#,
             down = -cos,
-            bottom = if self.rough { -2 } else { 0 },
+            bottom = if self.base.is_empty() { 0 } else { -2 },
             law = law(5e3, self.friction, 0.88),
         );
         Rig::new(&text, spoiler)
@@ -90,12 +121,12 @@ impl Slope {
     /// What it does in the span of time.
     fn flow(&self, span: [f64; 2], spoiler: f64) -> Result<Flow, String> {
         let mut rig = self.rig(spoiler)?;
-        let base = self.frozen();
+        let base = self.base.len();
         let samples = sampled(&mut rig, [span[0], span[1], 0.5], |rig| {
             let speeds = rig.vectors("velocity").split_off(base);
             centres(rig, base).iter().zip(speeds).map(|(p, v)| [p.z, v.x]).collect::<Vec<_>>()
         })?;
-        Ok(Flow { degrees: self.degrees, samples })
+        Ok(Flow { degrees: self.degrees, layers: self.layers, samples })
     }
 }
 
@@ -108,6 +139,7 @@ fn mean(samples: &[Vec<[f64; 2]>], of: impl Fn(&[f64; 2]) -> f64) -> f64 {
 /// Height and speed down the slope of every grain, at many times.
 struct Flow {
     degrees: f64,
+    layers: f64,
     samples: Vec<Vec<[f64; 2]>>,
 }
 
@@ -118,6 +150,18 @@ impl Flow {
 
     fn speed(&self) -> f64 {
         mean(&self.samples, |g| g[1])
+    }
+
+    /// Mean speed in the first half of the time.
+    fn early(&self) -> f64 {
+        mean(&self.samples[..self.samples.len() / 2], |g| g[1])
+    }
+
+    /// Height of the layer if all of it were as dense as its bulk: wherever the base begins.
+    fn thickness(&self) -> f64 {
+        let (low, high) = (EDGE, self.height() - EDGE);
+        let bulk = self.between(low, high).0 / self.samples.len() as f64 / (high - low);
+        self.layers * LENGTH * WIDE / bulk
     }
 
     /// Height of a layer of even density with the same centre of mass.
@@ -160,7 +204,6 @@ impl Flow {
     fn gates(&self) -> Vec<Claim> {
         let name = |what: &str| format!("chute at {} degrees: {what}", self.degrees);
         let source = "Silbert et al. 2001: steady flow from 19.5 to 26 degrees (V-36)";
-        let early = mean(&self.samples[..self.samples.len() / 2], |g| g[1]);
         let top = self.between(self.height() - 1.0, f64::MAX).1;
         let profile = "Bagnold's profile: mean over surface speed is 3/5; 1/2 for linear, 1 for a plug (V-35)";
         let bulk = "constant density with depth, but for the layers next to base and surface (V-36)";
@@ -169,7 +212,7 @@ impl Flow {
             Claim::judge(name("speed over sqrt(g d)"), self.speed(), Some(0.5), None, source),
             within(
                 name("speed in the first half of the time over that of all"),
-                early / self.speed(),
+                self.early() / self.speed(),
                 1.0,
                 0.1,
                 source,
@@ -184,7 +227,8 @@ impl Flow {
 /// V-36: at rest below, steady flow of constant density with Bagnold's profile above the angle of repose.
 pub(super) fn silbert(spoiler: f64) -> Result<Vec<Claim>, String> {
     let source = "Silbert et al. 2001: flow from 19.5 to 26 degrees (V-36)";
-    let slope = |degrees: f64, layers: f64, start: f64| Slope { degrees, layers, friction: 0.5, rough: true, start };
+    let base = base(spoiler)?;
+    let slope = |degrees: f64, layers: f64, start: f64| Slope { degrees, layers, friction: 0.5, base: &base, start };
     let still = slope(17.0, 12.0, 1.0).flow([200.0, 220.0], spoiler)?;
     let mut claims = vec![within("chute at 17 degrees: speed", still.speed(), 0.0, 1e-3, source)];
     let gentle = slope(22.0, 24.0, 5.0).flow([250.0, 450.0], spoiler)?;
@@ -200,10 +244,19 @@ pub(super) fn silbert(spoiler: f64) -> Result<Vec<Claim>, String> {
     let name = "chute: speed at 25 over speed at 22 degrees";
     claims.push(Claim::judge(name, steep.speed() / gentle.speed(), Some(1.2), None, source));
     let thin = slope(25.0, 12.0, 5.0).flow([200.0, 400.0], spoiler)?;
-    let exponent = (steep.speed() / thin.speed()).ln() / (steep.height() / thin.height()).ln();
+    let thick = slope(25.0, 40.0, 25.0).flow([400.0, 600.0], spoiler)?;
     let source = "mean speed grows with height to the power 3/2 (V-36); 1 for a plug, 2 for a viscous liquid";
-    claims.push(within("chute at 25 degrees: exponent of the height in the speed", exponent, 1.5, 0.25, source));
-    let smooth = Slope { rough: false, ..slope(22.0, 12.0, 5.0) }.flow([50.0, 150.0], 1.0)?;
+    for [low, high] in [[&thin, &steep], [&steep, &thick]] {
+        let exponent = (high.speed() / low.speed()).ln() / (high.thickness() / low.thickness()).ln();
+        let name = format!(
+            "chute at 25 degrees: exponent of the height in the speed, {:.0} to {:.0} layers",
+            low.layers, high.layers
+        );
+        claims.push(within(name, exponent, 1.5, 0.25, source));
+    }
+    let name = "chute at 25 degrees, 40 layers: speed in the first half of the time over that of all";
+    claims.push(within(name, thick.early() / thick.speed(), 1.0, 0.1, source));
+    let smooth = Slope { base: &[], ..slope(22.0, 12.0, 5.0) }.flow([50.0, 150.0], 1.0)?;
     claims.push(refused("chute, a base that is a plane", &smooth.gates(), 1));
     let slippery = Slope { friction: 0.0, ..slope(22.0, 12.0, 5.0) }.flow([50.0, 150.0], 1.0)?;
     claims.push(refused("chute, grains without friction", &slippery.gates(), 1));

@@ -3,6 +3,7 @@
 use super::beds::{law, mean};
 use super::bench::{Rig, refused, within};
 use super::outlet::Fit;
+use glam::DVec3;
 use tsubu_frame::Claim;
 
 /// When the hole opens: the bed has come to rest.
@@ -14,6 +15,10 @@ const PACKED: f64 = 1.1;
 /// Radius of the silo, and height of its bed at the begin and at the end of counting, over the width of the hole.
 const SILO: f64 = 1.25;
 const HEIGHTS: [f64; 2] = [2.0, 1.2];
+/// Mean volume of a grain: that of diameter 1 times 1 + 3 times the variance of the diameters.
+const VOLUME: f64 = std::f64::consts::PI / 6.0 * 1.0225;
+/// Not counted for the density next to the side, the floor and the surface.
+const EDGE: f64 = 2.0;
 /// Spans of equal numbers of grains in which the rate of one silo is measured.
 const SPANS: usize = 6;
 
@@ -60,26 +65,43 @@ fn silo(hole: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
     Rig::new(&text, spoiler)
 }
 
-/// Grains a unit of time in spans of equal numbers of grains, while the bed sinks.
-fn rates(hole: f64, seed: u32, spoiler: f64) -> Result<Vec<f64>, String> {
+/// A silo that has emptied.
+struct Run {
+    /// Grains a unit of volume in the bed at rest, away from walls, floor and surface.
+    density: f64,
+    /// Grains a unit of time in spans of equal numbers of grains, while the bed sinks.
+    rates: Vec<f64>,
+}
+
+fn run(hole: f64, seed: u32, spoiler: f64) -> Result<Run, String> {
     let mut rig = silo(hole, seed, spoiler)?;
+    rig.until(OPENS)?;
+    let density = density(&rig.vectors("position"), SILO * hole);
     rig.until(STEADY)?;
     let area = std::f64::consts::PI * (SILO * hole).powi(2);
     let (first, last) = (rig.engine.grains(), (HEIGHTS[1] * hole * area * PACKED) as usize);
     let (mut count, mut time) = (first, rig.engine.time());
-    let mut found = Vec::new();
+    let mut rates = Vec::new();
     for span in 1..=SPANS {
         let target = first.saturating_sub(first.saturating_sub(last) * span / SPANS);
         while rig.engine.grains() > target {
-            if rig.engine.time() > 200.0 {
+            if rig.engine.time() > 400.0 {
                 return Err(format!("the hole of {hole} d is blocked"));
             }
             rig.steps(20)?;
         }
-        found.push((count - rig.engine.grains()) as f64 / (rig.engine.time() - time));
+        rates.push((count - rig.engine.grains()) as f64 / (rig.engine.time() - time));
         (count, time) = (rig.engine.grains(), rig.engine.time());
     }
-    Ok(found)
+    Ok(Run { density, rates })
+}
+
+/// Grains a unit of volume, two diameters away from the side, the floor and the highest grain.
+fn density(centres: &[DVec3], radius: f64) -> f64 {
+    let top = centres.iter().map(|p| p.z).fold(0.0, f64::max);
+    let inside = |p: &&DVec3| p.x.hypot(p.y) < radius - EDGE && p.z > EDGE && p.z < top - EDGE;
+    let volume = std::f64::consts::PI * (radius - EDGE).powi(2) * (top - 2.0 * EDGE);
+    centres.iter().filter(inside).count() as f64 / volume
 }
 
 /// The gates, for the right law and for wrong ones.
@@ -97,28 +119,43 @@ fn gates(fit: &Fit) -> [Claim; 2] {
     ]
 }
 
-/// V-31, in space: rate^(2/5) is straight in the width of the hole and zero at k d.
+/// V-31, in space: rate^(2/5) is straight in the width of the hole, zero at k d, and does not know the height.
 pub(super) fn beverloo(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let (mut points, mut claims) = (Vec::new(), Vec::new());
+    let (mut points, mut claims, mut densities) = (Vec::new(), Vec::new(), Vec::new());
     for (hole, silos) in HOLES {
-        let all = (1..=silos).map(|seed| rates(hole, seed, 1.0)).collect::<Result<Vec<_>, _>>()?;
+        let all = (1..=silos).map(|seed| run(hole, seed, 1.0)).collect::<Result<Vec<_>, _>>()?;
         // Spans have equal numbers of grains, so it is times that are added.
-        let times: Vec<f64> = all.iter().flatten().map(|rate| 1.0 / rate).collect();
+        let times: Vec<f64> = all.iter().flat_map(|run| &run.rates).map(|rate| 1.0 / rate).collect();
         let (time, error) = mean(&times);
+        let half = |spans: std::ops::Range<usize>| {
+            all.iter().flat_map(|run| &run.rates[spans.clone()]).map(|rate| 1.0 / rate).sum::<f64>()
+        };
+        let source = "Beverloo 1961: the rate does not know the height (V-31)";
+        let name = format!("hole of {hole} d: rate of the lower over that of the higher half");
+        claims.push(within(name, half(0..SPANS / 2) / half(SPANS / 2..SPANS), 1.0, 0.1, source));
         let source = "steady within 3 %, or the fits below say nothing; not a reference";
         let name = format!("hole of {hole} d: standard error of the rate, over the rate");
         claims.push(Claim::judge(name, error / time, None, Some(0.03), source));
-        // W = C rho sqrt(g) (D - k d)^2.5 with the bulk density of the bed.
+        let density = all.iter().map(|run| run.density).sum::<f64>() / f64::from(silos);
+        let source = "beds of frictional spheres at rest: between loosest and closest random packing";
+        let name = format!("hole of {hole} d: share of the volume that grains fill");
+        claims.push(within(name, density * VOLUME, 0.6, 0.045, source));
+        // W = C rho sqrt(g) (D - k d)^2.5 with the density of the bed at rest.
         let source = "Beverloo 1961: C about 0.58 (V-31); a tenth either way is ours";
-        let constant = 1.0 / time / (PACKED * (hole - 1.4).powf(2.5));
+        let constant = 1.0 / time / (density * (hole - 1.4).powf(2.5));
         claims.push(within(format!("hole of {hole} d: C, with k = 1.4"), constant, 0.58, 0.06, source));
         points.push([hole * spoiler, 1.0 / time, error / (time * time)]);
+        densities.push(density);
     }
     let fit = Fit::of(&points, 2.5, 1.4);
     claims.extend(gates(&fit));
+    let density = mean(&densities).0;
+    let source = "Beverloo 1961: C about 0.58 (V-31); a tenth either way is ours";
+    claims.push(within("hole: C, with the k of the fit", fit.constant[0] / density, 0.58, 0.06, source));
     let source = "half of what the claim allows; not a reference";
     claims.push(Claim::judge("hole: standard error of k", fit.end[1], None, Some(0.2), source));
     claims.push(Claim::judge("hole: standard error of the exponent", fit.exponent[1], None, Some(0.05), source));
+    claims.push(Claim::judge("hole: standard error of that C", fit.constant[1] / density, None, Some(0.03), source));
     claims.push(refused("hole, the whole width without k d", &gates(&Fit::of(&points, 2.5, 0.0))[1..], 1));
     claims.push(refused("hole, the exponent 3/2 of slots", &gates(&Fit::of(&points, 1.5, 1.4))[..1], 1));
     Ok(claims)

@@ -94,19 +94,27 @@ pub(super) struct Fit {
     pub end: [f64; 2],
     /// Exponent of (D - `short`), and its standard error.
     pub exponent: [f64; 2],
+    /// Rate over (D - `end`)^`power`, and its standard error.
+    pub constant: [f64; 2],
 }
 
 impl Fit {
     pub fn of(points: &[[f64; 3]], power: f64, short: f64) -> Self {
+        let straight =
+            |points: &[[f64; 3]]| line(&points.iter().map(|[d, w, _]| (*d, w.powf(1.0 / power))).collect::<Vec<_>>());
         let end = |points: &[[f64; 3]]| {
-            let straight: Vec<_> = points.iter().map(|[d, w, _]| (*d, w.powf(1.0 / power))).collect();
-            let (slope, offset) = line(&straight);
+            let (slope, offset) = straight(points);
             -offset / slope
         };
+        let constant = |points: &[[f64; 3]]| straight(points).0.powf(power);
         let exponent = |points: &[[f64; 3]]| {
             line(&points.iter().map(|[d, w, _]| ((d - short).ln(), w.ln())).collect::<Vec<_>>()).0
         };
-        Self { end: with_error(points, end), exponent: with_error(points, exponent) }
+        Self {
+            end: with_error(points, end),
+            exponent: with_error(points, exponent),
+            constant: with_error(points, constant),
+        }
     }
 
     /// The gates, for the right law and for wrong ones.

@@ -1,0 +1,69 @@
+//! The verdict on what a scene asks for and will not get: parts of the contact law that do nothing, walls that would vanish
+//! after the end.
+
+use super::{Bodies, Verdict};
+use crate::contact::Table;
+use tsubu_scene::plan::{Cohesion, Plan, Rolling, Twisting};
+
+/// Judges the contact law of every pair of bodies that can touch.
+pub(super) fn parts(verdict: &mut Verdict, plan: &Plan, table: &Table, bodies: &Bodies) {
+    // For each part: where the coefficient is, and the largest coefficient of the pairs whose law has it.
+    let mut found: [Option<(&str, &str, f64)>; 3] = [None; 3];
+    for (a, b) in bodies.pairs() {
+        let law = plan.contact_of(table.name(a.material), table.name(b.material));
+        let constants = table.pair(a.body(), b.body()).constants;
+        let rolling = match law.rolling {
+            Rolling::None {} => None,
+            Rolling::Constant { .. }
+            | Rolling::Viscous { .. }
+            | Rolling::Epsd { .. }
+            | Rolling::Epsd2 {}
+            | Rolling::Spring { .. }
+            | Rolling::ContactWidth { .. } => Some(("rolling", "rolling-friction", constants.rolling)),
+        };
+        let twisting = match law.twisting {
+            Twisting::None {} => None,
+            Twisting::Sliding { .. } | Twisting::Spring {} => {
+                Some(("twisting", "twisting-friction", constants.twisting))
+            }
+        };
+        let cohesion = match law.cohesion {
+            Cohesion::None {} => None,
+            Cohesion::Dmt {} | Cohesion::Jkr {} => Some(("cohesion", "surface-energy", constants.surface_energy)),
+            Cohesion::Sjkr {} | Cohesion::Constant {} => Some(("cohesion", "cohesion", constants.cohesion)),
+        };
+        for (found, part) in found.iter_mut().zip([rolling, twisting, cohesion]) {
+            if let Some(part) = part.filter(|part| found.is_none_or(|found| found.2 < part.2)) {
+                *found = Some(part);
+            }
+        }
+    }
+    for (part, key, largest) in found.into_iter().flatten() {
+        let out = format!("leave `contact.{part}` out");
+        let (why, advice) = if part != "cohesion" && !plan.contact.rotation {
+            ("grains do not spin, `contact.rotation` is false".to_owned(), out)
+        } else if part == "twisting" && plan.dimension == 2 {
+            ("grains in the plane do not spin about a normal".to_owned(), out)
+        } else if largest == 0.0 {
+            let told = format!("`materials.NAME.{key}`, or that of a `[[material-pair]]`; or {out}");
+            (format!("`{key}` is 0 for all that touch"), told)
+        } else {
+            continue;
+        };
+        verdict.judge(false, format!("`contact.{part}` does nothing: {why}"), || advice);
+    }
+}
+
+/// Judges the gates.
+pub(super) fn gates(verdict: &mut Verdict, plan: &Plan) {
+    let end = plan.duration;
+    for (name, wall) in &plan.walls {
+        if let Some(until) = wall.until.filter(|until| *until >= end) {
+            verdict.judge(
+                false,
+                format!("wall `{name}` never vanishes: `until` is {until} s, the run ends at {end} s"),
+                || format!("`duration`, or `walls.{name}.until`"),
+            );
+        }
+    }
+}
