@@ -4,11 +4,12 @@
 use super::{Column, Rows, Slot};
 use crate::complaint::Complaint;
 use crate::lines::{Line, lines};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Where in the file a line is.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Default, PartialEq)]
 enum Section {
+    #[default]
     Head,
     Atoms,
     Velocities,
@@ -16,156 +17,172 @@ enum Section {
 }
 
 pub(super) fn read(text: &str, rows: &mut Rows) {
-    let mut section = Section::Head;
-    let mut promised: Option<(usize, Line<'_>)> = None;
-    let mut columns: Vec<Column> = Vec::new();
-    let mut most_kinds: Option<u64> = None;
-    // The grain of every atom; atoms of other types are not grains of this group.
-    let mut atoms: HashMap<u64, Option<usize>> = HashMap::new();
-    let mut moved: HashSet<u64> = HashSet::new();
-    let mut kinds: Vec<u64> = Vec::new();
-    let mut found = 0;
-    let mut velocities: Option<Line<'_>> = None;
+    let mut file = File::default();
     // The first line is a title, whatever it says.
     for line in lines(text).skip(1) {
         let bare = line.before('#');
-        if bare.text.is_empty() {
-            continue;
-        }
         // Small letters are no section but a slip in a row.
-        if bare.text.starts_with(char::is_uppercase) {
-            section = match bare.text {
-                "Atoms" => Section::Atoms,
-                "Velocities" => Section::Velocities,
-                _ => Section::Other,
-            };
-            if section == Section::Velocities {
-                if atoms.is_empty() && rows.complaints.is_empty() {
-                    rows.complain(
-                        Complaint::new("the section `Velocities` stands before the section `Atoms`")
-                            .at(&line.place(rows.source), "whose are they?")
-                            .hint("`Atoms` comes first, as LAMMPS wants it"),
-                    );
-                    return;
+        let goes_on = if bare.text.is_empty() {
+            Ok(())
+        } else if bare.text.starts_with(char::is_uppercase) {
+            file.begin(line, &bare, rows)
+        } else {
+            match file.section {
+                Section::Head => {
+                    file.head(line, &bare);
+                    Ok(())
                 }
-                velocities = Some(line);
-                rows.grains.velocity = vec![[0.0; 3]; rows.grains.position.len()];
-                rows.grains.spin = vec![[0.0; 3]; rows.grains.position.len()];
+                Section::Other => Ok(()),
+                Section::Atoms => file.atom(line, &bare, rows),
+                Section::Velocities => file.velocity(line, &bare, rows),
             }
-            let style = line.text.split_once('#').map(|(_, style)| style.trim()).filter(|style| !style.is_empty());
-            if let (Section::Atoms, Some(style)) = (section, style)
-                && style != "sphere"
-            {
-                rows.complain(
-                    Complaint::new(format!("atom_style `{style}` does not say how large the grains are"))
-                        .at(&line.place(rows.source), "needs `Atoms # sphere`"),
-                );
-                return;
-            }
-            continue;
-        }
-        match section {
-            Section::Head => {
-                if let Some(count) = bare.text.strip_suffix("atoms").and_then(|count| count.trim().parse().ok()) {
-                    promised = Some((count, line));
-                }
-                if let Some(count) = bare.text.strip_suffix("atom types") {
-                    most_kinds = count.trim().parse().ok();
-                }
-            }
-            Section::Other => {}
-            Section::Atoms => {
-                found += 1;
-                if columns.is_empty() {
-                    columns = atom_columns(bare.cells(None).count());
-                }
-                let Some(row) = rows.row(&bare, None, &columns) else {
-                    if rows.hopeless() {
-                        return;
-                    }
-                    continue;
-                };
-                if !kinds.contains(&row.kind) {
-                    kinds.push(row.kind);
-                }
-                if row.kind == 0 || most_kinds.is_some_and(|most| row.kind > most) {
-                    let most = most_kinds.map_or_else(String::new, |most| format!(" to {most}, as the head says"));
-                    rows.complain(
-                        Complaint::new(format!("there is no atom type {}", row.kind))
-                            .at(&line.place(rows.source), format!("types go from 1{most}")),
-                    );
-                    return;
-                }
-                let kept = rows.how.kind.is_none_or(|kind| u64::from(kind) == row.kind);
-                if atoms.insert(row.id, kept.then_some(rows.grains.position.len())).is_some() {
-                    rows.complain(
-                        Complaint::new(format!("the atom {} is there twice", row.id))
-                            .at(&line.place(rows.source), "again"),
-                    );
-                    return;
-                }
-                if !kept {
-                    continue;
-                }
-                rows.keep(&row, &bare, &columns);
-            }
-            Section::Velocities => {
-                let Some(row) = rows.row(&bare, None, &velocity_columns()) else {
-                    if rows.hopeless() {
-                        return;
-                    }
-                    continue;
-                };
-                let unfit = match (atoms.get(&row.id), moved.insert(row.id)) {
-                    // The row of the atom has a complaint already.
-                    (None, _) if !rows.complaints.is_empty() => continue,
-                    (None, _) => format!("there is no atom {} to move", row.id),
-                    (Some(_), false) => format!("the velocity of the atom {} is there twice", row.id),
-                    (Some(grain), true) => {
-                        if let Some(grain) = *grain {
-                            rows.grains.velocity[grain] = row.velocity;
-                            rows.grains.spin[grain] = row.spin;
-                        }
-                        continue;
-                    }
-                };
-                rows.complain(Complaint::new(unfit).at(&line.place(rows.source), "in this line"));
-                return;
-            }
+        };
+        match goes_on {
+            Ok(()) => {}
+            Err(Stop::Complaint(complaint)) => return rows.complain(complaint),
+            Err(Stop::Hopeless) => return,
         }
     }
-    if rows.complaints.is_empty() {
-        whole(rows, promised, found, &kinds, velocities.map(|line| (moved.len(), line)));
+    if rows.complaints.is_empty()
+        && let Some(complaint) = file.whole(rows)
+    {
+        rows.complain(complaint);
     }
 }
 
-/// What only the end of the file can tell.
-fn whole(
-    rows: &mut Rows,
-    promised: Option<(usize, Line<'_>)>,
+/// Why reading ends before the file.
+enum Stop {
+    Complaint(Complaint),
+    /// There are complaints enough.
+    Hopeless,
+}
+
+impl From<Complaint> for Stop {
+    fn from(complaint: Complaint) -> Self {
+        Self::Complaint(complaint)
+    }
+}
+
+/// What has been read so far.
+#[derive(Default)]
+struct File<'a> {
+    section: Section,
+    /// Atoms that the head promises, and where.
+    promised: Option<(usize, Line<'a>)>,
+    most_kinds: Option<u64>,
+    columns: Vec<Column>,
+    /// The grain of every atom; atoms of other types are not grains of this group.
+    atoms: HashMap<u64, Option<usize>>,
+    kinds: BTreeSet<u64>,
+    /// Rows of atoms.
     found: usize,
-    kinds: &[u64],
-    moved: Option<(usize, Line<'_>)>,
-) {
-    if let Some((count, line)) = promised.filter(|(count, _)| *count != found) {
-        rows.complain(
-            Complaint::new(format!("the file promises {count} atoms and has {found}"))
-                .at(&line.place(rows.source), format!("says {count}"))
-                .hint("was it cut off while it was written?"),
-        );
-    } else if let Some(kind) = rows.how.kind.filter(|kind| found > 0 && !kinds.contains(&u64::from(*kind))) {
-        let mut kinds = kinds.to_vec();
-        kinds.sort_unstable();
-        let kinds: Vec<String> = kinds.iter().map(ToString::to_string).collect();
-        rows.complain(
-            Complaint::new(format!("no atom of the file is of type {kind}"))
-                .hint(format!("types in the file: {}", kinds.join(", "))),
-        );
-    } else if let Some((moved, line)) = moved.filter(|(moved, _)| *moved < found) {
-        rows.complain(
-            Complaint::new(format!("the file has {found} atoms and the velocities of {moved}"))
-                .at(&line.place(rows.source), "needs a row for each atom"),
-        );
+    /// Where the velocities begin.
+    velocities: Option<Line<'a>>,
+    /// Atoms that have one.
+    moved: HashSet<u64>,
+}
+
+impl<'a> File<'a> {
+    fn begin(&mut self, line: Line<'a>, bare: &Line, rows: &mut Rows) -> Result<(), Stop> {
+        self.section = match bare.text {
+            "Atoms" => Section::Atoms,
+            "Velocities" => Section::Velocities,
+            _ => Section::Other,
+        };
+        if self.section == Section::Velocities {
+            if self.atoms.is_empty() && rows.complaints.is_empty() {
+                return Err(Complaint::new("the section `Velocities` stands before the section `Atoms`")
+                    .at(&line.place(rows.source), "whose are they?")
+                    .hint("`Atoms` comes first, as LAMMPS wants it")
+                    .into());
+            }
+            self.velocities = Some(line);
+            rows.grains.velocity = vec![[0.0; 3]; rows.grains.position.len()];
+            rows.grains.spin = vec![[0.0; 3]; rows.grains.position.len()];
+        }
+        let style = line.text.split_once('#').map(|(_, style)| style.trim()).filter(|style| !style.is_empty());
+        match style.filter(|style| self.section == Section::Atoms && *style != "sphere") {
+            None => Ok(()),
+            Some(style) => Err(Complaint::new(format!("atom_style `{style}` does not say how large the grains are"))
+                .at(&line.place(rows.source), "needs `Atoms # sphere`")
+                .into()),
+        }
+    }
+
+    fn head(&mut self, line: Line<'a>, bare: &Line) {
+        if let Some(count) = bare.text.strip_suffix("atoms").and_then(|count| count.trim().parse().ok()) {
+            self.promised = Some((count, line));
+        }
+        if let Some(count) = bare.text.strip_suffix("atom types") {
+            self.most_kinds = count.trim().parse().ok();
+        }
+    }
+
+    fn atom(&mut self, line: Line, bare: &Line, rows: &mut Rows) -> Result<(), Stop> {
+        self.found += 1;
+        if self.columns.is_empty() {
+            self.columns = atom_columns(bare.cells(None).count());
+        }
+        let Some(row) = rows.row(bare, None, &self.columns) else {
+            return if rows.hopeless() { Err(Stop::Hopeless) } else { Ok(()) };
+        };
+        self.kinds.insert(row.kind);
+        if row.kind == 0 || self.most_kinds.is_some_and(|most| row.kind > most) {
+            let most = self.most_kinds.map_or_else(String::new, |most| format!(" to {most}, as the head says"));
+            return Err(Complaint::new(format!("there is no atom type {}", row.kind))
+                .at(&line.place(rows.source), format!("types go from 1{most}"))
+                .into());
+        }
+        let kept = rows.how.kind.is_none_or(|kind| u64::from(kind) == row.kind);
+        if self.atoms.insert(row.id, kept.then_some(rows.grains.position.len())).is_some() {
+            return Err(Complaint::new(format!("the atom {} is there twice", row.id))
+                .at(&line.place(rows.source), "again")
+                .into());
+        }
+        if kept {
+            rows.keep(&row, bare, &self.columns);
+        }
+        Ok(())
+    }
+
+    fn velocity(&mut self, line: Line, bare: &Line, rows: &mut Rows) -> Result<(), Stop> {
+        let Some(row) = rows.row(bare, None, &velocity_columns()) else {
+            return if rows.hopeless() { Err(Stop::Hopeless) } else { Ok(()) };
+        };
+        let unfit = match (self.atoms.get(&row.id), self.moved.insert(row.id)) {
+            // The row of the atom has a complaint already.
+            (None, _) if !rows.complaints.is_empty() => return Ok(()),
+            (None, _) => format!("there is no atom {} to move", row.id),
+            (Some(_), false) => format!("the velocity of the atom {} is there twice", row.id),
+            (Some(grain), true) => {
+                if let Some(grain) = *grain {
+                    rows.grains.velocity[grain] = row.velocity;
+                    rows.grains.spin[grain] = row.spin;
+                }
+                return Ok(());
+            }
+        };
+        Err(Complaint::new(unfit).at(&line.place(rows.source), "in this line").into())
+    }
+
+    /// What only the end of the file can tell.
+    fn whole(&self, rows: &Rows) -> Option<Complaint> {
+        let (found, moved) = (self.found, self.moved.len());
+        if let Some((count, line)) = self.promised.filter(|(count, _)| *count != found) {
+            let complaint = Complaint::new(format!("the file promises {count} atoms and has {found}"))
+                .at(&line.place(rows.source), format!("says {count}"));
+            return Some(complaint.hint("was it cut off while it was written?"));
+        }
+        if let Some(kind) = rows.how.kind.filter(|kind| found > 0 && !self.kinds.contains(&u64::from(*kind))) {
+            let kinds: Vec<String> = self.kinds.iter().map(ToString::to_string).collect();
+            return Some(
+                Complaint::new(format!("no atom of the file is of type {kind}"))
+                    .hint(format!("types in the file: {}", kinds.join(", "))),
+            );
+        }
+        let line = self.velocities.filter(|_| moved < found)?;
+        let complaint = Complaint::new(format!("the file has {found} atoms and the velocities of {moved}"));
+        Some(complaint.at(&line.place(rows.source), "needs a row for each atom"))
     }
 }
 
