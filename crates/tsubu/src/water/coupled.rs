@@ -261,7 +261,6 @@ impl Coupled {
 
     /// Moves the stream by `dt` [s], in which the force on the grains has gone from what it was to `taken` [N] and grains have picked
     /// up water with the momentum `picked` along x [N.s], by layers.
-    #[expect(clippy::needless_range_loop, reason = "a grid: all columns at the same index")]
     pub fn step(&mut self, taken: &[f64], picked: &[f64], dt: f64) -> Turnover {
         self.stiffness();
         let n = self.layers.len();
