@@ -8,6 +8,11 @@
 use rayon::Yield;
 use std::hint::spin_loop;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// A thread that was away for so long between two looks shares its core with other programs, and goes to sleep as they do: on a
+/// core that is shared, to look for work all the time takes from the time to do it.
+const AWAY: Duration = Duration::from_millis(1);
 
 /// How many pieces of work of this process are [`alone`] with their threads.
 static ALONE: AtomicUsize = AtomicUsize::new(0);
@@ -31,10 +36,14 @@ pub(crate) fn awake<R: Send>(shares: usize, work: impl FnOnce() -> R + Send) -> 
         let mine = rayon::current_thread_index();
         scope.spawn_broadcast(move |_, thread| {
             let useful = thread.index() < shares && Some(thread.index()) != mine;
+            let mut looked = Instant::now();
             while useful && looking.load(Ordering::Relaxed) {
-                if rayon::yield_now() != Some(Yield::Executed) {
-                    spin_loop();
+                let worked = rayon::yield_now() == Some(Yield::Executed);
+                if !worked && looked.elapsed() > AWAY {
+                    return;
                 }
+                looked = Instant::now();
+                spin_loop();
             }
         });
         let _end = Finally(|| looking.store(false, Ordering::Relaxed));
