@@ -36,7 +36,6 @@ impl DemEngine {
             self.find();
         }
         self.touch_all();
-        self.soak();
         self.check_overlap()?;
         self.finish(self.dt, go_on);
         self.flow_on(ledger);
@@ -89,6 +88,7 @@ impl DemEngine {
         self.touch = touch;
         sums.lost[1] += std::mem::take(&mut self.released) / self.dt;
         self.sums = sums;
+        self.soak();
     }
 
     /// Forces, stocks and powers of a moment that no step has led to: at time 0, and after grains or walls have gone.
@@ -96,13 +96,12 @@ impl DemEngine {
         // Without time, bodies that adhere take hold of each other and springs stay as they are. Powers have no meaning then:
         // what snapping together sets free has gone before the books open.
         let mut touch = std::mem::take(&mut self.touch);
-        let stored = touch.forces(&Scene { dt: 0.0, ..self.scene() }).stored;
+        let stored = touch.forces(&Scene { dt: 0.0, bath: None, ..self.scene() }).stored;
         self.touch = touch;
         let kept = self.kept();
         self.touch_all();
         self.restore(kept);
         self.sums.stored = stored;
-        self.soak();
         self.still_stream();
         self.finish(0.0, false);
         self.sum_wall_loads();
@@ -115,7 +114,8 @@ impl DemEngine {
     /// What the touch phase reads.
     fn scene(&self) -> Scene<'_> {
         let Self { grains, walls, candidates, table, reaches, search, rotation, dt, .. } = self;
-        Scene { grains, walls, candidates, table, reaches, reach: search.reach, rotation: *rotation, dt: *dt }
+        let (reach, rotation, dt, bath) = (search.reach, *rotation, *dt, self.bath());
+        Scene { grains, walls, candidates, table, reaches, reach, rotation, dt, bath }
     }
 
     /// The contacts of this moment.

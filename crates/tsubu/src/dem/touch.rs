@@ -9,6 +9,7 @@ mod walls;
 use super::memory::{Contacts, FRESH, Memory, WallKey};
 use super::rows::{self, Rows};
 use super::sieve::{Hits, Spheres};
+use super::wet::{Bath, Soaked};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::contact::{Law, Table};
 use crate::find::Candidates;
@@ -16,7 +17,7 @@ use crate::find::candidates::{List, worth_threads};
 use crate::state::Grains;
 use crate::view::{Contact, WallLoad};
 use crate::wall::{self, Wall};
-use crate::water::Gust;
+use crate::water::Parcel;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -89,8 +90,7 @@ pub(super) struct Block {
     pub loads: Vec<Load>,
     pub walls: Vec<WallLoad>,
     pub sums: Sums,
-    /// What was drawn for the water around each of the own grains, where it fluctuates.
-    pub gusts: Vec<Gust>,
+    pub soaked: Soaked,
 }
 
 /// All blocks, and a chunk for every thread.
@@ -113,6 +113,7 @@ pub(super) struct Scene<'a> {
     pub reach: f64,
     pub rotation: bool,
     pub dt: f64,
+    pub bath: Option<Bath<'a>>,
 }
 
 /// Memory of one thread.
@@ -131,6 +132,7 @@ struct Scratch {
     elements: Vec<u32>,
     touching: Vec<wall::Touch>,
     went_on: Vec<u32>,
+    parcel: Parcel,
 }
 
 impl Scratch {
@@ -145,6 +147,7 @@ impl Scratch {
             elements: Vec::with_capacity(64),
             touching: Vec::with_capacity(64),
             went_on: Vec::with_capacity(64),
+            parcel: Parcel::default(),
         }
     }
 
@@ -176,7 +179,7 @@ impl Touch {
         }
     }
 
-    /// Evaluates all contacts; returns their sums.
+    /// Evaluates all contacts, and what water does; returns the sums over contacts.
     pub fn forces(&mut self, scene: &Scene) -> Sums {
         // An engine may be moved to a pool with more threads than the one it was built in.
         while self.scratch.len() < rayon::current_num_threads() {
@@ -247,7 +250,7 @@ impl Touch {
 
 impl Block {
     fn evaluate(&mut self, scene: &Scene, list: &List, scratch: &mut Scratch) {
-        let Self { memory, loads, walls: wall_loads, sums, gusts: _ } = self;
+        let Self { memory, loads, walls: wall_loads, sums, soaked } = self;
         loads.fill(Load::default());
         wall_loads.fill(WallLoad::default());
         *sums = Sums::default();
@@ -255,6 +258,10 @@ impl Block {
         walls(scene, list, memory, scratch, sums, |rows| react(scene, list, rows, loads, wall_loads));
         memory.swap_with_slice(&mut scratch.next);
         scratch.forget(scene.table.laws());
+        // The grains are in the cache now.
+        if let Some(bath) = &scene.bath {
+            bath.soak(scene.grains, list.first, loads, soaked, &mut scratch.parcel);
+        }
     }
 }
 

@@ -1,41 +1,39 @@
-//! Grains in water: the forces of the water join those of the contacts.
+//! Grains in water: the forces of the water join those of the contacts, block by block.
 
 use super::engine::DemEngine;
-use super::touch::Block;
+use super::touch::{Block, Load};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::engine::Engine;
-use crate::find::candidates::{BLOCK, WORTH_THREADS};
+use crate::find::candidates::BLOCK;
 use crate::ledger::{Account, Ledger};
 use crate::state::Grains;
 use crate::water::{EVERY, Flows, Given, Gust, Parcel, Stream, Water};
 use glam::DVec3;
-use rayon::prelude::*;
-use std::sync::{Mutex, PoisonError};
 
-/// Water, and memory for every thread.
+/// The water of a run.
 #[derive(Debug)]
 pub(super) struct Wet {
     pub water: Water,
-    scratch: Vec<Mutex<Parcel>>,
-    /// Of every block.
-    effects: Vec<Effect>,
     /// Force along x on the grains of every layer of a stream [N].
     taken: Vec<f64>,
     /// Momentum along x of the water that grains have picked up in this step, by layers of a stream [N.s].
     picked: Vec<f64>,
 }
 
-/// What one block does to the water.
-#[derive(Debug)]
-struct Effect {
+/// What passes between the water and one block.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Soaked {
     flows: Flows,
     /// What the layers of a stream give to its grains along x.
     given: Vec<Given>,
+    /// What was drawn for the water around each of the own grains, where it fluctuates.
+    gusts: Vec<Gust>,
 }
 
-/// When the water acts, and on what.
-struct Moment<'a> {
-    grains: &'a Grains,
+/// Water at a moment, for grains to be in.
+#[derive(Clone, Copy)]
+pub(super) struct Bath<'a> {
+    water: &'a Water,
     gravity: DVec3,
     time: f64,
     /// Whether the water is held still.
@@ -45,8 +43,7 @@ struct Moment<'a> {
 impl Wet {
     pub fn new(water: Water) -> Self {
         let layers = if let Stream::Coupled(coupled) = &water.stream { coupled.layers.len() } else { 0 };
-        let (taken, picked) = (vec![0.0; layers], vec![0.0; layers]);
-        Self { water, scratch: Vec::new(), effects: Vec::new(), taken, picked }
+        Self { water, taken: vec![0.0; layers], picked: vec![0.0; layers] }
     }
 
     /// Whether there is a stream that gives to the grains and takes from them.
@@ -59,35 +56,14 @@ impl Wet {
         if let Stream::Coupled(coupled) = &self.water.stream { coupled.energy() } else { 0.0 }
     }
 
-    /// Adds the forces of the water to the loads of every block; returns what they do in all.
-    fn act(&mut self, moment: &Moment, blocks: &mut [Block]) -> Flows {
-        let Self { water, scratch, effects, taken, picked: _ } = self;
-        while scratch.len() < rayon::current_num_threads() {
-            scratch.push(Mutex::default());
-        }
-        effects.resize_with(blocks.len(), || Effect {
-            flows: Flows::default(),
-            given: vec![Given::default(); taken.len()],
-        });
-        let (water, scratch) = (&*water, &*scratch);
-        let work = |(number, (block, effect)): (usize, (&mut Block, &mut Effect))| {
-            let mine = rayon::current_thread_index().unwrap_or(0);
-            // Nobody else has this thread's parcel, so the lock is free.
-            let mut parcel = scratch[mine].lock().unwrap_or_else(PoisonError::into_inner);
-            block_of_grains(water, moment, number * BLOCK, block, effect, &mut parcel);
-        };
-        // Backwards: the contacts have left the last blocks in the cache, and the second half of the step begins with the first.
-        if moment.grains.len() >= WORTH_THREADS && rayon::current_num_threads() > 1 {
-            blocks.par_iter_mut().zip(effects.par_iter_mut()).enumerate().rev().with_max_len(1).for_each(work);
-        } else {
-            blocks.iter_mut().zip(effects.iter_mut()).enumerate().rev().for_each(work);
-        }
-        taken.fill(0.0);
+    /// What the water has done to all blocks; remembers what they have taken from its layers.
+    fn gather(&mut self, blocks: &[Block]) -> Flows {
+        self.taken.fill(0.0);
         let mut flows = Flows::default();
-        for effect in effects {
-            flows.add(&effect.flows);
+        for Soaked { flows: of_block, given, .. } in blocks.iter().map(|block| &block.soaked) {
+            flows.add(of_block);
             let mut from_below = 0.0;
-            for (taken, [even, odd]) in taken.iter_mut().zip(&effect.given) {
+            for (taken, [even, odd]) in self.taken.iter_mut().zip(given) {
                 let above = even[1] + odd[1];
                 *taken += from_below + (even[0] + odd[0] - above);
                 from_below = above;
@@ -97,69 +73,67 @@ impl Wet {
     }
 }
 
-/// The grains of one block, parcel by parcel: those that forces move, then the others. What fixed grains feel is nobody's
-/// business but that of a stream, which they slow as well.
-fn block_of_grains(
-    water: &Water,
-    moment: &Moment,
-    first: usize,
-    block: &mut Block,
-    effect: &mut Effect,
-    parcel: &mut Parcel,
-) {
-    if water.fluctuation.is_some() {
-        block.gusts.resize(BLOCK, Gust::default());
-    }
-    effect.flows = Flows::default();
-    effect.given.fill(Given::default());
-    let own = &moment.grains.inverse_mass[first..(first + BLOCK).min(moment.grains.len())];
-    let slows = !effect.given.is_empty();
-    let mut bath = Bath { water, moment, first, block, given: &mut effect.given, parcel };
-    let fixed = own.iter().filter(|m| **m == 0.0).count();
-    if fixed == 0 {
-        // Nobody need be looked up in a list.
-        for begin in (0..own.len()).step_by(ROWS) {
-            bath.free((own.len() - begin).min(ROWS), |r| begin + r, &mut effect.flows);
+impl Bath<'_> {
+    /// Adds the forces on the grains of a block that begins with grain `first` to its `loads`, parcel by parcel: those that
+    /// forces move, then the others. What fixed grains feel is nobody's business but that of a stream, which they slow as well.
+    pub fn soak(&self, grains: &Grains, first: usize, loads: &mut [Load], soaked: &mut Soaked, parcel: &mut Parcel) {
+        let own = &grains.inverse_mass[first..(first + BLOCK).min(grains.len())];
+        soaked.flows = Flows::default();
+        soaked.given.clear();
+        if let Stream::Coupled(coupled) = &self.water.stream {
+            soaked.given.resize(coupled.layers.len(), Given::default());
         }
-        return;
-    }
-    let sort = |fixed: bool| {
-        let (mut rows, mut len) = ([0u16; BLOCK], 0);
-        for (i, m) in own.iter().enumerate() {
-            rows[len] = i as u16;
-            len += usize::from((*m == 0.0) == fixed);
+        if self.water.fluctuation.is_some() {
+            soaked.gusts.resize(BLOCK, Gust::default());
         }
-        (rows, len)
-    };
-    let (rows, len) = sort(false);
-    for rows in rows[..len].chunks(ROWS) {
-        bath.free(rows.len(), |r| rows[r] as usize, &mut effect.flows);
-    }
-    if slows {
-        let mut on_fixed = Flows::default();
-        let (rows, len) = sort(true);
+        let slows = !soaked.given.is_empty();
+        let mut dip = Dip { bath: self, grains, first, loads, soaked, parcel };
+        let fixed = own.iter().filter(|m| **m == 0.0).count();
+        if fixed == 0 {
+            // Nobody need be looked up in a list.
+            for begin in (0..own.len()).step_by(ROWS) {
+                dip.free((own.len() - begin).min(ROWS), |r| begin + r);
+            }
+            return;
+        }
+        let sort = |fixed: bool| {
+            let (mut rows, mut len) = ([0u16; BLOCK], 0);
+            for (i, m) in own.iter().enumerate() {
+                rows[len] = i as u16;
+                len += usize::from((*m == 0.0) == fixed);
+            }
+            (rows, len)
+        };
+        let (rows, len) = sort(false);
         for rows in rows[..len].chunks(ROWS) {
-            bath.act(rows.len(), |r| rows[r] as usize, &mut on_fixed);
+            dip.free(rows.len(), |r| rows[r] as usize);
         }
-        effect.flows.add_fixed(&on_fixed);
+        if slows {
+            let mut on_fixed = Flows::default();
+            let (rows, len) = sort(true);
+            for rows in rows[..len].chunks(ROWS) {
+                dip.act(rows.len(), |r| rows[r] as usize, &mut on_fixed);
+            }
+            soaked.flows.add_fixed(&on_fixed);
+        }
     }
 }
 
 /// A block of grains under water.
-struct Bath<'a> {
-    water: &'a Water,
-    moment: &'a Moment<'a>,
+struct Dip<'a> {
+    bath: &'a Bath<'a>,
+    grains: &'a Grains,
     first: usize,
-    block: &'a mut Block,
-    given: &'a mut [Given],
+    loads: &'a mut [Load],
+    soaked: &'a mut Soaked,
     parcel: &'a mut Parcel,
 }
 
-impl Bath<'_> {
+impl Dip<'_> {
     /// Forces on so many grains, of which `own` tells the places in the block, and what they take from a stream.
     fn act(&mut self, len: usize, own: impl Fn(usize) -> usize, flows: &mut Flows) {
-        let Self { water, moment, first, block, given, parcel } = self;
-        let Moment { grains, time, held, .. } = **moment;
+        let Self { bath, grains, first, soaked, parcel, .. } = self;
+        let Bath { water, time, held, .. } = **bath;
         let turns = water.turns();
         parcel.len = len;
         for r in 0..parcel.rows() {
@@ -171,27 +145,30 @@ impl Bath<'_> {
                 Chunk::set(&mut parcel.spin, r, grains.spin[i]);
             }
             if let Some(fluctuation) = &water.fluctuation {
-                let gust = fluctuation.at(&mut block.gusts[own(r)], grains.id[i], time);
+                let gust = fluctuation.at(&mut soaked.gusts[own(r)], grains.id[i], time);
                 Chunk::set(&mut parcel.gust, r, DVec3::from_array(gust));
             }
         }
         water.act(parcel, flows, held);
-        if !given.is_empty() {
+        if !soaked.given.is_empty() {
             if water.fluctuation.is_some() && !held {
                 flows.gust += parcel.gust_power();
             }
-            parcel.give(given);
+            parcel.give(&mut soaked.given);
         }
     }
 
     /// The same for grains that forces move.
-    fn free(&mut self, len: usize, own: impl Fn(usize) -> usize, flows: &mut Flows) {
-        self.act(len, &own, flows);
+    fn free(&mut self, len: usize, own: impl Fn(usize) -> usize) {
+        let mut flows = self.soaked.flows;
+        self.act(len, &own, &mut flows);
+        self.soaked.flows = flows;
         // The step adds gravity to the acceleration; the added mass, which it moves too, has no weight.
-        let weight = self.water.added_mass * self.water.density * self.moment.gravity;
-        let turns = self.water.turns();
+        let water = self.bath.water;
+        let weight = water.added_mass * water.density * self.bath.gravity;
+        let turns = water.turns();
         for r in 0..self.parcel.rows() {
-            let load = &mut self.block.loads[own(r)];
+            let load = &mut self.loads[own(r)];
             load.force += self.parcel.total(r) - weight * self.parcel.volume[r];
             if turns {
                 load.torque += self.parcel.total_torque(r);
@@ -253,12 +230,17 @@ impl DemEngine {
         });
     }
 
-    /// Adds the forces of the water to those of the contacts.
+    /// The water of this moment.
+    pub(super) fn bath(&self) -> Option<Bath<'_>> {
+        let Wet { water, .. } = self.wet.as_ref()?;
+        Some(Bath { water, gravity: self.gravity, time: self.time(), held: self.walls_held })
+    }
+
+    /// Sums what the water has done to all grains.
     pub(super) fn soak(&mut self) {
-        let time = self.time();
-        let Some(wet) = &mut self.wet else { return };
-        let moment = Moment { grains: &self.grains, gravity: self.gravity, time, held: self.walls_held };
-        self.water_flows = wet.act(&moment, &mut self.touch.blocks);
+        if let Some(wet) = &mut self.wet {
+            self.water_flows = wet.gather(&self.touch.blocks);
+        }
     }
 
     /// Moves the stream by a step, under what the grains have taken from it.
