@@ -27,6 +27,7 @@ mod sweep;
 pub mod text;
 mod veil;
 mod verify;
+mod wall_motion;
 mod watch;
 
 use page::Report;

@@ -10,6 +10,7 @@ use crate::raster;
 use crate::source::{Source, spoken};
 use crate::strip::{Panel, strip, time_label};
 use crate::text::short;
+use crate::wall_motion::{box_motion, motion, velocity};
 
 const PICTURES: usize = 8;
 /// Pictures of space are larger: the first moment, the middle, the last.
@@ -182,25 +183,6 @@ fn animated(source: &mut Source, found: &[Snapshot], periodic: bool, stem: &str)
     Ok(Some(Block::Picture { media: "image/gif", bytes, caption }))
 }
 
-/// How fast the walls move at this snapshot, in the picture plane: from the one before it to the one after it.
-fn motion(found: &[Snapshot], i: usize, balls: &Balls) -> Result<Option<[f64; 2]>, FileError> {
-    let (before, after) = (i.saturating_sub(1), (i + 1).min(found.len() - 1));
-    if before == after || balls.outlines.is_empty() {
-        return Ok(None);
-    }
-    let at = |k: usize| Ok(Balls::of(&read_frame(&found[k].path)?, &Look::default()));
-    Ok(velocity(&at(before)?, &at(after)?, found[after].time - found[before].time))
-}
-
-/// Mean velocity of the walls between two pictures.
-fn velocity(before: &Balls, after: &Balls, dt: f64) -> Option<[f64; 2]> {
-    if before.outlines.is_empty() || after.outlines.is_empty() || dt.is_nan() || dt <= 0.0 {
-        return None;
-    }
-    let (a, b) = (middle_of(before), middle_of(after));
-    Some([(b[0] - a[0]) / dt, (b[1] - a[1]) / dt])
-}
-
 /// A period of the host's motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Period {
@@ -240,33 +222,6 @@ fn whole_periods(motion: &[(f64, f64)]) -> Vec<Period> {
         .collect();
     let whole = |w: &[f64]| Period { start: w[0], length: w[1] - w[0] };
     passages.windows(2).map(whole).filter(|p| p.length > 0.0).collect()
-}
-
-/// Where the box is, for boxes that move without a host: the middle of the walls along the way they go farthest.
-fn box_motion(found: &[Snapshot]) -> Result<Vec<(f64, f64)>, FileError> {
-    const MOST: usize = 300;
-    const MOST_GRAINS: usize = 20_000;
-    let mut middles = Vec::new();
-    for snapshot in &found[found.len().saturating_sub(MOST)..] {
-        let balls = Balls::of(&read_frame(&snapshot.path)?, &Look::default());
-        if balls.outlines.is_empty() || balls.centres.len() > MOST_GRAINS {
-            return Ok(Vec::new());
-        }
-        middles.push((snapshot.time, middle_of(&balls)));
-    }
-    let reach = |k: usize| {
-        let values = || middles.iter().map(|m| m.1[k]);
-        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
-    };
-    let way = usize::from(reach(1) > reach(0));
-    Ok(middles.iter().map(|(t, m)| (*t, m[way])).collect())
-}
-
-/// The middle of all wall corners.
-fn middle_of(balls: &Balls) -> [f64; 2] {
-    let n = balls.outlines.iter().map(Vec::len).sum::<usize>().max(1) as f64;
-    let sum = |k: usize| balls.outlines.iter().flatten().map(|p| p[k]).sum::<f64>();
-    [sum(0) / n, sum(1) / n]
 }
 
 /// The last period that the snapshots show from end to end, finely enough for eighths.

@@ -181,14 +181,20 @@ fn named<'a>(result: &'a str, history: Option<&'a Table>) -> (&'a str, Option<&'
     (name, unit.or_else(there))
 }
 
-/// Results that are single numbers, as cards.
+/// Results that are single numbers, as cards: first those that the scene makes claims about.
 pub(crate) fn result_cards(summary: &Summary, history: Option<&Table>, most: usize) -> Vec<Card> {
-    let numbers = summary.results.iter().filter_map(|(name, value)| match value {
-        // What the books miss is no result to be proud of; the energy has its own card. What came to no number is none.
-        ResultValue::Number(x) if !name.contains("residual") && x.is_finite() => Some((name, *x)),
-        _ => None,
-    });
+    let mut numbers: Vec<_> = summary
+        .results
+        .iter()
+        .filter_map(|(name, value)| match value {
+            // What the books miss is no result to be proud of; the energy has its own card. What came to no number is none.
+            ResultValue::Number(x) if !name.contains("residual") && x.is_finite() => Some((name, *x)),
+            _ => None,
+        })
+        .collect();
+    numbers.sort_by_key(|(name, _)| !summary.claims.iter().any(|claim| claim.name == **name));
     numbers
+        .into_iter()
         .take(most)
         .map(|(name, x)| {
             let (name, unit) = named(name, history);

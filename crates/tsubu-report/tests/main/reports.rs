@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use tsubu_frame::{Formats, FrameWriter};
+use tsubu_frame::{Claim, Formats, FrameWriter};
 use tsubu_report::page::{Block, Report, Tone};
 use tsubu_report::{ReportError, build, report};
 
@@ -122,6 +122,21 @@ fn a_number_that_says_nothing_has_no_card() {
     summary.particle_steps_per_second = 0.0;
     summary.write(&dir.path().join("summary.json")).unwrap();
     assert!(!written(dir.path()).contains("grain-steps"));
+}
+
+#[test]
+fn what_a_scene_claims_comes_first() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::run(dir.path(), "dem", 3);
+    let labels = || build(dir.path()).unwrap().cards.iter().map(|card| card.label.clone()).collect::<Vec<_>>();
+    let at = |labels: &[String], label: &str| labels.iter().position(|l| l == label).expect("card");
+    let found = labels();
+    assert!(at(&found, "rms displacement") < at(&found, "loss factor"), "{found:?}");
+    let mut summary = fixture::summary("dem");
+    summary.claims.push(Claim::judge("loss factor [-]", 0.0412, Some(0.0), None, "closed form"));
+    summary.write(&dir.path().join("summary.json")).unwrap();
+    let found = labels();
+    assert!(at(&found, "loss factor") < at(&found, "rms displacement"), "{found:?}");
 }
 
 #[test]

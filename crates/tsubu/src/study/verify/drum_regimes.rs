@@ -9,8 +9,10 @@ use tsubu_frame::{Claim, Kind};
 const DRUM: f64 = 15.0;
 /// Discs in it: about 40 % of its area.
 const GRAINS: usize = 290;
-/// Turns until the bed is looked at, and until the end; of turns shorter than 60 units of time as many as go into that.
+/// Turns until the bed is looked at, and until the end; turns shorter than [`LEAST`] count as that.
 const TURNS: [f64; 2] = [0.6, 1.2];
+/// In a drum that centrifuges single grains jump about for up to 60 units of time, in six fillings, until they are caught.
+const LEAST: f64 = 120.0;
 
 /// What a bed does in the mean over time.
 struct Bed {
@@ -67,7 +69,7 @@ fn turning(froude: f64) -> f64 {
 impl Bed {
     fn of(froude: f64, friction: f64, spoiler: f64) -> Result<Self, String> {
         let mut rig = drum(froude, friction, spoiler)?;
-        let turn = (std::f64::consts::TAU / turning(froude)).max(60.0);
+        let turn = (std::f64::consts::TAU / turning(froude)).max(LEAST);
         let [begin, end] = TURNS.map(|turns| turns * turn);
         let samples = sampled(&mut rig, [begin, end, turn / 200.0], |rig| rig.vectors("position"))?;
         let radii = scalars(&rig.frame(), Kind::Grain, "radius");

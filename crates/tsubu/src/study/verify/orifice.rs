@@ -23,7 +23,7 @@ const EDGE: f64 = 2.0;
 const SPANS: usize = 6;
 
 /// Width of a hole, and how many silos with it.
-const HOLES: [(f64, u32); 3] = [(6.0, 3), (8.0, 1), (10.0, 1)];
+const HOLES: [(f64, u32); 5] = [(6.0, 3), (8.0, 1), (10.0, 1), (14.0, 1), (20.0, 1)];
 
 /// A flat-bottomed cylinder 2.5 holes wide. Its hole is closed by a plate that vanishes; grains below it vanish.
 fn silo(hole: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
@@ -115,7 +115,7 @@ fn gates(fit: &Fit) -> [Claim; 2] {
             Some(2.0),
             source,
         ),
-        within("hole: exponent of (D - 1.4 d), 6 to 10 d", fit.exponent[0], 2.5, 0.1, source),
+        within("hole: exponent of (D - 1.4 d), 6 to 20 d", fit.exponent[0], 2.5, 0.1, source),
     ]
 }
 
