@@ -65,6 +65,8 @@ pub struct Balls {
     pub quantity: (String, String),
     /// Closed outlines of the walls.
     pub outlines: Vec<Vec<[f64; 3]>>,
+    /// Which of them are of endless planes, drawn as far as there is something else to see.
+    pub endless: Vec<bool>,
     /// Triangles of the walls.
     pub faces: Vec<[[f64; 3]; 3]>,
     /// Whether one looks slantwise into space, not onto a plane.
@@ -83,7 +85,7 @@ impl Balls {
             _ => vec![fallback_radius(position); count],
         };
         let velocity = frame.vectors(Kind::Grain, "velocity");
-        let (outlines, faces) = walls(frame, &turn);
+        let (outlines, endless, faces) = walls(frame, &turn);
         let (quantity, values) = match &look.colour {
             ColourBy::Speed => (
                 ("speed".to_owned(), "m/s".to_owned()),
@@ -107,6 +109,7 @@ impl Balls {
             values,
             quantity,
             outlines,
+            endless,
             faces,
             space: view == View::Slant,
         }
@@ -202,23 +205,26 @@ fn shapes(frame: &Frame, turn: impl Fn([f64; 3]) -> [f64; 3]) -> BTreeMap<i64, P
     shapes
 }
 
-/// Outlines and triangles of the walls.
-fn walls(frame: &Frame, turn: impl Fn([f64; 3]) -> [f64; 3]) -> (Vec<Points>, Vec<[[f64; 3]; 3]>) {
+/// Outlines of the walls, which of them are endless, and triangles.
+fn walls(frame: &Frame, turn: impl Fn([f64; 3]) -> [f64; 3]) -> (Vec<Points>, Vec<bool>, Vec<[[f64; 3]; 3]>) {
     let points = frame.vectors(Kind::Surface, "position");
     let zeros = vec![0; points.len()];
     let column = |name| Some(frame.integers(Kind::Surface, name)).filter(|v| v.len() == points.len()).unwrap_or(&zeros);
-    let face = column("face");
-    let (mut outlines, mut faces) = (Vec::new(), Vec::new());
+    let (face, endless) = (column("face"), column("endless"));
+    let (mut outlines, mut faces) = ((Vec::new(), Vec::new()), Vec::new());
     let mut start = 0;
     for group in column("outline").chunk_by(|a, b| a == b) {
         let corners: Vec<_> = points[start..start + group.len()].iter().map(|p| turn(*p)).collect();
         match corners[..] {
             [a, b, c] if face[start] != 0 => faces.push([a, b, c]),
-            _ => outlines.push(corners),
+            _ => {
+                outlines.0.push(corners);
+                outlines.1.push(endless[start] != 0);
+            }
         }
         start += group.len();
     }
-    (outlines, faces)
+    (outlines.0, outlines.1, faces)
 }
 
 /// The view, where it is left to the frame: onto the plane in which everything lies.

@@ -52,14 +52,14 @@ pub(crate) fn box_motion(found: &[Snapshot]) -> Result<Vec<(f64, f64)>, FileErro
 
 /// How far the walls have gone from one picture to another, mean of their corners [m]; `None` where there are none, or others.
 fn way(before: &Balls, after: &Balls) -> Option<[f64; 3]> {
-    let same = |(a, b): (&Vec<_>, &Vec<_>)| a.len() == b.len();
     let pairs = || before.outlines.iter().zip(&after.outlines);
-    if before.outlines.is_empty() || before.outlines.len() != after.outlines.len() || !pairs().all(same) {
+    let same = before.endless == after.endless && pairs().all(|(a, b)| a.len() == b.len());
+    if before.outlines.is_empty() || !same {
         return None;
     }
     let (mut way, mut corners, mut size) = ([0.0; 3], 0.0, 0.0f64);
-    for (a, b) in pairs() {
-        let step = step(a, b);
+    for ((a, b), endless) in pairs().zip(&after.endless) {
+        let step = step(a, b, *endless);
         let count = a.len() as f64;
         way = std::array::from_fn(|k| way[k] + count * step[k]);
         corners += count;
@@ -69,23 +69,16 @@ fn way(before: &Balls, after: &Balls) -> Option<[f64; 3]> {
     Some(if length(way) > ROUND_OFF * size { way } else { [0.0; 3] })
 }
 
-/// How far one outline has gone. An endless plane is drawn as far as there is something else to see: of an outline that has
-/// another size now, only the way across it tells that it moves.
-fn step(before: &[[f64; 3]], after: &[[f64; 3]]) -> [f64; 3] {
+/// How far one outline has gone. An endless plane is drawn as far as there is something else to see: only its way across tells
+/// that it moves.
+fn step(before: &[[f64; 3]], after: &[[f64; 3]], endless: bool) -> [f64; 3] {
     let middle = |corners: &[[f64; 3]]| -> [f64; 3] {
         std::array::from_fn(|k| corners.iter().map(|c| c[k]).sum::<f64>() / corners.len() as f64)
     };
     let mut step = less(middle(after), middle(before));
-    let side = |corners: &[[f64; 3]], i: usize| less(corners[(i + 1) % corners.len()], corners[i]);
-    let as_long = |i: usize| {
-        let (was, is) = (length(side(before, i)), length(side(after, i)));
-        (is - was).abs() <= ROUND_OFF * was
-    };
-    if (0..before.len()).all(as_long) {
-        return step;
-    }
-    // Neighbouring sides of a rectangle are square to one another.
-    for along in (0..2).map(|i| side(after, i)).filter(|along| length(*along) > 0.0) {
+    // A line has one direction, a square two that are square to one another.
+    for sides in after.windows(2).take(if endless { 2 } else { 0 }) {
+        let along = less(sides[1], sides[0]);
         let share = dot(step, along) / dot(along, along);
         step = std::array::from_fn(|k| step[k] - share * along[k]);
     }
@@ -108,38 +101,38 @@ fn length(a: [f64; 3]) -> f64 {
 mod tests {
     use super::*;
 
-    fn walls(outlines: &[&[[f64; 3]]]) -> Balls {
-        Balls { outlines: outlines.iter().map(|o| o.to_vec()).collect(), ..Balls::default() }
+    fn walls(outlines: &[&[[f64; 3]]], endless: bool) -> Balls {
+        let corners = outlines.iter().map(|o| o.to_vec()).collect();
+        Balls { outlines: corners, endless: vec![endless; outlines.len()], ..Balls::default() }
     }
 
     const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 0.0, 2.0], [0.0, 0.0, 2.0]];
 
     #[test]
-    fn a_plane_that_is_drawn_farther_stays_where_it_is() {
-        let farther = SQUARE.map(|[x, y, z]| [1.5 * x - 0.3, y, 1.5 * z + 0.1]);
-        assert_eq!(velocity(&walls(&[&SQUARE]), &walls(&[&farther]), 0.5), Some([0.0, 0.0]));
-        let line = [[0.0, 1.0, 0.0], [4.0, 4.0, 0.0]];
-        let longer = [[-4.0, -2.0, 0.0], [8.0, 7.0, 0.0]];
-        assert_eq!(velocity(&walls(&[&line]), &walls(&[&longer]), 0.5), Some([0.0, 0.0]));
+    fn a_plane_that_is_drawn_elsewhere_stays_where_it_is() {
+        let elsewhere = SQUARE.map(|[x, y, z]| [1.5 * x - 0.3, y, 1.5 * z + 0.1]);
+        assert_eq!(velocity(&walls(&[&SQUARE], true), &walls(&[&elsewhere], true), 0.5), Some([0.0, 0.0]));
+        let (line, longer) = ([[0.0, 1.0, 0.0], [4.0, 4.0, 0.0]], [[-4.0, -2.0, 0.0], [8.0, 7.0, 0.0]]);
+        assert_eq!(velocity(&walls(&[&line], true), &walls(&[&longer], true), 0.5), Some([0.0, 0.0]));
     }
 
     #[test]
-    fn a_plane_that_is_drawn_farther_and_rises_is_seen_to_rise() {
+    fn a_plane_that_rises_is_seen_to_rise() {
         let higher = SQUARE.map(|[x, y, z]| [1.5 * x - 0.3, y + 0.25, 1.5 * z + 0.1]);
-        let [x, y] = velocity(&walls(&[&SQUARE]), &walls(&[&higher]), 0.5).unwrap();
+        let [x, y] = velocity(&walls(&[&SQUARE], true), &walls(&[&higher], true), 0.5).unwrap();
         assert!(x.abs() < 1e-15 && (y - 0.5).abs() < 1e-15, "{x} {y}");
     }
 
     #[test]
     fn a_box_goes_as_a_whole() {
         let shifted = SQUARE.map(|[x, y, z]| [x + 0.1, y + 0.2, z]);
-        let [x, y] = velocity(&walls(&[&SQUARE]), &walls(&[&shifted]), 0.1).unwrap();
+        let [x, y] = velocity(&walls(&[&SQUARE], false), &walls(&[&shifted], false), 0.1).unwrap();
         assert!((x - 1.0).abs() < 1e-12 && (y - 2.0).abs() < 1e-12, "{x} {y}");
     }
 
     #[test]
     fn walls_that_have_gone_say_nothing() {
-        assert_eq!(velocity(&walls(&[&SQUARE, &SQUARE]), &walls(&[&SQUARE]), 0.5), None);
-        assert_eq!(velocity(&walls(&[]), &walls(&[]), 0.5), None);
+        assert_eq!(velocity(&walls(&[&SQUARE, &SQUARE], false), &walls(&[&SQUARE], false), 0.5), None);
+        assert_eq!(velocity(&walls(&[], false), &walls(&[], false), 0.5), None);
     }
 }

@@ -8,12 +8,8 @@ use tsubu_frame::{Frame, Kind};
 impl DemEngine {
     /// Adds lines and faces of all walls to a frame, and the cell of periodic axes.
     pub(super) fn draw_walls(&self, frame: &mut Frame) {
-        let outlines: Vec<(usize, Outline)> = self
-            .walls
-            .iter()
-            .map(|wall| wall.lone_plane().map_or_else(|| wall.outline(), |_| Outline::default()))
-            .enumerate()
-            .collect();
+        let bounded = self.walls.iter().enumerate().filter(|(_, wall)| wall.lone_plane().is_none());
+        let outlines: Vec<(usize, Outline)> = bounded.map(|(number, wall)| (number, wall.outline())).collect();
         // Endless planes are drawn as far as there is something else to see.
         let mut seen = Extent::default();
         for (p, r) in self.grains.position.iter().zip(&self.grains.radius) {
@@ -30,18 +26,17 @@ impl DemEngine {
             Some((number, Outline::of_plane(point, normal, middle, half, self.in_space)))
         });
         let mut drawn = Drawn::default();
-        for (number, outline) in outlines.iter().cloned().chain(planes) {
-            for line in &outline.lines {
-                drawn.add(number, line, 0);
-            }
-            for triangle in &outline.triangles {
-                drawn.add(number, triangle, 1);
-            }
+        for (number, outline) in &outlines {
+            drawn.add(*number, outline, false);
+        }
+        for (number, outline) in planes {
+            drawn.add(number, &outline, true);
         }
         frame.vector(Kind::Surface, "position", "m", drawn.corners);
         frame.integer(Kind::Surface, "outline", "-", drawn.outline);
         frame.integer(Kind::Surface, "face", "-", drawn.face);
         frame.integer(Kind::Surface, "wall", "-", drawn.wall);
+        frame.integer(Kind::Surface, "endless", "-", drawn.endless);
         let ends = self.search.ends;
         if ends.iter().any(Option::is_some) {
             let each = |f: fn([f64; 2]) -> f64| ends.map(|end| end.map_or(0.0, f));
@@ -59,18 +54,23 @@ struct Drawn {
     outline: Vec<i64>,
     face: Vec<i64>,
     wall: Vec<i64>,
+    endless: Vec<i64>,
     count: i64,
 }
 
 impl Drawn {
-    fn add(&mut self, wall: usize, corners: &[DVec3], face: i64) {
-        for corner in corners {
-            self.corners.push(corner.to_array());
-            self.outline.push(self.count);
-            self.face.push(face);
-            self.wall.push(wall as i64);
+    fn add(&mut self, wall: usize, outline: &Outline, endless: bool) {
+        let lines = outline.lines.iter().map(|line| (&line[..], 0));
+        for (corners, face) in lines.chain(outline.triangles.iter().map(|triangle| (&triangle[..], 1))) {
+            for corner in corners {
+                self.corners.push(corner.to_array());
+                self.outline.push(self.count);
+                self.face.push(face);
+                self.wall.push(wall as i64);
+                self.endless.push(i64::from(endless));
+            }
+            self.count += 1;
         }
-        self.count += 1;
     }
 }
 

@@ -6,10 +6,8 @@ use super::outlet::Fit;
 use glam::DVec3;
 use tsubu_frame::Claim;
 
-/// When the hole opens: the bed has come to rest.
-const OPENS: f64 = 20.0;
-/// When the flow has become steady.
-const STEADY: f64 = OPENS + 4.0;
+/// From the opening of the hole to when the flow has become steady.
+const STARTS: f64 = 4.0;
 /// Grains a unit of volume.
 const PACKED: f64 = 1.1;
 /// Radius of the silo, and height of its bed at the begin and at the end of counting, over the width of the hole.
@@ -24,6 +22,12 @@ const SPANS: usize = 6;
 
 /// Width of a hole, and how many silos with it.
 const HOLES: [(f64, u32); 5] = [(6.0, 3), (8.0, 1), (10.0, 1), (14.0, 1), (20.0, 1)];
+
+/// When a hole opens: the bed has come to rest. The larger the silo the higher grains fall from, and the time of a fall grows
+/// with the root of the height.
+fn opens(hole: f64) -> f64 {
+    20.0 * (hole / HOLES[0].0).sqrt()
+}
 
 /// A flat-bottomed cylinder 2.5 holes wide. Its hole is closed by a plate that vanishes; grains below it vanish.
 fn silo(hole: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
@@ -52,7 +56,7 @@ fn silo(hole: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
         [walls.plate]
         material = "grain"
         shape.plane.point = [0, 0, -0.03]
-        until = {OPENS}
+        until = {opens}
         [removal.below]
         behind = {{ point = [0, 0, -3], normal = [0, 0, 1] }}
         "#,
@@ -61,6 +65,7 @@ fn silo(hole: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
         // Random places fill a quarter of the room.
         top = 2.4 * HEIGHTS[0] * hole,
         half = 0.5 * hole,
+        opens = opens(hole),
     );
     Rig::new(&text, spoiler)
 }
@@ -75,9 +80,9 @@ struct Run {
 
 fn run(hole: f64, seed: u32, spoiler: f64) -> Result<Run, String> {
     let mut rig = silo(hole, seed, spoiler)?;
-    rig.until(OPENS)?;
+    rig.until(opens(hole))?;
     let density = density(&rig.vectors("position"), SILO * hole);
-    rig.until(STEADY)?;
+    rig.until(opens(hole) + STARTS)?;
     let area = std::f64::consts::PI * (SILO * hole).powi(2);
     let (first, last) = (rig.engine.grains(), (HEIGHTS[1] * hole * area * PACKED) as usize);
     let (mut count, mut time) = (first, rig.engine.time());
