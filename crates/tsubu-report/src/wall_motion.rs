@@ -119,14 +119,14 @@ mod tests {
     #[test]
     fn a_plane_that_rises_is_seen_to_rise() {
         let higher = SQUARE.map(|[x, y, z]| [1.5 * x - 0.3, y + 0.25, 1.5 * z + 0.1]);
-        let [x, y] = velocity(&walls(&[&SQUARE], true), &walls(&[&higher], true), 0.5).unwrap();
+        let [x, y] = velocity(&walls(&[&SQUARE], true), &walls(&[&higher], true), 0.5).expect("the same walls");
         assert!(x.abs() < 1e-15 && (y - 0.5).abs() < 1e-15, "{x} {y}");
     }
 
     #[test]
     fn a_box_goes_as_a_whole() {
         let shifted = SQUARE.map(|[x, y, z]| [x + 0.1, y + 0.2, z]);
-        let [x, y] = velocity(&walls(&[&SQUARE], false), &walls(&[&shifted], false), 0.1).unwrap();
+        let [x, y] = velocity(&walls(&[&SQUARE], false), &walls(&[&shifted], false), 0.1).expect("the same walls");
         assert!((x - 1.0).abs() < 1e-12 && (y - 2.0).abs() < 1e-12, "{x} {y}");
     }
 
