@@ -128,7 +128,7 @@ pub(in super::super) fn saltation(spoiler: f64) -> Result<Vec<Claim>, String> {
     for stiffness in [1e3, 1e5] {
         claims.push(contact_claim(stiffness, &leaps(stiffness, LOCKED, HOPS, spoiler)?));
     }
-    let soft = leaps(1e3, LOCKED, MANY, spoiler)?;
+    let soft = leaps(1e2, LOCKED, MANY, spoiler)?;
     let (paper, stiff) = (leaps(1e4, LOCKED, MANY, spoiler)?, leaps(1e5, LOCKED, MANY, spoiler)?);
     claims.push(contact_claim(1e4, &paper));
     let source = "Osada et al. 2004: what counts is the impulse";
@@ -138,7 +138,7 @@ pub(in super::super) fn saltation(spoiler: f64) -> Result<Vec<Claim>, String> {
     claims.push(same("mean hop height", paper.height, stiff.height));
     claims.push(same("mean hop length", paper.length, stiff.length));
     let gates = [same("", soft.height, stiff.height), same("", soft.length, stiff.length)];
-    claims.push(refused("contacts of 10 N/cm, in which the grain sinks between those of the bed", &gates, 2));
+    claims.push(refused("contacts of 1 N/cm, in which the grain sinks between those of the bed", &gates, 2));
     let source = "Sklar and Dietrich 2004, of measured hops, a factor of 2 (V-58)";
     let twice = |name: &str, value: f64, wanted: f64| {
         Claim::judge(
