@@ -211,20 +211,20 @@ fn walls(frame: &Frame, turn: impl Fn([f64; 3]) -> [f64; 3]) -> (Vec<Points>, Ve
     let zeros = vec![0; points.len()];
     let column = |name| Some(frame.integers(Kind::Surface, name)).filter(|v| v.len() == points.len()).unwrap_or(&zeros);
     let (face, endless) = (column("face"), column("endless"));
-    let (mut outlines, mut faces) = ((Vec::new(), Vec::new()), Vec::new());
+    let (mut outlines, mut unbounded, mut faces) = (Vec::new(), Vec::new(), Vec::new());
     let mut start = 0;
     for group in column("outline").chunk_by(|a, b| a == b) {
         let corners: Vec<_> = points[start..start + group.len()].iter().map(|p| turn(*p)).collect();
         match corners[..] {
             [a, b, c] if face[start] != 0 => faces.push([a, b, c]),
             _ => {
-                outlines.0.push(corners);
-                outlines.1.push(endless[start] != 0);
+                outlines.push(corners);
+                unbounded.push(endless[start] != 0);
             }
         }
         start += group.len();
     }
-    (outlines.0, outlines.1, faces)
+    (outlines, unbounded, faces)
 }
 
 /// The view, where it is left to the frame: onto the plane in which everything lies.

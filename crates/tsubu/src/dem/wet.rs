@@ -78,21 +78,22 @@ impl Bath<'_> {
     /// forces move, then the others. What fixed grains feel is nobody's business but that of a stream, which they slow as well.
     pub fn soak(&self, grains: &Grains, first: usize, loads: &mut [Load], soaked: &mut Soaked, parcel: &mut Parcel) {
         let own = &grains.inverse_mass[first..(first + BLOCK).min(grains.len())];
-        soaked.flows = Flows::default();
-        soaked.given.clear();
+        let Soaked { flows, given, gusts } = soaked;
+        *flows = Flows::default();
+        given.clear();
         if let Stream::Coupled(coupled) = &self.water.stream {
-            soaked.given.resize(coupled.layers.len(), Given::default());
+            given.resize(coupled.layers.len(), Given::default());
         }
         if self.water.fluctuation.is_some() {
-            soaked.gusts.resize(BLOCK, Gust::default());
+            gusts.resize(BLOCK, Gust::default());
         }
-        let slows = !soaked.given.is_empty();
-        let mut dip = Dip { bath: self, grains, first, loads, soaked, parcel };
+        let slows = !given.is_empty();
+        let mut dip = Dip { bath: self, grains, first, loads, given, gusts, parcel };
         let fixed = own.iter().filter(|m| **m == 0.0).count();
         if fixed == 0 {
             // Nobody need be looked up in a list.
             for begin in (0..own.len()).step_by(ROWS) {
-                dip.free((own.len() - begin).min(ROWS), |r| begin + r);
+                dip.free((own.len() - begin).min(ROWS), |r| begin + r, flows);
             }
             return;
         }
@@ -106,7 +107,7 @@ impl Bath<'_> {
         };
         let (rows, len) = sort(false);
         for rows in rows[..len].chunks(ROWS) {
-            dip.free(rows.len(), |r| rows[r] as usize);
+            dip.free(rows.len(), |r| rows[r] as usize, flows);
         }
         if slows {
             let mut on_fixed = Flows::default();
@@ -114,7 +115,7 @@ impl Bath<'_> {
             for rows in rows[..len].chunks(ROWS) {
                 dip.act(rows.len(), |r| rows[r] as usize, &mut on_fixed);
             }
-            soaked.flows.add_fixed(&on_fixed);
+            flows.add_fixed(&on_fixed);
         }
     }
 }
@@ -125,14 +126,15 @@ struct Dip<'a> {
     grains: &'a Grains,
     first: usize,
     loads: &'a mut [Load],
-    soaked: &'a mut Soaked,
+    given: &'a mut [Given],
+    gusts: &'a mut [Gust],
     parcel: &'a mut Parcel,
 }
 
 impl Dip<'_> {
     /// Forces on so many grains, of which `own` tells the places in the block, and what they take from a stream.
     fn act(&mut self, len: usize, own: impl Fn(usize) -> usize, flows: &mut Flows) {
-        let Self { bath, grains, first, soaked, parcel, .. } = self;
+        let Self { bath, grains, first, given, gusts, parcel, .. } = self;
         let Bath { water, time, held, .. } = **bath;
         let turns = water.turns();
         parcel.len = len;
@@ -145,24 +147,22 @@ impl Dip<'_> {
                 Chunk::set(&mut parcel.spin, r, grains.spin[i]);
             }
             if let Some(fluctuation) = &water.fluctuation {
-                let gust = fluctuation.at(&mut soaked.gusts[own(r)], grains.id[i], time);
+                let gust = fluctuation.at(&mut gusts[own(r)], grains.id[i], time);
                 Chunk::set(&mut parcel.gust, r, DVec3::from_array(gust));
             }
         }
         water.act(parcel, flows, held);
-        if !soaked.given.is_empty() {
+        if !given.is_empty() {
             if water.fluctuation.is_some() && !held {
                 flows.gust += parcel.gust_power();
             }
-            parcel.give(&mut soaked.given);
+            parcel.give(given);
         }
     }
 
     /// The same for grains that forces move.
-    fn free(&mut self, len: usize, own: impl Fn(usize) -> usize) {
-        let mut flows = self.soaked.flows;
-        self.act(len, &own, &mut flows);
-        self.soaked.flows = flows;
+    fn free(&mut self, len: usize, own: impl Fn(usize) -> usize, flows: &mut Flows) {
+        self.act(len, &own, flows);
         // The step adds gravity to the acceleration; the added mass, which it moves too, has no weight.
         let water = self.bath.water;
         let weight = water.added_mass * water.density * self.bath.gravity;
