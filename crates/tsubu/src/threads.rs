@@ -6,6 +6,7 @@
 //! for that run.
 
 use rayon::Yield;
+use rayon::prelude::*;
 use std::hint::spin_loop;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
@@ -49,6 +50,16 @@ pub(crate) fn awake<R: Send>(shares: usize, work: impl FnOnce() -> R + Send) -> 
         let _end = Finally(|| looking.store(false, Ordering::Relaxed));
         work()
     })
+}
+
+/// Does something to each of `things`, on many threads if there are several `shares`.
+pub(crate) fn each<T: Send>(things: &mut [T], shares: usize, work: impl Fn(&mut T) + Sync + Send) {
+    if shares > 1 {
+        // One by one: a thread that is done early finds work as long as there is any.
+        things.par_iter_mut().with_max_len(1).for_each(work);
+    } else {
+        things.iter_mut().for_each(work);
+    }
 }
 
 /// Does something when dropped, however the work before has ended.

@@ -1,6 +1,7 @@
 //! The DEM engine: its state, how it is built from a plan, and how it answers.
 
 use super::integrate::Report;
+use super::keep::Kept;
 use super::orientation::Orientation;
 use super::place;
 use super::room;
@@ -11,7 +12,7 @@ use super::wet::Wet;
 use crate::check;
 use crate::contact::Table;
 use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
-use crate::find::candidates::{BLOCK, worth_threads};
+use crate::find::candidates::{BLOCK, shares};
 use crate::find::{Candidates, Search};
 use crate::ledger::{Ledger, Stocks};
 use crate::partner::Hosts;
@@ -63,6 +64,7 @@ pub struct DemEngine {
     pub(super) begun: bool,
     // Scratch.
     pub(super) reports: Vec<Report>,
+    pub(super) kept: Kept,
     pub(super) wall_loads: Vec<WallLoad>,
     pub(super) host_forces: Vec<f64>,
     /// Contact force on grains that forces do not move [N], and the power that driven ones give [W].
@@ -168,6 +170,7 @@ impl DemEngine {
             notes: Vec::new(),
             begun: false,
             reports: Vec::new(),
+            kept: Kept::default(),
             wall_loads,
             host_forces: Vec::new(),
             fixed: Default::default(),
@@ -230,7 +233,7 @@ impl Engine for DemEngine {
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
         let grains = self.grains.len();
         let mut go = || (0..steps).try_for_each(|step| self.step(hosts, ledger, step + 1 < steps));
-        if worth_threads(grains) { awake(grains.div_ceil(BLOCK), go) } else { go() }
+        if shares(grains) > 1 { awake(grains.div_ceil(BLOCK), go) } else { go() }
     }
 
     fn grain_stocks(&self) -> Stocks {

@@ -3,19 +3,17 @@
 
 use super::touch::Block;
 use crate::find::Candidates;
-use crate::find::candidates::{BLOCK, Incoming, worth_threads};
+use super::sweep::{Row, Way, sweep};
+use crate::find::candidates::{BLOCK, List, shares};
 use crate::find::drift::Drift;
 use crate::state::Grains;
 use glam::DVec3;
 use multiversion::multiversion;
-use rayon::prelude::*;
 use tsubu_scene::plan::Integrator;
 
 /// What a block reports from a half step; joined in the order of blocks.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Report {
-    /// What the block has done since the last search.
-    pub drift: Drift,
     /// Correction of the power lost in contacts [W], see [`after`].
     pub correction: f64,
     /// Contact force on grains that forces do not move [N].
@@ -32,7 +30,7 @@ impl Report {
     }
 }
 
-/// One block's part of the columns.
+/// The columns of some blocks.
 struct Slice<'a> {
     position: &'a mut [DVec3],
     velocity: &'a mut [DVec3],
@@ -42,80 +40,84 @@ struct Slice<'a> {
     inverse_mass: &'a [f64],
     inertia: &'a [f64],
     reference: &'a [DVec3],
+    // One a block.
+    lists: &'a [List],
+    drifts: &'a mut [Drift],
+    reports: &'a mut [Report],
 }
 
-/// Runs `work` on every block and joins the reports in their order.
-fn each(
-    grains: &mut Grains,
-    reference: &[DVec3],
-    reports: &mut Vec<Report>,
-    work: impl Fn(usize, Slice) -> Report + Sync,
-) -> Report {
-    let n = grains.len();
-    reports.resize(n.div_ceil(BLOCK), Report::default());
-    macro_rules! zipped {
-        ($chunks:ident, $chunks_mut:ident, $iter:ident $(, $split:ident)?) => {
-            grains
-                .position
-                .$chunks_mut(BLOCK)
-                .zip(grains.velocity.$chunks_mut(BLOCK))
-                .zip(grains.acceleration.$chunks_mut(BLOCK))
-                .zip(grains.spin.$chunks_mut(BLOCK))
-                .zip(grains.spin_rate.$chunks_mut(BLOCK))
-                .zip(grains.inverse_mass.$chunks(BLOCK))
-                .zip(grains.inertia.$chunks(BLOCK))
-                .zip(reference.$chunks(BLOCK))
-                .zip(reports.$iter())
-                .enumerate()
-                $(.$split(1))?
-                .for_each(
-                    |(
-                        block,
-                        (
-                            (
-                                ((((((position, velocity), acceleration), spin), spin_rate), inverse_mass), inertia),
-                                reference,
-                            ),
-                            report,
-                        ),
-                    )| {
-                        let slice = Slice {
-                            position,
-                            velocity,
-                            acceleration,
-                            spin,
-                            spin_rate,
-                            inverse_mass,
-                            inertia,
-                            reference,
-                        };
-                        *report = work(block, slice);
-                    },
-                )
+impl<'a> Slice<'a> {
+    fn new(grains: &'a mut Grains, candidates: &'a mut Candidates, reports: &'a mut Vec<Report>) -> Self {
+        reports.resize(candidates.lists.len(), Report::default());
+        Self {
+            position: &mut grains.position,
+            velocity: &mut grains.velocity,
+            acceleration: &mut grains.acceleration,
+            spin: &mut grains.spin,
+            spin_rate: &mut grains.spin_rate,
+            inverse_mass: &grains.inverse_mass,
+            inertia: &grains.inertia,
+            reference: &candidates.reference,
+            lists: &candidates.lists,
+            drifts: &mut candidates.drifts.of,
+            reports,
+        }
+    }
+}
+
+impl Row for Slice<'_> {
+    fn lists(&self) -> &[List] {
+        self.lists
+    }
+
+    fn cut(self, blocks: usize) -> (Self, Self) {
+        let grains = (blocks * BLOCK).min(self.position.len());
+        let (position, positions) = self.position.split_at_mut(grains);
+        let (velocity, velocities) = self.velocity.split_at_mut(grains);
+        let (acceleration, accelerations) = self.acceleration.split_at_mut(grains);
+        let (spin, spins) = self.spin.split_at_mut(grains);
+        let (spin_rate, spin_rates) = self.spin_rate.split_at_mut(grains);
+        let (inverse_mass, inverse_masses) = self.inverse_mass.split_at(grains);
+        let (inertia, inertias) = self.inertia.split_at(grains);
+        let (reference, references) = self.reference.split_at(grains);
+        let (list, lists) = self.lists.split_at(blocks);
+        let (drift, drifts) = self.drifts.split_at_mut(blocks);
+        let (report, reports) = self.reports.split_at_mut(blocks);
+        let first = Self {
+            position,
+            velocity,
+            acceleration,
+            spin,
+            spin_rate,
+            inverse_mass,
+            inertia,
+            reference,
+            lists: list,
+            drifts: drift,
+            reports: report,
         };
+        let others = Self {
+            position: positions,
+            velocity: velocities,
+            acceleration: accelerations,
+            spin: spins,
+            spin_rate: spin_rates,
+            inverse_mass: inverse_masses,
+            inertia: inertias,
+            reference: references,
+            lists,
+            drifts,
+            reports,
+        };
+        (first, others)
     }
-    if worth_threads(n) {
-        zipped!(par_chunks, par_chunks_mut, par_iter_mut, with_max_len);
-    } else {
-        zipped!(chunks, chunks_mut, iter_mut);
-    }
-    let mut total = Report::default();
-    for report in reports.iter() {
-        total.add(report);
-    }
-    total
 }
 
 /// Before the forces: brings positions to the end of the step, and velocities there too, predicted with the old
 /// acceleration, so that forces that depend on velocity see positions and velocities of one time level.
 pub(super) fn before(grains: &mut Grains, candidates: &mut Candidates, reports: &mut Vec<Report>, motion: &Motion) {
-    let Candidates { reference, drifts, .. } = candidates;
-    let drifts = &drifts.of;
-    each(grains, reference, reports, |block, mut s| Report {
-        drift: go(&mut s, drifts[block], motion),
-        ..Report::default()
-    });
-    keep_drifts(candidates, reports);
+    let shares = shares(grains.len());
+    sweep(Slice::new(grains, candidates, reports), Way::There, shares, &|mut s: Slice| go(&mut s, motion));
 }
 
 /// After the forces: sums what blocks hold for every grain, finds the new accelerations and completes the velocities. With
@@ -128,34 +130,28 @@ pub(super) fn after(
     motion: &Motion,
     go_on: bool,
 ) -> Report {
-    let Candidates { reference, drifts, lists, .. } = candidates;
-    let (drifts, lists) = (&drifts.of, &*lists);
-    let total = each(grains, reference, reports, |block, mut s| {
-        let mut report = complete(&mut s, blocks, &lists[block].incoming, block, motion);
+    let shares = shares(grains.len());
+    sweep(Slice::new(grains, candidates, reports), Way::Back, shares, &|mut s: Slice| {
+        s.reports[0] = complete(&mut s, blocks, motion);
         if go_on {
-            report.drift = go(&mut s, drifts[block], motion);
+            go(&mut s, motion);
         }
-        report
     });
-    if go_on {
-        keep_drifts(candidates, reports);
+    let mut total = Report::default();
+    for report in reports.iter() {
+        total.add(report);
     }
     total
 }
 
-fn keep_drifts(candidates: &mut Candidates, reports: &[Report]) {
-    for (drift, report) in candidates.drifts.of.iter_mut().zip(reports) {
-        *drift = report.drift;
-    }
-}
-
 /// First half of a step of one block.
-fn go(s: &mut Slice, mut drift: Drift, motion: &Motion) -> Drift {
+fn go(s: &mut Slice, motion: &Motion) {
+    let drift = &mut s.drifts[0];
     drift.offset += drift.velocity * motion.dt;
-    let (total, farthest) = drift_on(s, drift.offset, motion);
-    drift.velocity = total / s.position.len() as f64;
-    drift.farthest = farthest;
-    drift
+    let offset = drift.offset;
+    let (total, farthest) = drift_on(s, offset, motion);
+    let velocity = total / s.position.len() as f64;
+    s.drifts[0] = Drift { offset, velocity, farthest };
 }
 
 /// Moves the grains; returns the sum of the velocities they went with [m/s] and how far the farthest is from where it was
@@ -196,10 +192,11 @@ fn drift_on(s: &mut Slice, offset: DVec3, motion: &Motion) -> (DVec3, f64) {
 /// path is force times that. Without the correction the books of an impact at 20 steps per contact miss 0.4 % of its
 /// energy, with it 0.02 %.
 #[multiversion(targets = "simd")]
-fn complete(s: &mut Slice, blocks: &[Block], incoming: &[Incoming], block: usize, motion: &Motion) -> Report {
+fn complete(s: &mut Slice, blocks: &[Block], motion: &Motion) -> Report {
     let share = motion.predicts();
+    let List { first, incoming, .. } = &s.lists[0];
     let mut report = Report::default();
-    let own = &blocks[block].loads;
+    let own = &blocks[first / BLOCK].loads;
     let mut next = 0;
     for (i, load) in own.iter().take(s.position.len()).enumerate() {
         let mut load = *load;

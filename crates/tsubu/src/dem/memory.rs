@@ -135,32 +135,3 @@ impl Memory {
         self.walls.clear(width);
     }
 }
-
-/// A remembered contact by the ids of its bodies. For a wall the second number is the wall, and `patch` tells the place
-/// on it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Name {
-    pub first: u32,
-    pub second: u32,
-    pub wall: bool,
-    pub patch: u32,
-    /// Number of its law; follows from the materials, so a checkpoint does not have it.
-    pub law: u32,
-}
-
-/// Remembered contacts as they are kept over a search and in a checkpoint: by name, for indices change.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Kept {
-    pub names: Vec<Name>,
-    /// As many numbers a contact as the widest law has columns of history.
-    pub history: Vec<f64>,
-}
-
-impl Kept {
-    /// Adds a contact with its numbers, and zeros up to `width`.
-    pub fn push(&mut self, name: Name, history: impl Iterator<Item = f64>, width: usize) {
-        self.names.push(name);
-        self.history.extend(history);
-        self.history.resize(self.names.len() * width, 0.0);
-    }
-}

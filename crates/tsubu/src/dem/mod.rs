@@ -17,6 +17,7 @@ mod sieve;
 pub mod sizes;
 mod sources;
 mod step;
+mod sweep;
 mod touch;
 mod touches;
 mod wet;

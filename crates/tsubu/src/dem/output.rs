@@ -1,7 +1,7 @@
 //! What the engine shows and what it saves.
 
 use super::engine::DemEngine;
-use super::memory::{Kept, Name};
+use super::keep::{Kept, Name};
 use crate::engine::Engine;
 use crate::partner::Hosts;
 use crate::state::Grains;
@@ -130,10 +130,12 @@ impl DemEngine {
         for wall in &self.walls {
             wall.save(state);
         }
-        let kept = self.kept();
-        let names = kept.names.iter().flat_map(|k| [k.first, k.second, u32::from(k.wall), k.patch].map(i64::from));
+        let mut kept = Kept::default();
+        self.keep(&mut kept);
+        let names = kept.parts.iter().flat_map(|part| &part.names);
+        let names = names.flat_map(|k| [k.first, k.second, u32::from(k.wall), k.patch].map(i64::from));
         state.put_integer("dem.contacts", names.collect::<Vec<_>>());
-        state.put_real("dem.history", kept.history);
+        state.put_real("dem.history", kept.parts.into_iter().flat_map(|part| part.history).collect::<Vec<_>>());
     }
 
     /// Takes back what [`DemEngine::write_state`] wrote.
@@ -200,7 +202,7 @@ impl DemEngine {
             let law = pair.map_or(0, |(a, b)| self.table.law(self.table.index(*a, *b)) as u32);
             Name { first, second, wall, patch: n[3] as u32, law }
         };
-        self.restore(Kept { names: names.iter().map(name).collect(), history: history.to_vec() });
+        self.restore(Kept::of(names.iter().map(name).collect(), history.to_vec()));
         Ok(())
     }
 }

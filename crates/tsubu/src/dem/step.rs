@@ -2,7 +2,7 @@
 
 use super::engine::DemEngine;
 use super::integrate::{self, Motion};
-use super::memory::Kept;
+use super::keep::Kept;
 use super::touch::Scene;
 use super::wet::Wet;
 use crate::engine::{Engine, Fault};
@@ -79,6 +79,9 @@ impl DemEngine {
     pub(super) fn fit(&mut self) {
         let mut touch = std::mem::take(&mut self.touch);
         touch.fit(&self.scene());
+        for (list, block) in self.candidates.lists.iter_mut().zip(&touch.blocks) {
+            list.expect(block.sums.contacts);
+        }
         self.touch = touch;
     }
 

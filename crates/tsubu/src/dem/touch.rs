@@ -13,13 +13,13 @@ use super::wet::{Bath, Soaked};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::contact::{Law, Table};
 use crate::find::Candidates;
-use crate::find::candidates::{List, worth_threads};
+use super::sweep::{Way, sweep};
+use crate::find::candidates::{List, shares};
 use crate::state::Grains;
 use crate::view::{Contact, WallLoad};
 use crate::wall::{self, Wall};
 use crate::water::Parcel;
 use glam::{DVec3, Vec3};
-use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 use walls::{react, walls};
 
@@ -186,19 +186,14 @@ impl Touch {
             self.scratch.push(Mutex::new(Scratch::new(scene.table.laws())));
         }
         let scratch = &self.scratch;
-        let work = |(block, list): (&mut Block, &List)| {
+        let work = |(blocks, lists): (&mut [Block], &[List])| {
             let mine = rayon::current_thread_index().unwrap_or(0);
             // Nobody else has this thread's scratch, so the lock is free.
             let mut scratch = scratch[mine].lock().unwrap_or_else(PoisonError::into_inner);
-            block.evaluate(scene, list, &mut scratch);
+            blocks[0].evaluate(scene, &lists[0], &mut scratch);
         };
-        let lists = &scene.candidates.lists;
-        if worth_threads(scene.grains.len()) {
-            // Block by block: a thread that is done early finds work as long as there is any.
-            self.blocks.par_iter_mut().zip(lists).with_max_len(1).for_each(work);
-        } else {
-            self.blocks.iter_mut().zip(lists).for_each(work);
-        }
+        let row = (&mut self.blocks[..], &scene.candidates.lists[..]);
+        sweep(row, Way::There, shares(scene.grains.len()), &work);
         let mut sums = Sums::default();
         for block in &self.blocks {
             sums.add(&block.sums);

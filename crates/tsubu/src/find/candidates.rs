@@ -22,9 +22,9 @@ pub const BLOCK: usize = 512;
 /// Fewer grains than this are not worth waking threads for.
 pub const WORTH_THREADS: usize = 2000;
 
-/// Whether `grains` are worth the other threads, and there are others.
-pub fn worth_threads(grains: usize) -> bool {
-    grains >= WORTH_THREADS && rayon::current_num_threads() > 1
+/// On how many threads so many grains are worth it.
+pub fn shares(grains: usize) -> usize {
+    if grains >= WORTH_THREADS { rayon::current_num_threads() } else { 1 }
 }
 
 /// Below this many grains all pairs are looked at: a grid would cost more than it saves, and nothing needs sorting.
@@ -83,6 +83,8 @@ pub struct List {
     pub walls: Vec<WallCandidate>,
     /// What other blocks hold for own grains, by grain and then in the order of the blocks.
     pub incoming: Vec<Incoming>,
+    /// How much work a step is, in contacts: threads share by it.
+    pub work: usize,
 }
 
 /// Memory of one thread that makes lists.
@@ -206,7 +208,7 @@ impl Candidates {
             }
             list.place(finder);
         };
-        if worth_threads(n) {
+        if shares(n) > 1 {
             lists.par_iter_mut().enumerate().with_max_len(1).for_each(make);
         } else {
             lists.iter_mut().enumerate().for_each(make);
@@ -285,6 +287,11 @@ impl Candidates {
 }
 
 impl List {
+    /// Estimates the work from what is near and how many `contacts` there are, as measured with beds at rest.
+    pub fn expect(&mut self, contacts: usize) {
+        self.work = self.own / 2 + self.pairs.len() / 4 + self.walls.len() + contacts;
+    }
+
     fn clear(&mut self) {
         self.pairs.clear();
         self.walls.clear();
