@@ -1,9 +1,9 @@
 //! Time integration of grains, split around the evaluation of forces. Both halves go block by block, on many threads where
 //! that is worth it.
 
+use super::sweep::{Row, Way, sweep};
 use super::touch::Block;
 use crate::find::Candidates;
-use super::sweep::{Row, Way, sweep};
 use crate::find::candidates::{BLOCK, List, shares};
 use crate::find::drift::Drift;
 use crate::state::Grains;
