@@ -11,9 +11,9 @@
 use super::drift::Drifts;
 use super::grid::{Ends, Grid, HERE, Image, Met, Numbering, shift};
 use crate::state::Grains;
+use crate::threads;
 use crate::wall::{Pose, Wall};
 use glam::DVec3;
-use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 
 /// Grains of a block.
@@ -183,17 +183,19 @@ impl Candidates {
             self.fill_levels(grains, search);
         }
         self.lists.resize_with(n.div_ceil(BLOCK), List::default);
+        for (block, list) in self.lists.iter_mut().enumerate() {
+            list.first = block * BLOCK;
+            list.own = BLOCK.min(n - list.first);
+        }
         self.finders.resize_with(self.finders.len().max(rayon::current_num_threads()), Mutex::default);
         let mut lists = std::mem::take(&mut self.lists);
-        let make = |(block, list): (usize, &mut List)| {
+        threads::each(&mut lists, shares(n), |list| {
             let mine = rayon::current_thread_index().unwrap_or(0);
             // Nobody else has this thread's finder, so the lock is free.
             let mut finder = self.finders[mine].lock().unwrap_or_else(PoisonError::into_inner);
             let finder = &mut *finder;
             finder.seconds.clear();
             finder.places.resize(n, NOWHERE);
-            list.first = block * BLOCK;
-            list.own = BLOCK.min(n - list.first);
             list.clear();
             for own in 0..list.own {
                 let i = list.first + own;
@@ -207,12 +209,7 @@ impl Candidates {
                 list.near_walls(walls, own as u32, self.reference[i], reach, &mut finder.elements);
             }
             list.place(finder);
-        };
-        if shares(n) > 1 {
-            lists.par_iter_mut().enumerate().with_max_len(1).for_each(make);
-        } else {
-            lists.iter_mut().enumerate().for_each(make);
-        }
+        });
         for block in 0..lists.len() {
             for h in 0..lists[block].halo.len() {
                 let grain = lists[block].halo[h].grain as usize;
