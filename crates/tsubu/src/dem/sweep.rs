@@ -46,17 +46,21 @@ fn share<R: Row>(row: R, way: Way, shares: usize, work: &(impl Fn(R) + Sync)) {
         return walk(row, way, true, work);
     }
     let left = shares / 2;
-    let all: usize = row.lists().iter().map(|list| list.work).sum();
+    let blocks = first_blocks(row.lists(), left, shares);
+    let (first, others) = row.cut(blocks);
+    rayon::join(|| share(first, way, left, work), || share(others, way, shares - left, work));
+}
+
+/// How many blocks are `left` of `shares` equal shares of the work; a block belongs where most of it does.
+fn first_blocks(lists: &[List], left: usize, shares: usize) -> usize {
+    let all: usize = lists.iter().map(|list| list.work).sum();
     let mut before = 0;
-    // A block belongs where most of it does.
-    let first = row.lists().iter().take_while(|list| {
+    let belongs = |list: &&List| {
         let middle = before + list.work / 2;
         before += list.work;
         middle * shares < all * left
-    });
-    let blocks = first.count();
-    let (first, others) = row.cut(blocks);
-    rayon::join(|| share(first, way, left, work), || share(others, way, shares - left, work));
+    };
+    lists.iter().take_while(belongs).count()
 }
 
 /// Goes through a row block by block; where it is `lent`, other threads may take a part of what is left.
@@ -76,5 +80,58 @@ fn walk<R: Row>(row: R, way: Way, lent: bool, work: &(impl Fn(R) + Sync)) {
     } else {
         next();
         later();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+    use std::sync::Mutex;
+
+    fn lists(works: &[usize]) -> Vec<List> {
+        works.iter().enumerate().map(|(first, &work)| List { first, work, ..List::default() }).collect()
+    }
+
+    /// The blocks in the order in which they come on one thread.
+    fn order(lists: &[List], way: Way, shares: usize) -> Vec<usize> {
+        let seen = Mutex::new(Vec::new());
+        let mut things = vec![(); lists.len()];
+        sweep((&mut things[..], lists), way, shares, &|(_, lists): (&mut [()], &[List])| {
+            seen.lock().expect("nobody panics").push(lists[0].first);
+        });
+        seen.into_inner().expect("nobody panics")
+    }
+
+    #[test]
+    fn goes_there_and_back() {
+        let lists = lists(&[7; 11]);
+        let there: Vec<usize> = (0..11).collect();
+        assert_eq!(order(&lists, Way::There, 1), there);
+        assert_eq!(order(&lists, Way::Back, 1), there.into_iter().rev().collect::<Vec<_>>());
+    }
+
+    proptest! {
+        #[test]
+        fn every_block_comes_once_whatever_the_shares(works in vec(0usize..50, 0..30), shares in 1usize..9) {
+            let mut seen = order(&lists(&works), Way::Back, shares);
+            seen.sort_unstable();
+            prop_assert_eq!(seen, (0..works.len()).collect::<Vec<_>>());
+        }
+    }
+
+    /// A cut misses equal shares by half of the block in which it falls; cuts at half of the blocks, here in a bed whose lower
+    /// half touches and whose upper does not, miss them by half of all.
+    #[test]
+    fn shares_are_equal_but_for_half_a_block() {
+        let works: Vec<usize> = (0..20).map(|block| if block < 10 { 300 + 2 * block } else { 0 }).collect();
+        let lists = lists(&works);
+        let (all, largest) = (works.iter().sum::<usize>(), 318);
+        for (left, shares) in [(1, 2), (1, 3), (3, 7), (4, 8)] {
+            let miss = |blocks: usize| (works[..blocks].iter().sum::<usize>() * shares).abs_diff(all * left);
+            assert!(2 * miss(first_blocks(&lists, left, shares)) <= largest * shares, "{left} of {shares}");
+        }
+        assert!(2 * (works[..10].iter().sum::<usize>() * 2).abs_diff(all) > largest * 2);
     }
 }
