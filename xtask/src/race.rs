@@ -1,5 +1,6 @@
 //! The race against LAMMPS: equal work, one machine, runs in turn.
 
+mod cache;
 mod course;
 mod heat;
 mod judge;
@@ -7,6 +8,7 @@ mod machine;
 mod report;
 mod stable;
 
+use cache::FarCache;
 use course::{COURSES, Course, Racer};
 use heat::Run;
 use stable::Stable;
@@ -21,7 +23,8 @@ cargo xtask race --peers DIR --lammps LMP [--runs 5] [--out benches/results/NAME
   --peers DIR   decks and start states: lammps/in.chute, in.settle, model.*; data/data.chute.gz; states/settled_*.csv.gz
   --lammps LMP  the program, or the `lmp` of the environment it was installed in with its MPI
   --out NAME    writes NAME.md and NAME.json (without: into the work folder, `race/` among the build outputs)
-  --busy-ok     race although others use the machine; without it the race waits for quiet and repeats disturbed runs";
+  --busy-ok     race although others use the machine; without it the race waits for quiet cores and a quick
+                far cache, and repeats disturbed runs";
 
 /// What the command line says.
 #[derive(Debug)]
@@ -73,7 +76,9 @@ pub fn race(arguments: &[&str]) -> Result<(), String> {
         return Err(format!("no workload is called so; there are {}", names.join(", ")));
     }
     let stable = Stable::new(&options.peers, &options.lammps)?;
-    let heats = courses.into_iter().map(|course| heats(&stable, course, &options)).collect::<Result<Vec<_>, _>>()?;
+    let mut far = FarCache::new();
+    let heats =
+        courses.into_iter().map(|course| heats(&stable, &mut far, course, &options)).collect::<Result<Vec<_>, _>>()?;
     let verdict = judge::judge(&heats);
     let about = report::about(&stable, options.runs)?;
     let out = options.out.unwrap_or_else(|| stable.work.join("result"));
@@ -89,10 +94,10 @@ pub fn race(arguments: &[&str]) -> Result<(), String> {
 }
 
 /// Chooses skins and runs one workload.
-fn heats(stable: &Stable, course: &'static Course, options: &Options) -> Result<Heats, String> {
+fn heats(stable: &Stable, far: &mut FarCache, course: &'static Course, options: &Options) -> Result<Heats, String> {
     let mut heats = Heats { course, scan: Vec::new(), skins: Vec::new(), runs: Vec::new() };
-    let run = |racer: Racer, cores: u32, skin: f64| {
-        let run = heat::run(stable, course, racer, (cores, skin), options.busy_ok)?;
+    let mut run = |racer: Racer, cores: u32, skin: f64| {
+        let run = heat::run(stable, far, course, racer, (cores, skin), options.busy_ok)?;
         let rate = course.rate(run.end.seconds);
         eprintln!("{:8} {:30} {cores} core(s), skin {skin:4}: {rate:7.3} M/s", course.name, racer.name(course));
         Ok::<Run, String>(run)

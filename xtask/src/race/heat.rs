@@ -1,5 +1,6 @@
 //! One run of one racer: started, watched, understood.
 
+use super::cache::FarCache;
 use super::course::{Course, Racer};
 use super::machine::{Load, quiet};
 use super::stable::{Stable, typed};
@@ -24,6 +25,8 @@ pub struct Run {
     pub memory: Option<f64>,
     /// Cores that others used before, others meanwhile, and the machine's host meanwhile.
     pub load: [f64; 3],
+    /// A step of the walk through the far cache before and after [ns].
+    pub far: [f64; 2],
     /// Earlier attempts that others disturbed.
     pub repeated: u32,
 }
@@ -46,6 +49,7 @@ pub struct End {
 /// Runs a racer once, on cores that nobody else uses.
 pub fn run(
     stable: &Stable,
+    far: &mut FarCache,
     course: &Course,
     racer: Racer,
     (cores, skin): (u32, f64),
@@ -54,12 +58,15 @@ pub fn run(
     let mut repeated = 0;
     loop {
         let before = quiet(busy_ok)?;
+        let step = if busy_ok { far.step() } else { far.wait() };
         let command = stable.command(course, racer, cores, skin);
         let told = typed(&command);
         let load = Load::now()?;
         let (output, watched) = watch(stable, command).map_err(|e| format!("`{told}`: {e}"))?;
         let (others, host) = load.others()?;
-        if load.disturbed(others) && !busy_ok && repeated + 1 < ATTEMPTS {
+        let far_steps = [step, far.step()];
+        let disturbed = load.disturbed(others) || far_steps.iter().any(|step| far.slow(*step));
+        if disturbed && !busy_ok && repeated + 1 < ATTEMPTS {
             repeated += 1;
             continue;
         }
@@ -76,7 +83,17 @@ pub fn run(
         };
         // With `mpirun` the process that is watched does no work.
         let memory = own_memory.or(watched).filter(|_| cores == 1);
-        return Ok(Run { racer, cores, skin, command: told, end, memory, load: [before, others, host], repeated });
+        return Ok(Run {
+            racer,
+            cores,
+            skin,
+            command: told,
+            end,
+            memory,
+            load: [before, others, host],
+            far: far_steps,
+            repeated,
+        });
     }
 }
 

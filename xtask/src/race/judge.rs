@@ -141,7 +141,17 @@ mod tests {
     fn run(racer: Racer, cores: u32, seconds: f64, end: &End) -> Run {
         let end = End { seconds, ..end.clone() };
         let memory = Some(100.0);
-        Run { racer, cores, skin: 0.1, command: String::new(), end, memory, load: [0.0; 3], repeated: 0 }
+        Run {
+            racer,
+            cores,
+            skin: 0.1,
+            command: String::new(),
+            end,
+            memory,
+            load: [0.0; 3],
+            far: [20.0; 2],
+            repeated: 0,
+        }
     }
 
     /// The large bed, with tsubu at these seconds on one core and on two, LAMMPS at 4 and 2.

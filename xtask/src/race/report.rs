@@ -1,11 +1,11 @@
 //! The race on paper: a page for people and the same numbers for programs.
 
-use super::Heats;
 use super::course::{Bands, CONTACTS, Racer};
 use super::heat::{End, Run};
 use super::judge::Verdict;
 use super::machine;
 use super::stable::{Stable, said};
+use super::{Heats, median};
 use crate::shell::command;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -185,17 +185,21 @@ fn load(page: &mut String, heats: &[Heats], _: &Verdict) {
     let most = |i: usize| range(runs.iter().map(|run| run.load[i])).1;
     let disturbed = runs.iter().filter(|run| run.load[1] > machine::QUIET).count();
     let repeated: u32 = runs.iter().map(|run| run.repeated).sum();
+    let far = |run: &Run| run.far[0].max(run.far[1]);
+    let (quickest, slowest) = range(runs.iter().map(|run| far(run)));
     line(
         page,
         format_args!(
             "\n## Load by others\n\nMost cores used by other processes before a run: {:.2}, during one: {:.2}; by the host of a \
              virtual machine during one: {:.2}.\nRuns kept with more than {} cores used by others: {disturbed} of {}; runs \
-             made again because of it: {repeated}.",
+             made again because of it or of a slow far cache: {repeated}.\nA step through the far cache, the longer of those before \
+             and after a run: {quickest:.0} to {slowest:.0} ns, median {:.0}.",
             most(0),
             most(1),
             most(2),
             machine::QUIET,
-            runs.len()
+            runs.len(),
+            median(runs.iter().map(|run| far(run)).collect()),
         ),
     );
 }
@@ -257,6 +261,7 @@ fn run(heats: &Heats, run: &Run) -> Value {
         "cores used by others before": before,
         "cores used by others meanwhile": others,
         "cores taken by the host meanwhile": host,
+        "far cache, before and after [ns a step]": run.far,
         "disturbed attempts before": run.repeated,
     })
 }
