@@ -52,6 +52,32 @@ pub(crate) fn awake<R: Send>(shares: usize, work: impl FnOnce() -> R + Send) -> 
     })
 }
 
+/// How long to look out for another thread before going to sleep: some times what a block of grains takes.
+const LOOK_OUT: Duration = Duration::from_micros(200);
+
+/// Does both, on two threads if there is another. Where a run is [`alone`], who is done first looks for work before it goes to
+/// sleep: a sleep at the end of each of two sweeps made one run in three a third slower.
+pub(crate) fn both(first: impl FnOnce() + Send, second: impl FnOnce() + Send) {
+    if ALONE.load(Ordering::Relaxed) == 0 {
+        rayon::join(first, second);
+        return;
+    }
+    let done = &AtomicBool::new(false);
+    let wait = || {
+        let begun = Instant::now();
+        // The second may still lie here: then this is who does it.
+        while !done.load(Ordering::Acquire) && begun.elapsed() < LOOK_OUT {
+            rayon::yield_now();
+            spin_loop();
+        }
+    };
+    let second = || {
+        let _end = Finally(|| done.store(true, Ordering::Release));
+        second();
+    };
+    rayon::join(|| (first(), wait()), second);
+}
+
 /// Does something to each of `things`, on many threads if there are several `shares`.
 pub(crate) fn each<T: Send>(things: &mut [T], shares: usize, work: impl Fn(&mut T) + Sync + Send) {
     if shares > 1 {

@@ -5,6 +5,7 @@
 //! left in the cache. A thread that is done early takes blocks of others, from where they would come to last.
 
 use crate::find::candidates::List;
+use crate::threads::both;
 
 /// What a sweep goes over: one thing or several for every list of candidates.
 pub(super) trait Row: Send + Sized {
@@ -48,7 +49,7 @@ fn share<R: Row>(row: R, way: Way, shares: usize, work: &(impl Fn(R) + Sync)) {
     let left = shares / 2;
     let blocks = first_blocks(row.lists(), left, shares);
     let (first, others) = row.cut(blocks);
-    rayon::join(|| share(first, way, left, work), || share(others, way, shares - left, work));
+    both(|| share(first, way, left, work), || share(others, way, shares - left, work));
 }
 
 /// How many blocks are `left` of `shares` equal shares of the work; a block belongs where most of it does.
@@ -76,7 +77,7 @@ fn walk<R: Row>(row: R, way: Way, lent: bool, work: &(impl Fn(R) + Sync)) {
     let (next, later) = if way == Way::There { (low, high) } else { (high, low) };
     let (next, later) = (|| walk(next, way, lent, work), || walk(later, way, lent, work));
     if lent {
-        rayon::join(next, later);
+        both(next, later);
     } else {
         next();
         later();
