@@ -95,7 +95,7 @@ mod tests {
         works.iter().enumerate().map(|(first, &work)| List { first, work, ..List::default() }).collect()
     }
 
-    /// The blocks in the order in which they come on one thread.
+    /// The blocks in the order in which they come.
     fn order(lists: &[List], way: Way, shares: usize) -> Vec<usize> {
         let seen = Mutex::new(Vec::new());
         let mut things = vec![(); lists.len()];

@@ -30,7 +30,7 @@ pub(super) struct Sums {
     pub stored: f64,
     /// Power lost in normal damping, sliding, rolling [W].
     pub lost: [f64; 3],
-    /// Touch_ pairs.
+    /// Touching pairs.
     pub contacts: usize,
     /// Deepest overlap [m].
     pub deepest: f64,
