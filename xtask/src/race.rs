@@ -1,16 +1,16 @@
 //! The race against LAMMPS: equal work, one machine, runs in turn.
 
-mod cache;
 mod course;
 mod heat;
+mod host;
 mod judge;
 mod machine;
 mod report;
 mod stable;
 
-use cache::FarCache;
 use course::{COURSES, Course, Racer};
 use heat::Run;
+use host::Host;
 use stable::Stable;
 use std::path::{Path, PathBuf};
 
@@ -23,8 +23,8 @@ cargo xtask race --peers DIR --lammps LMP [--runs 5] [--out benches/results/NAME
   --peers DIR   decks and start states: lammps/in.chute, in.settle, model.*; data/data.chute.gz; states/settled_*.csv.gz
   --lammps LMP  the program, or the `lmp` of the environment it was installed in with its MPI
   --out NAME    writes NAME.md and NAME.json (without: into the work folder, `race/` among the build outputs)
-  --busy-ok     race although others use the machine; without it the race waits for quiet cores and a quick
-                far cache, and repeats disturbed runs";
+  --busy-ok     race although others use the machine; without it the race waits for quiet cores, a quick far
+                cache and cores near each other, and repeats disturbed runs";
 
 /// What the command line says.
 #[derive(Debug)]
@@ -76,9 +76,9 @@ pub fn race(arguments: &[&str]) -> Result<(), String> {
         return Err(format!("no workload is called so; there are {}", names.join(", ")));
     }
     let stable = Stable::new(&options.peers, &options.lammps)?;
-    let mut far = FarCache::new();
+    let mut host = Host::new();
     let heats =
-        courses.into_iter().map(|course| heats(&stable, &mut far, course, &options)).collect::<Result<Vec<_>, _>>()?;
+        courses.into_iter().map(|course| heats(&stable, &mut host, course, &options)).collect::<Result<Vec<_>, _>>()?;
     let verdict = judge::judge(&heats);
     let about = report::about(&stable, options.runs)?;
     let out = options.out.unwrap_or_else(|| stable.work.join("result"));
@@ -94,10 +94,10 @@ pub fn race(arguments: &[&str]) -> Result<(), String> {
 }
 
 /// Chooses skins and runs one workload.
-fn heats(stable: &Stable, far: &mut FarCache, course: &'static Course, options: &Options) -> Result<Heats, String> {
+fn heats(stable: &Stable, host: &mut Host, course: &'static Course, options: &Options) -> Result<Heats, String> {
     let mut heats = Heats { course, scan: Vec::new(), skins: Vec::new(), runs: Vec::new() };
     let mut run = |racer: Racer, cores: u32, skin: f64| {
-        let run = heat::run(stable, far, course, racer, (cores, skin), options.busy_ok)?;
+        let run = heat::run(stable, host, course, racer, (cores, skin), options.busy_ok)?;
         let rate = course.rate(run.end.seconds);
         eprintln!("{:8} {:30} {cores} core(s), skin {skin:4}: {rate:7.3} M/s", course.name, racer.name(course));
         Ok::<Run, String>(run)

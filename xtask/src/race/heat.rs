@@ -1,7 +1,7 @@
 //! One run of one racer: started, watched, understood.
 
-use super::cache::FarCache;
 use super::course::{Course, Racer};
+use super::host::{Host, Look};
 use super::machine::{Load, quiet};
 use super::stable::{Stable, typed};
 use std::fs::{self, File};
@@ -25,8 +25,8 @@ pub struct Run {
     pub memory: Option<f64>,
     /// Cores that others used before, others meanwhile, and the machine's host meanwhile.
     pub load: [f64; 3],
-    /// A step of the walk through the far cache before and after [ns].
-    pub far: [f64; 2],
+    /// The host before and after.
+    pub looks: [Look; 2],
     /// Earlier attempts that others disturbed.
     pub repeated: u32,
 }
@@ -49,7 +49,7 @@ pub struct End {
 /// Runs a racer once, on cores that nobody else uses.
 pub fn run(
     stable: &Stable,
-    far: &mut FarCache,
+    host: &mut Host,
     course: &Course,
     racer: Racer,
     (cores, skin): (u32, f64),
@@ -58,14 +58,14 @@ pub fn run(
     let mut repeated = 0;
     loop {
         let before = quiet(busy_ok)?;
-        let step = if busy_ok { far.step() } else { far.wait() };
+        let look = if busy_ok { host.look() } else { host.wait(cores) };
         let command = stable.command(course, racer, cores, skin);
         let told = typed(&command);
         let load = Load::now()?;
         let (output, watched) = watch(stable, command).map_err(|e| format!("`{told}`: {e}"))?;
-        let (others, host) = load.others()?;
-        let far_steps = [step, far.step()];
-        let disturbed = load.disturbed(others) || far_steps.iter().any(|step| far.slow(*step));
+        let (others, taken) = load.others()?;
+        let looks = [look, host.look()];
+        let disturbed = load.disturbed(others) || looks.iter().any(|look| host.disturbed(*look, cores));
         if disturbed && !busy_ok && repeated + 1 < ATTEMPTS {
             repeated += 1;
             continue;
@@ -90,8 +90,8 @@ pub fn run(
             command: told,
             end,
             memory,
-            load: [before, others, host],
-            far: far_steps,
+            load: [before, others, taken],
+            looks,
             repeated,
         });
     }

@@ -137,6 +137,7 @@ fn physics(heats: &Heats) -> Vec<Physics> {
 mod tests {
     use super::*;
     use crate::race::course::COURSES;
+    use crate::race::host::Look;
 
     fn run(racer: Racer, cores: u32, seconds: f64, end: &End) -> Run {
         let end = End { seconds, ..end.clone() };
@@ -149,7 +150,7 @@ mod tests {
             end,
             memory,
             load: [0.0; 3],
-            far: [20.0; 2],
+            looks: [Look { step: 20.0, trip: 80.0 }; 2],
             repeated: 0,
         }
     }

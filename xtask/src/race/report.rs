@@ -2,6 +2,7 @@
 
 use super::course::{Bands, CONTACTS, Racer};
 use super::heat::{End, Run};
+use super::host::Look;
 use super::judge::Verdict;
 use super::machine;
 use super::stable::{Stable, said};
@@ -185,21 +186,26 @@ fn load(page: &mut String, heats: &[Heats], _: &Verdict) {
     let most = |i: usize| range(runs.iter().map(|run| run.load[i])).1;
     let disturbed = runs.iter().filter(|run| run.load[1] > machine::QUIET).count();
     let repeated: u32 = runs.iter().map(|run| run.repeated).sum();
-    let far = |run: &Run| run.far[0].max(run.far[1]);
-    let (quickest, slowest) = range(runs.iter().map(|run| far(run)));
+    let felt = |of: fn(Look) -> f64, run: &Run| of(run.looks[0]).max(of(run.looks[1]));
+    let steps: Vec<f64> = runs.iter().map(|run| felt(|look| look.step, run)).collect();
+    let trips: Vec<f64> = runs.iter().filter(|run| run.cores > 1).map(|run| felt(|look| look.trip, run)).collect();
+    let (quickest, slowest) = range(steps.iter().copied());
+    let (nearest, farthest) = range(trips.iter().copied());
     line(
         page,
         format_args!(
             "\n## Load by others\n\nMost cores used by other processes before a run: {:.2}, during one: {:.2}; by the host of a \
              virtual machine during one: {:.2}.\nRuns kept with more than {} cores used by others: {disturbed} of {}; runs \
-             made again because of it or of a slow far cache: {repeated}.\nA step through the far cache, the longer of those before \
-             and after a run: {quickest:.0} to {slowest:.0} ns, median {:.0}.",
+             made again because of it, of a slow far cache, or of cores far from each other: {repeated}.\nThe longer of those \
+             before and after a run: a step through the far cache {quickest:.0} to {slowest:.0} ns, median {:.0}; a line of the \
+             cache from core to core and back {nearest:.0} to {farthest:.0} ns, median {:.0} (runs on two cores).",
             most(0),
             most(1),
             most(2),
             machine::QUIET,
             runs.len(),
-            median(runs.iter().map(|run| far(run)).collect()),
+            median(steps),
+            median(trips),
         ),
     );
 }
@@ -261,7 +267,8 @@ fn run(heats: &Heats, run: &Run) -> Value {
         "cores used by others before": before,
         "cores used by others meanwhile": others,
         "cores taken by the host meanwhile": host,
-        "far cache, before and after [ns a step]": run.far,
+        "far cache, before and after [ns a step]": run.looks.map(|look| look.step),
+        "core to core and back, before and after [ns]": run.looks.map(|look| look.trip),
         "disturbed attempts before": run.repeated,
     })
 }
