@@ -13,18 +13,20 @@ use heat::Run;
 use host::Host;
 use stable::Stable;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-/// How often each skin is tried; the fastest counts.
-const TRIES: usize = 2;
+/// How often each skin is tried; the fastest counts, so these runs wait for nothing.
+const TRIES: usize = 3;
 
 const USAGE: &str = "\
-cargo xtask race --peers DIR --lammps LMP [--runs 5] [--out benches/results/NAME] [--only W1]... [--busy-ok]
+cargo xtask race --peers DIR --lammps LMP [--runs 5] [--out benches/results/NAME] [--only W1]... [--patience 10] [--busy-ok]
 
   --peers DIR   decks and start states: lammps/in.chute, in.settle, model.*; data/data.chute.gz; states/settled_*.csv.gz
   --lammps LMP  the program, or the `lmp` of the environment it was installed in with its MPI
   --out NAME    writes NAME.md and NAME.json (without: into the work folder, `race/` among the build outputs)
-  --busy-ok     race although others use the machine; without it the race waits for quiet cores, a quick far
-                cache and cores near each other, and repeats disturbed runs";
+  --patience M  minutes that each workload may lose by waiting for a quick far cache and cores near each other and
+                by repeating disturbed runs; then runs count as they come
+  --busy-ok     race although others use the machine; waits for nothing and repeats nothing";
 
 /// What the command line says.
 #[derive(Debug)]
@@ -34,6 +36,7 @@ struct Options {
     runs: usize,
     out: Option<PathBuf>,
     only: Vec<String>,
+    patience: Duration,
     busy_ok: bool,
 }
 
@@ -96,16 +99,17 @@ pub fn race(arguments: &[&str]) -> Result<(), String> {
 /// Chooses skins and runs one workload.
 fn heats(stable: &Stable, host: &mut Host, course: &'static Course, options: &Options) -> Result<Heats, String> {
     let mut heats = Heats { course, scan: Vec::new(), skins: Vec::new(), runs: Vec::new() };
-    let mut run = |racer: Racer, cores: u32, skin: f64| {
+    let run = |host: &mut Host, racer: Racer, cores: u32, skin: f64| {
         let run = heat::run(stable, host, course, racer, (cores, skin), options.busy_ok)?;
         let rate = course.rate(run.end.seconds);
         eprintln!("{:8} {:30} {cores} core(s), skin {skin:4}: {rate:7.3} M/s", course.name, racer.name(course));
         Ok::<Run, String>(run)
     };
+    host.patience = Duration::ZERO;
     for _ in 0..TRIES {
         for racer in course.racers() {
             for &skin in racer.skins() {
-                heats.scan.push(run(racer, 1, skin)?);
+                heats.scan.push(run(host, racer, 1, skin)?);
             }
         }
     }
@@ -114,10 +118,11 @@ fn heats(stable: &Stable, host: &mut Host, course: &'static Course, options: &Op
         let best = tried.min_by(|a, b| a.end.seconds.total_cmp(&b.end.seconds));
         heats.skins.extend(best.map(|best| (racer, best.skin)));
     }
+    host.patience = options.patience;
     for _ in 0..options.runs {
         for cores in [1, 2] {
             for &(racer, skin) in &heats.skins {
-                heats.runs.push(run(racer, cores, skin)?);
+                heats.runs.push(run(host, racer, cores, skin)?);
             }
         }
     }
@@ -128,6 +133,7 @@ impl Options {
     fn read(arguments: &[&str]) -> Result<Self, String> {
         let (mut peers, mut lammps) = (None, None);
         let (mut runs, mut out, mut only, mut busy_ok) = (5, None, Vec::new(), false);
+        let mut minutes = 10_u32;
         let mut words = arguments.iter();
         while let Some(word) = words.next() {
             if *word == "--busy-ok" {
@@ -139,6 +145,9 @@ impl Options {
                 "--peers" => peers = Some(PathBuf::from(value)),
                 "--lammps" => lammps = Some(PathBuf::from(value)),
                 "--runs" => runs = value.parse().map_err(|_| format!("--runs: `{value}` is not a whole number"))?,
+                "--patience" => {
+                    minutes = value.parse().map_err(|_| format!("--patience: `{value}` is not a whole number"))?;
+                }
                 "--out" => out = Some(PathBuf::from(value)),
                 "--only" => only.push((*value).to_owned()),
                 _ => return Err(format!("the race knows no `{word}`\n\n{USAGE}")),
@@ -148,7 +157,7 @@ impl Options {
         if runs == 0 {
             return Err("--runs: at least one".to_owned());
         }
-        Ok(Self { peers, lammps, runs, out, only, busy_ok })
+        Ok(Self { peers, lammps, runs, out, only, patience: Duration::from_secs(60 * u64::from(minutes)), busy_ok })
     }
 }
 

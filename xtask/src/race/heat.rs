@@ -7,7 +7,7 @@ use super::stable::{Stable, typed};
 use std::fs::{self, File};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::sleep;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How often a run is repeated when others disturb it.
 const ATTEMPTS: u32 = 4;
@@ -27,7 +27,8 @@ pub struct Run {
     pub load: [f64; 3],
     /// The host before and after.
     pub looks: [Look; 2],
-    /// Earlier attempts that others disturbed.
+    /// Whether others disturbed it, and earlier attempts that they did.
+    pub disturbed: bool,
     pub repeated: u32,
 }
 
@@ -59,6 +60,7 @@ pub fn run(
     loop {
         let before = quiet(busy_ok)?;
         let look = if busy_ok { host.look() } else { host.wait(cores) };
+        let begun = Instant::now();
         let command = stable.command(course, racer, cores, skin);
         let told = typed(&command);
         let load = Load::now()?;
@@ -66,8 +68,9 @@ pub fn run(
         let (others, taken) = load.others()?;
         let looks = [look, host.look()];
         let disturbed = load.disturbed(others) || looks.iter().any(|look| host.disturbed(*look, cores));
-        if disturbed && !busy_ok && repeated + 1 < ATTEMPTS {
+        if disturbed && !busy_ok && repeated + 1 < ATTEMPTS && !host.patience.is_zero() {
             repeated += 1;
+            host.lose(begun.elapsed());
             continue;
         }
         let understood = match racer {
@@ -92,6 +95,7 @@ pub fn run(
             memory,
             load: [before, others, taken],
             looks,
+            disturbed,
             repeated,
         });
     }

@@ -18,7 +18,8 @@ const ROUND_TRIPS: u32 = 20_000;
 const SLOW_STEP: f64 = 1.5;
 /// A round trip so many times as long as the quickest tells of cores that are far from each other.
 const FAR_CORES: f64 = 3.0;
-const PATIENCE: Duration = Duration::from_secs(20);
+/// The longest wait for one run.
+const WAIT: Duration = Duration::from_secs(20);
 
 /// One line of the cache: where the next one lies.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +40,8 @@ pub struct Look {
 pub struct Host {
     walk: Vec<Line>,
     quickest: Look,
+    /// How much longer runs may be put off and repeated for its sake.
+    pub patience: Duration,
 }
 
 impl Host {
@@ -46,7 +49,8 @@ impl Host {
         // A congruence of full period (Hull and Dobell 1962) comes by every line once, in no order that a cache foresees.
         let next = |line: usize| (line * 0x9E35 + 0x6D2B) % LINES;
         let walk = (0..LINES).map(|line| Line(next(line) as u32)).collect();
-        let mut host = Self { walk, quickest: Look { step: f64::INFINITY, trip: f64::INFINITY } };
+        let mut host =
+            Self { walk, quickest: Look { step: f64::INFINITY, trip: f64::INFINITY }, patience: Duration::ZERO };
         for _ in 0..10 {
             host.look();
         }
@@ -80,16 +84,22 @@ impl Host {
         look.step > SLOW_STEP * self.quickest.step || cores > 1 && look.trip > FAR_CORES * self.quickest.trip
     }
 
-    /// Waits a while for others to leave it alone; says how quick it is then.
+    /// Waits a while for others to leave it alone, if there is patience; says how quick it is then.
     pub fn wait(&mut self, cores: u32) -> Look {
         let begun = Instant::now();
         loop {
             let look = self.look();
-            if !self.disturbed(look, cores) || begun.elapsed() > PATIENCE {
+            if !self.disturbed(look, cores) || begun.elapsed() > WAIT.min(self.patience) {
+                self.lose(begun.elapsed());
                 return look;
             }
             sleep(Duration::from_millis(300));
         }
+    }
+
+    /// So much time went by for its sake.
+    pub fn lose(&mut self, time: Duration) {
+        self.patience = self.patience.saturating_sub(time);
     }
 }
 
@@ -152,7 +162,7 @@ mod tests {
 
     #[test]
     fn others_are_told_from_the_quickest() {
-        let host = Host { walk: Vec::new(), quickest: Look { step: 20.0, trip: 50.0 } };
+        let host = Host { walk: Vec::new(), quickest: Look { step: 20.0, trip: 50.0 }, patience: Duration::ZERO };
         let disturbed = |step, trip, cores| host.disturbed(Look { step, trip }, cores);
         assert!(disturbed(31.0, 50.0, 1) && !disturbed(29.0, 149.0, 2));
         assert!(disturbed(20.0, 330.0, 2) && !disturbed(20.0, 330.0, 1));

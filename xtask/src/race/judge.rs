@@ -151,6 +151,7 @@ mod tests {
             memory,
             load: [0.0; 3],
             looks: [Look { step: 20.0, trip: 80.0 }; 2],
+            disturbed: false,
             repeated: 0,
         }
     }

@@ -6,7 +6,7 @@ use super::host::Look;
 use super::judge::Verdict;
 use super::machine;
 use super::stable::{Stable, said};
-use super::{Heats, median};
+use super::{Heats, TRIES, median};
 use crate::shell::command;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -164,7 +164,7 @@ fn physics(page: &mut String, heats: &[Heats], verdict: &Verdict) {
 fn skins(page: &mut String, heats: &[Heats], _: &Verdict) {
     head(
         page,
-        "Skins tried on one core: million particle-steps per second, the best of two",
+        &format!("Skins tried on one core: million particle-steps per second, the best of {TRIES}"),
         "workload | code | skin over diameter: speed | taken",
     );
     for h in heats {
@@ -184,7 +184,7 @@ fn skins(page: &mut String, heats: &[Heats], _: &Verdict) {
 fn load(page: &mut String, heats: &[Heats], _: &Verdict) {
     let runs: Vec<&Run> = heats.iter().flat_map(|h| &h.runs).collect();
     let most = |i: usize| range(runs.iter().map(|run| run.load[i])).1;
-    let disturbed = runs.iter().filter(|run| run.load[1] > machine::QUIET).count();
+    let disturbed = runs.iter().filter(|run| run.disturbed).count();
     let repeated: u32 = runs.iter().map(|run| run.repeated).sum();
     let felt = |of: fn(Look) -> f64, run: &Run| of(run.looks[0]).max(of(run.looks[1]));
     let steps: Vec<f64> = runs.iter().map(|run| felt(|look| look.step, run)).collect();
@@ -195,8 +195,8 @@ fn load(page: &mut String, heats: &[Heats], _: &Verdict) {
         page,
         format_args!(
             "\n## Load by others\n\nMost cores used by other processes before a run: {:.2}, during one: {:.2}; by the host of a \
-             virtual machine during one: {:.2}.\nRuns kept with more than {} cores used by others: {disturbed} of {}; runs \
-             made again because of it, of a slow far cache, or of cores far from each other: {repeated}.\nThe longer of those \
+             virtual machine during one: {:.2}.\nRuns that count although others used more than {} cores, the far cache was slow \
+             or the cores were far from each other: {disturbed} of {}; made again because of that: {repeated}.\nThe longer of those \
              before and after a run: a step through the far cache {quickest:.0} to {slowest:.0} ns, median {:.0}; a line of the \
              cache from core to core and back {nearest:.0} to {farthest:.0} ns, median {:.0} (runs on two cores).",
             most(0),
@@ -269,6 +269,7 @@ fn run(heats: &Heats, run: &Run) -> Value {
         "cores taken by the host meanwhile": host,
         "far cache, before and after [ns a step]": run.looks.map(|look| look.step),
         "core to core and back, before and after [ns]": run.looks.map(|look| look.trip),
+        "disturbed": run.disturbed,
         "disturbed attempts before": run.repeated,
     })
 }
