@@ -133,11 +133,11 @@ impl Options {
     fn read(arguments: &[&str]) -> Result<Self, String> {
         let (mut peers, mut lammps) = (None, None);
         let (mut runs, mut out, mut only, mut busy_ok) = (5, None, Vec::new(), false);
-        let mut minutes = 10_u32;
+        let mut patience = Duration::from_mins(10);
         let mut words = arguments.iter();
         while let Some(word) = words.next() {
             if *word == "--busy-ok" {
-                busy_ok = true;
+                (busy_ok, patience) = (true, Duration::ZERO);
                 continue;
             }
             let value = words.next().ok_or_else(|| format!("`{word}` needs a value\n\n{USAGE}"))?;
@@ -146,7 +146,9 @@ impl Options {
                 "--lammps" => lammps = Some(PathBuf::from(value)),
                 "--runs" => runs = value.parse().map_err(|_| format!("--runs: `{value}` is not a whole number"))?,
                 "--patience" => {
-                    minutes = value.parse().map_err(|_| format!("--patience: `{value}` is not a whole number"))?;
+                    let minutes: u32 =
+                        value.parse().map_err(|_| format!("--patience: `{value}` is not a whole number"))?;
+                    patience = Duration::from_mins(minutes.into());
                 }
                 "--out" => out = Some(PathBuf::from(value)),
                 "--only" => only.push((*value).to_owned()),
@@ -157,7 +159,7 @@ impl Options {
         if runs == 0 {
             return Err("--runs: at least one".to_owned());
         }
-        Ok(Self { peers, lammps, runs, out, only, patience: Duration::from_secs(60 * u64::from(minutes)), busy_ok })
+        Ok(Self { peers, lammps, runs, out, only, patience, busy_ok })
     }
 }
 
@@ -189,9 +191,16 @@ mod tests {
         let read = Options::read(&["--peers", "p", "--lammps", "l", "--runs", "7", "--only", "W3", "--busy-ok"]);
         let read = read.expect("options");
         assert_eq!((read.runs, read.only.as_slice(), read.busy_ok), (7, ["W3".to_owned()].as_slice(), true));
-        for wrong in
-            [&["--peers", "p"][..], &["--runs"], &["--speed", "9"], &["--peers", "p", "--lammps", "l", "--runs", "0"]]
-        {
+        assert!(read.patience.is_zero(), "nothing is waited for");
+        let read = Options::read(&["--peers", "p", "--lammps", "l", "--patience", "7"]).expect("options");
+        assert_eq!(read.patience, Duration::from_mins(7));
+        for wrong in [
+            &["--peers", "p"][..],
+            &["--runs"],
+            &["--speed", "9"],
+            &["--peers", "p", "--lammps", "l", "--patience", "-1"],
+            &["--peers", "p", "--lammps", "l", "--runs", "0"],
+        ] {
             assert!(Options::read(wrong).is_err(), "{wrong:?}");
         }
     }

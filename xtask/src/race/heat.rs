@@ -59,7 +59,7 @@ pub fn run(
     let mut repeated = 0;
     loop {
         let before = quiet(busy_ok)?;
-        let look = if busy_ok { host.look() } else { host.wait(cores) };
+        let look = host.wait(cores);
         let begun = Instant::now();
         let command = stable.command(course, racer, cores, skin);
         let told = typed(&command);
@@ -68,7 +68,7 @@ pub fn run(
         let (others, taken) = load.others()?;
         let looks = [look, host.look()];
         let disturbed = load.disturbed(others) || looks.iter().any(|look| host.disturbed(*look, cores));
-        if disturbed && !busy_ok && repeated + 1 < ATTEMPTS && !host.patience.is_zero() {
+        if disturbed && repeated + 1 < ATTEMPTS && !host.patience.is_zero() {
             repeated += 1;
             host.lose(begun.elapsed());
             continue;
