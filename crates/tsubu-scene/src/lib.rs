@@ -38,6 +38,7 @@ mod check;
 mod complaint;
 mod files;
 mod grain_file;
+mod header;
 mod lines;
 mod mesh_check;
 mod mesh_file;

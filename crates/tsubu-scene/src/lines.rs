@@ -46,6 +46,12 @@ impl<'a> Line<'a> {
         Self { text, ..*self }
     }
 
+    /// The line behind the marks of comments that it begins with.
+    pub fn behind(&self, mark: char) -> Self {
+        let text = self.text.trim_start_matches(mark).trim_start();
+        Self { text, begin: self.begin + offset(self.text, text), ..*self }
+    }
+
     /// What separates the cells: a sign if there is one, otherwise blanks.
     pub fn separator(&self) -> Option<char> {
         [';', '\t', ','].into_iter().find(|separator| self.text.contains(*separator))

@@ -129,6 +129,36 @@ pub fn read(text: &str, want: &Dimension) -> Result<f64, UnitError> {
     }
 }
 
+/// A unit of a whole column, read once for all its numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scale(Option<Unit>);
+
+impl Scale {
+    /// Numbers that are SI already.
+    pub const SI: Self = Self(None);
+
+    /// The unit `text`, which must be one of `want`.
+    pub fn read(text: &str, want: &Dimension) -> Result<Self, UnitError> {
+        // As a quantity, so that what is wrong is said in the same words.
+        read(&format!("1 {text}"), want)?;
+        Ok(Self(expression::parse(text.trim()).ok()))
+    }
+
+    /// The number in SI; `None` where the text is no number, infinite where it is too large.
+    pub fn apply(self, number: &str) -> Option<f64> {
+        let plain: f64 = number.parse().ok()?;
+        Some(match self.0 {
+            Some(unit) if plain.is_finite() => scale(number, &unit),
+            _ => plain,
+        })
+    }
+}
+
+/// Whether the text alone is a unit of any kind.
+pub(crate) fn is_unit(text: &str) -> bool {
+    expression::parse(text).is_ok_and(|unit| unit.powers != NUMBER.powers)
+}
+
 /// Splits the longest number off the front. `6e3 m` has an exponent, `6 em` does not.
 fn split_number(text: &str) -> Option<(&str, &str)> {
     let bytes = text.as_bytes();

@@ -2,6 +2,7 @@ use crate::{GOOD, complaint, edited, read};
 use std::fs;
 use std::path::Path;
 use tsubu_scene::Scene;
+use tsubu_scene::plan::Signal;
 
 /// The message about the good scene with one piece replaced.
 fn about(from: &str, to: &str) -> String {
@@ -192,6 +193,36 @@ fn words_and_falling_time_in_a_table() {
 #[test]
 fn wrong_unit_in_the_header_of_a_table() {
     insta::assert_snapshot!(about_table(Some("time [s],force [N]\n0.0,0.0\n0.2,1\n")));
+}
+
+/// Units in round brackets, in names and in comments were passed over: milliseconds and millimetres were read as seconds
+/// and metres, wrong by a thousand.
+#[test]
+fn units_in_the_header_of_a_table_are_never_passed_over() {
+    let rows = "0,0\n100,1\n";
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let text = edited(
+        "base.sine = { amplitude = \"0.5 mm\", frequency = \"6 Hz\" }",
+        "base.table = { file = \"motion.csv\" }",
+    );
+    for head in ["time [ms],value [mm]", "time (ms),value (mm)", "\"t (ms)\",\"base (mm)\""] {
+        fs::write(folder.path().join("motion.csv"), format!("{head}\n{rows}")).expect("written");
+        let scene = Scene::parse("scene.toml", &text, folder.path(), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+        let base = scene.plan().hosts["spring"].base.clone();
+        let Some(Signal::Table { time, value }) = base else { panic!("a table") };
+        assert_eq!((time, value), (vec![0.0, 0.1], vec![0.0, 0.001]), "{head}");
+    }
+    let heads = [
+        "time [s],value [mm",
+        "time [s],value mm]",
+        "time [ms] of,value",
+        "time [s],value (mm) up",
+        "time,value_mm",
+        "time/ms,value",
+        "value,time",
+        "# time [ms],value [mm]",
+    ];
+    insta::assert_snapshot!(heads.map(|head| about_table(Some(&format!("{head}\n{rows}")))).join("\n\n"));
 }
 
 #[test]

@@ -240,7 +240,7 @@ fn a_scene_with_files_means_the_same_in_its_run_folder() {
         "some/where/all.data",
         &format!("title\n2 atoms\n\nAtoms # sphere\n\n{atoms}\nVelocities\n\n1 0 0 0 0 0 0\n7 1 2 3 4 5 6\n"),
     );
-    write("a.stl", "facet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\n");
+    write("a.stl", "solid a\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\nendsolid a\n");
     let scene = Scene::parse("scene.toml", IN_SPACE, folder.path(), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
     let Start::File { grains, path, .. } = &scene.plan().particles["bed"].start else { panic!("from a file") };
     assert_eq!(

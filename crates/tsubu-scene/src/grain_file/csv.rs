@@ -1,26 +1,38 @@
 //! CSV: a header line that names the columns, or bare rows of numbers.
 //!
 //! Header cells are `x`, `y`, `z`, `d` or `diameter`, `r` or `radius`, `vx` ..., `wx` ..., with or without a unit in
-//! brackets. Without a header the columns are x, y, z and, if there is a fourth, the radius; in the plane x, z and, if
+//! brackets. What tells grains from each other (`id`, `name` ...) is passed over; any other column is refused. Without a header the columns are x, y, z and, if there is a fourth, the radius; in the plane x, z and, if
 //! there is a third, the radius. Lines that begin with `#` are passed over.
 
 use super::{Column, Rows, Slot};
 use crate::complaint::Complaint;
+use crate::header::{self, Header};
 use crate::lines::{Cell, Line, lines};
 use crate::suggest;
-use crate::units::{self, Dimension, LENGTH, SPEED, SPIN};
+use crate::units::{Dimension, LENGTH, SPEED, SPIN};
 
 const NAMES: [&str; 13] = ["x", "y", "z", "d", "diameter", "r", "radius", "vx", "vy", "vz", "wx", "wy", "wz"];
+/// What other codes write beside and no number of a grain depends on; a column without a name counts rows.
+const PASSED_OVER: [&str; 9] = ["id", "index", "type", "kind", "name", "species", "material", "group", ""];
 
 pub(super) fn read(text: &str, rows: &mut Rows) {
     let mut layout: Option<(Option<char>, Vec<Column>)> = None;
-    for line in lines(text).filter(|line| !line.text.is_empty() && !line.text.starts_with('#')) {
+    let mut comment = None;
+    for line in lines(text).filter(|line| !line.text.is_empty()) {
+        if line.text.starts_with('#') {
+            comment = Some(line);
+            continue;
+        }
         let (separator, columns) = if let Some(known) = &layout {
             known
         } else {
             let separator = line.separator();
-            let cells: Vec<Cell<'_>> = line.cells(separator).collect();
-            let named = cells.iter().any(|cell| is_name(cell.text));
+            let cells = header::cells(&line, separator);
+            let hidden = comment.take().and_then(|comment| header::commented_out(&comment, &cells, rows.source));
+            if let Some(complaint) = hidden {
+                return rows.complain(complaint);
+            }
+            let named = cells.iter().any(|cell| header::is_name(cell.text));
             let columns = if named { header(&line, &cells, rows) } else { bare(&line, cells.len(), rows) };
             let Some(columns) = columns else { return };
             layout = Some((separator, columns));
@@ -36,11 +48,6 @@ pub(super) fn read(text: &str, rows: &mut Rows) {
             return;
         }
     }
-}
-
-/// Words, not numbers. `nan` is a number gone wrong, not a word.
-fn is_name(cell: &str) -> bool {
-    cell.parse::<f64>().is_err() && cell.trim_matches('"').starts_with(char::is_alphabetic)
 }
 
 fn bare(line: &Line<'_>, count: usize, rows: &mut Rows) -> Option<Vec<Column>> {
@@ -66,42 +73,11 @@ fn header(line: &Line<'_>, cells: &[Cell<'_>], rows: &mut Rows) -> Option<Vec<Co
     let known_complaints = rows.complaints.len();
     let mut columns: Vec<Column> = Vec::new();
     for cell in cells {
-        let text = cell.text.trim_matches('"');
-        let (name, unit) = match text.split_once('[') {
-            Some((name, rest)) => (name, rest.split(']').next().unwrap_or_default().trim()),
-            None => (text, ""),
-        };
-        let name = name.trim().to_lowercase();
-        let Some((mut column, dimension)) = column(&name) else {
-            // What other codes write beside (id, mass, density) is passed over; a slip of the hand must not be.
-            if let Some(near) = suggest::nearest(&name, NAMES) {
-                rows.complain(
-                    Complaint::new(format!("unknown column `{name}`"))
-                        .at(&cell.place(rows.source), "not a column of grains")
-                        .hint(format!("did you mean `{near}`?"))
-                        .hint(format!("columns: {}", suggest::list(NAMES))),
-                );
-            }
-            columns.push(Column::new(Slot::Skip));
-            continue;
-        };
-        if columns.iter().any(|other| other.slot == column.slot) {
-            rows.complain(
-                Complaint::new(format!("the column `{name}` says again what another one says"))
-                    .at(&cell.place(rows.source), "a second time"),
-            );
+        let read = Header::read(*cell, rows.source);
+        match read.and_then(|header| header_column(&header, &columns, rows.source)) {
+            Ok(column) => columns.push(column),
+            Err(complaint) => rows.complain(complaint),
         }
-        if !unit.is_empty() {
-            match units::read(&format!("1 {unit}"), dimension) {
-                Ok(scale) => column.scale *= scale,
-                Err(error) => rows.complain(
-                    Complaint::new(format!("the unit [{unit}] does not fit: {}", error.title))
-                        .at(&cell.place(rows.source), format!("needs {}", dimension.name))
-                        .hints(error.hints),
-                ),
-            }
-        }
-        columns.push(column);
     }
     let needed: &[(usize, &str)] = if rows.how.space { &[(0, "x"), (1, "y"), (2, "z")] } else { &[(0, "x"), (2, "z")] };
     let missing = needed.iter().filter(|(axis, _)| !columns.iter().any(|c| c.slot == Slot::Position(*axis)));
@@ -114,6 +90,31 @@ fn header(line: &Line<'_>, cells: &[Cell<'_>], rows: &mut Rows) -> Option<Vec<Co
         );
     }
     (rows.complaints.len() == known_complaints).then_some(columns)
+}
+
+fn header_column(header: &Header<'_>, others: &[Column], source: usize) -> Result<Column, Complaint> {
+    let name = header.name.to_lowercase();
+    let place = header.cell.place(source);
+    let Some((mut column, dimension)) = column(&name) else {
+        if PASSED_OVER.contains(&name.as_str()) {
+            return Ok(Column::new(Slot::Skip));
+        }
+        let complaint =
+            Complaint::new(format!("unknown column `{}`", header.name)).at(&place, "not a column of grains");
+        let complaint = match (header.unit_in_the_name(), suggest::nearest(&name, NAMES)) {
+            (Some(unit), _) => complaint.hint(format!("a unit stands in brackets: `x [{unit}]`")),
+            (None, Some(near)) => complaint.hint(format!("did you mean `{near}`?")),
+            (None, None) => complaint.hint("take it out of the file if the grains do not need it"),
+        };
+        return Err(complaint.hint(format!("columns: {}", suggest::list(NAMES))));
+    };
+    if others.iter().any(|other| other.slot == column.slot) {
+        return Err(
+            Complaint::new(format!("the column `{name}` says again what another one says")).at(&place, "a second time")
+        );
+    }
+    column.scale = header.scale(source, dimension)?;
+    Ok(column)
 }
 
 fn column(name: &str) -> Option<(Column, &'static Dimension)> {

@@ -2,9 +2,12 @@
 //! image flags) and `Velocities` (id vx vy vz wx wy wz). Densities are the materials' here, and are passed over.
 
 use super::{Column, Rows, Slot};
-use crate::complaint::Complaint;
+use crate::complaint::{Complaint, Place};
 use crate::lines::{Line, lines};
+use crate::suggest;
 use std::collections::{BTreeSet, HashMap, HashSet};
+
+const SECTIONS: [&str; 3] = ["Atoms", "Velocities", "Masses"];
 
 /// Where in the file a line is.
 #[derive(Clone, Copy, Default, PartialEq)]
@@ -18,8 +21,12 @@ enum Section {
 
 pub(super) fn read(text: &str, rows: &mut Rows) {
     let mut file = File::default();
-    // The first line is a title, whatever it says.
-    for line in lines(text).skip(1) {
+    let mut all = lines(text);
+    // The first line is a title, but `write_data` tells the units there.
+    if let Some(complaint) = all.next().and_then(|title| other_units(&title, rows.source)) {
+        return rows.complain(complaint);
+    }
+    for line in all {
         let bare = line.before('#');
         // Small letters are no section but a slip in a row.
         let goes_on = if bare.text.is_empty() {
@@ -28,10 +35,7 @@ pub(super) fn read(text: &str, rows: &mut Rows) {
             file.begin(line, &bare, rows)
         } else {
             match file.section {
-                Section::Head => {
-                    file.head(line, &bare);
-                    Ok(())
-                }
+                Section::Head => file.head(line, &bare, rows),
                 Section::Other => Ok(()),
                 Section::Atoms => file.atom(line, &bare, rows),
                 Section::Velocities => file.velocity(line, &bare, rows),
@@ -48,6 +52,17 @@ pub(super) fn read(text: &str, rows: &mut Rows) {
     {
         rows.complain(complaint);
     }
+}
+
+/// `... timestep = 1000, units = cgs` in the title of what `write_data` wrote.
+fn other_units(title: &Line, source: usize) -> Option<Complaint> {
+    let (_, units) = title.text.split_once("units =")?;
+    let units = units.split([',', ' ']).find(|word| !word.is_empty())?;
+    (units != "si").then(|| {
+        Complaint::new(format!("the file is in the units `{units}` of LAMMPS"))
+            .at(&title.place(source), "only SI units are read")
+            .hint("convert it to `units si`")
+    })
 }
 
 /// Why reading ends before the file.
@@ -87,7 +102,15 @@ impl<'a> File<'a> {
         self.section = match bare.text {
             "Atoms" => Section::Atoms,
             "Velocities" => Section::Velocities,
-            _ => Section::Other,
+            // Spheres have their masses from densities; coefficients and labels are those of the laws of LAMMPS.
+            "Masses" => Section::Other,
+            other if other.ends_with(" Coeffs") || other.ends_with(" Type Labels") => Section::Other,
+            other => {
+                let complaint = Complaint::new(format!("the section `{other}` cannot be read"))
+                    .at(&bare.place(rows.source), "not a section of grains");
+                let near = suggest::nearest(other, SECTIONS).map(|near| format!("did you mean `{near}`?"));
+                return Err(complaint.hints(near).hint(format!("sections: {}", suggest::list(SECTIONS))).into());
+            }
         };
         if self.section == Section::Velocities {
             if self.atoms.is_empty() && rows.complaints.is_empty() {
@@ -109,13 +132,29 @@ impl<'a> File<'a> {
         }
     }
 
-    fn head(&mut self, line: Line<'a>, bare: &Line) {
-        if let Some(count) = bare.text.strip_suffix("atoms").and_then(|count| count.trim().parse().ok()) {
-            self.promised = Some((count, line));
+    fn head(&mut self, line: Line<'a>, bare: &Line, rows: &Rows) -> Result<(), Stop> {
+        let words: Vec<&str> = bare.text.split_whitespace().collect();
+        match words.as_slice() {
+            [count, "atoms"] => self.promised = count.parse().ok().map(|count| (count, line)),
+            [count, "atom", "types"] => self.most_kinds = count.parse().ok(),
+            // The ends of the world are the scene's own, and what is bound has its sections.
+            [_, "bonds" | "angles" | "dihedrals" | "impropers" | "ellipsoids" | "lines" | "triangles" | "bodies"]
+            | [_, "bond" | "angle" | "dihedral" | "improper", "types"]
+            | [_, _, "xlo", "xhi"]
+            | [_, _, "ylo", "yhi"]
+            | [_, _, "zlo", "zhi"]
+            | [_, _, _, "xy", "xz", "yz"]
+            | [_, _, _, "avec" | "bvec" | "cvec"]
+            | [_, _, _, "abc", "origin"]
+            | [_, "extra", ..] => {}
+            _ => {
+                return Err(Complaint::new("a line of the head cannot be read")
+                    .at(&bare.place(rows.source), "not a line of the head of a LAMMPS data file")
+                    .hint("for example `2 atoms`, `1 atom types`, `0 0.1 xlo xhi`")
+                    .into());
+            }
         }
-        if let Some(count) = bare.text.strip_suffix("atom types") {
-            self.most_kinds = count.trim().parse().ok();
-        }
+        Ok(())
     }
 
     fn atom(&mut self, line: Line, bare: &Line, rows: &mut Rows) -> Result<(), Stop> {
@@ -168,6 +207,13 @@ impl<'a> File<'a> {
     /// What only the end of the file can tell.
     fn whole(&self, rows: &Rows) -> Option<Complaint> {
         let (found, moved) = (self.found, self.moved.len());
+        if self.promised.is_none() {
+            return Some(
+                Complaint::new("the head of the file does not say how many atoms there are")
+                    .at(&Place::new(rows.source, 0..0), "no line such as `2 atoms`")
+                    .hint("without it nobody can tell whether the file is whole"),
+            );
+        }
         if let Some((count, line)) = self.promised.filter(|(count, _)| *count != found) {
             let complaint = Complaint::new(format!("the file promises {count} atoms and has {found}"))
                 .at(&line.place(rows.source), format!("says {count}"));

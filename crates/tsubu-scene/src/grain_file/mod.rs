@@ -10,6 +10,7 @@ mod xyz;
 use crate::complaint::{Complaint, Place};
 use crate::lines::{Cell, Line, MOST_COMPLAINTS};
 use crate::plan::{GrainTable, Vector};
+use crate::units::Scale;
 use std::sync::Arc;
 
 /// What a file holds, and where.
@@ -82,20 +83,21 @@ enum Slot {
     Kind,
 }
 
-/// A column and the factor that makes its numbers SI; a radius is a diameter with the factor 2.
+/// A column and what makes its numbers SI; a radius is a diameter with the factor 2.
 #[derive(Clone, Copy, Debug)]
 struct Column {
     slot: Slot,
-    scale: f64,
+    scale: Scale,
+    factor: f64,
 }
 
 impl Column {
     const fn new(slot: Slot) -> Self {
-        Self { slot, scale: 1.0 }
+        Self { slot, scale: Scale::SI, factor: 1.0 }
     }
 
     const fn radius() -> Self {
-        Self { slot: Slot::Diameter, scale: 2.0 }
+        Self { factor: 2.0, ..Self::new(Slot::Diameter) }
     }
 }
 
@@ -169,10 +171,10 @@ impl Rows {
             }
             _ => {}
         }
-        let plain: f64 = cell.text.parse().map_err(|_| {
+        let plain = column.scale.apply(cell.text).ok_or_else(|| {
             Complaint::new(format!("`{}` is not a number", cell.text)).at(&cell.place(self.source), "needs a number")
         })?;
-        let number = plain * column.scale;
+        let number = plain * column.factor;
         if !number.is_finite() {
             return Err(Complaint::new(format!("`{}` is not a finite number", cell.text))
                 .at(&cell.place(self.source), "needs a number"));

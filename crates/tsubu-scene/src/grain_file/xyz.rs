@@ -3,6 +3,10 @@
 use super::{Column, Rows, Slot};
 use crate::complaint::{Complaint, Place};
 use crate::lines::{Line, lines};
+use crate::suggest;
+
+/// Properties that are read.
+const KNOWN: [&str; 5] = ["pos", "velo", "omega", "radius", "diameter"];
 
 /// What a file without `Properties` holds.
 const PLAIN: &str = "species:S:1:pos:R:3";
@@ -82,7 +86,19 @@ fn properties(comment: &Line<'_>, rows: &mut Rows) -> Option<Vec<Column>> {
             "omega" | "spin" | "angular_velocity" => [0, 1, 2].map(|axis| Column::new(Slot::Spin(axis))),
             "radius" => [Column::radius(); 3],
             "diameter" => [Column::new(Slot::Diameter); 3],
-            _ => [Column::new(Slot::Skip); 3],
+            // Writers of this format add what they like, under names of their own; a slip of the hand must not be lost.
+            _ => {
+                let near = suggest::nearest(&name, KNOWN).filter(|near| near.len().abs_diff(name.len()) <= 2);
+                if let Some(near) = near {
+                    rows.complain(
+                        Complaint::new(format!("unknown property `{name}`"))
+                            .at(&place, "in this list")
+                            .hint(format!("did you mean `{near}`?")),
+                    );
+                    return None;
+                }
+                [Column::new(Slot::Skip); 3]
+            }
         };
         let needs = match slots[0].slot {
             Slot::Skip => width,
