@@ -5,6 +5,7 @@ mod architecture;
 mod bench;
 mod check;
 mod generate;
+mod guard;
 mod race;
 mod shell;
 mod smoke;
@@ -20,6 +21,8 @@ cargo xtask CHORE
   test                all tests; with Python 3, also those that read written frames back with VTK
   gen [--check]       write the generated pages, or only say which are out of date
   smoke               run every scene for a moment
+  fuzz [--seed N] [--seconds S] [--cases N] [--only KIND] [--case N]
+                      draw scenes, files and command lines, and hold tsubu against them; --help says more
   bench [ARGUMENT]... the benchmarks; arguments go to cargo bench
   race --peers DIR --lammps LMP [--runs 5] [--out NAME]
                       the race against LAMMPS; fails where a promise is not kept (Linux, about a quarter of an hour)
@@ -35,6 +38,7 @@ fn main() -> ExitCode {
         ["gen"] => generate::write(),
         ["gen", "--check"] => generate::check(),
         ["smoke"] => smoke::smoke(),
+        ["fuzz", rest @ ..] => guard::guard("fuzz", rest),
         ["bench", rest @ ..] => bench::bench(rest),
         ["race", rest @ ..] => race::race(rest),
         [] | ["help" | "--help" | "-h"] => {

@@ -1,0 +1,10 @@
+//! The standing guards: fuzzers, kills.
+
+use crate::shell::cargo;
+
+/// A guard with its arguments.
+pub fn guard(name: &str, arguments: &[&str]) -> Result<(), String> {
+    // Some cases are calls of the program.
+    cargo(&["build", "--package", "tsubu-cli", "--package", "tsubu-guard", "--quiet"])?;
+    cargo(&[&["run", "--package", "tsubu-guard", "--quiet", "--", name], arguments].concat())
+}
