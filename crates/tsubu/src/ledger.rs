@@ -187,6 +187,12 @@ impl Ledger {
         self.flows[account as usize] += energy;
     }
 
+    /// Sets an account to what it has come to since time 0 [J]: of rows that only a balance can tell.
+    #[inline]
+    pub fn set(&mut self, account: Account, energy: f64) {
+        self.flows[account as usize] = energy;
+    }
+
     /// Energy posted to an account since time 0 [J].
     pub fn flow(&self, account: Account) -> f64 {
         self.flows[account as usize]

@@ -5,6 +5,7 @@ mod allocation;
 mod clca;
 mod contact;
 mod dem;
+mod grouping;
 mod host;
 mod lattice;
 mod verify;

@@ -108,6 +108,7 @@ impl DemEngine {
         self.grains.save("grains", state);
         let counts = [self.step, self.grain_steps, self.sums.contacts as u64, self.grains.len() as u64];
         state.put_integer("dem.step", counts.map(|n| n as i64).to_vec());
+        state.put_real("dem.moved-mass", vec![self.total_mass]);
         self.orientation.save(state);
         state.put_integer("dem.streams", self.sources.placed());
         let mut reals = self.last_flows.powers.to_vec();
@@ -145,7 +146,9 @@ impl DemEngine {
             return Err(missing("dem.step"));
         };
         self.grains = Grains::load("grains", grains as usize, state)?;
-        self.total_mass = self.grains.moved_mass();
+        // Added up anew, in the order that grains have now, it would be another number in its last digits.
+        let &[mass] = state.real("dem.moved-mass")? else { return Err(missing("dem.moved-mass")) };
+        self.total_mass = mass;
         (self.step, self.grain_steps, self.sums.contacts) = (step as u64, grain_steps as u64, contacts as usize);
         self.place_gates();
         self.orientation.load(state)?;

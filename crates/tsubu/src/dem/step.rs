@@ -37,8 +37,9 @@ impl DemEngine {
         }
         self.touch_all();
         self.check_overlap()?;
-        self.finish(self.dt, go_on);
+        // Before positions may go on to the next step: the stream looks where the grains are now.
         self.flow_on(ledger);
+        self.finish(self.dt, go_on);
         self.reactions(hosts, ledger);
         hosts.after(time, self.dt, &self.host_forces, ledger);
         self.close_books(ledger);

@@ -184,6 +184,8 @@ impl CaramHong {
                         self.sheet.cells[to] = grain;
                         self.bits.grain[cell] |= bit;
                         self.bits.hole[cell] &= !bit;
+                    } else {
+                        self.sheet.gone.push((grain, to));
                     }
                 }
             }

@@ -66,6 +66,8 @@ pub struct LatticeGrains {
     pub contacts: usize,
     /// Nodes on which grains vanish; none if it is empty.
     pub outlet: Vec<bool>,
+    /// Grains that have gone since somebody took note.
+    pub left: Vec<usize>,
     wants: Vec<Option<(Direction, f64)>>,
 }
 
@@ -100,7 +102,7 @@ impl LatticeGrains {
         }
         let wants = vec![None; grains.len()];
         let (pushes, outlet) = (Vec::new(), Vec::new());
-        Self { grid, grains, gravity, restitution, seed, step: 0, pushes, contacts: 0, outlet, wants }
+        Self { grid, grains, gravity, restitution, seed, step: 0, pushes, contacts: 0, outlet, left: Vec::new(), wants }
     }
 
     /// One step.
@@ -232,7 +234,9 @@ impl LatticeGrains {
                 self.grid.set(node, EMPTY);
                 self.grains[number].node = to;
                 self.grains[number].gone = self.outlet.get(to) == Some(&true);
-                if !self.grains[number].gone {
+                if self.grains[number].gone {
+                    self.left.push(number);
+                } else {
                     self.grid.set(to, number as i32);
                 }
                 add(&mut self.grains[number].offset, -1.0, along(direction));

@@ -80,7 +80,9 @@ impl Litwiniszyn {
                 break;
             };
             let grain = self.sheet.cells[next];
-            if here != outlet {
+            if here == outlet {
+                self.sheet.gone.push((grain, here));
+            } else {
                 self.sheet.cells[here] = grain;
             }
             self.sheet.cells[next] = EMPTY;

@@ -32,12 +32,14 @@ pub struct Sheet {
     rows: usize,
     /// A grain's number, [`EMPTY`], [`WALL`] or [`OUT`].
     pub cells: Vec<i32>,
+    /// Grains that have gone out since somebody took note, each with its outlet.
+    pub gone: Vec<(i32, usize)>,
 }
 
 impl Sheet {
     /// Empty sites within a rim of walls; the rim counts.
     pub fn new(layout: Layout, columns: usize, rows: usize) -> Self {
-        let mut sheet = Self { layout, columns, rows, cells: vec![WALL; columns * rows] };
+        let mut sheet = Self { layout, columns, rows, cells: vec![WALL; columns * rows], gone: Vec::new() };
         for row in 1..rows - 1 {
             for column in 1..columns - 1 {
                 let site = sheet.index(column, row);

@@ -59,6 +59,8 @@ pub struct Pile {
     kinds: Vec<u32>,
     /// Grains that left the lattice, by kind.
     gone: Vec<u64>,
+    /// Grains that left the lattice or were cleared since somebody took note, and from where.
+    pub departed: Vec<(u32, Place)>,
     /// Grains at rest that were knocked loose or lost their ground.
     loosened: u64,
     /// How often each grain has crossed the high end of a periodic x, less how often the low one.
@@ -71,7 +73,7 @@ impl Pile {
         let (rest, taken) = (vec![NOBODY; sites.count()], vec![0; sites.count()]);
         let gone = vec![0; habits.friction.len()];
         let (flyers, kinds, laps) = (Vec::new(), Vec::new(), Vec::new());
-        Self { sites, habits, seed, step: 0, rest, taken, flyers, kinds, gone, loosened: 0, laps }
+        Self { sites, habits, seed, step: 0, rest, taken, flyers, kinds, gone, departed: Vec::new(), loosened: 0, laps }
     }
 
     /// Makes a site a wall.
@@ -171,14 +173,20 @@ impl Pile {
 
     /// Takes everybody from some sites who is there; on walls nobody is.
     pub fn clear(&mut self, sites: &[bool]) {
-        let Self { sites: lattice, taken, .. } = self;
+        let Self { sites: lattice, taken, departed, .. } = self;
         self.flyers.retain(|flyer| {
             let site = lattice.index(flyer.column as usize, flyer.row as usize);
-            taken[site] &= if sites[site] { !(1 << flyer.way) } else { !0 };
+            if sites[site] {
+                taken[site] &= !(1 << flyer.way);
+                departed.push((flyer.who, Place { site, way: Some(Direction::from_index(usize::from(flyer.way))) }));
+            }
             !sites[site]
         });
         for site in (0..sites.len()).filter(|site| sites[*site]) {
             if self.rest[site] < WALL {
+                if self.rest[site] != NOBODY {
+                    self.departed.push((self.rest[site], Place { site, way: None }));
+                }
                 self.rest[site] = NOBODY;
                 let (column, row) = self.sites.place(site);
                 self.fall_from_above(column, row);
@@ -259,6 +267,7 @@ impl Pile {
             let Some((c, r)) = self.sites.neighbour(column, row, way) else {
                 if way.k() < 0 || way.h() != 0 {
                     self.gone[kind] += 1;
+                    self.departed.push((who, Place { site, way: Some(way) }));
                     return;
                 }
                 return self.turn(column, row, &[Direction::S], who);

@@ -28,6 +28,12 @@ impl Avalanche {
         }
         Self { pile, outlets: flags, leaks: !outlets.is_empty() }
     }
+
+    fn seat(&self, grain: usize, Place { site, way }: Place) -> Seat {
+        let way = way.map_or([0.0; 3], Direction::unit);
+        let laps = [self.pile.laps[grain], 0];
+        Seat { grain, site, offset: [0.0; 2], velocity: [way[0], way[2]], laps }
+    }
 }
 
 impl Model for Avalanche {
@@ -45,10 +51,8 @@ impl Model for Avalanche {
 
     fn seats(&self, each: &mut dyn FnMut(Seat)) {
         for (grain, place) in self.pile.places().into_iter().enumerate() {
-            if let Some(Place { site, way }) = place {
-                let way = way.map_or([0.0; 3], Direction::unit);
-                let laps = [self.pile.laps[grain], 0];
-                each(Seat { grain, site, offset: [0.0; 2], velocity: [way[0], way[2]], laps });
+            if let Some(place) = place {
+                each(self.seat(grain, place));
             }
         }
     }
@@ -62,8 +66,14 @@ impl Model for Avalanche {
         (REST + 1, f64::INFINITY)
     }
 
-    fn enter(&mut self, grain: usize, site: usize) -> bool {
-        self.pile.release(site, grain as u32)
+    fn departed(&mut self) -> Vec<Seat> {
+        let departed = std::mem::take(&mut self.pile.departed);
+        departed.into_iter().map(|(grain, place)| self.seat(grain as usize, place)).collect()
+    }
+
+    fn enter(&mut self, grain: usize, site: usize) -> Option<Seat> {
+        let free = self.pile.release(site, grain as u32);
+        free.then(|| self.seat(grain, Place { site, way: Some(Direction::S) }))
     }
 
     fn save(&self, state: &mut State) {

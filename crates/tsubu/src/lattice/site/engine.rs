@@ -1,7 +1,7 @@
 //! A model whose grains are on sites as an engine: lengths, times, masses, gates, and the books.
 //!
-//! What gravity gives to grains that hop, and what walls and collisions take, is posted as one row, `lattice rules`, and as
-//! rule impulse: the books say how much the rules did, not why.
+//! What gravity gives to grains that hop, and what walls and collisions take, is one row, `lattice rules`, and a rule impulse: the
+//! books say how much the rules did, not why. It is found as what is left over, while every grain that comes or goes is posted.
 
 use super::ground::{Ground, NOBODY};
 use super::start::Stream;
@@ -48,8 +48,10 @@ pub struct SiteEngine {
     scene: Scene,
     dt: f64,
     notes: Vec<Note>,
-    /// Energy and momentum of every grain when the books were last written; `None`: gone.
-    books: Vec<Option<(f64, DVec3)>>,
+    /// Grains that are there.
+    present: usize,
+    /// Energy [J] and momentum [N.s] of all grains at time 0.
+    opening: (f64, DVec3),
 }
 
 /// A grain in metres and seconds.
@@ -63,64 +65,67 @@ struct Body {
 
 impl SiteEngine {
     pub(super) fn new(model: Box<dyn Model>, scene: Scene, dt: f64, notes: Vec<Note>) -> Self {
-        let mut engine = Self { model, scene, dt, notes, books: Vec::new() };
-        engine.books = engine.count();
+        let mut engine = Self { model, scene, dt, notes, present: 0, opening: (0.0, DVec3::ZERO) };
+        engine.opening = engine.held();
+        engine.present = engine.count();
         engine
+    }
+
+    fn count(&self) -> usize {
+        let mut count = 0;
+        self.model.seats(&mut |_| count += 1);
+        count
     }
 
     fn bodies(&self) -> Vec<Body> {
         let mut bodies = Vec::new();
-        let (spacing, speed) = (self.scene.ground.spacing, self.scene.ground.spacing / self.dt);
-        let [x, _, z] = self.scene.ground.ends().map(|ends| ends.map_or(0.0, |[low, high]| high - low));
-        self.model.seats(&mut |Seat { grain, site, offset, velocity, laps }| {
-            let position = self.scene.ground.point(site) + spacing * DVec3::new(offset[0], 0.0, offset[1]);
-            let velocity = speed * DVec3::new(velocity[0], 0.0, velocity[1]);
-            let wrapped = DVec3::new(x * f64::from(laps[0]), 0.0, z * f64::from(laps[1]));
-            bodies.push(Body { grain, position, velocity, wrapped });
-        });
+        self.model.seats(&mut |seat| bodies.push(self.body(&seat)));
         bodies
     }
 
-    /// Energy and momentum of every grain.
-    fn count(&self) -> Vec<Option<(f64, DVec3)>> {
-        let mut books = vec![None; self.scene.mass.len()];
-        for Body { grain, position, velocity, wrapped } in self.bodies() {
-            let mass = self.scene.mass[grain];
-            let energy = mass * (0.5 * velocity.length_squared() - self.scene.gravity.dot(position + wrapped));
-            books[grain] = Some((energy, mass * velocity));
-        }
-        books
+    fn body(&self, &Seat { grain, site, offset, velocity, laps }: &Seat) -> Body {
+        let (spacing, speed) = (self.scene.ground.spacing, self.scene.ground.spacing / self.dt);
+        let [x, _, z] = self.scene.ground.ends().map(|ends| ends.map_or(0.0, |[low, high]| high - low));
+        let position = self.scene.ground.point(site) + spacing * DVec3::new(offset[0], 0.0, offset[1]);
+        let velocity = speed * DVec3::new(velocity[0], 0.0, velocity[1]);
+        let wrapped = DVec3::new(x * f64::from(laps[0]), 0.0, z * f64::from(laps[1]));
+        Body { grain, position, velocity, wrapped }
     }
 
-    /// Posts what grains took that left or brought that came, and what the rules did to the others.
-    fn close(&mut self, ledger: &mut Ledger) {
-        let now = self.count();
-        let (mut left, mut lost) = (0.0, 0.0);
-        let (mut taken, mut made) = (DVec3::ZERO, DVec3::ZERO);
-        for (then, now) in self.books.iter().zip(&now) {
-            match (then, now) {
-                (Some((e, p)), None) => {
-                    left += e;
-                    taken += *p;
-                }
-                (Some((e, p)), Some((f, q))) => {
-                    lost += e - f;
-                    made += *q - *p;
-                }
-                (None, Some((f, q))) => {
-                    left -= f;
-                    taken -= *q;
-                }
-                (None, None) => {}
-            }
+    /// Energy [J] and momentum [N.s] of a grain.
+    fn energy_and_momentum(&self, &Body { grain, position, velocity, wrapped }: &Body) -> (f64, DVec3) {
+        let mass = self.scene.mass[grain];
+        let energy = mass * (0.5 * velocity.length_squared() - self.scene.gravity.dot(position + wrapped));
+        (energy, mass * velocity)
+    }
+
+    /// The same of all grains that are there.
+    fn held(&self) -> (f64, DVec3) {
+        let (mut energy, mut momentum) = (0.0, DVec3::ZERO);
+        self.model.seats(&mut |seat| {
+            let (e, p) = self.energy_and_momentum(&self.body(&seat));
+            energy += e;
+            momentum += p;
+        });
+        (energy, momentum)
+    }
+
+    /// Posts what a grain brings that comes (`sign` 1), or takes that goes (-1), in the step in which it does so.
+    fn exchange(&mut self, sign: f64, seat: &Seat, ledger: &mut Ledger) {
+        let (energy, momentum) = self.energy_and_momentum(&self.body(seat));
+        ledger.post(Account::Exchange, sign * energy);
+        for (impulse, p) in ledger.exchange_impulse.iter_mut().zip(momentum.to_array()) {
+            *impulse += sign * p;
         }
-        ledger.post(Account::Exchange, -left);
-        ledger.post(Account::LatticeRules, lost);
-        for axis in 0..3 {
-            ledger.exchange_impulse[axis] -= taken[axis];
-            ledger.rule_impulse[axis] += made[axis];
-        }
-        self.books = now;
+    }
+
+    /// What the rules have done since time 0 is what nothing else explains. It is found from the state of this moment alone: a sum
+    /// over calls would depend on how steps are shared out among them.
+    fn balance(&self, ledger: &mut Ledger) {
+        let (energy, momentum) = self.held();
+        ledger.set(Account::LatticeRules, self.opening.0 + ledger.flow(Account::Exchange) - energy);
+        let made = momentum - self.opening.1 - DVec3::from_array(ledger.exchange_impulse);
+        ledger.rule_impulse = made.to_array();
     }
 
     /// Walls whose time has come vanish from the lattice.
@@ -141,7 +146,8 @@ impl SiteEngine {
     }
 
     /// Grains of streams come in where there is room, from a site drawn at random on.
-    fn arrive(&mut self, time: f64) {
+    fn arrive(&mut self, time: f64, ledger: &mut Ledger) {
+        let mut came = Vec::new();
         for Stream { first, count, sites, rate, from, placed } in &mut self.scene.streams {
             let due = ((time - *from) * *rate + 1.0).max(0.0) as usize;
             while *placed < due.min(*count) {
@@ -149,12 +155,22 @@ impl SiteEngine {
                 let [draw, ..] = words(self.scene.seed, Purpose::Stream, grain as u32, self.model.step());
                 let begin = ((u64::from(draw) * sites.len() as u64) >> 32) as usize;
                 let (before, after) = sites.split_at(begin);
-                if !after.iter().chain(before).any(|&site| self.model.enter(grain, site)) {
+                let Some(seat) = after.iter().chain(before).find_map(|&site| self.model.enter(grain, site)) else {
                     break;
-                }
+                };
+                came.push(seat);
                 *placed += 1;
             }
         }
+        self.present += came.len();
+        came.iter().for_each(|seat| self.exchange(1.0, seat, ledger));
+    }
+
+    /// Takes note of the grains that went in the last step.
+    fn depart(&mut self, ledger: &mut Ledger) {
+        let gone = self.model.departed();
+        self.present -= gone.len();
+        gone.iter().for_each(|seat| self.exchange(-1.0, seat, ledger));
     }
 
     /// Where every grain is, without the ends of a world that repeats itself; nowhere: it has not come yet, or is gone [m].
@@ -178,6 +194,9 @@ impl SiteEngine {
             sites[seat.site] += 1;
             count += 1;
         });
+        if count != self.present {
+            return Some(format!("{count} grains are there, not {}", self.present));
+        }
         if let Some(site) = sites.iter().position(|count| *count > most) {
             return Some(format!("{} grains on site {site}", sites[site]));
         }
@@ -271,7 +290,7 @@ impl Engine for SiteEngine {
     }
 
     fn grains(&self) -> usize {
-        self.books.iter().flatten().count()
+        self.present
     }
 
     fn places(&self) -> usize {
@@ -282,15 +301,16 @@ impl Engine for SiteEngine {
         for _ in 0..steps {
             let time = self.time();
             self.open_gates(time);
-            self.arrive(time);
+            self.arrive(time, ledger);
             let before = if cfg!(debug_assertions) { self.seated() } else { Vec::new() };
             self.model.advance().map_err(|text| Fault::Lattice { step: self.model.step(), time, text })?;
+            self.depart(ledger);
             debug_assert_eq!(self.fault(&before), None, "step {}", self.model.step());
             for host in &mut hosts.list {
                 host.runge_kutta(time, self.dt, 0.0, ledger);
             }
         }
-        self.close(ledger);
+        self.balance(ledger);
         Ok(())
     }
 
@@ -304,7 +324,7 @@ impl Engine for SiteEngine {
     }
 
     fn momentum(&self) -> [f64; 3] {
-        self.books.iter().flatten().map(|(_, momentum)| *momentum).sum::<DVec3>().to_array()
+        self.held().1.to_array()
     }
 
     fn centre_of_mass(&self) -> [f64; 3] {
@@ -394,7 +414,7 @@ impl Engine for SiteEngine {
         let time = self.model.step().saturating_sub(1) as f64 * self.dt;
         self.open_gates(time);
         self.model.load(state)?;
-        self.books = self.count();
+        self.present = self.count();
         Ok(())
     }
 }

@@ -19,12 +19,14 @@ pub struct Fhp {
     outlets: Vec<usize>,
     /// Whether walls mirror.
     smooth: bool,
+    /// Those who have vanished since somebody asked.
+    gone: Vec<Seat>,
 }
 
 impl Fhp {
     /// A gas with the particles of `numbers`, on whose walls nobody is yet.
     pub fn new(gas: Gas, sites: Sites, numbers: Numbers, outlets: Vec<usize>, smooth: bool) -> Self {
-        let mut fhp = Self { gas, sites, numbers, outlets, smooth };
+        let mut fhp = Self { gas, sites, numbers, outlets, smooth, gone: Vec::new() };
         fhp.fill();
         fhp
     }
@@ -53,6 +55,7 @@ impl Model for Fhp {
         for &site in &self.outlets {
             let (column, row) = self.sites.place(site);
             if self.numbers.state(site) != 0 && !self.gas.is_wall(column, row) {
+                seats_at(&self.numbers, site, &mut |seat| self.gone.push(seat));
                 self.gas.set_site(column, row, 0);
                 self.numbers.clear(site);
             }
@@ -87,7 +90,11 @@ impl Model for Fhp {
         (SLOTS, 1.0)
     }
 
-    fn enter(&mut self, grain: usize, site: usize) -> bool {
+    fn departed(&mut self) -> Vec<Seat> {
+        std::mem::take(&mut self.gone)
+    }
+
+    fn enter(&mut self, grain: usize, site: usize) -> Option<Seat> {
         let (column, row) = self.sites.place(site);
         let state = self.numbers.state(site);
         let free = state >> Direction::S as u8 & 1 == 0 && !self.gas.is_wall(column, row);
@@ -95,7 +102,7 @@ impl Model for Fhp {
             self.gas.set_site(column, row, state | 1 << Direction::S as u8);
             self.numbers.set(site, Direction::S as usize, grain as u32);
         }
-        free
+        free.then(|| seat(&self.numbers, grain, site, Direction::S as usize))
     }
 
     fn save(&self, state: &mut State) {
@@ -113,13 +120,20 @@ impl Model for Fhp {
 
 /// Grains of a gas in slots.
 pub(super) fn seats(numbers: &Numbers, sites: usize, each: &mut dyn FnMut(Seat)) {
-    for site in 0..sites {
-        for (slot, who) in numbers.at(site).into_iter().enumerate().filter(|(_, who)| *who != NOBODY) {
-            let way = if slot == REST { [0.0; 3] } else { Direction::from_index(slot).unit() };
-            let (grain, laps) = (who as usize, numbers.laps[who as usize]);
-            each(Seat { grain, site, offset: [0.0; 2], velocity: [way[0], way[2]], laps });
-        }
+    (0..sites).for_each(|site| seats_at(numbers, site, each));
+}
+
+/// Those of one site.
+pub(super) fn seats_at(numbers: &Numbers, site: usize, each: &mut dyn FnMut(Seat)) {
+    for (slot, who) in numbers.at(site).into_iter().enumerate().filter(|(_, who)| *who != NOBODY) {
+        each(seat(numbers, who as usize, site, slot));
     }
+}
+
+/// A grain in a slot of a site.
+pub(super) fn seat(numbers: &Numbers, grain: usize, site: usize, slot: usize) -> Seat {
+    let way = if slot == REST { [0.0; 3] } else { Direction::from_index(slot).unit() };
+    Seat { grain, site, offset: [0.0; 2], velocity: [way[0], way[2]], laps: numbers.laps[grain] }
 }
 
 /// Writes where everybody is: site and slot in one number.

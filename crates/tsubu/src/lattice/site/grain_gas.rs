@@ -2,6 +2,7 @@
 
 use super::{Model, Seat, fhp, section, wrong};
 use crate::lattice::direction::Direction;
+use crate::lattice::gas::collide::REST;
 use crate::lattice::gas::elongated::Alignment;
 use crate::lattice::gas::grains::{Grains, Surplus};
 use crate::lattice::gas::numbers::{EMPTY, Numbers};
@@ -16,12 +17,36 @@ pub struct GrainGas {
     alignment: Option<Alignment>,
     /// Sites where grains vanish, unless they are wall.
     outlets: Vec<usize>,
+    /// Those who have vanished since somebody asked.
+    gone: Vec<Seat>,
+}
+
+/// Grains at rest that wait at a site for a place.
+fn waiting_seats(Surplus { site, count, who }: &Surplus, numbers: &Numbers, each: &mut dyn FnMut(Seat)) {
+    for &who in &who[..usize::from(*count)] {
+        each(fhp::seat(numbers, who as usize, *site as usize, REST));
+    }
 }
 
 impl GrainGas {
     /// Grains with numbers; those to be aligned have axes.
     pub fn new(grains: Grains, alignment: Option<Alignment>, outlets: Vec<usize>) -> Self {
-        Self { grains, alignment, outlets }
+        Self { grains, alignment, outlets, gone: Vec::new() }
+    }
+
+    /// Takes note of those on an outlet, unless it is wall.
+    fn note_gone(&mut self, site: usize) {
+        let (column, row) = self.grains.sites.place(site);
+        if self.grains.is_wall(column, row) {
+            return;
+        }
+        let mut gone = std::mem::take(&mut self.gone);
+        let numbers = self.numbers();
+        fhp::seats_at(&numbers, site, &mut |seat| gone.push(seat));
+        for waiting in self.grains.surplus().iter().filter(|waiting| waiting.site as usize == site) {
+            waiting_seats(waiting, &numbers, &mut |seat| gone.push(seat));
+        }
+        self.gone = gone;
     }
 
     /// Who is who; nobody where nobody has a number.
@@ -34,7 +59,11 @@ impl GrainGas {
 impl Model for GrainGas {
     fn advance(&mut self) -> Result<(), String> {
         self.grains.step();
-        self.outlets.iter().for_each(|site| self.grains.clear(*site));
+        for index in 0..self.outlets.len() {
+            let site = self.outlets[index];
+            self.note_gone(site);
+            self.grains.clear(site);
+        }
         if let Some(alignment) = self.alignment {
             self.grains.align(alignment);
         }
@@ -48,11 +77,8 @@ impl Model for GrainGas {
     fn seats(&self, each: &mut dyn FnMut(Seat)) {
         let numbers = self.numbers();
         fhp::seats(&numbers, self.grains.sites.count(), each);
-        for Surplus { site, count, who } in self.grains.surplus() {
-            for &who in &who[..usize::from(*count)] {
-                let (grain, laps) = (who as usize, numbers.laps[who as usize]);
-                each(Seat { grain, site: *site as usize, offset: [0.0; 2], velocity: [0.0; 2], laps });
-            }
+        for waiting in self.grains.surplus() {
+            waiting_seats(waiting, &numbers, each);
         }
     }
 
@@ -74,8 +100,13 @@ impl Model for GrainGas {
         (usize::MAX, f64::INFINITY)
     }
 
-    fn enter(&mut self, grain: usize, site: usize) -> bool {
-        self.grains.put(site, Direction::S as usize, grain as u32)
+    fn departed(&mut self) -> Vec<Seat> {
+        std::mem::take(&mut self.gone)
+    }
+
+    fn enter(&mut self, grain: usize, site: usize) -> Option<Seat> {
+        let free = self.grains.put(site, Direction::S as usize, grain as u32);
+        free.then(|| fhp::seat(&self.numbers(), grain, site, Direction::S as usize))
     }
 
     fn axis(&self, grain: usize) -> Option<[f64; 2]> {

@@ -2,10 +2,16 @@
 
 use super::{Link, Model, Seat, section, wrong};
 use crate::lattice::grid::EMPTY;
-use crate::lattice::gutt_haff::LatticeGrains;
+use crate::lattice::gutt_haff::{Grain, LatticeGrains};
 use crate::view::Wants;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
+
+/// A grain as it is, or as it went.
+fn seat(grains: &[Grain], grain: usize) -> Seat {
+    let Grain { node, offset, velocity, .. } = grains[grain];
+    Seat { grain, site: node, offset, velocity, laps: [0; 2] }
+}
 
 impl Model for LatticeGrains {
     fn advance(&mut self) -> Result<(), String> {
@@ -22,9 +28,13 @@ impl Model for LatticeGrains {
     }
 
     fn seats(&self, each: &mut dyn FnMut(Seat)) {
-        for (grain, g) in self.grains.iter().enumerate().filter(|(_, g)| !g.gone) {
-            each(Seat { grain, site: g.node, offset: g.offset, velocity: g.velocity, laps: [0; 2] });
+        for grain in (0..self.grains.len()).filter(|grain| !self.grains[*grain].gone) {
+            each(seat(&self.grains, grain));
         }
+    }
+
+    fn departed(&mut self) -> Vec<Seat> {
+        std::mem::take(&mut self.left).into_iter().map(|grain| seat(&self.grains, grain)).collect()
     }
 
     fn free(&mut self, site: usize, outlet: bool) {

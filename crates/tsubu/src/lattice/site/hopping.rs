@@ -29,6 +29,13 @@ pub(super) trait Hopping: Send {
     fn look_anew(&mut self) {}
 }
 
+/// A grain that has just moved as the trail says, or not at all.
+fn seat<H: Hopping>(grain: usize, site: usize, trail: &Trail, step: u64) -> Seat {
+    let [half, rows] = trail.during(grain, step);
+    let velocity = [0.5 * f64::from(half), H::ROW * f64::from(rows)];
+    Seat { grain, site, offset: [0.0; 2], velocity, laps: [0; 2] }
+}
+
 impl<H: Hopping> Model for H {
     fn advance(&mut self) -> Result<(), String> {
         self.hop();
@@ -43,9 +50,7 @@ impl<H: Hopping> Model for H {
         let (sheet, trail, step) = self.seen();
         for (site, &cell) in sheet.cells.iter().enumerate() {
             if let Ok(grain) = usize::try_from(cell) {
-                let [half, rows] = trail.during(grain, step);
-                let velocity = [0.5 * f64::from(half), H::ROW * f64::from(rows)];
-                each(Seat { grain, site, offset: [0.0; 2], velocity, laps: [0; 2] });
+                each(seat::<H>(grain, site, trail, step));
             }
         }
     }
@@ -57,6 +62,12 @@ impl<H: Hopping> Model for H {
 
     fn limits(&self) -> (usize, f64) {
         (1, self.reach())
+    }
+
+    fn departed(&mut self) -> Vec<Seat> {
+        let gone = std::mem::take(&mut self.parts().0.gone);
+        let (_, trail, step) = self.seen();
+        gone.into_iter().map(|(grain, site)| seat::<H>(grain as usize, site, trail, step)).collect()
     }
 
     fn save(&self, state: &mut State) {

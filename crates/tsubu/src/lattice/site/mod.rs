@@ -66,10 +66,13 @@ pub trait Model: Send {
         (1, 1.0)
     }
 
-    /// A grain comes in at a site if it can, and then moves down.
-    fn enter(&mut self, _grain: usize, _site: usize) -> bool {
-        false
+    /// A grain comes in at a site if it can, and then moves down; how it came.
+    fn enter(&mut self, _grain: usize, _site: usize) -> Option<Seat> {
+        None
     }
+
+    /// The grains that have gone since the last call, as they were when they went.
+    fn departed(&mut self) -> Vec<Seat>;
 
     /// The way that an elongated grain lies: a unit vector, to the right and up.
     fn axis(&self, _grain: usize) -> Option<[f64; 2]> {

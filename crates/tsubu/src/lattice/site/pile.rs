@@ -34,6 +34,10 @@ impl Model for Stack {
         }
     }
 
+    fn departed(&mut self) -> Vec<Seat> {
+        Vec::new()
+    }
+
     fn free(&mut self, _site: usize, _outlet: bool) {}
 
     fn offers(&self) -> Wants {
