@@ -136,8 +136,8 @@ pub struct Search {
 impl Candidates {
     /// Whether the list may miss a touching pair.
     pub fn stale(&self, grains: &Grains, walls: &[Wall], skin: f64) -> bool {
-        let moved = walls.iter().zip(&self.wall_reference).map(|(w, r)| w.travel_bound(r, f64::INFINITY));
-        self.reference.len() != grains.len() || self.drifts.stale(skin, moved.fold(0.0, f64::max))
+        self.reference.len() != grains.len()
+            || self.drifts.stale(skin, self.drifts.walls_moved(walls, &self.wall_reference))
     }
 
     /// Puts grains back between the periodic ends and sorts them by cell. Without effect on a small run.

@@ -13,7 +13,7 @@
 use super::candidates::List;
 use super::grid::Ends;
 use crate::state::Grains;
-use crate::wall::Wall;
+use crate::wall::{Pose, Wall};
 use glam::DVec3;
 
 /// Distance, in skins, from which on blocks are not compared one by one.
@@ -37,6 +37,8 @@ pub struct Drifts {
     pub of: Vec<Drift>,
     near: Vec<[u32; 2]>,
     near_walls: Vec<bool>,
+    /// For every wall, how far the farthest grain was from its centre of rotation at the search, at most [m].
+    extents: Vec<f64>,
 }
 
 /// A box around the grains of a block.
@@ -76,11 +78,26 @@ impl Drifts {
                 !found.is_empty()
             })
         }));
+        self.extents.clear();
+        self.extents.extend(walls.iter().map(|wall| {
+            let origin = wall.pose.origin();
+            bounds.iter().map(|b| b.centre.distance(origin) + b.half.length()).fold(0.0, f64::max)
+        }));
         self.of.clear();
         self.of.extend(lists.iter().map(|list| {
             let velocity = grains.velocity[list.first..list.first + list.own].iter().sum::<DVec3>() / list.own as f64;
             Drift { offset: DVec3::ZERO, velocity, farthest: 0.0 }
         }));
+    }
+
+    /// How far any wall has moved since the search, at most, seen from the grains [m]. An endless wall that turns into itself has
+    /// not, but rounding tilts it: what that comes to depends on how far away the grains are.
+    pub fn walls_moved(&self, walls: &[Wall], reference: &[Pose]) -> f64 {
+        let gone = self.of.iter().map(|d| d.offset.length() + d.farthest).fold(0.0, f64::max);
+        let moved = walls.iter().zip(reference).zip(&self.extents).map(|((wall, then), extent)| {
+            wall.travel_bound(then, extent + gone + wall.pose.origin().distance(then.origin()))
+        });
+        moved.fold(0.0, f64::max)
     }
 
     /// Whether a pair may have come nearer than the list allows; `moved`: how far any wall has [m].
