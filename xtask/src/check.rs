@@ -1,7 +1,7 @@
 //! What must pass before a change goes in.
 
 use crate::shell::{cargo, cargo_path, command, run};
-use crate::{generate, smoke, test};
+use crate::{generate, smoke, test, variants};
 
 /// Everything, the quick things first; the tests only if `tests`.
 pub fn check(tests: bool) -> Result<(), String> {
@@ -14,5 +14,6 @@ pub fn check(tests: bool) -> Result<(), String> {
     if tests {
         test::test()?;
     }
-    smoke::smoke()
+    smoke::smoke()?;
+    variants::quick()
 }

@@ -10,6 +10,7 @@ mod race;
 mod shell;
 mod smoke;
 mod test;
+mod variants;
 
 use std::process::ExitCode;
 
@@ -23,6 +24,9 @@ cargo xtask CHORE
   smoke               run every scene for a moment
   fuzz [--seed N] [--seconds S] [--cases N] [--only KIND] [--case N]
                       draw scenes, files and command lines, and hold tsubu against them; --help says more
+  variants [--quick] [--seed N]
+                      one answer for every way to compute it: every scene by every method in ten ways that must not
+                      matter (threads, outputs, a busy machine, cut and resumed); a quarter of an hour, --quick a minute
   bench [ARGUMENT]... the benchmarks; arguments go to cargo bench
   race --peers DIR --lammps LMP [--runs 5] [--out NAME]
                       the race against LAMMPS; fails where a promise is not kept (Linux, about a quarter of an hour)
@@ -39,6 +43,7 @@ fn main() -> ExitCode {
         ["gen", "--check"] => generate::check(),
         ["smoke"] => smoke::smoke(),
         ["fuzz", rest @ ..] => guard::guard("fuzz", rest),
+        ["variants", rest @ ..] => variants::chore(rest),
         ["bench", rest @ ..] => bench::bench(rest),
         ["race", rest @ ..] => race::race(rest),
         [] | ["help" | "--help" | "-h"] => {

@@ -25,7 +25,7 @@ fn tsubu(words: &[&str]) -> Result<(), String> {
 }
 
 /// The name of every scene, in order.
-fn scenes() -> Result<Vec<String>, String> {
+pub fn scenes() -> Result<Vec<String>, String> {
     let entries = fs::read_dir(root().join("scenes")).map_err(|error| format!("cannot list scenes/: {error}"))?;
     let files =
         entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|e| e == "toml"));

@@ -1,0 +1,292 @@
+//! One answer for every way to compute it: each scene by each method, run in ten ways that must not matter.
+//!
+//! Threads, the times at which rows and frames are written, a machine that is busy, and runs that are cut and resumed decide how
+//! steps are shared out among calls. None of that may change a bit of the final state, the books, or a row of a table.
+
+use crate::shell::{cargo, root};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+use tsubu_scene::Scene;
+use tsubu_scene::plan::Method;
+
+/// What is tried.
+struct Wanted {
+    /// Seconds of computing for a run, about.
+    seconds: f64,
+    /// Each scene by all methods that take it, in a release build; or by its own alone, in the build that tests use.
+    whole: bool,
+    /// Seed of the times at which runs are cut.
+    seed: u64,
+}
+
+/// A scene by a method, for a time in which something happens [s].
+struct Case {
+    tsubu: PathBuf,
+    scene: PathBuf,
+    method: &'static str,
+    duration: f64,
+}
+
+/// A way to compute it. What is not said is as in the first.
+#[derive(Clone, Default)]
+struct Variant {
+    name: &'static str,
+    threads: usize,
+    /// Rows of the history.
+    rows: usize,
+    frames: bool,
+    busy: bool,
+    /// Shares of the time after which the run ends, to be resumed.
+    cuts: Vec<f64>,
+}
+
+/// What must be the same.
+#[derive(PartialEq)]
+struct Answer {
+    hash: Value,
+    energy: Value,
+    steps: Value,
+    /// Rows of every table by their times, without those of the watches in the history; of watches only where the times are all the same.
+    tables: BTreeMap<String, Vec<String>>,
+}
+
+/// What must hold in every change: each scene by its own method, for a moment.
+pub fn quick() -> Result<(), String> {
+    variants(&Wanted { seconds: 0.1, whole: false, seed: 1 })
+}
+
+/// The chore with its options.
+pub fn chore(options: &[&str]) -> Result<(), String> {
+    let mut wanted = Wanted { seconds: 0.7, whole: true, seed: 1 };
+    let mut rest = options.iter();
+    while let Some(option) = rest.next() {
+        match *option {
+            "--quick" => wanted = Wanted { seconds: 0.1, whole: false, ..wanted },
+            "--seed" => {
+                let seed = rest.next().and_then(|text| text.parse().ok());
+                wanted.seed = seed.ok_or("--seed needs a whole number")?;
+            }
+            other => return Err(format!("`{other}` is no option of variants: --quick, --seed N")),
+        }
+    }
+    variants(&wanted)
+}
+
+/// Runs all; says what differs.
+fn variants(wanted: &Wanted) -> Result<(), String> {
+    let begun = Instant::now();
+    let profile = if wanted.whole { "release" } else { "dev" };
+    cargo(&["build", "--profile", profile, "--locked", "--package", "tsubu-cli", "--quiet"])?;
+    let tsubu = root().join("target").join(if wanted.whole { "release" } else { "debug" }).join("tsubu");
+    let cases = cases(wanted, &tsubu)?;
+    let (next, runs) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let found = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let (done, wrong) = hold(case, wanted.seed);
+                    runs.fetch_add(done, Ordering::Relaxed);
+                    let told = if wrong.is_empty() { "the same" } else { "DIFFERS" };
+                    println!("{:<18} {:<28} t = {:<8.3e} s  {told}", case.name(), case.method, case.duration);
+                    for text in &wrong {
+                        println!("    {text}");
+                    }
+                    found.lock().unwrap_or_else(PoisonError::into_inner).extend(wrong);
+                }
+            });
+        }
+    });
+    let wrong = found.into_inner().unwrap_or_else(PoisonError::into_inner).len();
+    let (cases, runs, seconds) = (cases.len(), runs.into_inner(), begun.elapsed().as_secs_f64());
+    println!("\n{cases} scenes and methods, {runs} runs, seed {}, {seconds:.0} s: {wrong} differ", wanted.seed);
+    if wrong == 0 { Ok(()) } else { Err(format!("{wrong} runs gave another answer")) }
+}
+
+/// All ways but the first, which they are held against.
+fn ways(case: &Case, seed: u64) -> Vec<Variant> {
+    // Any even spread of cuts will do; not a fixed one, so that no scene is always cut at the same step.
+    let draw = |k: u64| {
+        let mut x = seed ^ (k << 32) ^ case.duration.to_bits() ^ case.name().len() as u64;
+        for _ in 0..3 {
+            x = (x ^ (x >> 31)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        }
+        (x >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let first = Variant { threads: 1, rows: 40, ..Variant::default() };
+    let (early, late) = (0.05 + 0.4 * draw(1), 0.5 + 0.45 * draw(2));
+    vec![
+        Variant { name: "2 threads", threads: 2, ..first.clone() },
+        Variant { name: "3 threads", threads: 3, ..first.clone() },
+        Variant { name: "8 threads", threads: 8, ..first.clone() },
+        Variant { name: "more rows", rows: 1000, ..first.clone() },
+        Variant { name: "few rows", rows: 8, ..first.clone() },
+        Variant { name: "with frames", frames: true, ..first.clone() },
+        Variant { name: "beside busy programs", busy: true, ..first.clone() },
+        Variant { name: "cut and resumed", cuts: vec![early], ..first.clone() },
+        Variant { name: "cut twice, resumed on 3 threads", cuts: vec![early, late], threads: 3, frames: true, ..first },
+    ]
+}
+
+/// Holds all ways against the first; how many runs, and what differed.
+fn hold(case: &Case, seed: u64) -> (usize, Vec<String>) {
+    let first = Variant { name: "one thread", threads: 1, rows: 40, ..Variant::default() };
+    let wanted = match case.run(&first) {
+        Ok(answer) => answer,
+        Err(text) => return (1, vec![format!("{}: {text}", first.name)]),
+    };
+    let ways = ways(case, seed);
+    let wrong = ways.iter().filter_map(|way| {
+        let text = match case.run(way) {
+            Ok(answer) => wanted.differs(&answer)?,
+            Err(text) => text,
+        };
+        Some(format!("{}: {text}", way.name))
+    });
+    let wrong = wrong.collect();
+    (1 + ways.len(), wrong)
+}
+
+/// Every scene by its methods, each for as long as the computing takes that is wanted.
+fn cases(wanted: &Wanted, tsubu: &Path) -> Result<Vec<Case>, String> {
+    let mut cases = Vec::new();
+    for name in crate::smoke::scenes()? {
+        let scene = root().join(format!("scenes/{name}.toml"));
+        let plan = Scene::read(&scene, &[]).map_err(|complaints| complaints.to_string())?;
+        let (own, whole) = (plan.plan().method.name(), plan.plan().duration);
+        let others = Method::ALL.iter().map(|method| method.name()).filter(|other| wanted.whole && *other != own);
+        for method in std::iter::once(own).chain(others) {
+            let mut case = Case { tsubu: tsubu.to_owned(), scene: scene.clone(), method, duration: whole };
+            // Grains settle before time 0, and most scenes change as they go: longer and longer until it is enough.
+            for share in [0.003, 0.03, 0.3] {
+                case.duration = share * whole;
+                let begun = Instant::now();
+                match case.run(&Variant { threads: 1, rows: 1, ..Variant::default() }) {
+                    Ok(_) => {}
+                    Err(_) if method != own => break,
+                    Err(text) => return Err(format!("{name}: {text}")),
+                }
+                let speed = begun.elapsed().as_secs_f64() / case.duration;
+                if speed * case.duration > 0.1 * wanted.seconds || share == 0.3 {
+                    case.duration = whole.min(wanted.seconds / speed);
+                    cases.push(case);
+                    break;
+                }
+            }
+        }
+    }
+    Ok(cases)
+}
+
+impl Case {
+    fn name(&self) -> String {
+        self.scene.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    }
+
+    fn run(&self, variant: &Variant) -> Result<Answer, String> {
+        let folder = root().join(format!("target/variants/{}-{}", self.name(), self.method));
+        let _ = fs::remove_dir_all(&folder);
+        let stop = AtomicBool::new(false);
+        std::thread::scope(|scope| {
+            for _ in 0..if variant.busy { 4 } else { 0 } {
+                scope.spawn(|| {
+                    while !stop.load(Ordering::Relaxed) {
+                        std::hint::spin_loop();
+                    }
+                });
+            }
+            let ends = variant.cuts.iter().copied().chain([1.0]);
+            let done = ends.enumerate().try_for_each(|(k, end)| self.go(variant, &folder, end, k > 0));
+            stop.store(true, Ordering::Relaxed);
+            done
+        })?;
+        Answer::read(&folder)
+    }
+
+    /// Runs to a share of the time.
+    fn go(&self, variant: &Variant, folder: &Path, end: f64, resume: bool) -> Result<(), String> {
+        let mut command = Command::new(&self.tsubu);
+        command.arg("run").arg(&self.scene).arg("-o").arg(folder).args([
+            "-q",
+            "--threads",
+            &variant.threads.to_string(),
+        ]);
+        let mut set = |text: String| _ = command.args(["--set", &text]);
+        set(format!("method='{}'", self.method));
+        set(format!("duration={:e}", end * self.duration));
+        set(format!("output.history-interval={:e}", self.duration / variant.rows as f64));
+        set(format!("output.checkpoint-interval={:e}", self.duration / 3.0));
+        if variant.frames {
+            set(format!("output.frame-interval={:e}", self.duration / 5.0));
+        }
+        set("claim=[]".to_owned());
+        if resume {
+            command.arg("--resume");
+        }
+        let output = command.output().map_err(|error| format!("cannot start tsubu: {error}"))?;
+        if output.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&output.stderr).trim().to_owned()) }
+    }
+}
+
+impl Answer {
+    fn read(folder: &Path) -> Result<Self, String> {
+        let text = |name: &str| fs::read_to_string(folder.join(name)).map_err(|error| format!("{name}: {error}"));
+        let summary: Value = serde_json::from_str(&text("summary.json")?).map_err(|error| error.to_string())?;
+        let mut tables = BTreeMap::new();
+        let rows = |text: String| text.lines().map(str::to_owned).collect::<Vec<_>>();
+        tables.insert("history.csv".to_owned(), rows(text("history.csv")?));
+        for entry in fs::read_dir(folder.join("watch")).into_iter().flatten().flatten() {
+            let name = format!("watch/{}", entry.file_name().to_string_lossy());
+            tables.insert(name.clone(), rows(text(&name)?));
+        }
+        let [hash, energy, steps] = ["state_hash", "energy", "steps"].map(|key| summary[key].clone());
+        Ok(Self { hash, energy, steps, tables })
+    }
+
+    /// What differs, if anything does.
+    fn differs(&self, other: &Self) -> Option<String> {
+        for (what, one, another) in [
+            ("steps", &self.steps, &other.steps),
+            ("state_hash", &self.hash, &other.hash),
+            ("energy", &self.energy, &other.energy),
+        ] {
+            if one != another {
+                return Some(format!("{what}: {one}, then {another}"));
+            }
+        }
+        self.tables.iter().find_map(|(name, rows)| {
+            let Some(others) = other.tables.get(name) else { return Some(format!("{name} is not there")) };
+            table_differs(rows, others).map(|text| format!("{name}: {text}"))
+        })
+    }
+}
+
+/// What differs between two tables: all of it where they have the same times. Where they have not, what the engine itself tells at
+/// the times of both, in the columns before those of watches, which may be means since the last row.
+fn table_differs(one: &[String], other: &[String]) -> Option<String> {
+    let time = |row: &String| row.split(',').next().unwrap_or_default().to_owned();
+    if one.first() != other.first() {
+        return Some("another header".to_owned());
+    }
+    let same_times = one.iter().map(time).eq(other.iter().map(time));
+    let header: Vec<&str> = one.first()?.split(',').collect();
+    let of_engine = header.iter().position(|cell| cell.starts_with("centre of mass")).map_or(0, |k| k + 1);
+    let of_hosts = header[of_engine..].iter().take_while(|c| c.starts_with("host ") || c.starts_with("force on host"));
+    let own = of_engine + of_hosts.count();
+    let columns = if same_times { usize::MAX } else { own };
+    let cut = |row: &String| row.split(',').take(columns).collect::<Vec<_>>().join(",");
+    let there: BTreeMap<String, String> = other.iter().map(|row| (time(row), cut(row))).collect();
+    if columns == 0 {
+        return None;
+    }
+    one.iter().find_map(|row| {
+        let (here, there) = (cut(row), there.get(&time(row))?);
+        (&here != there).then(|| format!("{here}\n    then {there}"))
+    })
+}
