@@ -2,6 +2,7 @@
 //!
 //! They are collected, not thrown: a user who fixes a file wants to see all of it at once.
 
+mod brief;
 mod excerpt;
 
 use annotate_snippets::renderer::DecorStyle;
@@ -184,7 +185,7 @@ impl fmt::Debug for Complaints {
 
 impl std::error::Error for Complaints {}
 
-/// Text from a file may hold control characters that would command the terminal.
+/// Text from a file may be long, and may hold control characters that would command the terminal.
 fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() && c != '\n' { '\u{fffd}' } else { c }).collect()
+    brief::brief(text).chars().map(|c| if c.is_control() && c != '\n' { '\u{fffd}' } else { c }).collect()
 }

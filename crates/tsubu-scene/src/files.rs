@@ -1,12 +1,13 @@
 //! Files that a scene names, read once.
 
-use crate::complaint::{Complaint, Source};
+use crate::complaint::{Complaint, Complaints, Place, Source};
 use crate::grain_file::{self, GrainFile, How};
 use crate::mesh_file;
 use crate::plan::Vector;
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::str::Utf8Error;
 use std::sync::Arc;
 
 /// The files beside a scene. A sweep resolves its scene many times; every case must see the same bytes even if someone
@@ -28,12 +29,16 @@ impl Files {
     /// The bytes of the file, or why it cannot be read.
     pub fn bytes(&mut self, name: &str) -> Result<Arc<[u8]>, String> {
         let folder = &self.folder;
-        self.bytes.entry(name.to_string()).or_insert_with(|| read_bytes(&folder.join(name)).map(Arc::from)).clone()
+        self.bytes
+            .entry(name.to_string())
+            .or_insert_with(|| read_bytes(&folder.join(name), LARGEST_FILE).map(Arc::from))
+            .clone()
     }
 
-    /// The text of the file, or why it cannot be read.
-    pub fn text(&mut self, name: &str) -> Result<String, String> {
-        text(self.bytes(name)?.to_vec())
+    /// The text of the file. One that is no text becomes a source, so that the complaint can point into it.
+    pub fn text(&mut self, name: &str, sources: &mut Vec<Source>) -> Result<String, Vec<Complaint>> {
+        let bytes = self.bytes(name).map_err(|reason| vec![unreadable(name, &reason)])?;
+        text(name, &bytes, sources).map_err(|complaint| vec![complaint])
     }
 
     /// The grains in the file. A file that is wrong becomes a source, so that the complaints can point into it.
@@ -48,7 +53,7 @@ impl Files {
             return Ok(Arc::clone(known));
         }
         grain_file::known(name).map_err(|complaint| vec![complaint])?;
-        let text = self.text(name).map_err(|reason| vec![unreadable(name, &reason)])?;
+        let text = self.text(name, sources)?;
         match grain_file::read(name, &text, sources.len(), how) {
             Ok(file) => {
                 let file = Arc::new(file);
@@ -76,8 +81,7 @@ impl Files {
                 Ok(triangles)
             }
             Err(complaints) => {
-                let text = String::from_utf8_lossy(&bytes).into_owned();
-                sources.push(Source { name: name.to_string(), text, numbered: true });
+                sources.push(lossy(name, &bytes));
                 Err(complaints)
             }
         }
@@ -114,26 +118,64 @@ pub(crate) fn unreadable(name: &str, reason: &str) -> Complaint {
     Complaint::new(format!("cannot read `{name}`: {reason}")).hint("the path starts at the folder of the scene file")
 }
 
-/// Reads a text file; the error says why not, in words that do not depend on the system.
-pub(crate) fn read_text(path: &Path) -> Result<String, String> {
-    text(read_bytes(path)?)
+/// Reads a scene: its text, or what is wrong with it.
+pub(crate) fn read_scene(name: &str, path: &Path) -> Result<String, Complaints> {
+    let mut sources = Vec::new();
+    let read = read_bytes(path, LARGEST_SCENE).map_err(|reason| {
+        let complaint = Complaint::new(format!("cannot read the scene `{name}`: {reason}"));
+        if path.exists() { complaint } else { complaint.hint("`tsubu new --list` shows scenes to begin with") }
+    });
+    read.and_then(|bytes| text(name, &bytes, &mut sources)).map_err(|wrong| Complaints::new(sources, vec![wrong]))
 }
 
-fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
-    if path.is_dir() {
-        return Err("it is a folder".to_string());
-    }
-    std::fs::read(path).map_err(|error| match error.kind() {
+/// More than any scene has [bytes]; a file that was named by mistake is not looked at.
+const LARGEST_SCENE: u64 = 100 << 20;
+/// The same for what a scene names: a hundred million grains in text.
+const LARGEST_FILE: u64 = 16 << 30;
+
+/// The bytes of a file; the error says why not, in words that do not depend on the system.
+fn read_bytes(path: &Path, largest: u64) -> Result<Vec<u8>, String> {
+    let told = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => "there is no such file".to_string(),
         ErrorKind::PermissionDenied => "permission is denied".to_string(),
         _ => error.to_string(),
-    })
+    };
+    let about = std::fs::metadata(path).map_err(told)?;
+    // To open a pipe that nobody writes to would wait for ever, and devices have no end.
+    if about.is_dir() {
+        return Err("it is a folder".to_string());
+    }
+    if !about.is_file() {
+        return Err("it is a pipe or a device, not a file".to_string());
+    }
+    if about.len() > largest {
+        return Err(format!("it has {} bytes, more than the {largest} that are read", about.len()));
+    }
+    std::fs::read(path).map_err(told)
 }
 
-fn text(bytes: Vec<u8>) -> Result<String, String> {
-    String::from_utf8(bytes).map_err(|error| {
-        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = valid.split(|byte| *byte == b'\n').count();
-        format!("it is not UTF-8 text (line {line})")
-    })
+/// A file as a source, with what is no text in it replaced.
+fn lossy(name: &str, bytes: &[u8]) -> Source {
+    Source { name: name.to_string(), text: String::from_utf8_lossy(bytes).into_owned(), numbered: true }
+}
+
+fn text(name: &str, bytes: &[u8], sources: &mut Vec<Source>) -> Result<String, Complaint> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok(text.to_string()),
+        Err(error) => {
+            let complaint = no_text(bytes, &error, sources.len());
+            sources.push(lossy(name, bytes));
+            Err(complaint)
+        }
+    }
+}
+
+/// The complaint about the first byte that is no text, in the source that [`lossy`] makes.
+pub(crate) fn no_text(bytes: &[u8], error: &Utf8Error, source: usize) -> Complaint {
+    let at = error.valid_up_to();
+    let byte = bytes.get(at).copied().unwrap_or_default();
+    // What is before the byte is the same in both texts; the byte has become a character of three.
+    Complaint::new("the file is not UTF-8 text")
+        .at(&Place::new(source, at..at + 3), format!("the byte 0x{byte:02x} is no character"))
+        .hint("save it as UTF-8; was another file meant?")
 }

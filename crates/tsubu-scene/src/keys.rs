@@ -367,4 +367,18 @@ mod tests {
             }
         });
     }
+
+    /// `watch.grain.track.ids = [1000000000000000000]` passed every check and then did not fit into the plan, which was
+    /// told as a mistake in tsubu. A whole number without two ends can do that.
+    #[test]
+    fn every_whole_number_has_two_ends() {
+        every(&mut |path, key| {
+            // Every whole number that TOML has is a seed.
+            if matches!(key.kind, Kind::Whole | Kind::Wholes) && path != ".seed" {
+                let ends = [key.range.low, key.range.high];
+                assert!(ends.iter().all(|end| matches!(end, Bound::Including(_))), "{path}");
+                assert!(!key.range.holds(-1.0) && !key.range.holds(f64::from(u32::MAX)), "{path}");
+            }
+        });
+    }
 }

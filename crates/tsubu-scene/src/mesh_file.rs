@@ -3,6 +3,7 @@
 //! The text formats are read in double precision, and a wrong line is told by its number.
 
 use crate::complaint::Complaint;
+use crate::files;
 use crate::grain_file::ending;
 use crate::lines::{Cell, Line, MOST_COMPLAINTS, lines};
 use crate::plan::Vector;
@@ -28,10 +29,11 @@ pub(crate) fn read(name: &str, bytes: &[u8], source: usize) -> Read {
     let triangles = if ending(name) == "stl" {
         match binary(bytes) {
             Some(triangles) => triangles,
-            None => ascii(text(bytes)?, source)?,
+            None => ascii(std::str::from_utf8(bytes).map_err(|_| vec![not_whole(bytes)])?, source)?,
         }
     } else {
-        obj(text(bytes)?, source)?
+        let text = std::str::from_utf8(bytes).map_err(|error| vec![files::no_text(bytes, &error, source)])?;
+        obj(text, source)?
     };
     if triangles.is_empty() {
         return Err(vec![Complaint::new(format!("`{name}` has no triangles"))]);
@@ -39,15 +41,11 @@ pub(crate) fn read(name: &str, bytes: &[u8], source: usize) -> Read {
     Ok(triangles)
 }
 
-fn text(bytes: &[u8]) -> Result<&str, Vec<Complaint>> {
-    std::str::from_utf8(bytes).map_err(|_| {
-        let head = |count| format!("its head says {count} triangles, and there is room for {}", room(bytes));
-        let told = count(bytes).map_or_else(|| "it ends within its head".to_string(), head);
-        vec![
-            Complaint::new(format!("the file is neither text nor a whole binary STL file: {told}"))
-                .hint("a binary STL file has 84 bytes and 50 for each triangle; was it cut off?"),
-        ]
-    })
+fn not_whole(bytes: &[u8]) -> Complaint {
+    let head = |count| format!("its head says {count} triangles, and there is room for {}", room(bytes));
+    let told = count(bytes).map_or_else(|| "it ends within its head".to_string(), head);
+    Complaint::new(format!("the file is neither text nor a whole binary STL file: {told}"))
+        .hint("a binary STL file has 84 bytes and 50 for each triangle; was it cut off?")
 }
 
 /// Triangles that the head of a binary file promises.

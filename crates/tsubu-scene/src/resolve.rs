@@ -13,8 +13,11 @@ pub(crate) use derive::derive;
 
 use crate::complaint::{Complaint, Place};
 use crate::keys::{self, Family, Key, Kind, Need, Variant};
-use crate::node::{self, Node, Table, Value};
+use crate::node::{self, Entry, Node, Table, Value};
 use crate::suggest;
+
+/// A file of results is called after a name, and file systems end at 255 bytes.
+const LONGEST_NAME: usize = 120;
 
 /// Walks the typed tree along the registry.
 pub(crate) struct Resolver<'a> {
@@ -109,6 +112,7 @@ impl Resolver<'_> {
                 let mut named = toml::Table::new();
                 for entry in &self.expect_table(key, node)?.entries {
                     let path = join(&here, &entry.key);
+                    self.name_is_short(entry);
                     let Some(typed) = entry.node.table() else {
                         self.complain(
                             Complaint::new(format!("[{path}] needs a table, not {}", entry.node.kind()))
@@ -129,6 +133,7 @@ impl Resolver<'_> {
                 let mut named = toml::Table::new();
                 for entry in &self.expect_table(key, node)?.entries {
                     let path = join(&here, &entry.key);
+                    self.name_is_short(entry);
                     if let Some(value) = self.choice(&entry.key, variants, &entry.node, &entry.place, &path) {
                         named.insert(entry.key.clone(), value);
                     }
@@ -234,6 +239,17 @@ impl Resolver<'_> {
                 );
                 None
             }
+        }
+    }
+
+    /// Names stand in the names of files and in every line of a table.
+    fn name_is_short(&mut self, entry: &Entry) {
+        if entry.key.len() > LONGEST_NAME {
+            self.complain(
+                Complaint::new(format!("the name `{}` is too long", entry.key))
+                    .at(&entry.place, format!("{} bytes", entry.key.len()))
+                    .hint(format!("names have at most {LONGEST_NAME} bytes")),
+            );
         }
     }
 

@@ -33,12 +33,7 @@ impl Scene {
     /// Reads a scene file and applies changes of the form `key.path=value`.
     pub fn read(path: &Path, changes: &[String]) -> Result<Self, Complaints> {
         let name = path.display().to_string();
-        let text = files::read_text(path).map_err(|reason| {
-            let complaint = Complaint::new(format!("cannot read the scene `{name}`: {reason}"));
-            let complaint =
-                if path.exists() { complaint } else { complaint.hint("`tsubu new --list` shows scenes to begin with") };
-            Complaints::new(Vec::new(), vec![complaint])
-        })?;
+        let text = files::read_scene(&name, path)?;
         Self::parse(&name, &text, path.parent().unwrap_or(Path::new("")), changes)
     }
 

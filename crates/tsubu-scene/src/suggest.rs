@@ -1,7 +1,13 @@
 //! "Did you mean": the nearest of the words that would have been right.
 
+/// Longer than any word that could be meant; a megabyte would be compared letter by letter.
+const LONGEST: usize = 100;
+
 /// The nearest candidate, when it is near enough that a slip of the hand explains the difference.
 pub(crate) fn nearest<'a>(typed: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if typed.len() > LONGEST {
+        return None;
+    }
     // Habits from other formats: snake_case and capitals are never meant as such in a scene.
     let plain = typed.to_lowercase().replace(['_', ' '], "-");
     candidates
@@ -20,10 +26,16 @@ fn closeness(typed: &str, candidate: &str) -> f64 {
     if part { edit.max(0.7) } else { edit }
 }
 
-/// A list for people: `a`, `b` and `c`.
+/// More words than this nobody reads.
+const LISTED: usize = 50;
+
+/// A list for people: `a`, `b`, `c`.
 pub(crate) fn list<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
-    let quoted: Vec<String> = words.into_iter().map(|word| format!("`{word}`")).collect();
-    quoted.join(", ")
+    let mut words = words.into_iter();
+    let quoted: Vec<String> = words.by_ref().take(LISTED).map(|word| format!("`{word}`")).collect();
+    let more = words.count();
+    let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+    quoted.join(", ") + &rest
 }
 
 #[cfg(test)]

@@ -173,6 +173,7 @@ fn malformed_data() {
 #[test]
 fn files_that_cannot_be_read() {
     let no_text = in_folder(&[("a.csv", b"x,y\n1,\xff\n")], &SCENE.replace("NAME", "a.csv")).expect_err("no text");
+    let no_mesh = with_mesh("a.obj", b"v 0 0 0\nv 1 \xe9 0\n", "").expect_err("no text");
     let missing = in_folder(&[], &SCENE.replace("NAME", "b.csv")).expect_err("missing");
     let packed = in_folder(&[], &SCENE.replace("NAME", "a.csv.gz")).expect_err("packed");
     let strange = in_folder(&[], &SCENE.replace("NAME", "a.txt")).expect_err("strange");
@@ -180,7 +181,7 @@ fn files_that_cannot_be_read() {
         in_folder(&[], &SCENE.replace("start.file.path = \"NAME\"", "start.file = {}")).expect_err("no path");
     let kind = SCENE.replace("path = \"NAME\"", "path = \"a.csv\"\nstart.file.kind = 2");
     let kind = in_folder(&[("a.csv", BARE.as_bytes())], &kind).expect_err("a kind of CSV");
-    let all = [no_text, missing, packed, strange, pathless, kind];
+    let all = [no_text, no_mesh, missing, packed, strange, pathless, kind];
     insta::assert_snapshot!(all.map(|wrong| wrong.to_string()).join("\n\n"));
 }
 

@@ -4,6 +4,8 @@
 mod changes;
 /// Grains and meshes from files.
 mod files;
+/// What is too long, too large or no file.
+mod limits;
 /// What scenes mean: values, defaults, choices.
 mod meaning;
 /// What a user reads when a scene is wrong; snapshots of whole messages.

@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 /// A line of a megabyte (one long list) would be copied for every complaint; what is near is enough.
-const NEAR: usize = 2000;
+const NEAR: usize = 100;
+/// Bytes of a span that are marked; more of a long text nobody reads.
+const MARKED: usize = 100;
 
 /// Some lines of a text, ready to be printed.
 pub(super) struct Excerpt {
@@ -41,7 +43,7 @@ pub(super) fn cut_out(text: &str, spans: &[Range<usize>]) -> Excerpt {
         .iter()
         .map(|span| {
             let start = floor(span.start);
-            start..floor(span.end).clamp(start, line_end(start))
+            start..floor(span.end.min(start.saturating_add(MARKED))).clamp(start, line_end(start))
         })
         .collect();
     let first = marked.iter().map(|span| span.start).min().unwrap_or(0);

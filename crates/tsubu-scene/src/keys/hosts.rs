@@ -42,7 +42,8 @@ static STRUCTURE: &[Variant] = &[
                 "Index (from 0) of the coordinate that carries the walls and takes the force",
             )
             .default("0")
-            .at_least(0.0),
+            .at_least(0.0)
+            .at_most(1e4),
         ],
     },
     Variant {

@@ -160,7 +160,10 @@ static HOPS: &[Key] = &[
     Key::new("along", Kind::Direction, "Direction in which hops are long").default("'x'"),
     Key::new("up", Kind::Direction, "Direction in which hops are high, away from the bed").default("'z'"),
     Key::new("lowest", Kind::Quantity(&LENGTH), "Lower hops are not counted").default("0").at_least(0.0),
-    Key::new("most", Kind::Whole, "After so many hops nothing is counted any more").at_least(1.0).optional(),
+    Key::new("most", Kind::Whole, "After so many hops nothing is counted any more")
+        .at_least(1.0)
+        .at_most(1e9)
+        .optional(),
 ];
 
 static BEDLOAD: &[Key] = &[
@@ -241,4 +244,6 @@ static WALL_LOAD: &[Key] = &[
 ];
 
 static TRACK: &[Key] =
-    &[Key::new("ids", Kind::Wholes, "Numbers of the grains, from 0 in the order of the groups' names").at_least(0.0)];
+    &[Key::new("ids", Kind::Wholes, "Numbers of the grains, from 0 in the order of the groups' names")
+        .at_least(0.0)
+        .at_most(4e9)];

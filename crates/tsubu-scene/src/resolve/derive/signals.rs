@@ -2,7 +2,6 @@
 
 use super::{Derive, join, table, tables_in};
 use crate::complaint::{Complaint, Source};
-use crate::files;
 use crate::units::{ANGLE, Dimension, FORCE, LENGTH};
 use toml::Value;
 
@@ -37,12 +36,9 @@ impl Derive<'_> {
 
     fn filed_table(&mut self, table: &mut toml::Table, file: &str, dimension: &Dimension, path: &[&str]) {
         let path: Vec<&str> = path.iter().copied().chain(["file"]).collect();
-        let text = match self.files.text(file) {
+        let text = match self.files.text(file, self.sources) {
             Ok(text) => text,
-            Err(reason) => {
-                self.file_is_wrong(vec![files::unreadable(file, &reason)], &path);
-                return;
-            }
+            Err(wrong) => return self.file_is_wrong(wrong, &path),
         };
         match table::read(&text, self.sources.len(), dimension) {
             Ok(columns) => {

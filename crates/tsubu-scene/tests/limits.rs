@@ -1,0 +1,112 @@
+//! What is too long, too large or no file at all: said at once, and in few words.
+
+use crate::{GOOD, complaint, edited, read};
+use std::fmt::Write as _;
+use std::time::Instant;
+use tsubu_scene::Scene;
+
+/// A grain number beyond the range of the plan was told as "a mistake in tsubu".
+#[test]
+fn whole_numbers_out_of_range_are_the_users() {
+    let watch = format!("{GOOD}[watch.one]\ntrack.ids = [1000000000000000000]\n");
+    let hops = format!("{GOOD}[watch.one]\nhops = {{ most = 9223372036854775807 }}\n");
+    let all = [
+        complaint(&watch, &[]),
+        complaint(&hops, &[]),
+        complaint(GOOD, &["seed=99999999999999999999999"]),
+        complaint(GOOD, &["particles.balls.count=0x7fffffffffffffff"]),
+    ];
+    for message in &all {
+        assert!(!message.contains("mistake in tsubu"), "{message}");
+    }
+    insta::assert_snapshot!(all.join("\n\n"));
+}
+
+/// A watch's name becomes the name of a file; with 300 letters the run failed instead of being refused.
+#[test]
+fn names_are_as_short_as_names_of_files() {
+    let name = "a".repeat(300);
+    insta::assert_snapshot!(complaint(&format!("{GOOD}[watch.{name}]\nslope = {{}}\n"), &[]));
+    assert!(read(&format!("{GOOD}[watch.{}]\nslope = {{}}\n", "a".repeat(120)), &[]).is_ok());
+    for table in ["materials", "particles", "walls", "hosts", "removal"] {
+        let text = complaint(&format!("{GOOD}[{table}.{name}]\n"), &[]);
+        assert!(text.contains("is too long"), "{text}");
+    }
+}
+
+/// A string of a megabyte was echoed whole, and so was a number of 300 digits.
+#[test]
+fn messages_stay_short() {
+    let long = ["x".repeat(300_000), "two words ".repeat(30_000), "9".repeat(300_000), "é".repeat(150_000)];
+    for typed in &long {
+        for (from, to) in [
+            ("\"6 mm\"", format!("\"{typed}\"")),
+            ("\"6 mm\"", format!("\"1{typed}\"")),
+            ("material = \"acrylic\"", format!("material = \"{typed}\"")),
+            ("count = 20", format!("\"{typed}\" = 1")),
+            ("[materials.glass]", format!("[materials.\"{typed}\"]")),
+            ("title = ", format!("title = [\"{typed}\"]\nold = ")),
+            ("title = ", format!("method = \"{typed}\"\ntitle = ")),
+        ] {
+            let message = complaint(&edited(from, &to), &[]);
+            assert!(message.len() < 12_000, "{} bytes", message.len());
+        }
+        let message = complaint(GOOD, &[&format!("title.{typed}=1"), typed, &format!("duration={typed}")]);
+        assert!(message.len() < 12_000, "{} bytes: {message}", message.len());
+    }
+    insta::assert_snapshot!(complaint(GOOD, &["particles.balls.diameter=1e300", "materials.glass.density=1e-300 kg"]));
+}
+
+/// Opening a pipe waited for ever for somebody to write to it.
+#[cfg(unix)]
+#[test]
+fn only_files_are_read() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let pipe = folder.path().join("pipe");
+    for ending in ["", ".csv", ".xyz", ".data", ".stl", ".obj"] {
+        let made = std::process::Command::new("mkfifo").arg(format!("{}{ending}", pipe.display())).status();
+        assert!(made.expect("mkfifo runs").success());
+    }
+    std::os::unix::fs::symlink("/dev/zero", folder.path().join("zero.obj")).expect("linked");
+    let about = |path: &str| {
+        let text = Scene::read(&folder.path().join(path), &[]).expect_err("no file").to_string();
+        text.replace(&folder.path().display().to_string(), "FOLDER")
+    };
+    let mut all = vec![about("pipe"), about("zero.obj"), about("")];
+    let table = "base.sine = { amplitude = \"0.5 mm\", frequency = \"6 Hz\" }";
+    let grains =
+        edited("mass = \"0.2 g\"", "mass = \"0.2 g\"\nstart.file.path = \"pipe.ENDING\"").replace("count = 20", "");
+    let mesh =
+        edited("shape.box = { width = \"60 mm\", height = \"96 mm\" }", "shape.mesh = { path = \"pipe.ENDING\" }");
+    let texts = [
+        edited(table, "base.table = { file = \"pipe.csv\" }"),
+        grains.replace("ENDING", "csv"),
+        grains.replace("ENDING", "xyz"),
+        grains.replace("ENDING", "data"),
+        mesh.replace("ENDING", "stl"),
+        mesh.replace("ENDING", "obj"),
+        mesh.replace("pipe.ENDING", "zero.obj"),
+    ];
+    for text in texts {
+        let wrong = Scene::parse("scene.toml", &text, folder.path(), &[]).expect_err("no file").to_string();
+        all.push(wrong.split("\n\n").find(|one| one.contains("cannot read")).expect("unreadable").to_string());
+    }
+    insta::assert_snapshot!(all.join("\n\n"));
+}
+
+/// Every pair of materials was looked for in a list of all: twenty seconds for a file that is only long.
+#[test]
+fn twenty_thousand_materials_are_a_matter_of_a_moment() {
+    let mut text = GOOD.to_string();
+    for i in 0..20_000 {
+        let _ = write!(text, "[materials.m{i}]\nyoung-modulus = 1e9\n");
+    }
+    let begin = Instant::now();
+    let scene = read(&text, &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    assert_eq!(scene.plan().materials.len(), 20_002);
+    // Generous: other tests run at the same time.
+    assert!(begin.elapsed().as_secs_f64() < 5.0, "{:?}", begin.elapsed());
+    let begin = Instant::now();
+    assert!(complaint(&text.replace("\"acrylic\"\ncount", "\"acryllic\"\ncount"), &[]).len() < 5000);
+    assert!(begin.elapsed().as_secs_f64() < 5.0, "{:?}", begin.elapsed());
+}
