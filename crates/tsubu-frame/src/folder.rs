@@ -18,6 +18,7 @@ const OURS: &[&str] = &[
     "cases.csv",
     "energy_by_cause.csv",
     "sweep.csv",
+    "sweep.json",
     "compare.csv",
     "compare.json",
     "verify.json",

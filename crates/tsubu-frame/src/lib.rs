@@ -13,6 +13,7 @@ pub mod named;
 pub mod series;
 pub mod state;
 pub mod summary;
+pub mod unit;
 pub mod vtp;
 pub mod vtp_read;
 pub mod xyz;

@@ -188,8 +188,11 @@ pub struct Summary {
     pub energy: Energy,
     /// Hash of the final state, in hex.
     pub state_hash: String,
-    /// What was asked for.
+    /// What came out: what the scene asks to be watched first, in its order.
     pub results: Named<ResultValue>,
+    /// SI unit of each result that has one.
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub units: Named<String>,
     /// Values held against their ranges.
     pub claims: Vec<Claim>,
     /// What the reader should know.
@@ -197,6 +200,29 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// Adds a result with its SI unit, `-` for none.
+    pub fn give(&mut self, name: impl Into<String>, unit: &str, value: impl Into<ResultValue>) {
+        let name = name.into();
+        if unit != "-" {
+            self.units.insert(name.as_str(), unit);
+        }
+        self.results.insert(name, value);
+    }
+
+    /// The SI unit of a result, `-` for none.
+    pub fn unit(&self, result: &str) -> &str {
+        self.units.get(result).map_or("-", String::as_str)
+    }
+
+    /// The results as a reader wants them: first those that the scene claims something about, then as they were given.
+    pub fn results_in_order(&self) -> Vec<(&str, &ResultValue)> {
+        let mut results: Vec<_> = self.results.iter().collect();
+        results.sort_by_key(|(name, _)| {
+            self.claims.iter().position(|claim| claim.name == *name).unwrap_or(self.claims.len())
+        });
+        results
+    }
+
     /// Writes the file, whole or not at all.
     pub fn write(&self, path: &Path) -> Result<(), FileError> {
         write_json(path, self)

@@ -196,8 +196,12 @@ pub(crate) fn on_white(svg: &str) -> String {
 }
 
 /// The factor and prefix with which values up to `largest` read as short numbers. Only units that take prefixes in
-/// practice get one.
+/// practice get one; angles are read in degrees.
 pub fn prefix(unit: &str, largest: f64) -> (f64, String) {
+    let (angle, degrees) = tsubu_frame::unit::for_people(unit);
+    if degrees != unit {
+        return (angle, degrees.to_owned());
+    }
     let takes = matches!(unit, "m" | "s" | "J" | "N" | "W" | "m/s" | "Pa" | "J/s" | "Hz");
     if !takes || !largest.is_finite() || largest <= 0.0 {
         return (1.0, unit.to_owned());

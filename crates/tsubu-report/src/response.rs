@@ -52,7 +52,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
             .cards
             .extend(summary_cards(s).into_iter().filter(|c| c.label == "Computed in" || c.label == "Energy residual"));
         if curves.is_empty() {
-            report.cards.extend(result_cards(s, None, 4));
+            report.cards.extend(result_cards(s, 4));
         }
         let failed = s.claims.iter().filter(|c| !c.pass).count();
         report.verdict = Some(match (s.status, failed) {
@@ -75,10 +75,10 @@ pub(crate) fn build(source: &mut Source) -> Report {
     report.section("Grains", pictures);
     if let Some(s) = &summary {
         if !s.claims.is_empty() {
-            report.section("Claims", vec![claims_table(&s.claims.iter().collect::<Vec<_>>())]);
+            report.section("Claims", vec![claims_table(&s.claims.iter().collect::<Vec<_>>(), |name| s.unit(name))]);
         }
         // The table of cases shows them already, in better order.
-        let results = results_table(s, None).map(|table| crate::source::folded("All results", vec![table]));
+        let results = results_table(s).map(|table| crate::source::folded("All results", vec![table]));
         report.section("Results", results.into_iter().collect());
         report.section("Cost", cost_blocks(&listed, &curves, s));
     }

@@ -31,7 +31,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     if let Some(summary) = &summary {
         report.cards = summary_cards(summary);
         report.cards.extend(host_card(history.as_ref()));
-        report.cards.extend(result_cards(summary, history.as_ref(), 4));
+        report.cards.extend(result_cards(summary, 6));
     }
     let watches = Watches::read(source);
     let motion = history.as_ref().map(|h| motion_blocks(source, h, &watches)).unwrap_or_default();
@@ -52,9 +52,12 @@ pub(crate) fn build(source: &mut Source) -> Report {
     report.section("Energy", energy);
     if let Some(summary) = &summary {
         if !summary.claims.is_empty() {
-            report.section("Claims", vec![claims_table(&summary.claims.iter().collect::<Vec<_>>())]);
+            report.section(
+                "Claims",
+                vec![claims_table(&summary.claims.iter().collect::<Vec<_>>(), |name| summary.unit(name))],
+            );
         }
-        report.section("Results", results_table(summary, history.as_ref()).into_iter().collect());
+        report.section("Results", results_table(summary).into_iter().collect());
         let mut cost = vec![cost_table(&[(method_name(&summary.method), summary)])];
         cost.extend(machine(source));
         report.section("Cost", cost);

@@ -2,11 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use tsubu_frame::{Claim, FileError, ResultValue, Summary, Table, csv::split_unit};
+use tsubu_frame::{Claim, FileError, ResultValue, Summary, Table, csv::split_unit, unit::for_people};
 
 use crate::figure::{Axis, Bars, Figure};
 use crate::page::{Block, Card, Grid, Report, Tone};
 use crate::text::{count, duration, short};
+
+/// Lists up to this length are told in numbers.
+const FEW: usize = 6;
 
 /// A folder, what went amiss in reading it, and the figures made on the way.
 #[derive(Debug, Default)]
@@ -173,53 +176,63 @@ pub(crate) fn summary_cards(summary: &Summary) -> Vec<Card> {
     ]
 }
 
-/// Name and unit of a result. Those of watches are named as their columns in the history, which have the unit.
-fn named<'a>(result: &'a str, history: Option<&'a Table>) -> (&'a str, Option<&'a str>) {
-    let (name, unit) = split_unit(result);
-    let column = name.strip_suffix(" final").unwrap_or(name);
-    let there = || history?.header.iter().map(|h| split_unit(h)).find(|(header, _)| *header == column)?.1;
-    (name, unit.or_else(there))
+/// Name and SI unit of a result; a name may carry its unit itself.
+fn named<'a>(summary: &'a Summary, result: &'a str) -> (&'a str, &'a str) {
+    match split_unit(result) {
+        (name, Some(unit)) => (name, unit),
+        (name, None) => (name, summary.unit(result)),
+    }
 }
 
-/// Results that are single numbers, as cards: first those that the scene makes claims about.
-pub(crate) fn result_cards(summary: &Summary, history: Option<&Table>, most: usize) -> Vec<Card> {
-    let mut numbers: Vec<_> = summary
-        .results
-        .iter()
-        .filter_map(|(name, value)| match value {
-            // What the books miss is no result to be proud of; the energy has its own card. What came to no number is none.
-            ResultValue::Number(x) if !name.contains("residual") && x.is_finite() => Some((name, *x)),
-            _ => None,
-        })
-        .collect();
-    numbers.sort_by_key(|(name, _)| !summary.claims.iter().any(|claim| claim.name == **name));
-    numbers
-        .into_iter()
-        .take(most)
-        .map(|(name, x)| {
-            let (name, unit) = named(name, history);
-            let (value, unit) = quantity(x, unit.unwrap_or("-"));
-            card(name, value, &unit, String::new(), Tone::Plain)
-        })
-        .collect()
+/// Results that are single numbers, as cards, in the order in which the scene asks for them. The mean of a watch and its
+/// value at the end share a card.
+pub(crate) fn result_cards(summary: &Summary, most: usize) -> Vec<Card> {
+    let mut cards = Vec::new();
+    for (result, value) in summary.results_in_order() {
+        // What the books miss is no result to be proud of; the energy has its own card. What came to no number is none.
+        let ResultValue::Number(x) = value else { continue };
+        if result.contains("residual") || !x.is_finite() {
+            continue;
+        }
+        let claim = summary.claims.iter().find(|claim| claim.name == result);
+        if claim.is_none() && result.strip_suffix(" final").is_some_and(|mean| summary.results.get(mean).is_some()) {
+            continue;
+        }
+        let (name, unit) = named(summary, result);
+        let (value, shown) = quantity(*x, unit);
+        let (tone, note) = match (claim, summary.results.get(&format!("{result} final"))) {
+            (Some(claim), _) => {
+                let tone = if claim.pass { Tone::Good } else { Tone::Bad };
+                (tone, format!("claimed: {}", range(claim, unit)))
+            }
+            (None, Some(ResultValue::Number(last))) => {
+                (Tone::Plain, format!("mean; {} at the end", spoken(*last, unit)))
+            }
+            _ => (Tone::Plain, String::new()),
+        };
+        cards.push(card(name, value, &shown, note, tone));
+    }
+    cards.truncate(most);
+    cards
 }
 
-/// All results as a table.
-pub(crate) fn results_table(summary: &Summary, history: Option<&Table>) -> Option<Block> {
+/// All results as a table. A list is a profile, which a figure shows.
+pub(crate) fn results_table(summary: &Summary) -> Option<Block> {
     if summary.results.is_empty() {
         return None;
     }
     let mut grid = Grid::new(["result", "value", "unit"]);
-    for (name, value) in summary.results.iter() {
-        let (name, unit) = named(name, history);
+    for (result, value) in summary.results_in_order() {
+        let (name, unit) = named(summary, result);
+        let (factor, unit) = for_people(unit);
         let value = match value {
-            ResultValue::Number(x) => short(*x),
-            ResultValue::List(list) => {
-                let shown: Vec<_> = list.iter().take(12).map(|x| short(*x)).collect();
-                format!("{}{}", shown.join(", "), if list.len() > 12 { ", …" } else { "" })
+            ResultValue::Number(x) => short(x * factor),
+            ResultValue::List(list) if list.len() <= FEW => {
+                list.iter().map(|x| short(x * factor)).collect::<Vec<_>>().join(", ")
             }
+            ResultValue::List(list) => format!("{} values, see figure", list.len()),
         };
-        grid.push(Tone::Plain, [name, value.as_str(), unit.filter(|u| *u != "-").unwrap_or("")]);
+        grid.push(Tone::Plain, [name, value.as_str(), if unit == "-" { "" } else { unit }]);
     }
     Some(Block::Table(grid))
 }
@@ -254,20 +267,30 @@ pub(crate) fn cost_table(runs: &[(&str, &Summary)]) -> Block {
     Block::Table(grid)
 }
 
-/// Claims with their ranges; a failed one stands out.
-pub(crate) fn claims_table(claims: &[&Claim]) -> Block {
+/// The accepted range of a claim, as people read numbers of its unit.
+fn range(claim: &Claim, unit: &str) -> String {
+    let (factor, unit) = for_people(unit);
+    let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
+    let end = |x: Option<f64>| x.map_or(String::new(), |x| short(x * factor));
+    match (claim.low, claim.high) {
+        (None, None) => "any".to_owned(),
+        (Some(_), None) => format!("≥ {}{unit}", end(claim.low)),
+        (None, Some(_)) => format!("≤ {}{unit}", end(claim.high)),
+        (Some(low), Some(high)) if low == high => format!("{}{unit}", end(claim.low)),
+        _ => format!("{} … {}{unit}", end(claim.low), end(claim.high)),
+    }
+}
+
+/// Claims with their ranges; a failed one stands out. `unit` knows the units of those that are about results.
+pub(crate) fn claims_table<'a>(claims: &[&'a Claim], unit: impl Fn(&'a str) -> &'a str) -> Block {
     let mut grid = Grid::new(["", "claim", "value", "accepted", "source"]);
     for claim in claims {
-        let end = |x: Option<f64>| x.map_or(String::new(), short);
-        let range = match (claim.low, claim.high) {
-            (None, None) => "any".to_owned(),
-            (Some(_), None) => format!("≥ {}", end(claim.low)),
-            (None, Some(_)) => format!("≤ {}", end(claim.high)),
-            (Some(low), Some(high)) if low == high => short(low),
-            _ => format!("{} … {}", end(claim.low), end(claim.high)),
-        };
+        let si = unit(&claim.name);
+        let (factor, shown) = for_people(si);
+        let value = short(claim.value * factor);
+        let value = if shown == "-" { value } else { format!("{value} {shown}") };
         let (tone, word) = if claim.pass { (Tone::Good, "pass") } else { (Tone::Bad, "FAIL") };
-        grid.push(tone, [word, &claim.name, &short(claim.value), &range, &claim.source]);
+        grid.push(tone, [word, &claim.name, &value, &range(claim, si), &claim.source]);
     }
     Block::Table(grid)
 }
@@ -320,7 +343,7 @@ pub(crate) fn shown(table: &Table) -> Block {
             let largest = table.rows.iter().filter_map(|r| r[c].number()).fold(0.0_f64, |a, x| a.max(x.abs()));
             match split_unit(header) {
                 (name, Some("kg")) if largest < 0.1 => (1e3, format!("{name} [g]")),
-                (name, Some(unit @ ("m" | "J"))) => {
+                (name, Some(unit @ ("m" | "J" | "rad"))) => {
                     let (factor, unit) = crate::figure::prefix(unit, largest);
                     (factor, format!("{name} [{unit}]"))
                 }

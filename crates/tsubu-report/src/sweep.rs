@@ -1,30 +1,55 @@
 //! The report of a parameter sweep.
 
-use tsubu_frame::{Table, csv::split_unit};
+use std::collections::BTreeSet;
 
-use crate::figure::{Axis, Figure, Series, Style};
+use serde::Deserialize;
+use tsubu_frame::{Summary, Table, csv::split_unit, summary::read_json};
+
+use crate::figure::{Axis, Figure, Series, Style, prefix};
 use crate::moments;
-use crate::page::{Block, Report};
-use crate::source::{Source, shown, versions};
-use crate::text::duration;
+use crate::page::{Block, Grid, Report, Tone};
+use crate::source::{Source, folded, shown, versions};
+use crate::text::{duration, short};
 
-/// More figures than this tell less than the table.
-const MOST_FIGURES: usize = 8;
+/// Figures that are seen without unfolding, and columns of results in the first table.
+const OPEN: usize = 8;
+/// More figures than this make a page too heavy to open; the table has all results.
+const MOST_FIGURES: usize = 40;
+
+/// What `sweep.json` says of the sweep as a whole.
+#[derive(Debug, Deserialize)]
+struct Took {
+    wall_seconds: f64,
+    jobs: usize,
+}
+
+/// `sweep.csv` taken apart.
+struct Sweep<'a> {
+    table: &'a Table,
+    /// What varied, and its value in each case.
+    keys: Vec<(&'a str, Vec<String>)>,
+    /// Columns of results, in the order in which the scene asks for them.
+    results: Vec<usize>,
+}
 
 pub(crate) fn build(source: &mut Source) -> Report {
     let table = source.table("sweep.csv").unwrap_or_default();
-    let wall: f64 = table.numbers("wall seconds").unwrap_or_default().iter().filter(|x| x.is_finite()).sum();
+    let sweep = Sweep::of(&table);
     let mut report = Report {
         kind: "Parameter sweep".into(),
         title: source.title(),
-        headline: format!("{} cases, computed in {} of machine time.", table.rows.len(), duration(wall)),
+        headline: headline(source, &table),
+        verdict: verdict(&table),
         versions: versions(None),
         ..Report::default()
     };
-    let charts = charts(source, &table);
-    report.section("To be noted", source.note_blocks());
+    let charts = sweep.charts(source);
+    let mut remarks = source.note_blocks();
+    remarks.extend(common_warnings(source, table.rows.len()).into_iter().map(|text| Block::Note(Tone::Warning, text)));
+    report.section("To be noted", remarks);
     report.section("Results over what varied", charts);
-    report.section("Cases", if table.rows.is_empty() { Vec::new() } else { vec![shown(&table)] });
+    report.section("Over the seeds", sweep.repeated().into_iter().collect());
+    report.section("Cases", sweep.listed());
     let pictures = picture_blocks(source, &table);
     report.section("To be noted of the pictures", source.note_blocks());
     report.section("Grains", pictures);
@@ -32,45 +57,209 @@ pub(crate) fn build(source: &mut Source) -> Report {
     report
 }
 
-/// Each result over the key with the most values; the other keys make the curves.
-fn charts(source: &mut Source, table: &Table) -> Vec<Block> {
-    let keys: Vec<(&str, Vec<String>)> = table
-        .header
-        .iter()
-        .filter(|h| split_unit(h).1 == Some("text") && split_unit(h).0 != "case")
-        .filter_map(|h| Some((split_unit(h).0, table.texts(h)?)))
-        .collect();
-    let distinct = |values: &[String]| values.iter().collect::<std::collections::BTreeSet<_>>().len();
-    let numeric = keys.iter().filter(|(_, v)| v.iter().all(|t| leading_number(t).is_some()));
-    let Some((along, x)) = numeric.max_by_key(|(_, v)| distinct(v)).filter(|(_, v)| distinct(v) > 1) else {
-        return Vec::new();
-    };
-    // What the books miss is told in the table.
-    let results =
-        table.header.iter().filter(|h| matches!(split_unit(h), (name, Some("SI")) if !name.contains("residual")));
-    let mut blocks = Vec::new();
-    for header in results.take(MOST_FIGURES) {
-        let Some(values) = table.numbers(header) else { continue };
-        let name = split_unit(header).0;
-        let unit = x.first().and_then(|t| t.split_once(' ')).map_or("-", |(_, unit)| unit);
-        let mut figure = Figure::new("", Axis::new(*along, unit), Axis::new(name, "-"));
-        for (row, value) in values.iter().enumerate() {
-            let curve: Vec<String> =
-                keys.iter().filter(|(k, _)| k != along).map(|(k, v)| format!("{k} = {}", v[row])).collect();
-            let curve = curve.join(", ");
-            let point = (leading_number(&x[row]).unwrap_or(f64::NAN), *value);
-            match figure.series.iter_mut().find(|s| s.name == curve) {
-                Some(series) => series.points.push(point),
-                None => figure.series.push(Series::line(curve, vec![point]).styled(Style::LineAndPoints)),
+/// How many cases, by the clock on the wall and added up: cases run side by side.
+fn headline(source: &mut Source, table: &Table) -> String {
+    let added: f64 = table.numbers("wall seconds").unwrap_or_default().iter().filter(|x| x.is_finite()).sum();
+    let cases = table.rows.len();
+    let read = source.has("sweep.json").then(|| read_json::<Took>(&source.dir.join("sweep.json")));
+    match read.and_then(|read| source.told(read)) {
+        Some(took) => format!(
+            "{cases} cases in {} by the clock, {} side by side; their own times add up to {}.",
+            duration(took.wall_seconds),
+            took.jobs,
+            duration(added)
+        ),
+        None => format!("{cases} cases; their computing times add up to {}.", duration(added)),
+    }
+}
+
+/// A case that did not come to its end is said at the head of the page.
+fn verdict(table: &Table) -> Option<(Tone, String)> {
+    let status = table.texts("status")?;
+    let count = |word: &str| status.iter().filter(|status| *status == word).count();
+    let (failed, all) = (count("failed"), count("finished") == status.len());
+    Some(match failed {
+        0 if all => (Tone::Good, "finished".into()),
+        0 => (Tone::Warning, "unfinished".into()),
+        1 => (Tone::Bad, "1 case failed".into()),
+        _ => (Tone::Bad, format!("{failed} cases failed")),
+    })
+}
+
+/// What every case warns of; `sweep.csv` has the rest, case by case.
+fn common_warnings(source: &Source, cases: usize) -> Vec<String> {
+    let read = |i: usize| Summary::read(&source.dir.join(format!("cases/{i:04}/summary.json"))).ok();
+    let Some(first) = read(0).filter(|_| cases > 1) else { return Vec::new() };
+    let mut common = first.warnings;
+    for i in 1..cases {
+        if common.is_empty() {
+            break;
+        }
+        let Some(other) = read(i) else { return Vec::new() };
+        common.retain(|warning| other.warnings.contains(warning));
+    }
+    common.into_iter().map(|warning| format!("Every case: {warning}")).collect()
+}
+
+impl<'a> Sweep<'a> {
+    fn of(table: &'a Table) -> Self {
+        let own = ["case", "status", "remark", "wall seconds", "energy residual"];
+        let (mut keys, mut results) = (Vec::new(), Vec::new());
+        for (column, header) in table.header.iter().enumerate() {
+            match split_unit(header) {
+                (name, _) if own.contains(&name) => {}
+                (key, Some("text")) => keys.push((key, table.rows.iter().map(|r| r[column].to_string()).collect())),
+                _ => results.push(column),
             }
         }
-        for series in &mut figure.series {
-            series.points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        }
-        let file = format!("sweep_{}", name.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
-        blocks.extend(source.figure(&file, &figure, &format!("{name} (SI units) over {along}.")));
+        Self { table, keys, results }
     }
-    blocks
+
+    fn number(&self, row: usize, column: usize) -> f64 {
+        self.table.rows[row][column].number().unwrap_or(f64::NAN)
+    }
+
+    /// The key with the most values that are numbers; cases that differ in the seed alone are one case tried again.
+    fn along(&self) -> Option<&(&'a str, Vec<String>)> {
+        let distinct = |values: &[String]| values.iter().collect::<BTreeSet<_>>().len();
+        let numeric = |values: &[String]| values.iter().all(|text| leading_number(text).is_some());
+        let keys = self.keys.iter().filter(|(key, values)| *key != "seed" && numeric(values));
+        keys.max_by_key(|(_, values)| distinct(values)).filter(|(_, values)| distinct(values) > 1)
+    }
+
+    /// Each result over the key with the most values; the other keys make the curves, the seeds a band.
+    fn charts(&self, source: &mut Source) -> Vec<Block> {
+        let Some((along, x)) = self.along() else { return Vec::new() };
+        let unit = x.first().and_then(|text| text.split_once(' ')).map_or("-", |(_, unit)| unit);
+        let mut blocks = Vec::new();
+        // What the books miss is told in the table.
+        let told = |column: &&usize| !self.table.header[**column].contains("residual");
+        for &column in self.results.iter().filter(told).take(MOST_FIGURES) {
+            let header = &self.table.header[column];
+            let name = split_unit(header).0;
+            let mut figure = Figure::new("", Axis::new(*along, unit), Axis::from_header(header));
+            let (curves, spread) = self.curves(along, x, column);
+            for (curve, points) in curves {
+                let series = Series::line(curve, points.iter().map(|p| (p.x, p.mean)).collect());
+                let series = series.styled(Style::LineAndPoints);
+                let band = points.iter().map(|p| (p.least, p.largest)).collect();
+                figure.series.push(if spread { series.with_band(band) } else { series });
+            }
+            let file = format!("sweep_{}", name.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
+            let band = if spread { " Lines: mean over the seeds; bands: the least and the largest." } else { "" };
+            blocks.extend(source.figure(&file, &figure, &format!("{name} over {along}.{band}")));
+        }
+        let rest = blocks.split_off(blocks.len().min(OPEN));
+        if !rest.is_empty() {
+            blocks.push(folded("More results over what varied", rest));
+        }
+        blocks
+    }
+
+    /// The curves of a result, and whether a point of them has several seeds.
+    fn curves(&self, along: &str, x: &[String], column: usize) -> (Vec<(String, Vec<Point>)>, bool) {
+        let mut curves: Vec<(String, Vec<Point>)> = Vec::new();
+        for (row, x) in x.iter().enumerate() {
+            let others = self.keys.iter().filter(|(key, _)| *key != along && *key != "seed");
+            let curve: Vec<String> = others.map(|(key, values)| format!("{key} = {}", values[row])).collect();
+            let curve = curve.join(", ");
+            let index = curves.iter().position(|(name, _)| *name == curve).unwrap_or_else(|| {
+                curves.push((curve, Vec::new()));
+                curves.len() - 1
+            });
+            let x = leading_number(x).unwrap_or(f64::NAN);
+            let points = &mut curves[index].1;
+            let value = self.number(row, column);
+            match points.iter_mut().find(|point| point.x == x) {
+                Some(point) => point.take(value),
+                None => points.push(Point::new(x, value)),
+            }
+        }
+        for (_, points) in &mut curves {
+            points.sort_by(|a, b| a.x.total_cmp(&b.x));
+        }
+        let spread = curves.iter().flat_map(|(_, points)| points).any(|point| point.count > 1.0);
+        (curves, spread)
+    }
+
+    /// Mean, least and largest of every result where nothing but the seed varied.
+    fn repeated(&self) -> Option<Block> {
+        let [("seed", seeds)] = &self.keys[..] else { return None };
+        let mut grid = Grid::new(["result", "mean", "least", "largest", "unit"]);
+        for &column in &self.results {
+            let mut point = Point::new(0.0, self.number(0, column));
+            (1..seeds.len()).for_each(|row| point.take(self.number(row, column)));
+            let (name, unit) = split_unit(&self.table.header[column]);
+            let (factor, unit) = prefix(unit.unwrap_or("-"), point.least.abs().max(point.largest.abs()));
+            let unit = if unit == "-" { String::new() } else { unit };
+            let [mean, least, largest] = [point.mean, point.least, point.largest].map(|x| short(x * factor));
+            grid.push(Tone::Plain, [name.to_owned(), mean, least, largest, unit]);
+        }
+        Some(Block::Table(grid))
+    }
+
+    /// The cases with their first results and what is to be noted of them; all numbers behind.
+    fn listed(&self) -> Vec<Block> {
+        let columns = |wanted: &[&str]| -> Vec<usize> { wanted.iter().filter_map(|w| self.table.index(w)).collect() };
+        let says = |column: &usize| self.table.rows.iter().any(|row| !row[*column].to_string().is_empty());
+        let mut kept = columns(&["case [text]", "status [text]"]);
+        kept.extend(columns(&["remark [text]"]).iter().filter(|column| says(column)));
+        kept.extend(self.results.iter().take(OPEN));
+        kept.extend(columns(&["wall seconds [s]"]));
+        let mut first = Table::new(kept.iter().map(|&column| self.table.header[column].clone()));
+        for row in &self.table.rows {
+            first.push(kept.iter().map(|&column| row[column].clone()));
+        }
+        if first.rows.is_empty() {
+            return Vec::new();
+        }
+        let mut block = shown(&first);
+        let status = self.table.texts("status").unwrap_or_default();
+        let remark = self.table.texts("remark").unwrap_or_default();
+        if let Block::Table(grid) = &mut block {
+            for (i, (tone, _)) in grid.rows.iter_mut().enumerate() {
+                *tone = match (status.get(i).map(String::as_str), remark.get(i).map(String::as_str)) {
+                    (Some("failed"), _) => Tone::Bad,
+                    (Some("interrupted"), _) => Tone::Warning,
+                    (_, Some(remark)) if !remark.is_empty() => Tone::Warning,
+                    _ => Tone::Plain,
+                };
+            }
+        }
+        let mut blocks = vec![block];
+        if self.results.len() > OPEN {
+            blocks.push(folded("Every number of every case", vec![shown(self.table)]));
+        }
+        blocks
+    }
+}
+
+/// A point of a curve over the seeds that it was tried with.
+struct Point {
+    x: f64,
+    mean: f64,
+    least: f64,
+    largest: f64,
+    count: f64,
+}
+
+impl Point {
+    fn new(x: f64, value: f64) -> Self {
+        let mut point = Self { x, mean: f64::NAN, least: f64::NAN, largest: f64::NAN, count: 0.0 };
+        point.take(value);
+        point
+    }
+
+    /// A case without this result, such as one that failed, says nothing.
+    fn take(&mut self, value: f64) {
+        if value.is_finite() {
+            self.count += 1.0;
+            let before = if self.count > 1.0 { self.mean } else { 0.0 };
+            self.mean = before + (value - before) / self.count;
+            self.least = self.least.min(value);
+            self.largest = self.largest.max(value);
+        }
+    }
 }
 
 /// Strips of the cases that kept snapshots; `cases/` numbers them as the table does.

@@ -48,7 +48,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     }
     report.section("To be noted", source.note_blocks());
     if !failed.is_empty() {
-        report.section("What does not hold", vec![claims_table(&failed)]);
+        report.section("What does not hold", vec![claims_table(&failed, |_| "-")]);
     }
     if !claims.is_empty() {
         report.section("How to read the sources", vec![Block::Text(SOURCES.into())]);
@@ -57,7 +57,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
         let of: Vec<&Claim> = claims.iter().filter(|c| study(c) == *name).collect();
         let mut blocks = gallery::blocks(source, name);
         blocks.extend(figures(source, name, &of));
-        blocks.push(claims_table(&of));
+        blocks.push(claims_table(&of, |_| "-"));
         report.section(*name, blocks);
     }
     if let Some(text) = source.text("verify.txt") {

@@ -16,6 +16,7 @@ mod hosts;
 mod methods;
 mod sites;
 mod study;
+mod typed_order;
 mod walls;
 mod watch;
 mod water;
@@ -112,9 +113,9 @@ pub struct Plan {
     pub response: Option<Response>,
     /// What `tsubu sweep` reads.
     pub sweep: Option<Sweep>,
-    /// What is looked at while the scene runs, by name.
-    #[serde(default)]
-    pub watch: BTreeMap<String, Watch>,
+    /// What is looked at while the scene runs, by name, in the order in which the scene asks for it: results are told in it.
+    #[serde(default, with = "typed_order")]
+    pub watch: toml::map::Map<String, Watch>,
     /// What is written, and how often.
     pub output: Output,
     /// Results that must lie in a range.

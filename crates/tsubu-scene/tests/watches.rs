@@ -27,15 +27,24 @@ fn times_and_the_region_follow_from_the_scene() {
     let all = watches(
         "[watch.layers]\nprofile = {}\n[watch.late]\nfrom = \"0.5 s\"\nevery = \"5 ms\"\nuntil = 0.7\ncoordination = {}",
     );
-    let (name, layers) = &all[1];
-    assert_eq!(all[0].0, "late");
-    assert_eq!((all[0].1.from, all[0].1.every, all[0].1.until), (0.5, Some(0.005), Some(0.7)));
+    let (name, layers) = &all[0];
+    let (other, late) = &all[1];
+    assert_eq!((other.as_str(), late.from, late.every, late.until), ("late", 0.5, Some(0.005), Some(0.7)));
     assert_eq!((name.as_str(), layers.from, layers.until, layers.every), ("layers", 0.0, None, Some(0.001)));
     let Measure::Profile { axis: Axis::Z, bins: 20, quantities, region } = &layers.measure else {
         panic!("{layers:?}")
     };
     assert_eq!(quantities[..], [Quantity::SolidFraction, Quantity::Velocity, Quantity::GranularTemperature]);
     assert_eq!((region.low, region.high), ([-0.03, 0.0, 0.0], [0.03, 0.0, 0.096]));
+}
+
+/// Watches stood in the order of the alphabet, and so did their results: a calibration showed eight densities and never came
+/// to its heap angle, for which it was made and which it named first.
+#[test]
+fn watches_keep_the_order_in_which_they_are_typed() {
+    let all =
+        watches("[watch.heap]\nslope.touching = false\n[watch.density]\nprofile = {}\n[watch.a]\ncoordination = {}");
+    assert_eq!(all.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["heap", "density", "a"]);
 }
 
 #[test]

@@ -312,10 +312,10 @@ impl Run<'_> {
         for note in self.engine.notes() {
             summary.warnings.push(format!("{}: {}", note.key, note.text));
         }
-        self.measured.results(&self.hosts, &mut summary);
         self.watches.results(&mut summary);
+        self.measured.results(&self.hosts, &mut summary);
         let momentum = self.ledger.momentum_residual(self.engine.momentum());
-        summary.results.insert("momentum residual", momentum.iter().map(|p| p * p).sum::<f64>().sqrt());
+        summary.give("momentum residual", "N.s", momentum.iter().map(|p| p * p).sum::<f64>().sqrt());
         judge(self.plan, &mut summary);
         summary
     }
@@ -385,9 +385,9 @@ impl Measured {
         for (sums, name) in self.hosts.iter().zip(hosts.names()) {
             let mean = sums[0] / self.rows;
             let variance = (sums[1] / self.rows - mean * mean).max(0.0);
-            summary.results.insert(format!("host {name} rms displacement"), variance.sqrt());
-            summary.results.insert(format!("host {name} peak displacement"), sums[2]);
-            summary.results.insert(format!("host {name} mean displacement"), mean);
+            summary.give(format!("host {name} rms displacement"), "m", variance.sqrt());
+            summary.give(format!("host {name} peak displacement"), "m", sums[2]);
+            summary.give(format!("host {name} mean displacement"), "m", mean);
         }
     }
 

@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use tsubu::check::human_time;
 use tsubu::run::Watcher;
 use tsubu::threads::alone;
-use tsubu_frame::{Existing, ResultValue, Status, Summary};
+use tsubu_frame::{Existing, ResultValue, Status, Summary, unit::for_people};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -91,19 +91,10 @@ fn told(title: &str, summary: &Summary) -> String {
         summary.energy.residual_relative.abs()
     );
     let _ = writeln!(text, "  state      {}", summary.state_hash);
-    let results: Vec<Vec<String>> = summary
-        .results
-        .iter()
-        .map(|(name, value)| {
-            let value = match value {
-                ResultValue::Number(value) => table::number(*value),
-                ResultValue::List(values) => values.iter().map(|v| table::number(*v)).collect::<Vec<_>>().join(" "),
-            };
-            vec![format!("  {name}"), value]
-        })
-        .collect();
+    let results: Vec<Vec<String>> =
+        summary.results_in_order().into_iter().map(|(name, value)| result(summary, name, value)).collect();
     if !results.is_empty() {
-        let _ = writeln!(text, "  results (SI units)");
+        let _ = writeln!(text, "  results");
         text += &table::aligned(&results);
     }
     if !summary.claims.is_empty() {
@@ -113,6 +104,16 @@ fn told(title: &str, summary: &Summary) -> String {
         }
     }
     text + &warnings(&summary.warnings)
+}
+
+/// Name, value and unit of a result. A profile is for a figure, not for a line.
+fn result(summary: &Summary, name: &str, value: &ResultValue) -> Vec<String> {
+    let (factor, unit) = for_people(summary.unit(name));
+    let (value, unit) = match value {
+        ResultValue::Number(value) => (table::number(value * factor), unit.trim_matches('-').to_owned()),
+        ResultValue::List(values) => ("-".to_owned(), format!("{} values, in summary.json", values.len())),
+    };
+    vec![format!("  {name}"), value, unit]
 }
 
 /// Warnings, a line each.

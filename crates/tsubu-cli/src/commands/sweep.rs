@@ -1,5 +1,6 @@
 //! `tsubu sweep`: every case of a parameter sweep.
 
+use super::run::warnings;
 use crate::failure::Failure;
 use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
 use crate::output;
@@ -10,7 +11,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::atomic::Ordering;
 use tsubu::run::Watcher;
-use tsubu_frame::{Existing, RunFolder, Table, csv::split_unit};
+use tsubu_frame::{Existing, RunFolder, Status, Summary, Table, csv::split_unit, unit::for_people};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -55,8 +56,13 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         let message = format!("interrupted; finished cases and checkpoints are in {}", folder.display());
         return Err(Failure::interrupted(message).hint(format!("go on with `{}`", command_to_resume())));
     }
-    output::print(&told(&folder)?)?;
+    output::print(&told(&folder, &summaries)?)?;
     output::tell(&format!("results in {}; figures and a page: tsubu report {0}\n", folder.display()));
+    let broken = summaries.iter().filter(|summary| summary.status == Status::Failed).count();
+    if broken > 0 {
+        let message = format!("{broken} of {} cases failed; the others are whole", summaries.len());
+        return Err(Failure::failed(message).hint("the remarks above and in sweep.csv say why"));
+    }
     let failed: usize = summaries.iter().flat_map(|s| &s.claims).filter(|claim| !claim.pass).count();
     if failed == 0 { Ok(()) } else { Err(Failure::claim()) }
 }
@@ -64,22 +70,40 @@ pub fn run(options: &Options) -> Result<(), Failure> {
 /// Results that fit beside the case's name.
 const SHOWN: usize = 6;
 
-fn told(folder: &Path) -> Result<String, Failure> {
+fn told(folder: &Path, summaries: &[Summary]) -> Result<String, Failure> {
     let sweep = Table::read(&folder.join("sweep.csv")).map_err(|error| Failure::of_file(&error, folder))?;
-    let columns: Vec<usize> = (0..sweep.header.len())
-        .filter(|&c| sweep.header[c] == "case [text]" || split_unit(&sweep.header[c]).1 != Some("text"))
-        .collect();
-    let shown = &columns[..columns.len().min(SHOWN)];
-    let mut rows = vec![shown.iter().map(|&c| split_unit(&sweep.header[c]).0.to_owned()).collect::<Vec<_>>()];
-    rows.extend(sweep.rows.iter().map(|row| shown.iter().map(|&c| cell(&row[c])).collect()));
+    let unit = |c: usize| split_unit(&sweep.header[c]).1.unwrap_or("-");
+    let known = |c: &usize| ["wall seconds [s]", "energy residual [-]"].contains(&sweep.header[*c].as_str());
+    let (cost, results): (Vec<usize>, Vec<usize>) =
+        (0..sweep.header.len()).filter(|&c| unit(c) != "text").partition(known);
+    let mut shown = sweep.index("case [text]").into_iter().collect::<Vec<_>>();
+    if summaries.iter().any(|summary| summary.status != Status::Finished) {
+        shown.extend(sweep.index("status [text]"));
+    }
+    shown.extend(results.iter().chain(&cost).take(SHOWN));
+    let mut rows = vec![shown.iter().map(|&c| heading(&sweep.header[c])).collect::<Vec<_>>()];
+    rows.extend(sweep.rows.iter().map(|row| {
+        let cell = |&c: &usize| {
+            row[c].number().map_or_else(|| row[c].to_string(), |x| table::number(x * for_people(unit(c)).0))
+        };
+        shown.iter().map(cell).collect()
+    }));
     let mut text = table::aligned(&rows);
-    if columns.len() > SHOWN {
+    if results.len() + cost.len() > SHOWN {
         let file = folder.join("sweep.csv");
-        let _ = writeln!(text, "  and {} more columns in {}", columns.len() - SHOWN, file.display());
+        let _ = writeln!(text, "  and {} more columns in {}", results.len() + cost.len() - SHOWN, file.display());
+    }
+    let names = sweep.texts("case").unwrap_or_default().into_iter();
+    for (case, remark) in names.zip(sweep.texts("remark").unwrap_or_default()).filter(|(_, r)| !r.is_empty()) {
+        text += &warnings(&[format!("case `{case}`: {remark}")]);
     }
     Ok(text)
 }
 
-fn cell(cell: &tsubu_frame::Cell) -> String {
-    cell.number().map_or_else(|| cell.to_string(), table::number)
+/// Name and unit of a column as people read them.
+fn heading(header: &str) -> String {
+    match split_unit(header) {
+        (name, Some("text" | "-") | None) => name.to_owned(),
+        (name, Some(unit)) => format!("{name} [{}]", for_people(unit).1),
+    }
 }

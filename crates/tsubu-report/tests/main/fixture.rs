@@ -201,7 +201,7 @@ pub fn sweep(dir: &Path) {
         "contact.restitution [text]",
         "wall seconds [s]",
         "energy residual [-]",
-        "rms displacement [SI]",
+        "rms displacement [m]",
     ]);
     for (i, n) in [10.0, 20.0, 40.0, 10.0, 20.0, 40.0].into_iter().enumerate() {
         let e = if i < 3 { "0.5" } else { "0.75" };
@@ -210,6 +210,29 @@ pub fn sweep(dir: &Path) {
         table.push(words.into_iter().chain([0.1 * n, 1e-6, rms].map(Cell::Number)));
     }
     table.write(&dir.join("sweep.csv")).unwrap();
+    text(dir, "scene.toml", "[sweep]\n");
+}
+
+/// A folder of `tsubu sweep` over a friction and three seeds, with the heap angle last of ten results; one case failed.
+pub fn calibration(dir: &Path) {
+    let densities = (1..10).map(|i| format!("density {i} [kg/m^3]"));
+    let header = ["case [text]", "materials.sand.friction [text]", "seed [text]", "status [text]", "wall seconds [s]"];
+    let header = header.map(String::from).into_iter().chain(densities);
+    let mut table = Table::new(header.chain(["heap angle [rad]", "remark [text]"].map(String::from)));
+    for friction in [0.2, 0.4, 0.6] {
+        for seed in [1.0, 2.0, 3.0] {
+            let bad = (friction, seed) == (0.6, 3.0);
+            let words = [format!("friction = {friction}, seed = {seed}"), friction.to_string(), seed.to_string()];
+            let mut row: Vec<Cell> = words.map(Cell::Text).to_vec();
+            row.extend([Cell::from(if bad { "failed" } else { "finished" }), Cell::from(2.0)]);
+            row.extend((1..10).map(|i| Cell::from(1500.0 + f64::from(i))));
+            row.push(Cell::from(if bad { f64::NAN } else { friction + 0.1 * (seed - 2.0) }));
+            row.push(Cell::from(if bad { "grain 7 overlaps its neighbour" } else { "" }));
+            table.push(row);
+        }
+    }
+    table.write(&dir.join("sweep.csv")).unwrap();
+    text(dir, "sweep.json", "{\"wall_seconds\": 10.0, \"jobs\": 2}");
     text(dir, "scene.toml", "[sweep]\n");
 }
 

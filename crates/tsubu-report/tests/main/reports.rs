@@ -167,6 +167,68 @@ fn a_sweep_is_drawn_over_what_varied() {
     assert!(dir.path().join("figures/sweep_rms_displacement.svg").exists());
 }
 
+/// Seeds made a curve each, angles stood in radians under the unit `[SI]`, only the first eight results were drawn, and the
+/// computing times of cases that ran side by side were added up as if that were how long it took.
+#[test]
+fn a_sweep_over_seeds_has_bands_degrees_and_all_results() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::calibration(dir.path());
+    let html = written(dir.path());
+    self_contained(&html);
+    let angle = fs::read_to_string(dir.path().join("figures/sweep_heap_angle.svg")).expect("the tenth result");
+    assert!(angle.contains("heap angle [°]"), "angles are read in degrees");
+    assert!(!angle.contains("seed"), "seeds are no curves");
+    assert!(html.contains("Lines: mean over the seeds; bands: the least and the largest."));
+    assert!(html.contains("<summary>More results over what varied</summary>"));
+    assert!(!html.contains(">SI<") && !html.contains("[SI]"));
+    let report = build(dir.path()).unwrap();
+    assert_eq!(report.headline, "9 cases in 10 s by the clock, 2 side by side; their own times add up to 18 s.");
+    assert_eq!(report.verdict, Some((Tone::Bad, "1 case failed".into())));
+    let cases = report.sections.iter().find(|s| s.title == "Cases").expect("section");
+    let Block::Table(table) = &cases.blocks[0] else { panic!("{:?}", cases.blocks[0]) };
+    let (tone, row) = table.rows.last().expect("row");
+    assert_eq!(*tone, Tone::Bad);
+    assert!(row.contains(&"grain 7 overlaps its neighbour".to_owned()), "{row:?}");
+}
+
+/// Where nothing but the seed varies there is no axis to draw over.
+#[test]
+fn a_sweep_of_seeds_alone_has_a_table_of_spreads() {
+    let dir = tempfile::tempdir().unwrap();
+    let head = "case [text],seed [text],status [text],heap angle [rad],remark [text]\n";
+    let rows = "a,1,finished,0.4,\nb,2,finished,0.5,\nc,3,finished,0.6,\n";
+    fixture::text(dir.path(), "sweep.csv", &format!("{head}{rows}"));
+    let report = build(dir.path()).unwrap();
+    let spread = report.sections.iter().find(|s| s.title == "Over the seeds").expect("section");
+    let Block::Table(table) = &spread.blocks[0] else { panic!("{:?}", spread.blocks[0]) };
+    assert_eq!(table.rows[0].1, ["heap angle", "28.65", "22.92", "34.38", "°"]);
+}
+
+/// The mean of a watch and its value at the end share a card; an angle is read in degrees; a profile is for a figure.
+#[test]
+fn results_are_told_as_people_read_them() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut summary = fixture::summary("dem");
+    summary.results = tsubu_frame::Named::default();
+    summary.give("heap angle", "rad", 0.4);
+    summary.give("heap angle final", "rad", 0.5);
+    summary.give("bed density profile", "kg/m^3", vec![1.0; 90]);
+    summary.claims = vec![Claim::judge("heap angle final", 0.5, Some(0.4), Some(0.6), "measured")];
+    summary.write(&dir.path().join("summary.json")).unwrap();
+    let report = build(dir.path()).unwrap();
+    let cards: Vec<_> =
+        report.cards.iter().skip(4).map(|c| (c.label.as_str(), c.value.as_str(), &*c.unit, &*c.note)).collect();
+    assert_eq!(
+        cards,
+        [
+            ("heap angle final", "28.65", "°", "claimed: 22.92 … 34.38 °"),
+            ("heap angle", "22.92", "°", "mean; 28.65 ° at the end")
+        ]
+    );
+    let html = written(dir.path());
+    assert!(html.contains("90 values, see figure") && html.contains("22.92 … 34.38 °"));
+}
+
 #[test]
 fn a_failed_claim_cannot_be_overlooked() {
     let dir = tempfile::tempdir().unwrap();

@@ -65,15 +65,15 @@ fn watched(dir: &Path) {
     some.write(&dir.join("watch/some.csv")).unwrap();
 }
 
-/// Results of watches have the unit of their column; one that came to no number is no headline of the page.
+/// Results have the unit they were given; one that came to no number is no headline of the page.
 #[test]
-fn results_have_the_units_of_their_columns() {
+fn results_have_their_units() {
     let dir = tempfile::tempdir().unwrap();
     watched(dir.path());
     let mut summary = fixture::summary("dem");
     summary.results = tsubu_frame::Named::default();
-    summary.results.insert("out rate", f64::NAN);
-    summary.results.insert("out passed mass final", 0.25);
+    summary.give("out rate", "1/s", f64::NAN);
+    summary.give("out passed mass final", "kg", 0.25);
     summary.write(&dir.path().join("summary.json")).unwrap();
     let report = build(dir.path()).unwrap();
     let card = |label: &str| report.cards.iter().find(|card| card.label == label).map(|card| card.unit.as_str());

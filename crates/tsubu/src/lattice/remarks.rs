@@ -2,7 +2,6 @@
 
 use crate::engine::{Note, Refusal, Verdict};
 use crate::view::Wants;
-use std::collections::BTreeMap;
 use tsubu_scene::plan::{self, Plan, Watch};
 
 /// What of a scene's world a lattice has room for.
@@ -67,7 +66,7 @@ impl Remarks {
     }
 
     /// Watches that want to see what the method does not have.
-    pub fn watches(&mut self, watches: &BTreeMap<String, Watch>, plan: &Plan, offered: Wants) {
+    pub fn watches(&mut self, watches: &toml::map::Map<String, Watch>, plan: &Plan, offered: Wants) {
         for (name, watch) in watches {
             let kind = watch.measure.name();
             let key = format!("watch.{name}.{kind}");

@@ -3,16 +3,29 @@
 use super::cases::{Case, CasesError, cases};
 use crate::engine;
 use crate::partner::Hosts;
-use crate::run::{self, Watcher};
+use crate::run::{self, RunError, Watcher};
 use crate::scene_files;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+use tsubu_frame::summary::{read_json, write_json};
 use tsubu_frame::{Cell, Existing, ResultValue, RunFolder, Status, Summary, Table};
 use tsubu_scene::Scene;
 
+/// What a sweep took as a whole, interruptions left out: its cases run side by side, their times add up to more.
+#[derive(Debug, Serialize, Deserialize)]
+struct Took {
+    /// By the clock on the wall [s].
+    wall_seconds: f64,
+    /// Cases that ran side by side.
+    jobs: usize,
+}
+
 /// Runs every case of the scene's `[sweep]` into a folder of its own below `folder/cases`; finished cases are kept, cut
-/// ones go on from their checkpoint. Writes `sweep.csv`.
+/// ones go on from their checkpoint; one that goes wrong says so in its row. Writes `sweep.csv`, and `sweep.json` with what
+/// it took.
 pub fn sweep(scene: &Scene, folder: &Path, watcher: &Watcher) -> Result<Vec<Summary>, CasesError> {
     let wanted = scene.plan().sweep.as_ref().ok_or_else(|| {
         CasesError::Scene("the scene has no `[sweep]`: say what varies, for example `vary = { \"particles.balls.count\" = [10, 20] }`".to_owned())
@@ -28,6 +41,7 @@ pub fn sweep(scene: &Scene, folder: &Path, watcher: &Watcher) -> Result<Vec<Summ
     let existing = if folder.join("cases").is_dir() { Existing::Resume } else { Existing::Refuse };
     let folder = RunFolder::create(folder, existing)?;
     scene_files::write(&folder, scene)?;
+    let begun = Instant::now();
     let finished = AtomicUsize::new(0);
     let summaries: Vec<Option<Summary>> = list
         .par_iter()
@@ -45,6 +59,10 @@ pub fn sweep(scene: &Scene, folder: &Path, watcher: &Watcher) -> Result<Vec<Summ
     let done: Vec<(&Case, &Summary)> =
         list.iter().zip(&summaries).filter_map(|(c, s)| Some((c, s.as_ref()?))).collect();
     table(&done).write(&folder.file("sweep.csv"))?;
+    let took = folder.file("sweep.json");
+    let earlier = read_json::<Took>(&took).map_or(0.0, |took| took.wall_seconds);
+    let wall_seconds = earlier + begun.elapsed().as_secs_f64();
+    write_json(&took, &Took { wall_seconds, jobs: rayon::current_num_threads() })?;
     Ok(summaries.into_iter().flatten().collect())
 }
 
@@ -58,16 +76,32 @@ fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<S
     let cut = same && tsubu_frame::checkpoint::path(folder).exists();
     let existing = if cut { Existing::Resume } else { Existing::Overwrite };
     let quiet = Watcher { interrupted: watcher.interrupted, progress: &|_| {} };
-    run::run(&scene, folder, existing, &quiet).map_err(|error| CasesError::Run { case: case.name.clone(), error })
+    match run::run(&scene, folder, existing, &quiet) {
+        Ok(summary) => Ok(summary),
+        // One case that goes wrong leaves the others their results.
+        Err(RunError::Fault(fault)) => Ok(failed(folder, &fault.to_string())),
+        Err(error) => Err(CasesError::Run { case: case.name.clone(), error }),
+    }
 }
 
-/// One row a case: what varied, what it cost, what came out.
+/// What a case that went wrong has left; one whose grains would not settle leaves nothing.
+fn failed(folder: &Path, fault: &str) -> Summary {
+    let left = Summary::read(&folder.join("summary.json")).ok();
+    let of_this = |s: &Summary| s.status == Status::Failed && s.warnings.last().is_some_and(|last| last == fault);
+    left.filter(of_this).unwrap_or_else(|| Summary {
+        status: Status::Failed,
+        warnings: vec![fault.to_owned()],
+        ..Summary::default()
+    })
+}
+
+/// One row a case: what varied, how it ended, what it cost, what came out, what is to be noted of it alone.
 fn table(done: &[(&Case, &Summary)]) -> Table {
-    let mut results: Vec<&str> = Vec::new();
+    let mut results: Vec<(&str, &str)> = Vec::new();
     for (_, summary) in done {
-        for (name, value) in summary.results.iter() {
-            if matches!(value, ResultValue::Number(_)) && !results.contains(&name) {
-                results.push(name);
+        for (name, value) in summary.results_in_order() {
+            if matches!(value, ResultValue::Number(_)) && !results.iter().any(|(known, _)| *known == name) {
+                results.push((name, summary.unit(name)));
             }
         }
     }
@@ -76,20 +110,30 @@ fn table(done: &[(&Case, &Summary)]) -> Table {
     let header = ["case [text]".to_owned()]
         .into_iter()
         .chain(keys.iter().map(|k| format!("{k} [text]")))
-        .chain(["wall seconds [s]".to_owned(), "energy residual [-]".to_owned()])
-        .chain(results.iter().map(|r| format!("{r} [SI]")));
+        .chain(["status [text]", "wall seconds [s]", "energy residual [-]"].map(str::to_owned))
+        .chain(results.iter().map(|(name, unit)| format!("{name} [{unit}]")))
+        .chain(["remark [text]".to_owned()]);
     let mut table = Table::new(header);
     for (case, summary) in done {
         let mut row = vec![Cell::Text(case.name.clone())];
         row.extend(
             case.values.iter().map(|(_, v)| Cell::Text(v.as_str().map_or_else(|| v.to_string(), str::to_owned))),
         );
+        row.push(summary.status.word().into());
         row.extend([Cell::Number(summary.wall_seconds), Cell::Number(summary.energy.residual_relative)]);
-        row.extend(results.iter().map(|name| match summary.results.get(name) {
+        row.extend(results.iter().map(|(name, _)| match summary.results.get(name) {
             Some(ResultValue::Number(value)) => Cell::Number(*value),
             _ => Cell::Number(f64::NAN),
         }));
+        row.push(Cell::Text(remark(summary, done)));
         table.push(row);
     }
     table
+}
+
+/// Warnings of a case that not every case has: what the method says of the scene belongs to all of them.
+fn remark(summary: &Summary, done: &[(&Case, &Summary)]) -> String {
+    let common = |warning: &String| done.len() > 1 && done.iter().all(|(_, other)| other.warnings.contains(warning));
+    let own = summary.warnings.iter().filter(|warning| !common(warning));
+    own.filter_map(|warning| warning.lines().next()).collect::<Vec<_>>().join("; ")
 }

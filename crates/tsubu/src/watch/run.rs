@@ -6,6 +6,7 @@ use crate::engine::Engine;
 use crate::view::{View, Wants};
 use serde::Serialize;
 use std::path::Path;
+use tsubu_frame::csv::split_unit;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::summary::write_json;
 use tsubu_frame::{FileError, History, State, Summary};
@@ -197,9 +198,9 @@ impl Watches {
                 summary.warnings.push(format!("the watch `{}` has not looked once: it begins later", w.name));
             }
             for ((what, mean), last) in w.watch.scalars().iter().zip(w.means[0].get()).zip(&w.last) {
-                let what = tsubu_frame::csv::split_unit(what).0;
-                summary.results.insert(w.column(what), mean);
-                summary.results.insert(w.column(&format!("{what} final")), *last);
+                let (what, unit) = split_unit(what);
+                summary.give(w.column(what), unit.unwrap_or("-"), mean);
+                summary.give(w.column(&format!("{what} final")), unit.unwrap_or("-"), *last);
             }
             // Lists of fields over two axes would fill the summary; they are in the table.
             let Some(sheet) = w.sheet.as_ref().filter(|s| s.steady && s.coordinates.len() == 1) else { continue };
@@ -207,7 +208,8 @@ impl Watches {
             let cells: Vec<f64> = w.means[1].get().collect();
             for (k, what) in names.iter().enumerate() {
                 let column: Vec<f64> = cells.iter().skip(k).step_by(names.len()).copied().collect();
-                summary.results.insert(w.column(&format!("{} profile", tsubu_frame::csv::split_unit(what).0)), column);
+                let (what, unit) = split_unit(what);
+                summary.give(w.column(&format!("{what} profile")), unit.unwrap_or("-"), column);
             }
         }
     }

@@ -5,7 +5,7 @@ use crate::engine;
 use crate::ledger::Account;
 use crate::partner::Hosts;
 use crate::{check, run};
-use tsubu_frame::{Cell, FileError, ResultValue, RunFolder, Status, Summary, Table};
+use tsubu_frame::{Cell, FileError, RunFolder, Status, Summary, Table};
 use tsubu_scene::{Plan, Scene};
 
 fn number(value: f64) -> Cell {
@@ -87,15 +87,15 @@ pub(super) fn write(
         }
         let Some(peak) = case.peak else { continue };
         let values = [
-            ("peak frequency ratio", peak.ratio),
-            ("peak rms", peak.rms),
-            ("half-power damping", peak.half_power_damping),
-            ("loss factor", case.loss_factor),
-            ("apparent mass", case.apparent_mass),
-            ("added-mass limit", case.added_mass_limit),
+            ("peak frequency ratio", "-", peak.ratio),
+            ("peak rms", "m", peak.rms),
+            ("half-power damping", "-", peak.half_power_damping),
+            ("loss factor", "-", case.loss_factor),
+            ("apparent mass", "kg", case.apparent_mass),
+            ("added-mass limit", "-", case.added_mass_limit),
         ];
         let mut cells = vec![text(name), text(method), number(case.particles as f64)];
-        cells.extend(values.iter().map(|(_, v)| number(*v)));
+        cells.extend(values.iter().map(|(_, _, v)| number(*v)));
         cells.extend([number(case.residual), number(case.wall)]);
         cases.push(cells);
         causes.push(
@@ -103,8 +103,8 @@ pub(super) fn write(
                 .chain(Account::ALL.iter().zip(&case.flows).filter(|(a, _)| !a.is_work()).map(|(_, f)| number(*f))),
         );
         let suffix = if case.name.is_empty() { String::new() } else { format!(" {}", case.name) };
-        for (label, value) in values {
-            summary.results.insert(format!("{label}{suffix}"), ResultValue::Number(value));
+        for (label, unit, value) in values {
+            summary.give(format!("{label}{suffix}"), unit, value);
         }
         summary.energy.residual_relative = summary.energy.residual_relative.max(case.residual);
         summary.particles = summary.particles.max(case.particles as u64);
