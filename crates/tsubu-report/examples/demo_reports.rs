@@ -11,8 +11,9 @@ fn main() {
     fixture::response(&dir.join("damper-response"));
     fixture::compare(&dir.join("two-methods"));
     fixture::sweep(&dir.join("sweep"));
+    fixture::calibration(&dir.join("calibration"));
     fixture::verify(&dir.join("verification"), false);
-    for name in ["swinging-box", "damper-response", "two-methods", "sweep", "verification"] {
+    for name in ["swinging-box", "damper-response", "two-methods", "sweep", "calibration", "verification"] {
         println!("{}", tsubu_report::report(&dir.join(name)).unwrap().display());
     }
 }

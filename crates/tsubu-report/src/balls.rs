@@ -42,6 +42,8 @@ pub struct Look {
     pub arrows: bool,
     /// Viewpoint.
     pub view: View,
+    /// Time of the last picture of a series [s]: all are labelled alike.
+    pub last: Option<f64>,
 }
 
 /// The grains and walls of one moment, turned to the viewer.
@@ -127,13 +129,22 @@ impl Balls {
         self.centres.is_empty() && self.outlines.is_empty() && self.faces.is_empty()
     }
 
-    /// The rectangle that holds all grains and walls: left, bottom, right, top.
+    /// The rectangle that holds the walls that end somewhere and all grains but the few that are far off: left, bottom, right,
+    /// top. Those that got away would leave the others no room.
     pub fn extent(&self) -> [f64; 4] {
         let mut e = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
-        let round = (0..self.centres.len()).filter(|&grain| self.outline(grain).is_none());
+        let inner = self.inner();
+        let seen = |c: &[f64; 3]| c[0] >= inner[0] && c[1] >= inner[1] && c[0] <= inner[2] && c[1] <= inner[3];
+        let kept = || (0..self.centres.len()).filter(|&grain| seen(&self.centres[grain]));
+        let round = kept().filter(|&grain| self.outline(grain).is_none());
         let spheres = round.map(|grain| (self.centres[grain], self.radii[grain]));
-        let corners = (0..self.centres.len()).filter_map(|grain| self.outline(grain)).flatten();
-        let walls = self.outlines.iter().flatten().chain(self.faces.iter().flatten());
+        let corners = kept().filter_map(|grain| self.outline(grain)).flatten();
+        // Endless walls are drawn as far as there is something else: they frame a picture only where they are all there is.
+        let alone = self.centres.is_empty() && self.endless.iter().all(|endless| *endless) && self.faces.is_empty();
+        let lines = self.outlines.iter().enumerate();
+        let lines =
+            lines.filter(|(k, _)| alone || !self.endless.get(*k).copied().unwrap_or(false)).map(|(_, line)| line);
+        let walls = lines.flatten().chain(self.faces.iter().flatten());
         for (c, r) in spheres.chain(corners.chain(walls.copied()).map(|corner| (corner, 0.0))) {
             if c.iter().all(|x| x.is_finite()) {
                 e = [e[0].min(c[0] - r), e[1].min(c[1] - r), e[2].max(c[0] + r), e[3].max(c[1] + r)];
@@ -142,6 +153,37 @@ impl Balls {
         // A lone level wall has a width and no height, and is something to see.
         let (width, height) = (e[2] - e[0], e[3] - e[1]);
         if width.min(height) >= 0.0 && width.max(height) > 0.0 { e } else { [0.0, 0.0, 1.0, 1.0] }
+    }
+
+    /// Centres of all grains but those of the outermost hundredth at each side that are far off: left, bottom, right, top.
+    fn inner(&self) -> [f64; 4] {
+        let ends = |axis: usize| {
+            let mut places: Vec<f64> = self.centres.iter().map(|c| c[axis]).filter(|x| x.is_finite()).collect();
+            places.sort_by(f64::total_cmp);
+            // Of fewer than a hundred nobody is left out, nor is who is near.
+            let out = places.len() / 100;
+            let at = |k: usize| places.get(k).copied().unwrap_or(f64::NAN);
+            let [first, low] = [at(0), at(out)];
+            let [high, last] = [1 + out, 1].map(|k| at(places.len().wrapping_sub(k)));
+            let near = 0.5 * (high - low);
+            [if first >= low - near { first } else { low }, if last <= high + near { last } else { high }]
+        };
+        let ([left, right], [bottom, top]) = (ends(0), ends(1));
+        [left, bottom, right, top]
+    }
+
+    /// How many grains have their centres outside of a window.
+    pub(crate) fn outside(&self, w: [f64; 4]) -> usize {
+        self.centres.iter().filter(|c| !(c[0] >= w[0] && c[1] >= w[1] && c[0] <= w[2] && c[1] <= w[3])).count()
+    }
+
+    /// The value that all but a hundredth of the grains stay below, where the highest is far beyond it; else the highest.
+    fn high(&self) -> f64 {
+        let mut values: Vec<f64> = self.values.iter().copied().filter(|v| v.is_finite()).collect();
+        values.sort_by(f64::total_cmp);
+        let Some(&highest) = values.last() else { return 1.0 };
+        let most = values[values.len() - 1 - values.len() / 100];
+        if highest > 2.0 * most && most > 0.0 { most } else { highest }
     }
 
     /// Lowest and highest value behind the colours.
@@ -169,11 +211,12 @@ pub fn common(series: &[Balls], look: &Look) -> Look {
             .map(Balls::extent)
             .reduce(|a, b| [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]);
     }
+    look.last = look.last.or_else(|| series.iter().map(|balls| balls.time).reduce(f64::max));
     if look.range.is_none() {
         let joined = series
             .iter()
             .filter(|balls| !balls.values.is_empty())
-            .map(Balls::range)
+            .map(|balls| (balls.range().0, balls.high()))
             .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
         look.range = joined.map(|(low, high)| if look.colour == ColourBy::Speed { (0.0, high) } else { (low, high) });
     }

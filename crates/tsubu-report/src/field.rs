@@ -88,7 +88,14 @@ pub(crate) fn map(places: &[[f64; 2]], values: &[f64], axes: &[Axis; 2], value: 
         }
     }
     let id = format!("field-{}", (high.to_bits() ^ low.to_bits().rotate_left(7) ^ values.len() as u64) % 1_000_003);
-    colour_bar(&mut out, &(value.label.clone(), value.unit.clone()), (low, high), [0.5 * WIDTH, top + h + 40.0], &id);
+    colour_bar(
+        &mut out,
+        &(value.label.clone(), value.unit.clone()),
+        (low, high),
+        false,
+        [0.5 * WIDTH, top + h + 40.0],
+        &id,
+    );
     out.push_str("</svg>");
     Some(out)
 }

@@ -167,11 +167,21 @@ impl Figure {
         self
     }
 
-    /// Whether there is anything to see.
+    /// Whether there is nothing to see.
     pub fn is_empty(&self) -> bool {
-        let drawn = |s: &Series| s.points.iter().any(|(x, y)| x.is_finite() && y.is_finite());
-        let bars = self.bars.as_ref().is_some_and(|b| !b.categories.is_empty() && !b.parts.is_empty());
-        !bars && !self.series.iter().any(drawn)
+        !self.has(f64::is_finite)
+    }
+
+    /// Whether every value is zero, or there is none: not worth its place on a page.
+    pub(crate) fn is_idle(&self) -> bool {
+        !self.has(|value| value.is_finite() && value != 0.0)
+    }
+
+    /// Whether it has a value like this.
+    fn has(&self, like: impl Fn(f64) -> bool) -> bool {
+        let drawn = |s: &Series| s.points.iter().any(|(x, y)| x.is_finite() && like(*y));
+        let bars = self.bars.iter().filter(|bars| !bars.categories.is_empty()).flat_map(|bars| &bars.parts);
+        self.series.iter().any(drawn) || bars.flat_map(|(_, values)| values).any(|value| like(*value))
     }
 
     /// The figure as an SVG document without a background, to stand in a page of any colour.

@@ -88,7 +88,7 @@ fn panel(source: &mut Source, study: &str, scene: &Scene, name: &str) -> Panel {
         ColourBy::Column("radius".into())
     };
     let balls = Balls::of(&last, &Look { colour, ..Look::default() });
-    Panel { balls, label: time_label(last.time), arrow: None }
+    Panel { balls, label: time_label(last.time, last.time), arrow: None }
 }
 
 /// A strip with what stands over it.

@@ -47,7 +47,7 @@ fn draw(source: &mut Source, history: Option<&Table>, found: &[Snapshot], stem: 
     let mut panels = Vec::new();
     for (i, phase) in &chosen {
         let balls = Balls::of(&read_frame(&found[*i].path)?, &look);
-        let time = time_label(found[*i].time);
+        let time = time_label(found[*i].time, found[found.len() - 1].time);
         let label = phase.map_or(time, |p: f64| format!("{p:.0}°"));
         panels.push(Panel { arrow: motion(found, *i, &balls)?, balls, label });
     }
@@ -57,6 +57,7 @@ fn draw(source: &mut Source, history: Option<&Table>, found: &[Snapshot], stem: 
         }
     }
     let arrows = if panels.iter().any(|p| p.arrow.is_some()) { " Arrows show how the box moves." } else { "" };
+    let arrows = format!("{arrows}{}", left_out(&panels));
     let caption = match resolved {
         Some(p) => format!(
             "One period of {} from t = {} s on, in eighths; 0° is where the {who} passes its middle going up.{arrows}",
@@ -137,6 +138,19 @@ pub(crate) fn heights(earlier: &Frame, frame: &Frame) -> Vec<f64> {
     let ids = earlier.integers(Kind::Grain, "id");
     let heights: HashMap<i64, f64> = ids.iter().copied().zip(began.centres.iter().map(|c| c[1])).collect();
     frame.integers(Kind::Grain, "id").iter().map(|id| heights.get(id).copied().unwrap_or(f64::NAN)).collect()
+}
+
+/// What a strip does not show, in words.
+fn left_out(panels: &[Panel]) -> String {
+    let all: Vec<Balls> = panels.iter().map(|p| p.balls.clone()).collect();
+    let look = common(&all, &Look::default());
+    let most = look.window.and_then(|w| all.iter().map(|balls| (balls.outside(w), balls.centres.len())).max());
+    match most {
+        Some((out, of)) if out > 0 => {
+            format!(" Up to {out} of {of} grains are far off, outside the pictures.")
+        }
+        _ => String::new(),
+    }
 }
 
 /// Eight in a row only if each is taller than wide.

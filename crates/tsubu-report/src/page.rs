@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use base64::Engine as _;
 
-use crate::text::escape;
+use crate::text::{escape, marked, plain};
 
 /// How good or bad something is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -156,7 +156,7 @@ impl Report {
         }
         let _ = write!(out, "</p>\n<h1>{}</h1>\n", escape(&self.title));
         if !self.headline.is_empty() {
-            let _ = writeln!(out, "<p class=\"headline\">{}</p>", escape(&self.headline));
+            let _ = writeln!(out, "<p class=\"headline\">{}</p>", marked(&self.headline));
         }
         out.push_str("</header>\n");
         self.write_cards(&mut out);
@@ -204,7 +204,7 @@ impl Report {
             }
             out.push_str("</div>");
             if !card.note.is_empty() {
-                let _ = write!(out, "<div class=\"remark\">{}</div>", escape(&card.note));
+                let _ = write!(out, "<div class=\"remark\">{}</div>", marked(&card.note));
             }
             out.push_str("</div>\n");
         }
@@ -214,18 +214,19 @@ impl Report {
 
 fn write_block(out: &mut String, block: &Block) {
     let _ = match block {
-        Block::Text(text) => writeln!(out, "<p>{}</p>", escape(text)),
+        Block::Text(text) => writeln!(out, "<p>{}</p>", marked(text)),
         Block::Note(tone, text) => {
-            writeln!(out, "<p class=\"note {}\">{}</p>", tone.class(), escape(text))
+            writeln!(out, "<p class=\"note {}\">{}</p>", tone.class(), marked(text))
         }
         Block::Drawing { svg, caption } => {
-            let label = svg.replacen("<svg ", &format!("<svg role=\"img\" aria-label=\"{}\" ", escape(caption)), 1);
+            let label =
+                svg.replacen("<svg ", &format!("<svg role=\"img\" aria-label=\"{}\" ", escape(&plain(caption))), 1);
             writeln!(out, "<figure>{label}{}</figure>", caption_html(caption))
         }
         Block::Picture { media, bytes, caption } => writeln!(
             out,
             "<figure><img alt=\"{}\" src=\"data:{media};base64,{}\">{}</figure>",
-            escape(caption),
+            escape(&plain(caption)),
             base64(bytes),
             caption_html(caption)
         ),
@@ -235,7 +236,7 @@ fn write_block(out: &mut String, block: &Block) {
         }
         Block::Typed(text) => writeln!(out, "<pre>{}</pre>", escape(text)),
         Block::Folded { summary, inside } => {
-            let _ = writeln!(out, "<details>\n<summary>{}</summary>", escape(summary));
+            let _ = writeln!(out, "<details>\n<summary>{}</summary>", marked(summary));
             for block in inside {
                 write_block(out, block);
             }
@@ -245,7 +246,7 @@ fn write_block(out: &mut String, block: &Block) {
 }
 
 fn caption_html(caption: &str) -> String {
-    if caption.is_empty() { String::new() } else { format!("<figcaption>{}</figcaption>", escape(caption)) }
+    if caption.is_empty() { String::new() } else { format!("<figcaption>{}</figcaption>", marked(caption)) }
 }
 
 fn write_grid(out: &mut String, grid: &Grid) {
@@ -270,7 +271,7 @@ fn write_grid(out: &mut String, grid: &Grid) {
                 "" if cell.chars().count() <= 34 => " class=\"whole\"",
                 other => other,
             };
-            let _ = write!(out, "<td{class}>{}</td>", escape(cell));
+            let _ = write!(out, "<td{class}>{}</td>", marked(cell));
         }
         out.push_str("</tr>\n");
     }

@@ -21,6 +21,9 @@ pub(crate) const AXIS: &str = "#6e7781";
 
 const WIDTH: f64 = 860.0;
 const FONT: &str = "system-ui, -apple-system, Segoe UI, Roboto, Helvetica, Arial, sans-serif";
+/// Width of a letter of a label, and what the height of a figure has beside its vertical axis [pixels].
+const LETTER: f64 = 7.0;
+const AROUND: f64 = 70.0;
 /// More points than pixels make a file large and a figure no better.
 const MOST_POINTS: usize = 2400;
 
@@ -42,6 +45,13 @@ pub(crate) fn svg(figure: &Figure) -> String {
         .with_legend_position(LegendPosition::OutsideBottomColumns)
         .with_legend_box(false);
     let layout = if figure.title.is_empty() { layout } else { layout.with_title(&figure.title) };
+    // A label longer than its axis would be cut off at both ends: it stands above the drawing instead.
+    let label = layout.y_label.clone().unwrap_or_default();
+    let layout = if figure.title.is_empty() && LETTER * label.chars().count() as f64 > height - AROUND {
+        layout.with_title(label).with_y_label("").with_title_size(13)
+    } else {
+        layout
+    };
     tidied(&kuva::render_to_svg(plots, layout))
 }
 

@@ -84,6 +84,7 @@ pub fn picture(balls: &Balls, look: &Look, width: u32) -> Image {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{}\" font-family=\"Ubuntu\" fill=\"{INK}\">",
         inner + footer
     );
+    let _ = write!(svg, "<svg x=\"0\" y=\"0\" width=\"{width}\" height=\"{inner}\">");
     for outline in balls.outlines.iter().filter(|_| !balls.space) {
         let points: Vec<String> = outline
             .iter()
@@ -99,15 +100,16 @@ pub fn picture(balls: &Balls, look: &Look, width: u32) -> Image {
             points.join(" ")
         );
     }
+    svg.push_str("</svg>");
     let _ = write!(
         svg,
         "<text x=\"10\" y=\"{}\" font-size=\"13\">{}</text>",
         inner + if narrow { 64 } else { 24 },
-        escape(&time_label(balls.time))
+        escape(&time_label(balls.time, look.last.unwrap_or(balls.time)))
     );
     let range = look.range.unwrap_or((0.0, 1.0));
     let middle = if narrow { f64::from(width) / 2.0 } else { f64::from(width) - 145.0 };
-    colour_bar(&mut svg, &balls.quantity, range, [middle, f64::from(inner) + 14.0], "scale");
+    colour_bar(&mut svg, &balls.quantity, range, balls.range().1 > range.1, [middle, f64::from(inner) + 14.0], "scale");
     svg.push_str("</svg>");
     if let Some(over) = from_svg(&svg, 1.0) {
         image.put(&over, 0, 0);

@@ -371,9 +371,10 @@ fn cause_blocks(source: &mut Source, table: &Table) -> Vec<Block> {
 /// The strip of the filmed period, or of whatever snapshots there are.
 fn picture_blocks(source: &mut Source, listed: &[Case]) -> Vec<Block> {
     let history = source.table("history.csv");
-    // A response films its fullest case; of equals the last.
-    let fullest = listed.iter().filter(|c| c.ratio.is_finite()).max_by(|a, b| a.grains.total_cmp(&b.grains));
-    let mut blocks = match (&history, fullest) {
+    // A response films the case with grains that has the lowest peak.
+    let peaks = listed.iter().filter(|c| c.ratio.is_finite() && c.rms.is_finite() && c.grains > 0.0);
+    let best = peaks.min_by(|a, b| a.rms.total_cmp(&b.rms));
+    let mut blocks = match (&history, best) {
         (None, Some(case)) => {
             let who = format!("{} at its peak,", case.name);
             moments::filmed(source, &who, "the drive passes its middle going up")

@@ -86,7 +86,7 @@ impl Source {
 
     /// A figure on the page and as a file; nothing if there is nothing to see.
     pub fn figure(&mut self, name: &str, figure: &Figure, caption: &str) -> Option<Block> {
-        if figure.is_empty() {
+        if figure.is_idle() {
             return None;
         }
         self.files.push((format!("figures/{name}.svg"), figure.to_svg().into_bytes()));

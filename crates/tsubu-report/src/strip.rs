@@ -27,8 +27,6 @@ pub struct Panel {
 /// Pictures side by side in one window and one colour scale, `columns` in a row, with a colour bar below.
 pub fn strip(panels: &[Panel], look: &Look, columns: usize) -> String {
     let all: Vec<Balls> = panels.iter().map(|p| p.balls.clone()).collect();
-    // A window that was asked for may leave something out; what is left out must not be drawn over the neighbours.
-    let clipped = look.window.is_some();
     let look = common(&all, look);
     let window = look.window.unwrap_or([0.0, 0.0, 1.0, 1.0]);
     let range = look.range.unwrap_or((0.0, 1.0));
@@ -52,14 +50,15 @@ pub fn strip(panels: &[Panel], look: &Look, columns: usize) -> String {
         let x = (i % columns) as f64 * (cell + GAP);
         let y = (i / columns) as f64 * (picture + label);
         let place = Place { x: x - (window[0] - margin) * scale, y: y + picture + (window[1] - margin) * scale, scale };
-        if clipped {
-            let frame = format!("\"{x:.1}\" y=\"{y:.1}\" width=\"{cell:.1}\" height=\"{picture:.1}\"");
-            let _ = write!(out, "<svg x={frame} viewBox=\"{x:.1} {y:.1} {cell:.1} {picture:.1}\">");
-        }
+        // A window leaves out what is far off; that must not be drawn over the neighbours. The ground is white in any page:
+        // slow grains are dark.
+        let frame = format!("\"{x:.1}\" y=\"{y:.1}\" width=\"{cell:.1}\" height=\"{picture:.1}\"");
+        let _ = write!(
+            out,
+            "<svg x={frame} viewBox=\"{x:.1} {y:.1} {cell:.1} {picture:.1}\"><rect x={frame} fill=\"#fff\"/>"
+        );
         draw(&mut out, &panel.balls, &look, range, &place, [x, y, cell, picture]);
-        if clipped {
-            out.push_str("</svg>");
-        }
+        out.push_str("</svg>");
         let middle = x + cell / 2.0;
         let _ = write!(
             out,
@@ -77,7 +76,8 @@ pub fn strip(panels: &[Panel], look: &Look, columns: usize) -> String {
     }
     if let Some(first) = panels.first() {
         let gradient = format!("scale-{}-{}", panels.len(), (range.1.to_bits() ^ window[2].to_bits()) % 1_000_003);
-        colour_bar(&mut out, &first.balls.quantity, range, [width / 2.0, height - 30.0], &gradient);
+        let above = all.iter().any(|balls| balls.range().1 > range.1);
+        colour_bar(&mut out, &first.balls.quantity, range, above, [width / 2.0, height - 30.0], &gradient);
     }
     out.push_str("</svg>");
     out
@@ -85,13 +85,17 @@ pub fn strip(panels: &[Panel], look: &Look, columns: usize) -> String {
 
 /// One picture.
 pub fn picture(balls: &Balls, look: &Look) -> String {
-    let label = time_label(balls.time);
+    let label = time_label(balls.time, balls.time);
     strip(&[Panel { balls: balls.clone(), label, arrow: None }], look, 1)
 }
 
-/// Time as a reader writes it.
-pub fn time_label(time: f64) -> String {
-    if time.abs() >= 1.0 || time == 0.0 { format!("t = {time:.3} s") } else { format!("t = {:.2} ms", time * 1e3) }
+/// Time as a reader writes it: all times of a series, up to `last` [s], in one unit with as many digits.
+pub fn time_label(time: f64, last: f64) -> String {
+    match last.abs() {
+        100.0.. => format!("t = {time:.1} s"),
+        0.1.. => format!("t = {time:.3} s"),
+        _ => format!("t = {:.2} ms", time * 1e3),
+    }
 }
 
 struct Place {
@@ -215,11 +219,12 @@ fn arrow(out: &mut String, middle: [f64; 2], along: [f64; 2]) {
     );
 }
 
-/// The colour scale with its ends, about a middle.
+/// The colour scale with its ends, about a middle; `above`: there are values beyond its upper end.
 pub(crate) fn colour_bar(
     out: &mut String,
     (name, unit): &(String, String),
     (low, high): (f64, f64),
+    above: bool,
     [middle, top]: [f64; 2],
     id: &str,
 ) {
@@ -231,7 +236,7 @@ pub(crate) fn colour_bar(
         "<defs><linearGradient id=\"{id}\">{}</linearGradient></defs>\
          <rect x=\"{:.1}\" y=\"{top:.1}\" width=\"{:.1}\" height=\"9\" rx=\"2\" fill=\"url(#{id})\"/>\
          <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"12\" text-anchor=\"end\">{}</text>\
-         <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"12\">{}</text>\
+         <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"12\">{}{}</text>\
          <text x=\"{middle:.1}\" y=\"{:.1}\" font-size=\"12\" text-anchor=\"middle\">{}</text>",
         colour::stops(),
         middle - half,
@@ -241,6 +246,7 @@ pub(crate) fn colour_bar(
         crate::text::short(low * factor),
         middle + half + 7.0,
         top + 9.0,
+        if above { "≥ " } else { "" },
         crate::text::short(high * factor),
         top + 25.0,
         escape(&title),

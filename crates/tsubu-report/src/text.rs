@@ -71,6 +71,24 @@ pub(crate) fn superscript(power: &str) -> String {
     power.chars().map(|c| if c == '-' { '⁻' } else { c.to_digit(10).map_or(c, |d| RAISED[d as usize]) }).collect()
 }
 
+/// Text as HTML: what stands between backticks is set as code. A lone backtick stays.
+pub(crate) fn marked(text: &str) -> String {
+    let parts: Vec<String> = text.split('`').map(escape).collect();
+    let mut out = parts[0].clone();
+    for pair in parts[1..].chunks(2) {
+        match pair {
+            [code, rest] => out.extend(["<code>", code, "</code>", rest]),
+            lone => out.extend(["`", &lone[0]]),
+        }
+    }
+    out
+}
+
+/// Text without the marks of code, for places that show plain text alone.
+pub(crate) fn plain(text: &str) -> String {
+    text.replace('`', "")
+}
+
 /// Text made safe for HTML and SVG. Control characters, which XML forbids, become visible.
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());

@@ -8,7 +8,6 @@ use crate::field;
 use crate::figure::{Axis, Figure, Series, Style};
 use crate::page::Block;
 use crate::source::{Source, folded};
-use crate::text::short;
 
 /// Figures of a watch that are seen without unfolding.
 const OPEN: usize = 2;
@@ -22,6 +21,8 @@ const PATHS: usize = 8;
 struct Entry {
     name: String,
     kind: String,
+    #[serde(default)]
+    about: String,
     scalars: Vec<String>,
     file: Option<String>,
     coordinates: Vec<String>,
@@ -61,6 +62,10 @@ impl Watches {
             blocks.extend(drawn);
             if !rest.is_empty() {
                 blocks.push(folded(&format!("More of {}", entry.name), rest));
+            }
+            if !entry.about.is_empty() {
+                let what = format!("What {} measures ({})", entry.name, entry.kind.replace('-', " "));
+                blocks.push(folded(&what, vec![Block::Typed(entry.about.clone())]));
             }
         }
         blocks
@@ -157,9 +162,10 @@ impl Entry {
             let mut figure = Figure::new("", x, y);
             let point = |(at, value): (f64, f64)| if upright { (value, at) } else { (at, value) };
             let number = |row: &[tsubu_frame::Cell], column: usize| row[column].number().unwrap_or(f64::NAN);
+            let last = shown.last().map_or(f64::NAN, |k| number(&looks[*k][0], 0));
             for look in shown.iter().map(|k| looks[*k]) {
                 let points = look.iter().map(|row| point((number(row, 1), number(row, column)))).collect();
-                figure = figure.with(Series::line(format!("t = {} s", short(number(&look[0], 0))), points));
+                figure = figure.with(Series::line(crate::strip::time_label(number(&look[0], 0), last), points));
             }
             if looks.len() > TIMES {
                 let points = means(table, column, looks[0].len());

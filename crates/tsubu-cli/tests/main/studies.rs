@@ -57,7 +57,7 @@ fn a_sweep_runs_every_case_and_keeps_what_is_done() {
 #[test]
 fn a_sweep_tells_results_as_the_scene_asks_for_them() {
     let asked = "[watch.zone]\nslope.touching = false\n[watch.bed]\ncoordination = {}\n\
-                 [[claim]]\nresult = \"bed rattlers final\"\nhigh = 1\n";
+                 [[claim]]\nresult = \"bed rattlers final\"\nhigh = 1\nsource = \"here\"\n";
     let desk = Desk::with(&format!("{SCENE}\n{asked}"));
     let shown = desk.done("sweep balls.toml -q --jobs 2").stdout;
     let header = desk.read("out/balls-sweep/sweep.csv").lines().next().unwrap().to_owned();
@@ -83,7 +83,7 @@ fn a_case_that_fails_is_told_beside_the_others() {
     let ended = desk.run("sweep balls.toml -q --jobs 2");
     assert_eq!(ended.code, Some(3), "{}", ended.stderr);
     assert!(
-        ended.stdout.contains("failed") && ended.stdout.contains("case `largest-overlap = 1e-9`: "),
+        ended.stdout.contains("failed") && ended.stdout.contains("case `largest-overlap = 0.000000001`: "),
         "{}",
         ended.stdout
     );

@@ -18,6 +18,26 @@ fn is_blank(image: &Image) -> bool {
     image.rgba.as_chunks::<4>().0.windows(2).all(|w| w[0] == w[1])
 }
 
+/// Four grains that had escaped left more than half of a picture blank, and stretched the scale of speeds so that all others
+/// had one colour; in dark pages slow grains, which are dark, could not be seen at all.
+#[test]
+fn a_few_that_got_away_do_not_set_the_frame() {
+    let mut balls = Balls::of(&fixture::frame(0.0, 400), &Look::default());
+    let inside = balls.extent();
+    let slow = balls.range().1;
+    for grain in 0..4 {
+        balls.centres[grain] = [-40.0, -90.0, 0.0];
+        balls.values[grain] = 1e3 * slow;
+    }
+    let window = balls.extent();
+    assert!(window.iter().zip(inside).all(|(a, b)| (a - b).abs() < 0.02), "{window:?} for {inside:?}");
+    let look = tsubu_report::balls::common(std::slice::from_ref(&balls), &Look::default());
+    assert!(look.range.expect("range").1 <= slow, "{:?}", look.range);
+    let svg = tsubu_report::strip::picture(&balls, &Look::default());
+    assert!(svg.contains(">≥ "), "that colours end below the fastest is said");
+    assert!(svg.contains("fill=\"#fff\"/>"), "dark grains stand on white in any page");
+}
+
 #[test]
 fn figures_take_any_numbers() {
     let wild = [f64::NAN, f64::INFINITY, -1.0, 0.0, 1e-300, 1.0, 1e300];

@@ -229,6 +229,28 @@ fn results_are_told_as_people_read_them() {
     assert!(html.contains("90 values, see figure") && html.contains("22.92 … 34.38 °"));
 }
 
+/// Marks of code stood on pages as they are typed in messages; charts of zeros alone filled them; labels longer than their
+/// axis were cut off.
+#[test]
+fn pages_have_no_marks_no_empty_charts_and_no_cut_labels() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut summary = fixture::summary("dem");
+    summary.warnings = vec!["shorten `dem.time-step`, then `a < b`".into()];
+    summary.write(&dir.path().join("summary.json")).unwrap();
+    let long = "force of the grains on the eastern wall along x";
+    let head = format!("time [s],nothing [N],{long} [N]");
+    fixture::text(dir.path(), "history.csv", &format!("{head}\n0,0,1\n1,0,2\n2,0,1\n"));
+    let html = written(dir.path());
+    self_contained(&html);
+    assert!(html.contains("shorten <code>dem.time-step</code>, then <code>a &lt; b</code>"));
+    assert!(!html.contains("[N]</text>") || !html.contains(">nothing [N]<"), "a chart of zeros");
+    assert!(!dir.path().join("figures/history_nothing.svg").exists());
+    let name = format!("history_{}.svg", long.replace(' ', "_"));
+    let chart = fs::read_to_string(dir.path().join("figures").join(name)).unwrap();
+    let label = chart.split("<text ").find(|text| text.contains(long)).expect("label");
+    assert!(!label.contains("rotate"), "the label is longer than the axis: {label}");
+}
+
 #[test]
 fn a_failed_claim_cannot_be_overlooked() {
     let dir = tempfile::tempdir().unwrap();

@@ -121,7 +121,7 @@ fn what_watches_saw_is_drawn() {
     assert!(!captions(section(&page, "Motion")).iter().any(|c| c.contains("out ")));
     let figure = |name: &str| fs::read_to_string(dir.path().join("figures").join(name)).unwrap();
     for (name, said) in [
-        ("watch_layers_solid_fraction_profile.svg", "t = 2 s"),
+        ("watch_layers_solid_fraction_profile.svg", "t = 2.000 s"),
         ("watch_layers_solid_fraction_profile.svg", "mean over time"),
         ("watch_some_position_z_paths.svg", "grain 7"),
         ("watch_sand_height_events.svg", "grain 9"),

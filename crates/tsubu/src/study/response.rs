@@ -160,10 +160,12 @@ impl Task {
             .collect()
     }
 
-    /// Eight pictures of one period of the fullest case at its peak.
+    /// Eight pictures of one period of the best case at its peak: of those with grains, the one with the lowest peak.
     fn film(&self, results: &[CaseResult], folder: &RunFolder) -> Result<(), CasesError> {
-        let fullest = results.iter().enumerate().max_by_key(|(_, case)| case.particles);
-        let Some((index, peak)) = fullest.and_then(|(i, case)| Some((i, case.peak?))) else { return Ok(()) };
+        let peaks = results.iter().enumerate().filter(|(_, case)| case.particles > 0);
+        let peaks = peaks.filter_map(|(i, case)| Some((i, case.peak?)));
+        let best = peaks.min_by(|(_, a), (_, b)| a.rms.total_cmp(&b.rms));
+        let Some((index, peak)) = best else { return Ok(()) };
         let bed = tasks::bed(&self.plans[index], 0).map_err(|e| self.fail(index, e.into()))?;
         tasks::film(&self.plans[index], &self.wanted, &bed, self.reference * peak.ratio, folder)
             .map_err(|e| self.fail(index, e))

@@ -37,14 +37,24 @@ pub(super) struct Discharge {
     group: Option<u32>,
     gravity: DVec3,
     seen: BTreeMap<u32, Seen>,
+    /// Times of the first and the last look, and of the look that last saw a grain pass [s].
+    first: Option<f64>,
     last: Option<f64>,
+    passage: Option<f64>,
+    /// Free grains that are still behind the plane, if it has two sides.
+    waiting: i64,
     passed: i64,
     mass: f64,
 }
 
+/// An outlet that nothing has passed for this share of the time is worth a word.
+const QUIET: f64 = 0.25;
+
 impl Discharge {
     pub fn new(point: DVec3, normal: DVec3, group: Option<u32>, gravity: DVec3) -> Self {
-        Self { point, normal, group, gravity, seen: BTreeMap::new(), last: None, passed: 0, mass: 0.0 }
+        let seen = BTreeMap::new();
+        let (first, last, passage) = (None, None, None);
+        Self { point, normal, group, gravity, seen, first, last, passage, waiting: 0, passed: 0, mass: 0.0 }
     }
 
     /// The period along the normal, if the world repeats itself along it.
@@ -81,6 +91,7 @@ impl Watch for Discharge {
         let elapsed = self.last.map_or(f64::NAN, |last| view.time - last);
         let period = self.period(view);
         let mut gone = std::mem::take(&mut self.seen);
+        self.waiting = 0;
         for i in 0..view.len() {
             if self.group.is_some_and(|group| view.grains.group[i] != group) {
                 continue;
@@ -91,6 +102,7 @@ impl Watch for Discharge {
                 self.passed += now.side - old.side;
                 self.mass += (now.side - old.side) as f64 * now.mass;
             }
+            self.waiting += i64::from(period.is_none() && now.side < 0 && view.free(i));
             self.seen.insert(id, now);
         }
         let pull = self.gravity.dot(self.normal);
@@ -101,31 +113,56 @@ impl Watch for Discharge {
                 self.mass += old.mass;
             }
         }
+        self.first = self.first.or(Some(view.time));
         self.last = Some(view.time);
+        if self.passed > before {
+            self.passage = self.last;
+        }
         let rates = [(self.passed - before) as f64 / elapsed, (self.mass - mass_before) / elapsed];
         Sample { scalars: vec![self.passed as f64, self.mass, rates[0], rates[1]], rows: Vec::new() }
     }
 
+    /// Of outlets, which grains fall through, that have come to a stop with grains above them.
+    fn remark(&self) -> Option<String> {
+        let (first, last) = (self.first?, self.last?);
+        let quiet = last - self.passage.unwrap_or(first) > QUIET * (last - first);
+        let down = self.gravity.dot(self.normal) > 0.5 * self.gravity.length();
+        if !quiet || !down || self.waiting == 0 {
+            return None;
+        }
+        let verb = if self.waiting == 1 { "is" } else { "are" };
+        let who = match self.passage {
+            Some(time) => format!("since t = {time} s and {} {verb} still before it", self.waiting),
+            None => format!("and {} {verb} before it", self.waiting),
+        };
+        Some(format!("no grain has passed {who}: the outlet may be blocked"))
+    }
+
     fn save(&self, name: &str, state: &mut State) {
         let whole = self.seen.iter().flat_map(|(id, seen)| [i64::from(*id), seen.side]);
-        state.put_integer(&format!("{name}.seen"), [self.passed].into_iter().chain(whole).collect::<Vec<_>>());
+        let counts = [self.passed, self.waiting];
+        state.put_integer(&format!("{name}.seen"), counts.into_iter().chain(whole).collect::<Vec<_>>());
         let real = self.seen.values().flat_map(|seen| [seen.mass, seen.ahead, seen.speed]);
-        let head = [self.mass, self.last.unwrap_or(f64::NAN)];
+        let [first, last, passage] = [self.first, self.last, self.passage].map(|time| time.unwrap_or(f64::NAN));
+        let head = [self.mass, first, last, passage];
         state.put_real(&format!("{name}.seen-real"), head.into_iter().chain(real).collect::<Vec<_>>());
     }
 
     fn load(&mut self, name: &str, state: &State) -> Result<(), MissingSection> {
         let key = format!("{name}.seen");
         let wrong = || MissingSection { name: key.clone(), kind: "integer" };
-        let (Some((passed, whole)), Some(([mass, last], real))) =
-            (state.integer(&key)?.split_first(), state.real(&format!("{name}.seen-real"))?.split_first_chunk::<2>())
-        else {
+        let (Some(([passed, waiting], whole)), Some(([mass, times @ ..], real))) = (
+            state.integer(&key)?.split_first_chunk::<2>(),
+            state.real(&format!("{name}.seen-real"))?.split_first_chunk::<4>(),
+        ) else {
             return Err(wrong());
         };
         if 3 * whole.len() != 2 * real.len() {
             return Err(wrong());
         }
-        (self.passed, self.mass, self.last) = (*passed, *mass, Some(*last).filter(|t| !t.is_nan()));
+        (self.passed, self.waiting, self.mass) = (*passed, *waiting, *mass);
+        let times: [f64; 3] = *times;
+        [self.first, self.last, self.passage] = times.map(|time| Some(time).filter(|t| !t.is_nan()));
         let pairs = whole.as_chunks::<2>().0.iter().zip(real.as_chunks::<3>().0);
         let seen = |(&[id, side], &[mass, ahead, speed]): (&[i64; 2], &[f64; 3])| {
             (id as u32, Seen { side, mass, ahead, speed })

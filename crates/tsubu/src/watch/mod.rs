@@ -55,6 +55,11 @@ pub trait Watch: Send + Debug {
     /// Looks.
     fn take(&mut self, view: &View) -> Sample;
 
+    /// What the reader of the results should know: that what was to be measured did not happen.
+    fn remark(&self) -> Option<String> {
+        None
+    }
+
     /// Writes what the next look depends on into a checkpoint; most watches remember nothing.
     fn save(&self, _name: &str, _state: &mut State) {}
 

@@ -197,6 +197,7 @@ impl Watches {
             if w.looks == 0.0 {
                 summary.warnings.push(format!("the watch `{}` has not looked once: it begins later", w.name));
             }
+            summary.warnings.extend(w.watch.remark().map(|remark| format!("the watch `{}`: {remark}", w.name)));
             for ((what, mean), last) in w.watch.scalars().iter().zip(w.means[0].get()).zip(&w.last) {
                 let (what, unit) = split_unit(what);
                 summary.give(w.column(what), unit.unwrap_or("-"), mean);

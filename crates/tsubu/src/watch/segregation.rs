@@ -12,7 +12,8 @@ share              p, number of the first group over that of both               
 cells              number of cells with grains in them                                     [-]
 S^2 is the variance of the share of the first group over cubic cells (squares in the plane), each weighed by its grains;
 S0^2 = p (1 - p) is that of groups apart, Sr^2 = p (1 - p) / n that of a random mixture, n the mean number of grains in a
-cell. M is 0 where every cell is pure and 1 for a random mixture; groups in perfect order reach n / (n - 1).
+cell. M is 0 where every cell is pure and 1 for random mixtures in the mean: a single one lies above or below 1 by chance, by
+about sqrt(2 / cells) / (n - 1). More than that above 1 is order: groups in perfect order reach n / (n - 1). M is not cut at 1.
 Source: Lacey 1954 (J. Appl. Chem. 4, 257). Limits: depends on the size of the cells; cells at the border hold fewer.
 Cells begin at the origin of the scene. Frozen and driven grains are left out.";
 

@@ -51,6 +51,34 @@ fn a_steady_fall_is_counted_exactly() {
     }
 }
 
+/// A hopper that had arched gave a small rate in a sweep, and no word that it was blocked.
+#[test]
+fn an_outlet_that_nothing_passes_any_more_says_so() {
+    let plan = plan(2, "gravity = 10\n", "discharge = {}");
+    let fresh = || open(&plan.watch["w"].measure, &plan);
+    let at = |time: f64, zs: &[f64]| {
+        let balls: Vec<Ball> = zs.iter().map(|z| ball(0.0, 0.0, *z, 0.1)).collect();
+        View { time, ..view(&balls, Vec::new(), [None; 3]) }
+    };
+    let remark = |looks: &[View]| {
+        let mut gate = fresh();
+        looks.iter().for_each(|look| drop(gate.take(look)));
+        let mut state = State::default();
+        gate.save("w", &mut state);
+        let mut again = fresh();
+        again.load("w", &state).unwrap();
+        assert_eq!(gate.remark(), again.remark(), "after a resume");
+        gate.remark()
+    };
+    let begin = || at(0.0, &[1.0, 2.0]);
+    let stuck = remark(&[begin(), at(1.0, &[-1.0, 2.0]), at(2.0, &[-9.0, 2.0])]).expect("remark");
+    assert_eq!(stuck, "no grain has passed since t = 1 s and 1 is still before it: the outlet may be blocked");
+    let shut = remark(&[begin(), at(2.0, &[1.0, 2.0])]).expect("remark");
+    assert_eq!(shut, "no grain has passed and 2 are before it: the outlet may be blocked");
+    assert_eq!(remark(&[begin(), at(1.0, &[1.0, 2.0]), at(1.1, &[-1.0, 2.0])]), None, "it flows");
+    assert_eq!(remark(&[begin(), at(1.0, &[-1.0, -1.0]), at(9.0, &[-9.0, -9.0])]), None, "it is empty");
+}
+
 #[test]
 fn who_comes_back_is_taken_off_and_who_appears_in_front_does_not_count() {
     let mut gate = watch(2, "discharge = { normal = \"x\" }");
@@ -122,6 +150,27 @@ fn groups_apart_in_order_and_at_random() {
     // The control: three quarters of the way is neither.
     let between = lacey(|cell, n| u32::from(if cell >= 8 { n >= 16 } else { n >= 48 }));
     assert!((0.5..0.95).contains(&between), "{between}");
+}
+
+/// An index of 1.006 looked like a mistake, as the index "lies between 0 and 1": random mixtures scatter about 1, and by how
+/// much the text says. Cut at 1, their mean would lie below it.
+#[test]
+fn random_mixtures_lie_on_both_sides_of_one() {
+    // A coin for each grain (splitmix64): `shaken` is spread more evenly than chance would have it.
+    let coin = |k: usize| {
+        let z = (k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) & 1) as u32
+    };
+    let of = |salt: usize| lacey(|cell, n| coin(1024 * salt + 64 * cell + n));
+    let all: Vec<f64> = (0..60).map(of).collect();
+    let mean = all.iter().sum::<f64>() / 60.0;
+    let spread = (all.iter().map(|m| (m - mean).powi(2)).sum::<f64>() / 59.0).sqrt();
+    let told = (2.0_f64 / 16.0).sqrt() / 63.0;
+    assert!((mean - 1.0).abs() < 3.0 * told / 60.0_f64.sqrt(), "{mean}");
+    assert!(spread > 0.7 * told && spread < 1.3 * told, "{spread} for {told}");
+    assert!(all.iter().filter(|m| **m > 1.0).count() > 15, "{all:?}");
 }
 
 #[test]
