@@ -70,6 +70,8 @@ pub enum Kind {
     Axis,
     /// Gravity: a number (downward) or a vector.
     Gravity,
+    /// An angle, or its tangent in percent.
+    Slope,
     /// A list of quantities.
     Quantities(&'static Dimension),
     /// Two quantities, the first below the second.

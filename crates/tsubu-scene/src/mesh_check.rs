@@ -1,7 +1,7 @@
 //! What is wrong with a mesh, or at least worth knowing: triangles without area, holes, flipped neighbours.
 
 use crate::plan::Vector;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::fmt;
 
 /// Places that are told; of the rest only the number.
@@ -11,6 +11,8 @@ const TOLD: usize = 3;
 const FLAT: f64 = 1e-10;
 /// Distance over the size of the mesh within which corners are one corner.
 const WELD: f64 = 1e-9;
+/// Size of a rim over the size of the mesh below which it is rather a hole than an opening.
+const SMALL: f64 = 0.02;
 
 /// How often something was found, and where the first few are.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -60,6 +62,8 @@ pub struct Diagnosis {
     pub triangles: usize,
     /// Number of different corners.
     pub corners: usize,
+    /// From the smallest to the largest coordinate along each axis [m].
+    pub extent: Vector,
     /// Triangles with a corner that is no finite number.
     pub not_finite: Found,
     /// Triangles without area.
@@ -68,8 +72,11 @@ pub struct Diagnosis {
     pub duplicated: Found,
     /// Edges with one triangle: the rims of holes, or of an open mesh.
     pub open_edges: Found,
-    /// Closed lines that the open edges make.
+    /// Lines that the open edges make.
     pub rims: usize,
+    /// Rims that look as if they were meant: closed lines of more than three edges (a triangle that is missing has three)
+    /// which are not small beside the mesh.
+    pub openings: usize,
     /// Edges that more than two triangles share.
     pub crowded_edges: Found,
     /// Edges whose two triangles go round the same way, so that their normals are on different sides.
@@ -115,7 +122,9 @@ impl fmt::Display for Diagnosis {
 /// Looks at everything. An open mesh is no mistake: hoppers are open.
 pub fn diagnose(triangles: &[[Vector; 3]]) -> Diagnosis {
     let mut diagnosis = broken(triangles);
-    let (corner_of, corners) = weld(triangles);
+    let ends = ends(triangles);
+    diagnosis.extent = length(ends);
+    let (corner_of, corners) = weld(triangles, largest(diagnosis.extent));
     diagnosis.corners = corners;
     let mut seen: HashSet<[usize; 3]> = HashSet::new();
     // Under the two corners of an edge, smaller first: how often it is gone along this way and the other way.
@@ -133,25 +142,28 @@ pub fn diagnose(triangles: &[[Vector; 3]]) -> Diagnosis {
             let (from, to) = (corners[i], corners[j]);
             let key = [from.min(to), from.max(to)];
             let ways = edges.entry(key).or_insert_with(|| {
-                order.push((key, middle(&[triangle[i], triangle[j]])));
+                order.push((key, [triangle[i], triangle[j]]));
                 [0, 0]
             });
             ways[usize::from(from > to)] += 1;
         }
     }
     let mut rim = Rims::new(corners);
-    for (key, place) in order {
+    for (key, edge) in order {
         match edges[&key] {
             [1, 0] | [0, 1] => {
-                diagnosis.open_edges.add(place);
-                rim.join(key);
+                diagnosis.open_edges.add(middle(&edge));
+                rim.join(key, edge);
             }
             [1, 1] => {}
-            [2, 0] | [0, 2] => diagnosis.flipped_edges.add(place),
-            _ => diagnosis.crowded_edges.add(place),
+            [2, 0] | [0, 2] => diagnosis.flipped_edges.add(middle(&edge)),
+            _ => diagnosis.crowded_edges.add(middle(&edge)),
         }
     }
-    diagnosis.rims = rim.count();
+    let rims = rim.all();
+    diagnosis.rims = rims.len();
+    let small = SMALL * largest(diagnosis.extent);
+    diagnosis.openings = rims.iter().filter(|rim| rim.closed && rim.edges > 3 && rim.size >= small).count();
     diagnosis
 }
 
@@ -186,29 +198,48 @@ fn middle(points: &[Vector]) -> Vector {
     [0, 1, 2].map(|i| points.iter().map(|point| point[i]).sum::<f64>() / points.len() as f64)
 }
 
+/// Smallest and largest coordinates of all that is finite.
+fn ends(triangles: &[[Vector; 3]]) -> [Vector; 2] {
+    let finite = triangles.iter().flatten().filter(|corner| corner.iter().all(|x| x.is_finite()));
+    finite.fold(NO_ENDS, |ends, corner| wider(ends, *corner))
+}
+
+const NO_ENDS: [Vector; 2] = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+
+fn wider([low, high]: [Vector; 2], point: Vector) -> [Vector; 2] {
+    [[0, 1, 2].map(|i| f64::min(low[i], point[i])), [0, 1, 2].map(|i| f64::max(high[i], point[i]))]
+}
+
+/// Lengths between ends; zero where there is nothing between.
+fn length([low, high]: [Vector; 2]) -> Vector {
+    [0, 1, 2].map(|i| f64::max(high[i] - low[i], 0.0))
+}
+
+fn largest(extent: Vector) -> f64 {
+    extent.into_iter().fold(0.0, f64::max)
+}
+
 /// Numbers the corners; those nearer to each other than rounding are one. `None` for triangles that are not finite.
-fn weld(triangles: &[[Vector; 3]]) -> (Vec<Option<[usize; 3]>>, usize) {
-    let finite = || triangles.iter().flatten().filter(|corner| corner.iter().all(|x| x.is_finite()));
-    let size = (0..3)
-        .map(|i| {
-            let low = finite().map(|corner| corner[i]).fold(f64::INFINITY, f64::min);
-            finite().map(|corner| corner[i]).fold(f64::NEG_INFINITY, f64::max) - low
-        })
-        .fold(0.0, f64::max);
+fn weld(triangles: &[[Vector; 3]], size: f64) -> (Vec<Option<[usize; 3]>>, usize) {
     let reach = if size.is_finite() { WELD * size } else { 0.0 };
     let mut known: HashMap<[i64; 3], Vec<(Vector, usize)>> = HashMap::new();
     let mut count = 0;
     let mut number = |corner: Vector| {
-        let cell = |x: f64, step: f64| if reach > 0.0 { ((x + step) / reach).floor() as i64 } else { 0 };
-        // What is near may have been rounded to the cell beside.
+        // Cells are wider than the reach both ways, so that what is near is in one of two cells an axis; whatever rounding
+        // does, its own cell is one of them, because rounding keeps the order of numbers.
+        let cell = |x: f64| if reach > 0.0 { (x / (4.0 * reach)).floor() as i64 } else { 0 };
+        let [low, high] = [-reach, reach].map(|step| corner.map(|x| cell(x + step)));
         for steps in 0..8 {
-            let key = [0, 1, 2].map(|i| cell(corner[i], if steps >> i & 1 == 0 { -0.5 * reach } else { 0.5 * reach }));
+            if (0..3).any(|i| steps >> i & 1 == 1 && low[i] == high[i]) {
+                continue;
+            }
+            let key = [0, 1, 2].map(|i| if steps >> i & 1 == 0 { low[i] } else { high[i] });
             let near = |other: &&(Vector, usize)| (0..3).all(|i| (other.0[i] - corner[i]).abs() <= reach);
             if let Some((_, number)) = known.get(&key).and_then(|there| there.iter().find(near)) {
                 return *number;
             }
         }
-        known.entry(corner.map(|x| cell(x, 0.0))).or_default().push((corner, count));
+        known.entry(corner.map(cell)).or_default().push((corner, count));
         count += 1;
         count - 1
     };
@@ -222,12 +253,25 @@ fn weld(triangles: &[[Vector; 3]]) -> (Vec<Option<[usize; 3]>>, usize) {
 /// Open edges that share corners make one rim.
 struct Rims {
     parent: Vec<usize>,
-    touched: Vec<bool>,
+    /// Open edges at each corner.
+    edges_at: Vec<usize>,
+    /// Each open edge by a corner, and its ends.
+    edges: Vec<(usize, [Vector; 2])>,
+}
+
+/// One of them.
+struct Rim {
+    edges: usize,
+    /// Every corner has two edges.
+    closed: bool,
+    ends: [Vector; 2],
+    /// Its largest extent.
+    size: f64,
 }
 
 impl Rims {
     fn new(corners: usize) -> Self {
-        Self { parent: (0..corners).collect(), touched: vec![false; corners] }
+        Self { parent: (0..corners).collect(), edges_at: vec![0; corners], edges: Vec::new() }
     }
 
     fn root(&mut self, mut corner: usize) -> usize {
@@ -238,15 +282,30 @@ impl Rims {
         corner
     }
 
-    fn join(&mut self, [a, b]: [usize; 2]) {
-        self.touched[a] = true;
-        self.touched[b] = true;
+    fn join(&mut self, [a, b]: [usize; 2], edge: [Vector; 2]) {
+        self.edges.push((a, edge));
+        self.edges_at[a] += 1;
+        self.edges_at[b] += 1;
         let (a, b) = (self.root(a), self.root(b));
         self.parent[a] = b;
     }
 
-    fn count(&self) -> usize {
-        (0..self.parent.len()).filter(|corner| self.touched[*corner] && self.parent[*corner] == *corner).count()
+    fn all(&mut self) -> Vec<Rim> {
+        let mut rims: BTreeMap<usize, Rim> = BTreeMap::new();
+        for (corner, edge) in std::mem::take(&mut self.edges) {
+            let root = self.root(corner);
+            let rim = rims.entry(root).or_insert(Rim { edges: 0, closed: true, ends: NO_ENDS, size: 0.0 });
+            rim.edges += 1;
+            rim.ends = edge.into_iter().fold(rim.ends, wider);
+            rim.size = largest(length(rim.ends));
+        }
+        for corner in 0..self.parent.len() {
+            let root = self.root(corner);
+            if let Some(rim) = rims.get_mut(&root) {
+                rim.closed &= self.edges_at[corner] == 2;
+            }
+        }
+        rims.into_values().collect()
     }
 }
 
@@ -330,5 +389,54 @@ mod tests {
         assert!(!is_flat(&[[0.0; 3], [1e-6, 0.0, 0.0], [0.5e-6, 1e-12, 0.0]]));
         assert!(is_flat(&[[1e-30; 3], [1.0, 1.0, 1.0], [2.0, 2.0, 2.0]]));
         assert!(diagnose(&[]).is_clean());
+    }
+
+    /// A coordinate at the middle of a cell of the search was looked for in the two cells beside it and not in its own, so
+    /// that this terrain, heights in micrometres, had 33 corners twice and holes where there are none.
+    #[test]
+    fn a_terrain_has_one_rim_wherever_its_corners_are() {
+        let (columns, rows) = (81_usize, 33_usize);
+        let corner = |i: usize, j: usize| {
+            let [x, y] = [i, j].map(|n| n as f64);
+            [x, y, ((0.3 * x).sin() * (0.2 * y).cos() * 1e6).round() / 1e6]
+        };
+        let squares = (0..columns - 1).flat_map(|i| (0..rows - 1).map(move |j| (i, j)));
+        let terrain: Vec<[Vector; 3]> = squares
+            .flat_map(|(i, j)| {
+                let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+                [[a, b, c], [a, c, d]]
+            })
+            .collect();
+        let diagnosis = diagnose(&terrain);
+        assert_eq!((diagnosis.corners, diagnosis.open_edges.count, diagnosis.rims), (2673, 224, 1), "{diagnosis}");
+        assert_eq!((diagnosis.openings, diagnosis.extent[0], diagnosis.extent[1]), (1, 80.0, 32.0));
+    }
+
+    /// An open hopper was warned of like a mesh with holes.
+    #[test]
+    fn openings_are_told_from_holes() {
+        let tube = |sides: usize| -> Vec<[Vector; 3]> {
+            let at = |k: usize, z: f64| {
+                let (sin, cos) = (k as f64 / sides as f64 * std::f64::consts::TAU).sin_cos();
+                [(0.1 + z) * cos, (0.1 + z) * sin, z]
+            };
+            let side = |k: usize| {
+                let [a, b] = [k, (k + 1) % sides];
+                [[at(a, 0.0), at(b, 0.0), at(b, 1.0)], [at(a, 0.0), at(b, 1.0), at(a, 1.0)]]
+            };
+            (0..sides).flat_map(side).collect()
+        };
+        let mut hopper = tube(24);
+        let diagnosis = diagnose(&hopper);
+        assert_eq!((diagnosis.rims, diagnosis.openings), (2, 2), "{diagnosis}");
+        // One triangle that is missing is a hole, a whole side is an opening.
+        let mut more = cube();
+        more.remove(11);
+        assert_eq!((diagnose(&more).rims, diagnose(&more).openings), (1, 0));
+        more = cube().split_off(2);
+        assert_eq!((diagnose(&more).rims, diagnose(&more).openings), (1, 1));
+        // A triangle that is missing between the two openings lets them meet in a corner: no closed line any more.
+        hopper.remove(0);
+        assert_eq!((diagnose(&hopper).rims, diagnose(&hopper).openings), (1, 0));
     }
 }

@@ -139,6 +139,7 @@ fn value(key: &Key) -> String {
         Kind::Spins => "list of spins [rad/s]".to_string(),
         Kind::Axis => "direction, y allowed in the plane".to_string(),
         Kind::Direction => "direction".to_string(),
+        Kind::Slope => "angle [rad], or percent".to_string(),
         Kind::Gravity => "acceleration or vector [m/s^2]".to_string(),
         Kind::Quantities(dimension) if dimension.si.is_empty() => "list of numbers".to_string(),
         Kind::Quantities(dimension) => format!("list [{}]", dimension.si),

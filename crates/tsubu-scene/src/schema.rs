@@ -73,6 +73,7 @@ fn kind(key: &'static Key) -> Value {
             let axes = json!({ "enum": ["x", "-x", "y", "-y", "z", "-z"] });
             json!({ "anyOf": [axes, vector(&crate::units::NUMBER)] })
         }
+        Kind::Slope => quantity(&crate::units::ANGLE, key.range),
         Kind::Gravity => {
             let dimension = &crate::units::ACCELERATION;
             json!({ "anyOf": [quantity(dimension, key.range), vector(dimension)] })

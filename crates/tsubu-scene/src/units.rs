@@ -39,7 +39,8 @@ dimensions! {
     TIME "a time" "s" [0, 0, 1, 0] ["s", "ms", "us", "ns", "min", "h"] ["2 s", "20 us"] "Times."
     FREQUENCY "a frequency" "Hz" [0, 0, -1, 0] ["Hz", "kHz", "1/s"] ["6 Hz"] "Frequencies, in cycles."
     SPEED "a speed" "m/s" [1, 0, -1, 0] ["m/s", "mm/s", "cm/s", "km/h"] ["1 m/s", "5 mm/s"] "Speeds."
-    ACCELERATION "an acceleration" "m/s^2" [1, 0, -2, 0] ["m/s^2", "mm/s^2", "cm/s^2"] ["9.8 m/s^2"] "Accelerations."
+    ACCELERATION "an acceleration" "m/s^2" [1, 0, -2, 0] ["m/s^2", "mm/s^2", "cm/s^2", "g"] ["9.8 m/s^2", "2 g"]
+        "Accelerations; g is standard gravity, 9.80665 m/s^2."
     FORCE "a force" "N" [1, 1, -2, 0] ["N", "mN", "kN"] ["61.7 mN", "2 N"] "Forces."
     STIFFNESS "a stiffness" "N/m" [0, 1, -2, 0] ["N/m", "N/mm", "kN/m", "N/cm"] ["123.4 N/m"] "Stiffnesses."
     DAMPING "a damping coefficient" "N s/m" [0, 1, -1, 0] ["N s/m", "N.s/m", "N s/mm", "kg/s"] ["0.08 N s/m"]
@@ -117,7 +118,7 @@ pub fn read(text: &str, want: &Dimension) -> Result<f64, UnitError> {
         return Err(UnitError::new(format!("`{trimmed}` has a decimal comma"), "use a decimal point")
             .hint(format!("for example {}", want.examples_text())));
     }
-    let unit = expression::parse(unit_text).map_err(|problem| unknown(&problem, trimmed, want))?;
+    let unit = parse(unit_text, want).map_err(|problem| unknown(&problem, trimmed, want))?;
     if unit.powers != want.powers {
         return Err(wrong_dimension(trimmed, &unit, want));
     }
@@ -128,6 +129,17 @@ pub fn read(text: &str, want: &Dimension) -> Result<f64, UnitError> {
         Err(UnitError::new(format!("`{trimmed}` is too large to be stored"), "not a finite number"))
     }
 }
+
+/// A lone g is a gram, but no acceleration is in grams.
+fn parse(text: &str, want: &Dimension) -> Result<Unit, expression::Problem> {
+    if *want == ACCELERATION && text == "g" {
+        return Ok(Unit { ratio: STANDARD_GRAVITY, ten: 0, powers: ACCELERATION.powers });
+    }
+    expression::parse(text)
+}
+
+/// Standard gravity [m/s^2].
+const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// A unit of a whole column, read once for all its numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,7 +153,7 @@ impl Scale {
     pub fn read(text: &str, want: &Dimension) -> Result<Self, UnitError> {
         // As a quantity, so that what is wrong is said in the same words.
         read(&format!("1 {text}"), want)?;
-        Ok(Self(expression::parse(text.trim()).ok()))
+        Ok(Self(parse(text.trim(), want).ok()))
     }
 
     /// The number in SI; `None` where the text is no number, infinite where it is too large.
@@ -291,6 +303,7 @@ mod tests {
         assert_eq!(si("9.8 m/s^2", &ACCELERATION), 9.8);
         assert_eq!(si("9.8 m/s/s", &ACCELERATION), 9.8);
         assert_eq!(si("9.8 m/s²", &ACCELERATION), 9.8);
+        assert_eq!(si("2 g", &ACCELERATION), 19.6133);
         assert_eq!(si("180 deg", &ANGLE), std::f64::consts::PI);
         assert_eq!(si("60 rpm", &SPIN), 2.0 * std::f64::consts::PI);
         assert_eq!(si("75 %", &NUMBER), 0.75);

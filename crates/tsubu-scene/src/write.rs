@@ -117,6 +117,7 @@ const fn unit(kind: Kind) -> Option<&'static str> {
         | Kind::Ends(dimension)
         | Kind::Turning(dimension)
         | Kind::Matrix(dimension) => dimension,
+        Kind::Slope => &crate::units::ANGLE,
         Kind::Gravity => &crate::units::ACCELERATION,
         Kind::Spins => &crate::units::SPIN,
         _ => return None,

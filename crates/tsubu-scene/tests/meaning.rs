@@ -1,4 +1,4 @@
-use crate::{GOOD, edited, read};
+use crate::{GOOD, complaint, edited, read};
 use std::fs;
 use tsubu_scene::Scene;
 use tsubu_scene::plan::*;
@@ -157,4 +157,32 @@ fn space_needs_a_depth() {
     assert!(read(&text, &[]).expect_err("no depth").to_string().contains("depth"));
     let plan = plan(&text.replace("height = \"96 mm\"", "height = \"96 mm\", depth = \"12 mm\""));
     assert_eq!(plan.dimension, 3);
+}
+
+/// A base could be driven by its amplitude alone, and `g` was a gram everywhere.
+#[test]
+fn a_base_may_be_shaken_by_its_acceleration() {
+    let base = |sine: &str| {
+        edited("base.sine = { amplitude = \"0.5 mm\", frequency = \"6 Hz\" }", &format!("base.sine = {{ {sine} }}"))
+    };
+    let scene =
+        read(&base("acceleration = \"2 g\", frequency = \"10 Hz\""), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let Some(Signal::Sine { amplitude, frequency, .. }) = scene.plan().hosts["spring"].base else { panic!("a sine") };
+    assert!((amplitude * (std::f64::consts::TAU * frequency).powi(2) - 19.6133).abs() < 1e-12);
+    // A change of one takes the place of the other; a change of frequency keeps the acceleration.
+    let change = |change: &str| {
+        let plan = scene.changed(&[change.to_string()]).unwrap_or_else(|wrong| panic!("{wrong}")).plan().clone();
+        let Some(Signal::Sine { amplitude, .. }) = plan.hosts["spring"].base else { panic!("a sine") };
+        amplitude
+    };
+    assert_eq!(change("hosts.spring.base.sine.amplitude=1 mm"), 0.001);
+    assert!((change("hosts.spring.base.sine.frequency=20 Hz") / amplitude - 0.25).abs() < 1e-12);
+    let response = "\n[response]\nfrequency-ratio = [1]\n";
+    let wrong = [
+        complaint(&base("frequency = \"10 Hz\""), &[]),
+        complaint(&base("frequency = \"10 Hz\", amplitude = 0.1, acceleration = \"1 g\""), &[]),
+        complaint(&base("frequency = \"10 Hz\", acceleration = \"1 kg\""), &[]),
+        complaint(&format!("{}{response}", base("acceleration = \"2 g\", frequency = \"10 Hz\"")), &[]),
+    ];
+    insta::assert_snapshot!(wrong.join("\n\n"));
 }

@@ -1,6 +1,6 @@
 //! Water and slopes: what is meant, what follows, what is wrong.
 
-use crate::{complaint, read};
+use crate::{GOOD, complaint, read};
 use tsubu_scene::plan::{Drag, Film, Flow, Lid};
 
 const STREAM: &str = r#"
@@ -49,6 +49,21 @@ fn nothing_drives_the_stream() {
     insta::assert_snapshot!(about("slope = \"3 deg\"", ""));
     insta::assert_snapshot!(about("depth = \"2 cm\"", ""));
     insta::assert_snapshot!(about("depth = \"2 cm\"", "discharge = \"0.01 m^2/s\""));
+}
+
+/// `slope = "2 %"` was refused, though roads and rivers have theirs in percent.
+#[test]
+fn a_slope_may_be_in_percent() {
+    let gravity = |slope: &str| {
+        let text = format!("slope = {slope}\n{GOOD}");
+        read(&text, &[]).unwrap_or_else(|wrong| panic!("{wrong}")).plan().gravity
+    };
+    let angle = 0.02_f64.atan();
+    assert_eq!(gravity("\"2 %\""), [10.0 * angle.sin(), 0.0, -10.0 * angle.cos()]);
+    assert_eq!(gravity("\"2 %\""), gravity(&angle.to_string()));
+    // 100 % is half a right angle, and no percentage is too steep.
+    assert!((gravity("\"100 %\"")[0] - 50.0_f64.sqrt()).abs() < 1e-12);
+    assert!(gravity("\"-300 %\"")[0] < -9.0);
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! Vibrating structures and the signals that drive them.
 
 use super::{Key, Kind, Variant};
-use crate::units::{ANGLE, DAMPING, FORCE, FREQUENCY, LENGTH, LOAD_RATE, MASS, NUMBER, SPEED, SPIN, STIFFNESS, TIME};
+use crate::units::{
+    ACCELERATION, ANGLE, DAMPING, FORCE, FREQUENCY, LENGTH, LOAD_RATE, MASS, NUMBER, SPEED, SPIN, STIFFNESS, TIME,
+};
 
 pub(super) static HOST: &[Key] = &[
     Key::new("structure", Kind::Choice(STRUCTURE), "Its matrices"),
@@ -61,18 +63,42 @@ static MODE: &[Key] = &[
     Key::new("participation", Kind::Quantity(&NUMBER), "Participation of the base motion").default("1"),
 ];
 
+const FREQUENCY_OF_A_SINE: Key = Key::new("frequency", Kind::Quantity(&FREQUENCY), "Frequency").above(0.0);
+const PHASE: Key = Key::new("phase", Kind::Quantity(&ANGLE), "Phase at time 0").default("0");
+
+/// A sine, by its amplitude.
+macro_rules! sine {
+    ($what:expr) => {
+        &[Key::new("amplitude", Kind::Quantity($what), "Amplitude").at_least(0.0), FREQUENCY_OF_A_SINE, PHASE]
+    };
+}
+
+/// Displacements are known by their acceleration too.
+static SHAKEN: &[Key] = &[
+    Key::new("amplitude", Kind::Quantity(&LENGTH), "Amplitude")
+        .at_least(0.0)
+        .derived("from `acceleration`; one of the two is required")
+        .rivals(&["acceleration"]),
+    Key::new(
+        "acceleration",
+        Kind::Quantity(&ACCELERATION),
+        "Amplitude of the acceleration: amplitude (2 pi frequency)^2; `g` is a unit",
+    )
+    .at_least(0.0)
+    .optional()
+    .rivals(&["amplitude"]),
+    FREQUENCY_OF_A_SINE,
+    PHASE,
+];
+
 /// The same signals for displacements, angles and forces.
 macro_rules! signals {
-    ($what:expr, $rate:expr) => {
+    ($what:expr, $rate:expr, $sine:expr) => {
         [
             Variant {
                 name: "sine",
                 about: "amplitude sin(2 pi frequency t + phase)",
-                keys: &[
-                    Key::new("amplitude", Kind::Quantity($what), "Amplitude").at_least(0.0),
-                    Key::new("frequency", Kind::Quantity(&FREQUENCY), "Frequency").above(0.0),
-                    Key::new("phase", Kind::Quantity(&ANGLE), "Phase at time 0").default("0"),
-                ],
+                keys: $sine,
             },
             Variant {
                 name: "sine-sweep",
@@ -114,8 +140,8 @@ macro_rules! signals {
 }
 
 /// Displacements against time.
-pub(super) static DISPLACEMENT: [Variant; 5] = signals!(&LENGTH, &SPEED);
+pub(super) static DISPLACEMENT: [Variant; 5] = signals!(&LENGTH, &SPEED, SHAKEN);
 /// Angles against time.
-pub(super) static TURN: [Variant; 5] = signals!(&ANGLE, &SPIN);
+pub(super) static TURN: [Variant; 5] = signals!(&ANGLE, &SPIN, sine!(&ANGLE));
 /// Forces against time.
-pub(super) static LOAD: [Variant; 5] = signals!(&FORCE, &LOAD_RATE);
+pub(super) static LOAD: [Variant; 5] = signals!(&FORCE, &LOAD_RATE, sine!(&FORCE));

@@ -1,7 +1,7 @@
 //! The top of a scene, and its materials.
 
 use super::{Key, Kind, Word, contact, gases, grains, hosts, methods, sites, study, walls, watch, water};
-use crate::units::{ANGLE, DENSITY, NUMBER, PRESSURE, SPEED, SURFACE_ENERGY, TIME};
+use crate::units::{DENSITY, NUMBER, PRESSURE, SPEED, SURFACE_ENERGY, TIME};
 
 /// The keys at the top of a scene, in the order of the plan.
 pub static SCENE: &[Key] = &[
@@ -20,8 +20,8 @@ pub static SCENE: &[Key] = &[
     .default("'9.8 m/s^2'"),
     Key::new(
         "slope",
-        Kind::Quantity(&ANGLE),
-        "Slope of the x axis, positive downwards: turns a gravity that is given as a number",
+        Kind::Slope,
+        "Slope of the x axis, positive downwards, as an angle or in percent: turns a gravity that is given as a number",
     )
     .optional(),
     Key::new("duration", Kind::Quantity(&TIME), "Simulated time").above(0.0),

@@ -6,7 +6,7 @@ use crate::complaint::Complaint;
 use crate::keys::{Family, Key, Kind, Word};
 use crate::node::{Node, Value};
 use crate::suggest;
-use crate::units::{self, ACCELERATION, Dimension, ENERGY_DENSITY, FORCE, NUMBER, SPIN};
+use crate::units::{self, ACCELERATION, ANGLE, Dimension, ENERGY_DENSITY, FORCE, NUMBER, SPIN};
 
 /// Enough for any curve; guards against `step = 1e-12`.
 const MOST_RATIOS: f64 = 10_000.0;
@@ -40,6 +40,12 @@ impl Resolver<'_> {
             }
             Kind::Direction => self.direction(key, node, false).map(vector_value),
             Kind::Axis => self.direction(key, node, true).map(vector_value),
+            Kind::Slope => match &node.value {
+                Value::Text(text) if text.trim_end().ends_with('%') => {
+                    self.ranged(key, node, &NUMBER).map(|tangent| toml::Value::Float(tangent.atan()))
+                }
+                _ => self.ranged(key, node, &ANGLE).map(toml::Value::Float),
+            },
             Kind::Gravity => match node.value {
                 Value::List(_) => self.vector(key, node, &ACCELERATION).map(vector_value),
                 // Not -g: that would turn no gravity into a negative zero.

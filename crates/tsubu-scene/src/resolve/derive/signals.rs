@@ -3,6 +3,7 @@
 use super::{Derive, join, table, tables_in};
 use crate::complaint::{Complaint, Source};
 use crate::units::{ANGLE, Dimension, FORCE, LENGTH};
+use std::f64::consts::TAU;
 use toml::Value;
 
 /// Where a scene has signals, and what they are.
@@ -20,17 +21,51 @@ impl Derive<'_> {
         for (family, keys, dimension) in PLACES {
             for (name, owner) in tables_in(resolved, family) {
                 let mut path = vec![*family, name.as_str()];
-                let mut table = Some(owner);
-                for key in keys.iter().copied().chain(["table"]) {
+                let mut signal = Some(owner);
+                for key in *keys {
                     path.push(key);
-                    table = table.and_then(|table| table.get_mut(key)).and_then(Value::as_table_mut);
+                    signal = signal.and_then(|table| table.get_mut(*key)).and_then(Value::as_table_mut);
                 }
-                let Some(table) = table else { continue };
+                let Some(signal) = signal else { continue };
+                if let (true, Some(sine)) =
+                    (**dimension == LENGTH, signal.get_mut("sine").and_then(Value::as_table_mut))
+                {
+                    self.shaken(sine, &[&path[..], &["sine"]].concat());
+                }
+                let Some(table) = signal.get_mut("table").and_then(Value::as_table_mut) else { continue };
+                path.push("table");
                 match table.remove("file") {
                     Some(Value::String(file)) => self.filed_table(table, &file, dimension, &path),
                     _ => self.typed_table(table, &path),
                 }
             }
+        }
+    }
+
+    /// The amplitude of a sine that is given by its acceleration.
+    fn shaken(&mut self, sine: &mut toml::Table, path: &[&str]) {
+        let acceleration = sine.remove("acceleration").and_then(|value| value.as_float());
+        let frequency = sine.get("frequency").and_then(Value::as_float);
+        if let (Some(acceleration), Some(frequency)) = (acceleration, frequency) {
+            sine.insert("amplitude".into(), Value::Float(acceleration / (TAU * frequency).powi(2)));
+        }
+        let typed = |key: &str| self.typed(&[path, &[key]].concat());
+        let by_acceleration = typed("acceleration");
+        if !typed("amplitude") && !by_acceleration {
+            self.complain(
+                Complaint::new(format!("missing key `amplitude` in [{}]", path.join(".")))
+                    .at(&self.root.locate(path), "needs `amplitude` or `acceleration`")
+                    .hint("`amplitude`: for example \"0.5 mm\"")
+                    .hint("or `acceleration`: its amplitude (2 pi frequency)^2, for example \"2 g\""),
+            );
+        }
+        if by_acceleration && path[0] == "hosts" && self.typed(&["response"]) {
+            self.complain(
+                Complaint::new("a response changes the frequency and keeps the amplitude of the displacement")
+                    .at(&self.root.locate(&[path, &["acceleration"]].concat()), "would hold at one frequency alone")
+                    .also(&self.root.locate(&["response"]), "asked for here")
+                    .hint("give `amplitude` instead"),
+            );
         }
     }
 
