@@ -43,8 +43,8 @@ const BARE: &str = "# 2 0.05 0.0754\n0.01,0.02,0.03,0.001\n0.04,0.05,0.06,0.002\
 const XYZ: &str = "2\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:id:I:1 Time=0.5\n\
                    M0 0.01 0.02 0.03 1 2 3 0.001 0\nM0 0.04 0.05 0.06 0 0 -1 0.002 1\n";
 const DATA: &str = "LAMMPS data file\n\n2 atoms\n2 atom types\n\n0 1 xlo xhi\n\nMasses\n\n1 2\n\nAtoms # sphere\n\n\
-                    9 1 0.002 2500 0.01 0.02 0.03 0 0 -1\n4 2 0.004 2500 0.04 0.05 0.06 0 0 0\n\n\
-                    Velocities\n\n4 0 0 -1 7 8 9\n9 1 2 3 4 5 6\n";
+                    3 1 0.002 6000 0.01 0.02 0.03 0 0 -1\n4 2 0.004 6000 0.04 0.05 0.06 0 0 0\n\n\
+                    Velocities\n\n4 0 0 -1 7 8 9\n3 1 2 3 4 5 6\n";
 
 #[test]
 fn all_formats_say_the_same() {
@@ -63,6 +63,35 @@ fn all_formats_say_the_same() {
     assert_eq!(*grains("a.csv", round), bare);
     let blanks = "x  y  z  radius\n 0.01 0.02 0.03 0.001\n 0.04 0.05 0.06  0.002\n";
     assert_eq!(*grains("a.csv", blanks), bare);
+}
+
+/// `write_data` writes atoms in the order in which LAMMPS holds them; grains took that order, and their numbers with it.
+#[test]
+fn grains_stand_in_the_order_of_their_ids() {
+    let expected = grains("a.data", DATA);
+    let turned = DATA.replace(
+        "3 1 0.002 6000 0.01 0.02 0.03 0 0 -1\n4 2 0.004 6000 0.04 0.05 0.06 0 0 0\n",
+        "4 2 0.004 6000 0.04 0.05 0.06 0 0 0\n3 1 0.002 6000 0.01 0.02 0.03 0 0 -1\n",
+    );
+    assert_ne!(turned, DATA);
+    assert_eq!(grains("a.data", &turned), expected);
+    let (head, last) = XYZ.trim_end().rsplit_once('\n').expect("rows");
+    let (head, first) = head.rsplit_once('\n').expect("rows");
+    assert_eq!(grains("a.xyz", &format!("{head}\n{last}\n{first}\n")), grains("a.xyz", XYZ));
+}
+
+/// Densities in a file that were not the material's were passed over: the grains weighed something else.
+#[test]
+fn densities_of_a_file_and_of_the_scene_agree() {
+    let other = about("a.data", &DATA.replace("4 2 0.004 6000", "4 2 0.004 2500"));
+    let all = about("a.data", &DATA.replace("6000", "2650"));
+    let csv = about("a.csv", "x,y,z,d,density [g/cm^3]\n0,0,0,0.001,6\n1,0,0,0.001,7.8\n");
+    insta::assert_snapshot!([other, all, csv].join("\n\n"));
+    // Rounding in the file is no difference, and what is held in place weighs nothing.
+    assert!(with_grains("a.data", &DATA.replace("6000", "6000.01")).is_ok());
+    let frozen = SCENE.replace("NAME", "a.data") + "motion.frozen = {}\n";
+    let still = DATA.split_once("Velocities").expect("velocities").0.replace("6000", "2650");
+    assert!(in_folder(&[("a.data", still.as_bytes())], &frozen).is_ok());
 }
 
 #[test]
@@ -151,14 +180,14 @@ fn malformed_data() {
         DATA.replace("2 atoms", "3 atoms"),
         DATA.replace("# sphere", "# atomic"),
         DATA.replace("4 2 0.004", "4 2 0"),
-        DATA.replace("4 2 0.004", "9 2 0.004"),
-        DATA.replace("4 2 0.004 2500", "four 2 0.004 2500").replace("0.06 0 0 0", "0.06 0 0 0 0"),
+        DATA.replace("4 2 0.004", "3 2 0.004"),
+        DATA.replace("4 2 0.004 6000", "four 2 0.004 6000").replace("0.06 0 0 0", "0.06 0 0 0 0"),
         DATA.replace("0.05 0.06 0 0 0", "0.05 0.06"),
         DATA.replace("4 0 0 -1 7 8 9", "4 0 0 -1"),
         // Once passed over in silence: velocities of nobody, of one atom alone, before the atoms, and a type too many.
         DATA.replace("4 0 0 -1 7 8 9", "5 0 0 -1 7 8 9"),
         DATA.replace("4 0 0 -1 7 8 9", ""),
-        DATA.replace("Atoms # sphere", "Velocities\n\n9 0 0 0 0 0 0\n\nAtoms # sphere"),
+        DATA.replace("Atoms # sphere", "Velocities\n\n3 0 0 0 0 0 0\n\nAtoms # sphere"),
         DATA.replace("4 2 0.004", "4 3 0.004"),
         // Once passed over in silence: no number of atoms, so that a file that was cut off is whole; a section, a line
         // and units that nobody reads.

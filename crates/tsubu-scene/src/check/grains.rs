@@ -2,6 +2,7 @@
 
 use super::Parts;
 use crate::complaint::Complaint;
+use crate::grain_file::How;
 use crate::plan::{GrainMotion, GrainShape, Particles, Size, Start, Vector};
 
 pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
@@ -16,6 +17,7 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
         }
         sizes_and_places(parts, name, group, complaints);
         held(parts, name, group, complaints);
+        complaints.extend(density(parts, name, group));
         if let Start::Stream { from, .. } = group.start
             && let Some(duration) = parts.resolved.get("duration").and_then(toml::Value::as_float)
             && from >= duration
@@ -46,6 +48,36 @@ fn sizes_and_places(parts: &Parts<'_>, name: &str, group: &Particles, complaints
                 .hint(way),
         );
     }
+}
+
+/// Two ways to the same density may differ in the digits that a file has.
+const SAME_DENSITY: f64 = 1e-3;
+
+/// A file that tells densities must agree with the scene, which gives the masses: either could be meant.
+fn density(parts: &Parts<'_>, name: &str, group: &Particles) -> Option<Complaint> {
+    let (Start::File { path, kind, .. }, GrainMotion::Free {}) = (&group.start, &group.motion) else { return None };
+    let file = parts.files.known_grains(path, How { space: parts.space(), kind: *kind })?;
+    let own = group.mass / group.shape.mass(1.0, group.diameter);
+    let differs = |told: &f64| (told - own).abs() > SAME_DENSITY * own;
+    let index = file.densities.iter().position(differs)?;
+    let (told, line) = (file.densities[index], file.lines.get(index)?);
+    let complaint = Complaint::new(format!("`{path}` has other densities than the grains `{name}`"))
+        .at(
+            &parts.root.locate(&["particles", name, "start", "file", "path"]),
+            format!("line {line}: {told} kg/m^3, but the grains have {}", short(own)),
+        )
+        .hint(format!("give [materials.{}] the density of the file, or correct the file", group.material));
+    let many = file.densities.iter().any(|other| (other - told).abs() > SAME_DENSITY * told);
+    Some(if many && kind.is_none() {
+        complaint.hint("of grains of several densities make several groups; `start.file.kind` chooses an atom type")
+    } else {
+        complaint
+    })
+}
+
+/// Six digits.
+fn short(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
 }
 
 /// Grains that no force moves: what a start says about moving them would be ignored.

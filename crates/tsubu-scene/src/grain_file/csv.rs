@@ -1,6 +1,6 @@
 //! CSV: a header line that names the columns, or bare rows of numbers.
 //!
-//! Header cells are `x`, `y`, `z`, `d` or `diameter`, `r` or `radius`, `vx` ..., `wx` ..., with or without a unit in
+//! Header cells are `x`, `y`, `z`, `d` or `diameter`, `r` or `radius`, `density`, `vx` ..., `wx` ..., with or without a unit in
 //! brackets. What tells grains from each other (`id`, `name` ...) is passed over; any other column is refused. Without a header the columns are x, y, z and, if there is a fourth, the radius; in the plane x, z and, if
 //! there is a third, the radius. Lines that begin with `#` are passed over.
 
@@ -9,9 +9,10 @@ use crate::complaint::Complaint;
 use crate::header::{self, Header};
 use crate::lines::{Cell, Line, lines};
 use crate::suggest;
-use crate::units::{Dimension, LENGTH, SPEED, SPIN};
+use crate::units::{DENSITY, Dimension, LENGTH, SPEED, SPIN};
 
-const NAMES: [&str; 13] = ["x", "y", "z", "d", "diameter", "r", "radius", "vx", "vy", "vz", "wx", "wy", "wz"];
+const NAMES: [&str; 14] =
+    ["x", "y", "z", "d", "diameter", "r", "radius", "density", "vx", "vy", "vz", "wx", "wy", "wz"];
 /// What other codes write beside and no number of a grain depends on; a column without a name counts rows.
 const PASSED_OVER: [&str; 9] = ["id", "index", "type", "kind", "name", "species", "material", "group", ""];
 
@@ -124,6 +125,7 @@ fn column(name: &str) -> Option<(Column, &'static Dimension)> {
         "z" => Slot::Position(2),
         "d" | "diameter" => Slot::Diameter,
         "r" | "radius" => return Some((Column::radius(), &LENGTH)),
+        "density" => Slot::Density,
         "vx" => Slot::Velocity(0),
         "vy" => Slot::Velocity(1),
         "vz" => Slot::Velocity(2),
@@ -133,6 +135,7 @@ fn column(name: &str) -> Option<(Column, &'static Dimension)> {
         _ => return None,
     };
     let dimension = match slot {
+        Slot::Density => &DENSITY,
         Slot::Velocity(_) => &SPEED,
         Slot::Spin(_) => &SPIN,
         _ => &LENGTH,

@@ -1,5 +1,5 @@
 //! LAMMPS data files, atom_style sphere, SI units: the sections `Atoms` (id type diameter density x y z, perhaps with
-//! image flags) and `Velocities` (id vx vy vz wx wy wz). Densities are the materials' here, and are passed over.
+//! image flags) and `Velocities` (id vx vy vz wx wy wz). Grains stand in the order of their ids, whatever that of the file.
 
 use super::{Column, Rows, Slot};
 use crate::complaint::{Complaint, Place};
@@ -234,7 +234,7 @@ impl<'a> File<'a> {
 
 fn atom_columns(count: usize) -> Vec<Column> {
     let slots =
-        [Slot::Id, Slot::Kind, Slot::Diameter, Slot::Skip, Slot::Position(0), Slot::Position(1), Slot::Position(2)];
+        [Slot::Id, Slot::Kind, Slot::Diameter, Slot::Density, Slot::Position(0), Slot::Position(1), Slot::Position(2)];
     // Image flags tell how often a grain went round a periodic world; its place is in the world already.
     let flags = if count == 10 { 3 } else { 0 };
     slots.into_iter().chain([Slot::Skip; 3].into_iter().take(flags)).map(Column::new).collect()

@@ -19,10 +19,12 @@ pub(crate) struct GrainFile {
     pub grains: Arc<GrainTable>,
     /// The line of each grain, counted from 1.
     pub lines: Vec<u32>,
+    /// The density of each grain [kg/m^3], where the file tells it: the scene's own must agree.
+    pub densities: Vec<f64>,
 }
 
 /// What a scene says about how the file is to be read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct How {
     /// Three dimensions, not two.
     pub space: bool,
@@ -32,7 +34,7 @@ pub(crate) struct How {
 
 /// Reads the text of the file of that name, which is the given source of complaints.
 pub(crate) fn read(name: &str, text: &str, source: usize, how: How) -> Result<GrainFile, Vec<Complaint>> {
-    let mut rows = Rows { source, how, grains: GrainTable::default(), lines: Vec::new(), complaints: Vec::new() };
+    let mut rows = Rows { source, how, ..Rows::default() };
     match ending(name).as_str() {
         "csv" => csv::read(text, &mut rows),
         "xyz" => xyz::read(text, &mut rows),
@@ -46,7 +48,8 @@ pub(crate) fn read(name: &str, text: &str, source: usize, how: How) -> Result<Gr
         );
     }
     if rows.complaints.is_empty() {
-        Ok(GrainFile { grains: Arc::new(rows.grains), lines: rows.lines })
+        rows.sort_by_id();
+        Ok(GrainFile { grains: Arc::new(rows.grains), lines: rows.lines, densities: rows.densities })
     } else {
         Err(rows.complaints)
     }
@@ -77,6 +80,7 @@ enum Slot {
     Skip,
     Position(usize),
     Diameter,
+    Density,
     Velocity(usize),
     Spin(usize),
     Id,
@@ -106,6 +110,7 @@ impl Column {
 struct Row {
     position: Vector,
     diameter: f64,
+    density: f64,
     velocity: Vector,
     spin: Vector,
     id: u64,
@@ -113,11 +118,14 @@ struct Row {
 }
 
 /// The grains read so far.
+#[derive(Default)]
 struct Rows {
     source: usize,
     how: How,
     grains: GrainTable,
     lines: Vec<u32>,
+    densities: Vec<f64>,
+    ids: Vec<u64>,
     complaints: Vec<Complaint>,
 }
 
@@ -187,7 +195,12 @@ impl Rows {
                 return Err(Complaint::new(format!("`{}` is no size of a grain", cell.text))
                     .at(&cell.place(self.source), "needs a number above 0"));
             }
+            Slot::Density if number <= 0.0 => {
+                return Err(Complaint::new(format!("`{}` is no density of a grain", cell.text))
+                    .at(&cell.place(self.source), "needs a number above 0"));
+            }
             Slot::Diameter => row.diameter = number,
+            Slot::Density => row.density = number,
             Slot::Skip | Slot::Id | Slot::Kind => {}
         }
         Ok(())
@@ -201,12 +214,41 @@ impl Rows {
         if has(|slot| slot == Slot::Diameter) {
             self.grains.diameter.push(row.diameter);
         }
+        if has(|slot| slot == Slot::Density) {
+            self.densities.push(row.density);
+        }
+        if has(|slot| slot == Slot::Id) {
+            self.ids.push(row.id);
+        }
         if has(|slot| matches!(slot, Slot::Velocity(_))) {
             self.grains.velocity.push(row.velocity);
         }
         if has(|slot| matches!(slot, Slot::Spin(_))) {
             self.grains.spin.push(row.spin);
         }
+    }
+}
+
+impl Rows {
+    /// Programs write grains in the order in which they happen to hold them; their numbers are what lasts.
+    fn sort_by_id(&mut self) {
+        fn sorted<T: Copy>(order: &[usize], column: &mut Vec<T>) {
+            if !column.is_empty() {
+                *column = order.iter().map(|index| column[*index]).collect();
+            }
+        }
+        let mut order: Vec<usize> = (0..self.ids.len()).collect();
+        if self.ids.is_sorted() {
+            return;
+        }
+        order.sort_by_key(|index| self.ids[*index]);
+        let GrainTable { position, diameter, velocity, spin } = &mut self.grains;
+        for column in [position, velocity, spin] {
+            sorted(&order, column);
+        }
+        sorted(&order, diameter);
+        sorted(&order, &mut self.densities);
+        sorted(&order, &mut self.lines);
     }
 }
 

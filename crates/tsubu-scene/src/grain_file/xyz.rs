@@ -6,7 +6,7 @@ use crate::lines::{Line, lines};
 use crate::suggest;
 
 /// Properties that are read.
-const KNOWN: [&str; 5] = ["pos", "velo", "omega", "radius", "diameter"];
+const KNOWN: [&str; 6] = ["pos", "velo", "omega", "radius", "diameter", "density"];
 
 /// What a file without `Properties` holds.
 const PLAIN: &str = "species:S:1:pos:R:3";
@@ -68,7 +68,7 @@ fn properties(comment: &Line<'_>, rows: &mut Rows) -> Option<Vec<Column>> {
     let fields: Vec<&str> = text.split(':').collect();
     let mut columns = Vec::new();
     for field in fields.chunks(3) {
-        let [name, _, width] = field else {
+        let [name, form, width] = field else {
             rows.complain(Complaint::new("the list of properties is not whole").at(&place, "needs name:type:width"));
             return None;
         };
@@ -86,6 +86,8 @@ fn properties(comment: &Line<'_>, rows: &mut Rows) -> Option<Vec<Column>> {
             "omega" | "spin" | "angular_velocity" => [0, 1, 2].map(|axis| Column::new(Slot::Spin(axis))),
             "radius" => [Column::radius(); 3],
             "diameter" => [Column::new(Slot::Diameter); 3],
+            "density" => [Column::new(Slot::Density); 3],
+            "id" if form.eq_ignore_ascii_case("i") => [Column::new(Slot::Id); 3],
             // Writers of this format add what they like, under names of their own; a slip of the hand must not be lost.
             _ => {
                 let near = suggest::nearest(&name, KNOWN).filter(|near| near.len().abs_diff(name.len()) <= 2);
@@ -102,7 +104,7 @@ fn properties(comment: &Line<'_>, rows: &mut Rows) -> Option<Vec<Column>> {
         };
         let needs = match slots[0].slot {
             Slot::Skip => width,
-            Slot::Diameter => 1,
+            Slot::Diameter | Slot::Density | Slot::Id => 1,
             _ => 3,
         };
         if width != needs || slots[0].slot != Slot::Skip && columns.iter().any(|c: &Column| c.slot == slots[0].slot) {
