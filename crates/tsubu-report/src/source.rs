@@ -195,7 +195,8 @@ pub(crate) fn result_cards(summary: &Summary, most: usize) -> Vec<Card> {
             continue;
         }
         let claim = summary.claims.iter().find(|claim| claim.name == result);
-        if claim.is_none() && result.strip_suffix(" final").is_some_and(|mean| summary.results.get(mean).is_some()) {
+        let mean = [" spread", " final"].iter().find_map(|what| result.strip_suffix(what));
+        if claim.is_none() && mean.is_some_and(|mean| summary.results.get(mean).is_some()) {
             continue;
         }
         let (name, unit) = named(summary, result);

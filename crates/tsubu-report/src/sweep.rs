@@ -133,7 +133,10 @@ impl<'a> Sweep<'a> {
         let unit = x.first().and_then(|text| text.split_once(' ')).map_or("-", |(_, unit)| unit);
         let mut blocks = Vec::new();
         // What the books miss is told in the table.
-        let told = |column: &&usize| !self.table.header[**column].contains("residual");
+        let told = |column: &&usize| {
+            let name = split_unit(&self.table.header[**column]).0;
+            !name.contains("residual") && !name.ends_with(" spread")
+        };
         for &column in self.results.iter().filter(told).take(MOST_FIGURES) {
             let header = &self.table.header[column];
             let name = split_unit(header).0;

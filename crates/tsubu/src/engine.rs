@@ -141,6 +141,11 @@ pub trait Engine: Send {
         0
     }
 
+    /// How many grains have come and gone since time 0, and which way: `stream NAME grains`, `removal NAME grains`.
+    fn traffic(&self) -> Vec<(String, u64)> {
+        Vec::new()
+    }
+
     /// Steps of single grains since time 0: what the computing time was spent on.
     fn grain_steps(&self) -> u64 {
         self.steps() * self.grains() as u64

@@ -2,10 +2,11 @@
 
 use crate::check;
 use crate::engine::{self, Engine, Fault, OpenError};
-use crate::ledger::{Account, Ledger};
+use crate::ledger::{Account, Ledger, Stocks};
 use crate::partner::Hosts;
 use crate::scene_files;
 use crate::watch::Watches;
+use crate::watch::means::Means;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -220,8 +221,14 @@ impl Run<'_> {
             row.extend([host.displacement(), host.velocity(), host.grain_force()]);
         }
         row.extend(self.watches.row(&*self.engine));
-        self.measured.take(&self.hosts, self.engine.contacts());
+        let seen = self.seen(&stocks);
+        self.measured.take(&self.hosts, self.engine.contacts(), seen);
         row
+    }
+
+    /// What every scene has to tell of itself, in the order of [`SEEN`].
+    fn seen(&self, stocks: &Stocks) -> [f64; 3] {
+        [stocks.kinetic + stocks.rotational, self.engine.centre_of_mass()[2], self.engine.contacts() as f64]
     }
 
     fn save(&self, folder: &RunFolder) -> Result<(), FileError> {
@@ -314,6 +321,13 @@ impl Run<'_> {
         }
         self.watches.results(&mut summary);
         self.measured.results(&self.hosts, &mut summary);
+        // Where nothing is watched, this is what happened.
+        if self.plan.watch.is_empty() {
+            self.measured.tell(self.seen(&stocks), &mut summary);
+        }
+        for (name, grains) in self.engine.traffic() {
+            summary.give(name, "-", grains as f64);
+        }
         let momentum = self.ledger.momentum_residual(self.engine.momentum());
         summary.give("momentum residual", "N.s", momentum.iter().map(|p| p * p).sum::<f64>().sqrt());
         judge(self.plan, &mut summary);
@@ -358,9 +372,14 @@ impl Clock {
     }
 }
 
+/// What every scene has to tell of itself, with its unit.
+const SEEN: [(&str, &str); 3] = [("kinetic energy", "J"), ("centre of mass height", "m"), ("contacts", "-")];
+
 /// What is measured at every row of the history.
 #[derive(Default)]
 struct Measured {
+    /// Of [`SEEN`].
+    seen: Means,
     rows: f64,
     contacts: f64,
     /// Per host: sum, sum of squares, largest absolute value of the displacement.
@@ -372,12 +391,22 @@ impl Measured {
         Self { hosts: vec![[0.0; 3]; hosts.list.len()], ..Self::default() }
     }
 
-    fn take(&mut self, hosts: &Hosts, contacts: usize) {
+    fn take(&mut self, hosts: &Hosts, contacts: usize, seen: [f64; 3]) {
+        self.seen.take(seen.into_iter());
         self.rows += 1.0;
         self.contacts += contacts as f64;
         for (sums, host) in self.hosts.iter_mut().zip(&hosts.list) {
             let z = host.displacement();
             *sums = [sums[0] + z, sums[1] + z * z, sums[2].max(z.abs())];
+        }
+    }
+
+    fn tell(&self, last: [f64; 3], summary: &mut Summary) {
+        let means = self.seen.get().zip(self.seen.spreads()).zip(last);
+        for ((name, unit), ((mean, spread), last)) in SEEN.into_iter().zip(means) {
+            summary.give(name, unit, mean);
+            summary.give(format!("{name} spread"), unit, spread);
+            summary.give(format!("{name} final"), unit, last);
         }
     }
 
@@ -395,6 +424,7 @@ impl Measured {
         let mut values = vec![self.rows, self.contacts];
         values.extend(self.hosts.iter().flatten());
         state.put_real("run.measured", values);
+        state.put_real("run.seen", self.seen.numbers());
     }
 
     fn load(&mut self, state: &State) -> Result<(), MissingSection> {
@@ -402,6 +432,7 @@ impl Measured {
         if values.len() != 2 + 3 * self.hosts.len() {
             return Err(MissingSection { name: "run.measured".to_owned(), kind: "real" });
         }
+        self.seen = Means::from_numbers(state.real("run.seen")?);
         (self.rows, self.contacts) = (values[0], values[1]);
         for (sums, v) in self.hosts.iter_mut().zip(values[2..].chunks_exact(3)) {
             sums.copy_from_slice(v);

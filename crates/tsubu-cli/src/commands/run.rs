@@ -91,12 +91,7 @@ fn told(title: &str, summary: &Summary) -> String {
         summary.energy.residual_relative.abs()
     );
     let _ = writeln!(text, "  state      {}", summary.state_hash);
-    let results: Vec<Vec<String>> =
-        summary.results_in_order().into_iter().map(|(name, value)| result(summary, name, value)).collect();
-    if !results.is_empty() {
-        let _ = writeln!(text, "  results");
-        text += &table::aligned(&results);
-    }
+    text += &results(summary);
     if !summary.claims.is_empty() {
         let _ = writeln!(text, "  claims");
         for claim in &summary.claims {
@@ -106,14 +101,32 @@ fn told(title: &str, summary: &Summary) -> String {
     text + &warnings(&summary.warnings)
 }
 
+/// The results as a table: a mean stands beside its spread and the value at the end.
+fn results(summary: &Summary) -> String {
+    let twin = |name: &str, what: &str| match summary.results.get(&format!("{name} {what}")) {
+        Some(ResultValue::Number(value)) => table::number(value * for_people(summary.unit(name)).0),
+        _ => "-".to_owned(),
+    };
+    let is_twin = |name: &str| {
+        let mean = [" spread", " final"].iter().find_map(|what| name.strip_suffix(what));
+        mean.is_some_and(|mean| summary.results.get(mean).is_some())
+    };
+    let mut rows = vec![["  result", "value or mean", "spread", "at the end", ""].map(str::to_owned).to_vec()];
+    for (name, value) in summary.results_in_order().into_iter().filter(|(name, _)| !is_twin(name)) {
+        let [name_cell, value, unit] = result(summary, name, value);
+        rows.push(vec![name_cell, value, twin(name, "spread"), twin(name, "final"), unit]);
+    }
+    if rows.len() > 1 { table::aligned(&rows) } else { String::new() }
+}
+
 /// Name, value and unit of a result. A profile is for a figure, not for a line.
-fn result(summary: &Summary, name: &str, value: &ResultValue) -> Vec<String> {
+fn result(summary: &Summary, name: &str, value: &ResultValue) -> [String; 3] {
     let (factor, unit) = for_people(summary.unit(name));
     let (value, unit) = match value {
         ResultValue::Number(value) => (table::number(value * factor), unit.trim_matches('-').to_owned()),
         ResultValue::List(values) => ("-".to_owned(), format!("{} values, in summary.json", values.len())),
     };
-    vec![format!("  {name}"), value, unit]
+    [format!("  {name}"), value, unit]
 }
 
 /// Warnings, a line each.

@@ -1,7 +1,22 @@
-use crate::support::Desk;
+use crate::support::{Desk, SCENE};
 use insta::assert_snapshot;
 use std::io::Read;
 use std::process::Stdio;
+
+/// A scene without watches told its user "momentum residual" and nothing else.
+#[test]
+fn a_run_without_watches_tells_what_happened() {
+    let removal = "[removal.drain.behind]\npoint = [0, \"1 m\"]\nnormal = \"z\"\n";
+    let desk = Desk::with(&format!("{SCENE}\n{removal}"));
+    let shown = desk.done("run balls.toml -q").stdout;
+    for said in ["value or mean", "kinetic energy", "centre of mass height", "contacts", "removal drain grains"] {
+        assert!(shown.contains(said), "{said}: {shown}");
+    }
+    let summary = desk.summary("out/balls");
+    assert_eq!(summary["results"]["removal drain grains"], 20.0);
+    assert_eq!(summary["particles"], 0);
+    assert!(summary["results"]["kinetic energy spread"].as_f64().unwrap() > 0.0);
+}
 
 #[test]
 fn nothing_asked() {

@@ -230,6 +230,10 @@ impl Engine for DemEngine {
         self.grains.len()
     }
 
+    fn traffic(&self) -> Vec<(String, u64)> {
+        self.sources.traffic()
+    }
+
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
         let grains = self.grains.len();
         let mut go = || (0..steps).try_for_each(|step| self.step(hosts, ledger, step + 1 < steps));

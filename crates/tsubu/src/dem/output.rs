@@ -110,7 +110,7 @@ impl DemEngine {
         state.put_integer("dem.step", counts.map(|n| n as i64).to_vec());
         state.put_real("dem.moved-mass", vec![self.total_mass]);
         self.orientation.save(state);
-        state.put_integer("dem.streams", self.sources.placed());
+        state.put_integer("dem.streams", self.sources.counts());
         let mut reals = self.last_flows.powers.to_vec();
         reals.extend(self.last_flows.wall_force.to_array());
         reals.push(self.sums.stored);
@@ -152,7 +152,7 @@ impl DemEngine {
         (self.step, self.grain_steps, self.sums.contacts) = (step as u64, grain_steps as u64, contacts as usize);
         self.place_gates();
         self.orientation.load(state)?;
-        self.sources.set_placed(state.integer("dem.streams")?);
+        self.sources.set_counts(state.integer("dem.streams")?);
         let flows = state.real("dem.flows")?;
         if flows.len() != 18 {
             return Err(missing("dem.flows"));

@@ -22,6 +22,7 @@ const ATTEMPTS: u64 = 40;
 /// A group that comes in one by one.
 #[derive(Clone, Debug)]
 struct Stream {
+    name: String,
     group: Particles,
     number: usize,
     material: u32,
@@ -38,12 +39,21 @@ struct Driven {
     signal: Signal,
 }
 
+/// A region that takes grains away.
+#[derive(Clone, Debug)]
+struct Drain {
+    name: String,
+    region: Removal,
+    /// How many have gone.
+    taken: u64,
+}
+
 /// All that comes, goes, or moves as told.
 #[derive(Clone, Debug)]
 pub(super) struct Sources {
     plan: Plan,
     streams: Vec<Stream>,
-    removal: Vec<Removal>,
+    removal: Vec<Drain>,
     driven: Vec<Driven>,
 }
 
@@ -52,10 +62,17 @@ impl Sources {
     pub fn new(plan: &Plan, table: &Table, first_id: usize) -> Self {
         let (mut streams, mut driven) = (Vec::new(), Vec::new());
         let mut id = first_id as u32;
-        for (number, group) in plan.particles.values().enumerate() {
+        for (number, (name, group)) in plan.particles.iter().enumerate() {
             if let Start::Stream { .. } = group.start {
                 let material = table.material(&group.material);
-                streams.push(Stream { group: group.clone(), number, material, first_id: id, placed: 0 });
+                streams.push(Stream {
+                    name: name.clone(),
+                    group: group.clone(),
+                    number,
+                    material,
+                    first_id: id,
+                    placed: 0,
+                });
                 id += group.count as u32;
             }
             if let GrainMotion::Driven { direction, signal } = &group.motion {
@@ -65,20 +82,34 @@ impl Sources {
         }
         // Large tables of grains have done their work.
         let plan = Plan { particles: std::collections::BTreeMap::new(), ..plan.clone() };
-        let removal = plan.removal.values().cloned().collect();
+        let drain =
+            |(name, region): (&String, &Removal)| Drain { name: name.clone(), region: region.clone(), taken: 0 };
+        let removal = plan.removal.iter().map(drain).collect();
         Self { plan, streams, removal, driven }
     }
 
-    /// How many grains of every stream have come, for a checkpoint.
-    pub fn placed(&self) -> Vec<i64> {
-        self.streams.iter().map(|s| s.placed as i64).collect()
+    /// How many grains of every stream have come, and how many every removal region has taken, for a checkpoint.
+    pub fn counts(&self) -> Vec<i64> {
+        let taken = self.removal.iter().map(|drain| drain.taken as i64);
+        self.streams.iter().map(|s| s.placed as i64).chain(taken).collect()
     }
 
-    /// Takes back what [`Sources::placed`] gave.
-    pub fn set_placed(&mut self, placed: &[i64]) {
+    /// Takes back what [`Sources::counts`] gave.
+    pub fn set_counts(&mut self, counts: &[i64]) {
+        let (placed, taken) = counts.split_at(self.streams.len().min(counts.len()));
         for (stream, placed) in self.streams.iter_mut().zip(placed) {
             stream.placed = *placed as usize;
         }
+        for (drain, taken) in self.removal.iter_mut().zip(taken) {
+            drain.taken = *taken as u64;
+        }
+    }
+
+    /// The same with names.
+    pub fn traffic(&self) -> Vec<(String, u64)> {
+        let came = self.streams.iter().map(|s| (format!("stream {} grains", s.name), s.placed as u64));
+        let went = self.removal.iter().map(|drain| (format!("removal {} grains", drain.name), drain.taken));
+        came.chain(went).collect()
     }
 
     /// Largest diameter [m] of grains that may still come, and the smallest.
@@ -118,12 +149,15 @@ impl DemEngine {
     /// the energy of the contacts of grains that go.
     pub(super) fn come_and_go(&mut self, ledger: &mut Ledger) {
         let grains = &self.grains;
-        let stays = |i: &u32| {
-            let i = *i as usize;
-            grains.inverse_mass[i] == 0.0
-                || !self.sources.removal.iter().any(|r| r.takes(grains.position[i].to_array()))
-        };
-        let order: Vec<u32> = (0..grains.len() as u32).filter(stays).collect();
+        let mut order: Vec<u32> = Vec::with_capacity(grains.len());
+        for i in 0..grains.len() {
+            let place = grains.position[i].to_array();
+            let free = grains.inverse_mass[i] != 0.0;
+            match self.sources.removal.iter_mut().find(|drain| free && drain.region.takes(place)) {
+                Some(drain) => drain.taken += 1,
+                None => order.push(i as u32),
+            }
+        }
         let some_go = order.len() < grains.len();
         let arrivals = self.arrivals();
         if !some_go && arrivals.is_empty() {

@@ -232,10 +232,11 @@ impl Watch for Hops {
     fn load(&mut self, name: &str, state: &State) -> Result<(), MissingSection> {
         let key = format!("{name}.courses");
         let wrong = || MissingSection { name: key.clone(), kind: "integer" };
+        let means_kept = self.means.numbers().len();
         let (hops, whole) = state.integer(&key)?.split_first().ok_or_else(wrong)?;
         let numbers = state.real(&format!("{name}.course"))?;
         let (largest, means) = state.real(&format!("{name}.hops"))?.split_first_chunk::<2>().ok_or_else(wrong)?;
-        if NUMBERS * whole.len() != 2 * numbers.len() || means.len() != 10 {
+        if NUMBERS * whole.len() != 2 * numbers.len() || means.len() != means_kept {
             return Err(wrong());
         }
         (self.counted, self.largest, self.means) = (*hops as usize, *largest, Means::from_numbers(means));

@@ -1,15 +1,17 @@
-//! Means over time of a fixed number of values.
+//! Means and spreads over time of a fixed number of values.
 
 /// Sums and counts; what is not a number is left out.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Means {
+pub(crate) struct Means {
     sum: Vec<f64>,
     count: Vec<f64>,
+    /// Squares of the distances from the mean (Welford): small differences of large numbers stay exact.
+    square: Vec<f64>,
 }
 
 impl Means {
     pub fn new(values: usize) -> Self {
-        Self { sum: vec![0.0; values], count: vec![0.0; values] }
+        Self { sum: vec![0.0; values], count: vec![0.0; values], square: vec![0.0; values] }
     }
 
     /// Takes one value of each; makes room at the first look.
@@ -17,10 +19,13 @@ impl Means {
         if self.sum.len() != values.len() {
             *self = Self::new(values.len());
         }
-        for ((sum, count), value) in self.sum.iter_mut().zip(&mut self.count).zip(values) {
+        let sums = self.sum.iter_mut().zip(&mut self.count).zip(&mut self.square);
+        for (((sum, count), square), value) in sums.zip(values) {
             if !value.is_nan() {
+                let before = if *count > 0.0 { *sum / *count } else { value };
                 *sum += value;
                 *count += 1.0;
+                *square += (value - before) * (value - *sum / *count);
             }
         }
     }
@@ -30,14 +35,20 @@ impl Means {
         self.sum.iter().zip(&self.count).map(|(sum, count)| sum / count)
     }
 
+    /// The standard deviations so far.
+    pub fn spreads(&self) -> impl Iterator<Item = f64> {
+        self.square.iter().zip(&self.count).map(|(square, count)| (square / count).sqrt())
+    }
+
     /// As plain numbers, for a checkpoint.
     pub fn numbers(&self) -> Vec<f64> {
-        self.sum.iter().chain(&self.count).copied().collect()
+        self.sum.iter().chain(&self.count).chain(&self.square).copied().collect()
     }
 
     /// Back from [`Means::numbers`].
     pub fn from_numbers(numbers: &[f64]) -> Self {
-        let (sum, count) = numbers.split_at(numbers.len() / 2);
-        Self { sum: sum.to_vec(), count: count.to_vec() }
+        let (sum, rest) = numbers.split_at(numbers.len() / 3);
+        let (count, square) = rest.split_at(sum.len());
+        Self { sum: sum.to_vec(), count: count.to_vec(), square: square.to_vec() }
     }
 }

@@ -13,7 +13,7 @@ mod fabric;
 mod forces;
 mod hops;
 pub mod kernel;
-mod means;
+pub(crate) mod means;
 mod points;
 mod profile;
 mod run;

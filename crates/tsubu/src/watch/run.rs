@@ -198,9 +198,11 @@ impl Watches {
                 summary.warnings.push(format!("the watch `{}` has not looked once: it begins later", w.name));
             }
             summary.warnings.extend(w.watch.remark().map(|remark| format!("the watch `{}`: {remark}", w.name)));
-            for ((what, mean), last) in w.watch.scalars().iter().zip(w.means[0].get()).zip(&w.last) {
+            let means = w.means[0].get().zip(w.means[0].spreads()).zip(&w.last);
+            for (what, ((mean, spread), last)) in w.watch.scalars().iter().zip(means) {
                 let (what, unit) = split_unit(what);
                 summary.give(w.column(what), unit.unwrap_or("-"), mean);
+                summary.give(w.column(&format!("{what} spread")), unit.unwrap_or("-"), spread);
                 summary.give(w.column(&format!("{what} final")), unit.unwrap_or("-"), *last);
             }
             // Lists of fields over two axes would fill the summary; they are in the table.

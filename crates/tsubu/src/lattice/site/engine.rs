@@ -163,14 +163,18 @@ impl SiteEngine {
             }
         }
         self.present += came.len();
-        came.iter().for_each(|seat| self.exchange(1.0, seat, ledger));
+        for seat in came {
+            self.exchange(1.0, &seat, ledger);
+        }
     }
 
     /// Takes note of the grains that went in the last step.
     fn depart(&mut self, ledger: &mut Ledger) {
         let gone = self.model.departed();
         self.present -= gone.len();
-        gone.iter().for_each(|seat| self.exchange(-1.0, seat, ledger));
+        for seat in gone {
+            self.exchange(-1.0, &seat, ledger);
+        }
     }
 
     /// Where every grain is, without the ends of a world that repeats itself; nowhere: it has not come yet, or is gone [m].
