@@ -64,6 +64,7 @@ pub(crate) fn check(resolved: &toml::Table, root: &Node, files: &Files) -> Vec<C
     water::check(&parts, &mut complaints);
     pairs(&parts, &mut complaints);
     claims(&parts, &mut complaints);
+    outputs(&parts, &mut complaints);
     response(&parts, &mut complaints);
     complaints
 }
@@ -106,6 +107,31 @@ fn pairs(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
                 Complaint::new(format!("{title} changes nothing"))
                     .at(&place, "no value for this pair")
                     .hint("give at least one of `restitution`, `friction`, `rolling-friction`, `twisting-friction`, `surface-energy`, `cohesion`, or a part of a `contact` law"),
+            );
+        }
+    }
+}
+
+/// Looks, rows or frames of a run, of which nobody wants more; a step gives one at most.
+const MOST_OUTPUTS: f64 = 1e8;
+
+/// An interval of a slip of the pen would be counted up for ever.
+fn outputs(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
+    let Some(duration) = parts.resolved.get("duration").and_then(toml::Value::as_float) else { return };
+    let intervals = ["history-interval", "frame-interval", "checkpoint-interval"].map(|key| vec!["output", key]);
+    let watches = parts.resolved.get("watch").and_then(toml::Value::as_table).into_iter().flatten();
+    let looks = watches.map(|(name, _)| vec!["watch", name.as_str(), "every"]);
+    for path in intervals.into_iter().chain(looks) {
+        let typed = parts.root.find(&path).is_some();
+        let top = parts.resolved.get(path[0]);
+        let value = top.and_then(|top| path[1..].iter().try_fold(top, |table, key| table.get(*key)));
+        let Some(interval) = value.and_then(toml::Value::as_float).filter(|_| typed) else { continue };
+        let count = duration / interval;
+        if count > MOST_OUTPUTS {
+            complaints.push(
+                Complaint::new(format!("`{}` asks for {count:.0e} outputs", path.join(".")))
+                    .at(&parts.root.locate(&path), format!("{interval} s, in {duration} s"))
+                    .hint(format!("take at least {:.1e} s; a step gives one output at most", duration / MOST_OUTPUTS)),
             );
         }
     }

@@ -17,6 +17,9 @@ pub struct Dimension {
     pub si: &'static str,
     /// Powers of metre, kilogram, second and radian.
     powers: [i8; 4],
+    /// Smallest and largest magnitude that can be meant, far outside of what anybody simulates: numbers beyond are slips, and
+    /// their squares and quotients no numbers any more.
+    limits: [f64; 2],
     /// Units worth suggesting.
     pub units: &'static [&'static str],
     /// Text a user could have typed.
@@ -24,42 +27,42 @@ pub struct Dimension {
 }
 
 macro_rules! dimensions {
-    ($($id:ident $name:literal $si:literal $powers:tt $units:tt $examples:tt $doc:literal)*) => {
+    ($($id:ident $name:literal $si:literal $powers:tt $limits:tt $units:tt $examples:tt $doc:literal)*) => {
         $(#[doc = $doc] pub static $id: Dimension =
-            Dimension { name: $name, si: $si, powers: $powers, units: &$units, examples: &$examples };)*
+            Dimension { name: $name, si: $si, powers: $powers, limits: $limits, units: &$units, examples: &$examples };)*
         /// Every dimension a scene can ask for.
         pub static DIMENSIONS: &[&Dimension] = &[$(&$id),*];
     };
 }
 
 dimensions! {
-    NUMBER "a plain number" "" [0, 0, 0, 0] ["%"] ["0.75", "75 %"] "Plain numbers."
-    LENGTH "a length" "m" [1, 0, 0, 0] ["m", "cm", "mm", "um", "km"] ["6 mm", "0.096 m"] "Lengths."
-    MASS "a mass" "kg" [0, 1, 0, 0] ["kg", "g", "mg", "t"] ["0.2 g", "86 g"] "Masses."
-    TIME "a time" "s" [0, 0, 1, 0] ["s", "ms", "us", "ns", "min", "h"] ["2 s", "20 us"] "Times."
-    FREQUENCY "a frequency" "Hz" [0, 0, -1, 0] ["Hz", "kHz", "1/s"] ["6 Hz"] "Frequencies, in cycles."
-    SPEED "a speed" "m/s" [1, 0, -1, 0] ["m/s", "mm/s", "cm/s", "km/h"] ["1 m/s", "5 mm/s"] "Speeds."
-    ACCELERATION "an acceleration" "m/s^2" [1, 0, -2, 0] ["m/s^2", "mm/s^2", "cm/s^2", "g"] ["9.8 m/s^2", "2 g"]
+    NUMBER "a plain number" "" [0, 0, 0, 0] [1e-30, 1e30] ["%"] ["0.75", "75 %"] "Plain numbers."
+    LENGTH "a length" "m" [1, 0, 0, 0] [1e-12, 1e9] ["m", "cm", "mm", "um", "km"] ["6 mm", "0.096 m"] "Lengths."
+    MASS "a mass" "kg" [0, 1, 0, 0] [1e-27, 1e18] ["kg", "g", "mg", "t"] ["0.2 g", "86 g"] "Masses."
+    TIME "a time" "s" [0, 0, 1, 0] [1e-15, 1e12] ["s", "ms", "us", "ns", "min", "h"] ["2 s", "20 us"] "Times."
+    FREQUENCY "a frequency" "Hz" [0, 0, -1, 0] [1e-12, 1e15] ["Hz", "kHz", "1/s"] ["6 Hz"] "Frequencies, in cycles."
+    SPEED "a speed" "m/s" [1, 0, -1, 0] [1e-15, 1e9] ["m/s", "mm/s", "cm/s", "km/h"] ["1 m/s", "5 mm/s"] "Speeds."
+    ACCELERATION "an acceleration" "m/s^2" [1, 0, -2, 0] [1e-15, 1e12] ["m/s^2", "mm/s^2", "cm/s^2", "g"] ["9.8 m/s^2", "2 g"]
         "Accelerations; g is standard gravity, 9.80665 m/s^2."
-    FORCE "a force" "N" [1, 1, -2, 0] ["N", "mN", "kN"] ["61.7 mN", "2 N"] "Forces."
-    STIFFNESS "a stiffness" "N/m" [0, 1, -2, 0] ["N/m", "N/mm", "kN/m", "N/cm"] ["123.4 N/m"] "Stiffnesses."
-    DAMPING "a damping coefficient" "N s/m" [0, 1, -1, 0] ["N s/m", "N.s/m", "N s/mm", "kg/s"] ["0.08 N s/m"]
+    FORCE "a force" "N" [1, 1, -2, 0] [1e-30, 1e18] ["N", "mN", "kN"] ["61.7 mN", "2 N"] "Forces."
+    STIFFNESS "a stiffness" "N/m" [0, 1, -2, 0] [1e-20, 1e20] ["N/m", "N/mm", "kN/m", "N/cm"] ["123.4 N/m"] "Stiffnesses."
+    DAMPING "a damping coefficient" "N s/m" [0, 1, -1, 0] [1e-25, 1e20] ["N s/m", "N.s/m", "N s/mm", "kg/s"] ["0.08 N s/m"]
         "Coefficients of viscous damping."
-    PRESSURE "a pressure or modulus" "Pa" [-1, 1, -2, 0] ["Pa", "kPa", "MPa", "GPa", "N/mm^2"] ["0.5 GPa", "3 MPa"]
+    PRESSURE "a pressure or modulus" "Pa" [-1, 1, -2, 0] [1e-15, 1e15] ["Pa", "kPa", "MPa", "GPa", "N/mm^2"] ["0.5 GPa", "3 MPa"]
         "Pressures and elastic moduli."
-    DENSITY "a density" "kg/m^3" [-3, 1, 0, 0] ["kg/m^3", "g/cm^3"] ["2650 kg/m^3", "1.18 g/cm^3"] "Densities."
-    ANGLE "an angle" "rad" [0, 0, 0, 1] ["deg", "rad"] ["40 deg", "0.5 rad"] "Angles."
-    SPIN "an angular speed" "rad/s" [0, 0, -1, 1] ["rad/s", "deg/s", "rpm"] ["10 rad/s", "95 rpm"] "Angular speeds."
-    AREA "an area" "m^2" [2, 0, 0, 0] ["m^2", "cm^2", "mm^2"] ["4 cm^2", "1e-4 m^2"] "Areas."
-    INERTIA "a moment of inertia" "kg m^2" [2, 1, 0, 0] ["kg m^2", "g cm^2", "g mm^2"] ["2 g cm^2"] "Moments of inertia."
-    AREA_RATE "an area per time" "m^2/s" [2, 0, -1, 0] ["m^2/s", "cm^2/s", "mm^2/s"] ["1e-6 m^2/s", "1 mm^2/s"]
+    DENSITY "a density" "kg/m^3" [-3, 1, 0, 0] [1e-9, 1e9] ["kg/m^3", "g/cm^3"] ["2650 kg/m^3", "1.18 g/cm^3"] "Densities."
+    ANGLE "an angle" "rad" [0, 0, 0, 1] [1e-15, 1e9] ["deg", "rad"] ["40 deg", "0.5 rad"] "Angles."
+    SPIN "an angular speed" "rad/s" [0, 0, -1, 1] [1e-15, 1e12] ["rad/s", "deg/s", "rpm"] ["10 rad/s", "95 rpm"] "Angular speeds."
+    AREA "an area" "m^2" [2, 0, 0, 0] [1e-24, 1e18] ["m^2", "cm^2", "mm^2"] ["4 cm^2", "1e-4 m^2"] "Areas."
+    INERTIA "a moment of inertia" "kg m^2" [2, 1, 0, 0] [1e-50, 1e30] ["kg m^2", "g cm^2", "g mm^2"] ["2 g cm^2"] "Moments of inertia."
+    AREA_RATE "an area per time" "m^2/s" [2, 0, -1, 0] [1e-20, 1e12] ["m^2/s", "cm^2/s", "mm^2/s"] ["1e-6 m^2/s", "1 mm^2/s"]
         "Areas per time: kinematic viscosities, discharges per width."
-    RATE "a rate" "1/s" [0, 0, -1, 0] ["1/s", "1/ms", "1/min"] ["500 1/s"] "Rates: so many in a second."
-    SLOWNESS "an inverse speed" "s/m" [-1, 0, 1, 0] ["s/m", "s/mm"] ["0.5 s/m"] "Inverse speeds."
-    LOAD_RATE "a rate of force" "N/s" [1, 1, -3, 0] ["N/s", "kN/s", "N/ms"] ["2 N/s"] "Forces that grow."
-    ENERGY_DENSITY "an energy density" "J/m^3" [-1, 1, -2, 0] ["J/m^3", "kJ/m^3", "Pa", "kPa"] ["300 kJ/m^3"] "Energy densities."
-    VISCOSITY "a viscosity" "Pa s" [-1, 1, -1, 0] ["Pa s", "mPa s", "kg/(m s)"] ["1 mPa s"] "Viscosities, mass per length and time."
-    SURFACE_ENERGY "a surface energy" "J/m^2" [0, 1, -2, 0] ["J/m^2", "mJ/m^2"] ["50 mJ/m^2"] "Surface energies."
+    RATE "a rate" "1/s" [0, 0, -1, 0] [1e-12, 1e15] ["1/s", "1/ms", "1/min"] ["500 1/s"] "Rates: so many in a second."
+    SLOWNESS "an inverse speed" "s/m" [-1, 0, 1, 0] [1e-12, 1e15] ["s/m", "s/mm"] ["0.5 s/m"] "Inverse speeds."
+    LOAD_RATE "a rate of force" "N/s" [1, 1, -3, 0] [1e-25, 1e20] ["N/s", "kN/s", "N/ms"] ["2 N/s"] "Forces that grow."
+    ENERGY_DENSITY "an energy density" "J/m^3" [-1, 1, -2, 0] [1e-15, 1e15] ["J/m^3", "kJ/m^3", "Pa", "kPa"] ["300 kJ/m^3"] "Energy densities."
+    VISCOSITY "a viscosity" "Pa s" [-1, 1, -1, 0] [1e-15, 1e15] ["Pa s", "mPa s", "kg/(m s)"] ["1 mPa s"] "Viscosities, mass per length and time."
+    SURFACE_ENERGY "a surface energy" "J/m^2" [0, 1, -2, 0] [1e-15, 1e9] ["J/m^2", "mJ/m^2"] ["50 mJ/m^2"] "Surface energies."
 }
 
 impl Dimension {
@@ -67,6 +70,17 @@ impl Dimension {
     pub fn examples_text(&self) -> String {
         let quoted: Vec<String> = self.examples.iter().map(|text| quote_example(text)).collect();
         quoted.join(" or ")
+    }
+
+    /// Why a number cannot be meant: it is too large, or, where only what is `above_zero` counts, too small.
+    pub(crate) fn absurd(&self, value: f64, above_zero: bool) -> Option<String> {
+        let [smallest, largest] = self.limits;
+        let told = |what, limit: f64| Some(format!("{what} {limit:e} {}", self.si).trim_end().to_string());
+        match value.abs() {
+            x if x > largest => told("is beyond", largest),
+            x if above_zero && x < smallest => told("is below", smallest),
+            _ => None,
+        }
     }
 
     /// The units worth suggesting, as one line.

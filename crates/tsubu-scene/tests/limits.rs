@@ -110,3 +110,34 @@ fn twenty_thousand_materials_are_a_matter_of_a_moment() {
     assert!(complaint(&text.replace("\"acrylic\"\ncount", "\"acryllic\"\ncount"), &[]).len() < 5000);
     assert!(begin.elapsed().as_secs_f64() < 5.0, "{:?}", begin.elapsed());
 }
+
+/// Numbers that nothing can have were accepted, and were squared and divided into infinities and endless counting.
+#[test]
+fn numbers_that_nothing_can_have_are_refused() {
+    let changes = [
+        "gravity=1e300",
+        "duration=1e300",
+        "materials.acrylic.restitution=1e-300",
+        "materials.acrylic.young-modulus=1e-300",
+        "particles.balls.mass=1e-30 g",
+        "walls.box.shape.box.width=1e300 m",
+        "dem.time-step=1e-300",
+        "hosts.spring.base.sine.frequency=1e30 Hz",
+    ];
+    insta::assert_snapshot!(complaint(GOOD, &changes));
+    // What comes out near zero is no slip, and neither is a number that is large or small.
+    for change in ["hosts.spring.displacement=1e-30", "gravity=0", "materials.acrylic.friction=1e6", "duration=1e9"] {
+        assert!(read(GOOD, &[change]).is_ok(), "{change}");
+    }
+}
+
+/// `output.history-interval=1e-14` was counted up one by one, for ever.
+#[test]
+fn outputs_have_an_end() {
+    let watch = format!("{GOOD}[watch.load]\nevery = 1e-14\nwall-load.wall = \"box\"\n");
+    let intervals = ["history", "frame", "checkpoint"].map(|what| format!("output.{what}-interval=1e-14"));
+    insta::assert_snapshot!(complaint(&watch, &intervals.each_ref().map(String::as_str)));
+    assert!(read(GOOD, &["output.history-interval=1e-7"]).is_ok());
+    // A change of the duration alone keeps what follows from it.
+    assert!(read(GOOD, &["duration=1e10"]).is_ok());
+}

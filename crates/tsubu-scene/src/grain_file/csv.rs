@@ -9,7 +9,6 @@ use crate::complaint::Complaint;
 use crate::header::{self, Header};
 use crate::lines::{Cell, Line, lines};
 use crate::suggest;
-use crate::units::{DENSITY, Dimension, LENGTH, SPEED, SPIN};
 
 const NAMES: [&str; 14] =
     ["x", "y", "z", "d", "diameter", "r", "radius", "density", "vx", "vy", "vz", "wx", "wy", "wz"];
@@ -96,7 +95,7 @@ fn header(line: &Line<'_>, cells: &[Cell<'_>], rows: &mut Rows) -> Option<Vec<Co
 fn header_column(header: &Header<'_>, others: &[Column], source: usize) -> Result<Column, Complaint> {
     let name = header.name.to_lowercase();
     let place = header.cell.place(source);
-    let Some((mut column, dimension)) = column(&name) else {
+    let Some(mut column) = column(&name) else {
         if PASSED_OVER.contains(&name.as_str()) {
             return Ok(Column::new(Slot::Skip));
         }
@@ -114,17 +113,17 @@ fn header_column(header: &Header<'_>, others: &[Column], source: usize) -> Resul
             Complaint::new(format!("the column `{name}` says again what another one says")).at(&place, "a second time")
         );
     }
-    column.scale = header.scale(source, dimension)?;
+    column.scale = header.scale(source, column.slot.dimension())?;
     Ok(column)
 }
 
-fn column(name: &str) -> Option<(Column, &'static Dimension)> {
+fn column(name: &str) -> Option<Column> {
     let slot = match name {
         "x" => Slot::Position(0),
         "y" => Slot::Position(1),
         "z" => Slot::Position(2),
         "d" | "diameter" => Slot::Diameter,
-        "r" | "radius" => return Some((Column::radius(), &LENGTH)),
+        "r" | "radius" => return Some(Column::radius()),
         "density" => Slot::Density,
         "vx" => Slot::Velocity(0),
         "vy" => Slot::Velocity(1),
@@ -134,11 +133,5 @@ fn column(name: &str) -> Option<(Column, &'static Dimension)> {
         "wz" => Slot::Spin(2),
         _ => return None,
     };
-    let dimension = match slot {
-        Slot::Density => &DENSITY,
-        Slot::Velocity(_) => &SPEED,
-        Slot::Spin(_) => &SPIN,
-        _ => &LENGTH,
-    };
-    Some((Column::new(slot), dimension))
+    Some(Column::new(slot))
 }

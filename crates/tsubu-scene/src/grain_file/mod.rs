@@ -10,7 +10,7 @@ mod xyz;
 use crate::complaint::{Complaint, Place};
 use crate::lines::{Cell, Line, MOST_COMPLAINTS};
 use crate::plan::{GrainTable, Vector};
-use crate::units::Scale;
+use crate::units::{DENSITY, Dimension, LENGTH, NUMBER, SPEED, SPIN, Scale};
 use std::sync::Arc;
 
 /// What a file holds, and where.
@@ -93,6 +93,18 @@ struct Column {
     slot: Slot,
     scale: Scale,
     factor: f64,
+}
+
+impl Slot {
+    const fn dimension(self) -> &'static Dimension {
+        match self {
+            Self::Position(_) | Self::Diameter => &LENGTH,
+            Self::Density => &DENSITY,
+            Self::Velocity(_) => &SPEED,
+            Self::Spin(_) => &SPIN,
+            Self::Skip | Self::Id | Self::Kind => &NUMBER,
+        }
+    }
 }
 
 impl Column {
@@ -186,6 +198,11 @@ impl Rows {
         if !number.is_finite() {
             return Err(Complaint::new(format!("`{}` is not a finite number", cell.text))
                 .at(&cell.place(self.source), "needs a number"));
+        }
+        let above_zero = matches!(column.slot, Slot::Diameter | Slot::Density) && number > 0.0;
+        if let Some(why) = column.slot.dimension().absurd(number, above_zero) {
+            return Err(Complaint::new(format!("`{}` cannot be meant: it {why}", cell.text))
+                .at(&cell.place(self.source), format!("needs {}", column.slot.dimension().name)));
         }
         match column.slot {
             Slot::Position(axis) => row.position[axis] = number,

@@ -18,7 +18,8 @@ pub(super) static DEM: &[Key] = &[
         "Steps per contact for the automatic time step; fewer than 10 is not safe",
     )
     .default("20")
-    .at_least(1.0),
+    .at_least(1.0)
+    .at_most(1e6),
     Key::new("integrator", Kind::OneOf(INTEGRATOR), "Time integration of the grains").default("'velocity-verlet'"),
     Key::new(
         "skin",

@@ -144,7 +144,7 @@ static MATERIAL: &[Key] = &[
         "Coefficient of restitution against the same material; 1 is elastic",
     )
     .default("0.9")
-    .above(0.0)
+    .at_least(1e-6)
     .at_most(1.0),
     Key::new("friction", Kind::Quantity(&NUMBER), "Coulomb friction coefficient against the same material")
         .default("0.5")
@@ -181,7 +181,7 @@ static MATERIAL: &[Key] = &[
 static MATERIAL_PAIR: &[Key] = &[
     Key::new("between", Kind::NamePair, "The two materials"),
     Key::new("restitution", Kind::Quantity(&NUMBER), "Coefficient of restitution of the pair")
-        .above(0.0)
+        .at_least(1e-6)
         .at_most(1.0)
         .optional(),
     Key::new("friction", Kind::Quantity(&NUMBER), "Friction coefficient of the pair").at_least(0.0).optional(),

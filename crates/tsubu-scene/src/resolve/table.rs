@@ -131,7 +131,11 @@ fn number(cell: &Cell<'_>, scale: Scale, source: usize, dimension: &Dimension) -
             .at(&cell.place(source), format!("needs {}", dimension.name))
     };
     match scale.apply(cell.text) {
-        Some(number) if number.is_finite() => Ok(number),
+        Some(number) if number.is_finite() => match dimension.absurd(number, false) {
+            Some(why) => Err(Complaint::new(format!("`{}` cannot be meant: it {why}", cell.text))
+                .at(&cell.place(source), format!("needs {} that something can have", dimension.name))),
+            None => Ok(number),
+        },
         Some(_) => Err(wrong("finite number")),
         None => Err(wrong("number")),
     }

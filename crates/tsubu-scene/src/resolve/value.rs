@@ -3,7 +3,7 @@
 use super::Resolver;
 use super::vector::vector_value;
 use crate::complaint::Complaint;
-use crate::keys::{Family, Key, Kind, Word};
+use crate::keys::{Bound, Family, Key, Kind, Word};
 use crate::node::{Node, Value};
 use crate::suggest;
 use crate::units::{self, ACCELERATION, ANGLE, Dimension, ENERGY_DENSITY, FORCE, NUMBER, SPIN};
@@ -81,6 +81,23 @@ impl Resolver<'_> {
     }
 
     pub(super) fn quantity(&mut self, key: &Key, node: &Node, dimension: &Dimension) -> Option<f64> {
+        let value = self.typed_quantity(key, node, dimension)?;
+        // A coordinate may come out near zero; what has to be above zero is not rounding.
+        let above_zero = key.range.low == Bound::Excluding(0.0) && value > 0.0;
+        // Of a direction the length is not meant.
+        let counts = !matches!(key.kind, Kind::Direction | Kind::Axis);
+        if let Some(why) = dimension.absurd(value, above_zero).filter(|_| counts) {
+            let told = format!("{value} {}", dimension.si);
+            self.complain(
+                Complaint::new(format!("`{}` cannot be meant: {} {why}", key.name, told.trim_end()))
+                    .at(&node.place, format!("needs {} that something can have", dimension.name)),
+            );
+            return None;
+        }
+        Some(value)
+    }
+
+    fn typed_quantity(&mut self, key: &Key, node: &Node, dimension: &Dimension) -> Option<f64> {
         match &node.value {
             Value::Number(number) if number.is_finite() => Some(*number),
             Value::Whole(whole) => Some(*whole as f64),
