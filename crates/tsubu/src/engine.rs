@@ -1,5 +1,6 @@
 //! What every method must do, and the door to all of them.
 
+use crate::check::memory::refuse_more_than_there_is;
 use crate::ledger::{Ledger, Stocks};
 use crate::partner::Hosts;
 use crate::view::{View, Wants};
@@ -23,6 +24,8 @@ pub struct Note {
 pub enum Verdict {
     /// Replaced by something near it; the note says by how much.
     Approximated,
+    /// Taken as it is, but hardly what is meant; the note says why, and after a semicolon what to do.
+    Doubtful,
     /// Cannot be honoured: the run is refused.
     Refused,
 }
@@ -46,7 +49,7 @@ pub enum Fault {
     },
     /// Two bodies sit too deep in each other.
     #[error(
-        "step {step}, t = {time} s: grain {grain} overlaps its neighbour by {ratio:.3} of its diameter, more than `dem.largest-overlap` = {limit}\nhint: shorten `dem.time-step`, or stiffen the material; `tsubu check` tells which"
+        "step {step}, t = {time} s: grain {grain} overlaps {other} by {ratio:.3} of its diameter, more than `dem.largest-overlap` = {limit}\nhint: {}", hint(*crushed)
     )]
     Overlap {
         /// Step number.
@@ -55,10 +58,14 @@ pub enum Fault {
         time: f64,
         /// Grain id.
         grain: usize,
+        /// The other body, as users know it.
+        other: String,
         /// Overlap over diameter.
         ratio: f64,
         /// The limit.
         limit: f64,
+        /// Whether one of the two gives way to nothing: frozen, driven, or a wall that is moved as told.
+        crushed: bool,
     },
     /// A lattice cluster was squeezed between opposite walls, or the box left its grid.
     #[error("step {step}, t = {time} s: {text}")]
@@ -70,6 +77,17 @@ pub enum Fault {
         /// What happened and what to change.
         text: String,
     },
+}
+
+/// What to do about bodies that sit too deep in each other.
+const fn hint(crushed: bool) -> &'static str {
+    if crushed {
+        "a body that moves as told gives way to nothing: give the grain a way out, or stiffen the material; where grains \
+         are meant to be crushed raise `dem.largest-overlap`; a shorter `dem.time-step` helps only against fast impacts"
+    } else {
+        "shorten `dem.time-step`, or stiffen the material; `tsubu check` tells which; where it is the load that presses \
+         so deep, and no shorter step helps, raise `dem.largest-overlap`"
+    }
 }
 
 /// A scene that this method cannot run (exit code 2).
@@ -101,6 +119,7 @@ pub enum OpenError {
 
 /// Builds the engine that the plan's method names, at time 0.
 pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
+    refuse_more_than_there_is(plan, 0)?;
     Ok(match plan.method {
         Method::Dem => Box::new(crate::dem::DemEngine::new(plan, hosts)?),
         Method::Lattice => Box::new(crate::lattice::engine::LatticeEngine::new(plan, hosts)?),

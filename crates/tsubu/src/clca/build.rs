@@ -3,17 +3,21 @@
 use super::bed::{Bed, Kind};
 use super::place::{self, Grain};
 use super::shape::{Shape, polygon};
-use crate::check;
+use crate::check::{self, memory::refuse_more_than_there_is};
 use crate::dem::sizes;
 use crate::engine::{Note, Refusal};
 use crate::lattice::direction::Vector;
+use crate::lattice::grid::WALL;
+use crate::lattice::reach::{self, Ways};
 use crate::lattice::remarks::{Remarks, World};
+use crate::lattice::site::ground::Sites;
 use crate::lattice::stage::{self, LARGEST, Stage};
 use crate::partner::Hosts;
 use crate::view::{Contacts, Wants};
 use crate::wall::{Mover, Wall};
 use glam::DVec3;
-use tsubu_scene::plan::{self, ClCaRule, GrainMotion, GrainPoints, Plan, Signal, Start};
+use std::collections::BTreeMap;
+use tsubu_scene::plan::{self, ClCaRule, GrainMotion, GrainPoints, Plan, Removal, Signal, Start};
 
 /// Everything that the engine needs from a plan.
 pub(super) struct Built {
@@ -65,7 +69,7 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
         particles: _,
         walls: _,
         periodic: _,
-        removal: _,
+        removal,
         water: _,
         hosts: _,
         contact: _,
@@ -112,6 +116,7 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
     let margin = 4.0 * plan.particles.values().map(plan::Particles::largest_diameter).fold(0.0, f64::max) + travel;
     let region = cl_ca.region.clone().or_else(|| stage::region(plan, &walls, margin));
     let Some((region, stage)) = stage_of(region, spacing, &mut remarks) else { return Err(refusal(&remarks)) };
+    refuse_more_than_there_is(plan, stage.columns * stage.rows)?;
     let mut bed = Bed::new(stage.grid(), kinds, *seed, cl_ca.memory);
     for wall in &walls {
         stage.paint(&mut bed.grid, wall);
@@ -141,8 +146,43 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
         }
         _ => None,
     });
-    let streams = streams.collect();
+    let streams: Vec<Stream> = streams.collect();
+    if moved.is_empty() {
+        remark_removal(removal, &stage, &bed, &walls, &streams, &mut remarks);
+    }
     Ok(Built { bed, stage, walls, notes: remarks.notes, dt, passive, streams })
+}
+
+/// Says which regions of removal no grain can come to; walls that move may let them.
+fn remark_removal(
+    removal: &BTreeMap<String, Removal>,
+    stage: &Stage,
+    bed: &Bed,
+    walls: &[Wall],
+    streams: &[Stream],
+    remarks: &mut Remarks,
+) {
+    if removal.is_empty() {
+        return;
+    }
+    let grid = &mut stage.grid();
+    walls.iter().filter(|wall| wall.until.is_none()).for_each(|wall| stage.paint(grid, wall));
+    let grid = &*grid;
+    let ways = Ways {
+        sites: Sites::Upright,
+        size: [stage.columns, stage.rows],
+        periodic: [false; 2],
+        open: &|column, row| grid.at(grid.index(column, row)) != WALL,
+        point: &|column, row| stage.place(bed.vector(grid.index(column, row))),
+        spacing: stage.spacing,
+    };
+    let grains = bed.present().map(|grain| bed.grains.cell[grain] as usize);
+    let middle = |stream: &Stream| {
+        let (low, high) = (DVec3::from_array(stream.region.low), DVec3::from_array(stream.region.high));
+        stage.cell(grid, 0.5 * (low + high))
+    };
+    let begin = grains.chain(streams.iter().filter_map(middle)).map(|cell| grid.place(cell));
+    reach::remark(removal, &ways, begin, remarks);
 }
 
 /// The lattice of a region; `None` if there is none, and said why.

@@ -10,7 +10,8 @@
 //! ```
 //!
 //! Where one of the two cages above is a wall, the grain comes from the other: walls reflect. A void that finds no grain
-//! above is at the surface and ends there.
+//! above goes on through empty cages, for a bed may begin, or a gate leave it, with a gap below; where no grain is higher up
+//! it is at the surface and ends there.
 
 use super::sheet::{EMPTY, OUT, Sheet, Trail};
 use crate::random::{Purpose, unit, words};
@@ -34,13 +35,16 @@ pub struct Litwiniszyn {
     /// The last move of every grain.
     pub trail: Trail,
     outlets: Vec<usize>,
+    /// The last site with a grain at the start: rows follow each other, so that no grain is above any later one.
+    last: usize,
 }
 
 impl Litwiniszyn {
     /// A bed on a sheet; its outlets are the sites [`OUT`] with another site above.
     pub fn new(sheet: Sheet, left: f64, rate: f64, seed: u64) -> Self {
         let trail = Trail::new(&sheet);
-        let mut bed = Self { sheet, left, rate, seed, step: 0, trail, outlets: Vec::new() };
+        let last = sheet.cells.iter().rposition(|&cell| cell >= 0).unwrap_or(0);
+        let mut bed = Self { sheet, left, rate, seed, step: 0, trail, outlets: Vec::new(), last };
         bed.find_outlets();
         bed
     }
@@ -53,7 +57,7 @@ impl Litwiniszyn {
         self.outlets = sheet.sites(OUT).filter(open).collect();
     }
 
-    /// One step: every outlet sends a void with probability `rate`; calls for every site at which a void arrives.
+    /// One step: every outlet sends a void with probability `rate`; calls for every site whose grain a void takes.
     pub fn advance(&mut self, arrives: &mut impl FnMut(usize)) {
         self.step += 1;
         for index in 0..self.outlets.len() {
@@ -76,16 +80,19 @@ impl Litwiniszyn {
             }
             let above = self.sheet.above(here);
             let side = usize::from(f64::from(coins[row as usize % 4]) >= self.left * 4_294_967_296.0);
-            let Some(next) = [above[side], above[1 - side]].into_iter().find(|&s| self.sheet.cells[s] >= 0) else {
-                break;
+            let either = [above[side], above[1 - side]];
+            let cells = &mut self.sheet.cells;
+            let Some(next) = either.into_iter().find(|&s| cells[s] >= 0) else {
+                let Some(next) = either.into_iter().find(|&s| cells[s] == EMPTY && s < self.last) else { break };
+                here = next;
+                continue;
             };
-            let grain = self.sheet.cells[next];
+            let grain = std::mem::replace(&mut cells[next], EMPTY);
             if here == outlet {
                 self.sheet.gone.push((grain, here));
             } else {
-                self.sheet.cells[here] = grain;
+                cells[here] = grain;
             }
-            self.sheet.cells[next] = EMPTY;
             // From the upper left one goes down to the right.
             self.trail.moves(grain, self.step, [if next == above[0] { 1 } else { -1 }, -1]);
             arrives(next);

@@ -18,6 +18,7 @@ pub mod grid;
 pub mod gutt_haff;
 pub mod hemmingsson_herrmann;
 pub mod litwiniszyn;
+pub(crate) mod reach;
 pub mod remarks;
 pub mod savage;
 pub mod sheet;

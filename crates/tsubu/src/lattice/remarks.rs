@@ -41,6 +41,11 @@ impl Remarks {
         self.notes.push(Note { key: key.into(), verdict: Verdict::Approximated, text: text.into() });
     }
 
+    /// The method takes this as it is, though it is hardly meant so; the text says why and what to do.
+    pub fn doubt(&mut self, key: impl Into<String>, text: impl Into<String>) {
+        self.notes.push(Note { key: key.into(), verdict: Verdict::Doubtful, text: text.into() });
+    }
+
     /// Refuses what of a scene's world the method has no room for: space, water, gravity, ends that meet.
     pub fn world(&mut self, plan: &Plan, world: World) {
         let World { noun, tilted, weightless, periodic } = world;

@@ -195,3 +195,46 @@ fn sites_refuse_what_they_cannot_do() {
     let repeated = refused(|p| p.periodic.x = Some([-0.12, 0.12]), text);
     assert!(repeated.contains("periodic") && repeated.contains("after-savage"), "{repeated}");
 }
+
+/// The scene that shows voids by two methods: between its grains and the plane below which they are gone lies a row of empty
+/// sites, and every void of Litwiniszyn's ended there. Not one grain left, and nobody said so.
+#[test]
+fn voids_cross_a_gap_between_outlet_and_bed() {
+    let mut plan = plan(SCENES[0].0);
+    for method in [Method::AfterCaramHong, Method::Litwiniszyn] {
+        plan.method = method;
+        let mut run = Run::new(&plan);
+        run.steps(400);
+        assert!(run.engine.grains() < 3700, "{}: {} grains are left", method.name(), run.engine.grains());
+        assert!(run.engine.notes().iter().all(|note| note.key != "removal.below"), "{:?}", run.engine.notes());
+    }
+}
+
+/// An outlet that no grain can come to was passed over in silence: grains stayed for ever.
+#[test]
+fn an_outlet_without_sites_or_without_a_way_is_said() {
+    let voids = SCENES[0].0;
+    // A way over the rim of the silo is one.
+    let lid = "[walls.lid]\nmaterial = \"sand\"\nshape.plane = { point = [0, \"401 mm\"], normal = \"-z\" }\n[removal";
+    let closed = voids.replace("length = \"106 mm\"", "length = \"240 mm\"").replacen("[removal", lid, 1);
+    let thin = voids.replace(
+        "[removal.below.behind]\npoint = [0, \"-1 mm\"]\nnormal = \"z\"",
+        "[removal.below.inside]\nregion = { low = [\"-9 mm\", \"-1.2 mm\"], high = [\"9 mm\", \"-1.1 mm\"] }",
+    );
+    assert!(closed != voids && thin != voids);
+    for method in ["after-caram-hong", "litwiniszyn", "after-savage", "gutt-haff", "fhp", "after-karolyi-kertesz"] {
+        let note = |text: &str| {
+            let text = text
+                .replace("count = 4000", "count = 1000")
+                .replace("method = \"after-caram-hong\"", &format!("method = \"{method}\""));
+            let (text, _) = text.split_once("[watch").unwrap();
+            let run = Run::new(&plan(text));
+            let note = run.engine.notes().iter().find(|note| note.key == "removal.below");
+            note.map(|note| note.text.clone())
+        };
+        assert_eq!(note(voids), None, "{method}");
+        let (closed, thin) = (note(&closed).unwrap_or_default(), note(&thin).unwrap_or_default());
+        assert!(closed.contains("walls stand between"), "{method}: {closed}");
+        assert!(thin.contains("it holds no site"), "{method}: {thin}");
+    }
+}

@@ -4,20 +4,23 @@ use super::engine::{Scene, SiteEngine};
 use super::ground::{Ground, Sites};
 use super::pile::Stack;
 use super::{Model, gas, start};
+use crate::check::memory::refuse_more_than_there_is;
 use crate::engine::Refusal;
 use crate::lattice::build::restitution;
 use crate::lattice::caram_hong::{CaramHong, Chances};
 use crate::lattice::gutt_haff::{Grain, LatticeGrains};
 use crate::lattice::hemmingsson_herrmann::{Pile, Rule, Split};
 use crate::lattice::litwiniszyn::Litwiniszyn;
+use crate::lattice::reach::{self, Ways};
 use crate::lattice::remarks::{Remarks, World};
 use crate::lattice::savage::{Chute, Moves};
-use crate::lattice::sheet::{Layout, OUT, ROW_SPACING};
+use crate::lattice::sheet::{Layout, OUT, ROW_SPACING, WALL};
 use crate::lattice::stage;
 use crate::partner::Hosts;
 use crate::wall::Wall;
 use glam::DVec3;
-use tsubu_scene::plan::{self, Method, Plan, Region};
+use std::collections::BTreeMap;
+use tsubu_scene::plan::{self, Method, Plan, Region, Removal};
 
 /// Share of a spacing that the fastest lattice grain flies in an automatic step.
 const SHARE: f64 = 0.02;
@@ -112,11 +115,16 @@ fn scene(plan: &Plan, hosts: &Hosts, remarks: &mut Remarks) -> Option<(Scene, Ve
         remarks.refuse("walls", text);
         return None;
     };
-    let removal: Vec<_> = removal.values().cloned().collect();
     remark_ends(plan, &ground, remarks);
-    let (painted, owner) = ground.paint(&walls, &removal);
+    if let Err(refusal) = refuse_more_than_there_is(plan, ground.len()) {
+        remarks.notes.extend(refusal.notes);
+        return None;
+    }
+    let regions: Vec<_> = removal.values().cloned().collect();
+    let (painted, owner) = ground.paint(&walls, &regions);
     let mut cells = painted.repeat(gas.unwrap_or(1));
     let streams = start::place(plan, &ground, &mut cells, gas.is_some(), remarks);
+    remark_removal(removal, &ground, &walls, &cells, &streams, remarks);
     let each = |of: &dyn Fn(usize, &plan::Particles) -> f64| -> Vec<f64> {
         let groups = particles.values().enumerate();
         groups.flat_map(|(number, group)| vec![of(number, group); group.count]).collect()
@@ -129,7 +137,7 @@ fn scene(plan: &Plan, hosts: &Hosts, remarks: &mut Remarks) -> Option<(Scene, Ve
         ground,
         walls,
         owner,
-        removal,
+        removal: regions,
         streams,
         seed: *seed,
     };
@@ -162,6 +170,30 @@ fn remark_ends(plan: &Plan, ground: &Ground, remarks: &mut Remarks) {
             }
         }
     }
+}
+
+/// Says which outlets no grain can come to, walls that vanish put aside.
+fn remark_removal(
+    removal: &BTreeMap<String, Removal>,
+    ground: &Ground,
+    walls: &[Wall],
+    cells: &[i32],
+    streams: &[start::Stream],
+    remarks: &mut Remarks,
+) {
+    let staying: Vec<Wall> = walls.iter().filter(|wall| wall.until.is_none()).cloned().collect();
+    let free = if removal.is_empty() { Vec::new() } else { ground.paint(&staying, &[]).0 };
+    let ways = Ways {
+        sites: ground.sites,
+        size: [ground.columns, ground.rows],
+        periodic: ground.periodic,
+        open: &|column, row| free[ground.index(column, row)] != WALL,
+        point: &|column, row| ground.point(ground.index(column, row)),
+        spacing: ground.spacing,
+    };
+    let grains = (0..cells.len()).filter(|site| cells[*site] >= 0);
+    let begin = grains.chain(streams.iter().flat_map(|stream| stream.sites.iter().copied()));
+    reach::remark(removal, &ways, begin.map(|site| ground.place(site % ground.len())), remarks);
 }
 
 /// What the method makes of the contact law.

@@ -24,6 +24,17 @@ pub enum Sites {
 }
 
 impl Sites {
+    /// Whether grains can go from a column and row to one beside it, `across` and `up` being 0, 1 or 2 for one less, the same,
+    /// or one more.
+    pub(crate) const fn meet(self, column: usize, row: usize, across: usize, up: usize) -> bool {
+        // Every other row or column is shifted, and each site next to two of the next one.
+        match self {
+            Self::Level(Layout::Triangular) => up == 1 || across == 1 || across == 2 * (row % 2),
+            Self::Level(Layout::Square) => true,
+            Self::Upright => across == 1 || up == 1 || up == 2 * (column % 2),
+        }
+    }
+
     /// Distances of columns and of rows, in spacings.
     const fn pitch(self) -> (f64, f64) {
         match self {
@@ -117,7 +128,8 @@ impl Ground {
         }
     }
 
-    fn index(&self, column: usize, row: usize) -> usize {
+    /// The site of a column and row.
+    pub fn index(&self, column: usize, row: usize) -> usize {
         match self.sites {
             Sites::Level(_) => row * self.columns + column,
             Sites::Upright => column * self.rows + row,
