@@ -59,7 +59,7 @@ pub struct DemEngine {
     pub(super) total_mass: f64,
     /// While grains settle the walls stand, whoever moves them.
     pub(super) walls_held: bool,
-    notes: Vec<Note>,
+    pub(super) notes: Vec<Note>,
     /// Whether the grains have begun the next step already; never between two calls of `advance`.
     pub(super) begun: bool,
     // Scratch.
@@ -127,7 +127,7 @@ impl DemEngine {
         let gravity = DVec3::from_array(*gravity);
         let walls = walls(plan, &table, hosts, *dimension, gravity);
         let (grains, settle) = place::grains(plan, &table, &walls).map_err(refuse)?;
-        let sources = Sources::new(plan, &table, grains.len());
+        let sources = Sources::new(plan, &table, &walls, grains.len());
         let diameters = grains.radius.iter().map(|r| (2.0 * r, 2.0 * r)).chain(sources.sizes());
         let (smallest, largest) = diameters.fold((f64::INFINITY, 0.0f64), |a, d| (a.0.min(d.0), a.1.max(d.1)));
         let skin = if smallest.is_finite() { dem.skin * smallest } else { 0.0 };
@@ -179,6 +179,7 @@ impl DemEngine {
             grains,
         };
         engine.start();
+        engine.judge_start(plan)?;
         if settle > 0.0 {
             engine.settle(settle).map_err(OpenError::Settling)?;
             engine.start();

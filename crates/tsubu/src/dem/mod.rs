@@ -16,6 +16,7 @@ mod settle;
 mod sieve;
 pub mod sizes;
 mod sources;
+mod start;
 mod step;
 mod sweep;
 mod touch;

@@ -202,7 +202,8 @@ impl Placing<'_> {
         let layers = up(size.z - floor, pitch);
         // What nothing moves may lie in a wall, as a rough floor does.
         let free_to_move = matches!(group.motion, GrainMotion::Free {});
-        let mut clearance = Clearance::new(self.walls, &room, self.plan.dimension);
+        let mut clearance =
+            Clearance::new(self.walls, &room, self.plan.dimension, DVec3::from_array(self.plan.gravity));
         let mut top = floor;
         let mut place = 0;
         for count in 0..group.count {
@@ -251,7 +252,8 @@ impl Placing<'_> {
             occupied.put(self.grains.position[i], self.grains.radius[i]);
         }
         let ends = ends(self.plan);
-        let mut clearance = Clearance::new(self.walls, &room, self.plan.dimension);
+        let mut clearance =
+            Clearance::new(self.walls, &room, self.plan.dimension, DVec3::from_array(self.plan.gravity));
         ids.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
         let mut places = vec![(DVec3::ZERO, 0.0); group.count];
         for (count, (id, diameter)) in ids.into_iter().enumerate() {

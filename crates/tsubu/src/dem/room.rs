@@ -78,39 +78,109 @@ pub(super) fn images(ends: &Ends, p: DVec3, margin: f64) -> impl Iterator<Item =
 /// The walls as one sees them who looks for room.
 pub(super) struct Clearance<'a> {
     walls: &'a [Wall],
-    /// Per wall: whether grains belong inside it, outside, or where they like.
-    inside: Vec<Option<bool>>,
+    /// Per wall: where grains belong.
+    sides: Vec<Side>,
+    /// The way of gravity: a unit vector, or zero.
+    down: DVec3,
     near: Vec<u32>,
     touches: Vec<Touch>,
 }
 
+/// On which side of a wall grains belong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    /// Where they like: the wall has no inside, or is not met.
+    Any,
+    /// Inside, or where they fall into it.
+    Inside,
+    /// Not inside.
+    Outside,
+}
+
+/// On which side of every wall the grains of a room belong.
+pub(super) fn sides(walls: &[Wall], room: &Room, dimension: u8, gravity: DVec3) -> Vec<Side> {
+    let down = gravity.normalize_or_zero();
+    walls.iter().map(|wall| Side::of_most(wall, room.probes(dimension), down)).collect()
+}
+
 impl<'a> Clearance<'a> {
-    /// Grains of a room belong on that side of a drum, cone or shell on which most of the room lies: a room may reach
+    /// Grains of a room belong on that side of a drum, cone, shell or mesh on which most of the room lies: a room may reach
     /// over the corners of a drum, or hold an obstacle.
-    pub fn new(walls: &'a [Wall], room: &Room, dimension: u8) -> Self {
-        let side = |wall: &Wall| {
-            let told: Vec<bool> = room.probes(dimension).filter_map(|p| wall.encloses(p)).collect();
-            let inside = told.iter().filter(|inside| **inside).count();
-            (!told.is_empty()).then_some(2 * inside >= told.len())
-        };
-        Self { walls, inside: walls.iter().map(side).collect(), near: Vec::new(), touches: Vec::new() }
+    pub fn new(walls: &'a [Wall], room: &Room, dimension: u8, gravity: DVec3) -> Self {
+        Self::on(sides(walls, room, dimension, gravity), walls, gravity)
+    }
+
+    /// The same where the sides are known.
+    pub fn on(sides: Vec<Side>, walls: &'a [Wall], gravity: DVec3) -> Self {
+        Self { walls, sides, down: gravity.normalize_or_zero(), near: Vec::new(), touches: Vec::new() }
+    }
+
+    /// Grains that are told their places belong where most of them are.
+    pub fn of_places(walls: &'a [Wall], places: &[DVec3], gravity: DVec3) -> Self {
+        let down = gravity.normalize_or_zero();
+        Self::on(walls.iter().map(|wall| Side::of_most(wall, places.iter().copied(), down)).collect(), walls, gravity)
     }
 
     /// Whether a sphere would touch no wall and lie on the right side of all.
     pub fn free(&mut self, centre: DVec3, radius: f64) -> bool {
-        self.walls.iter().zip(&self.inside).all(|(wall, inside)| {
+        let clear = self.walls.iter().all(|wall| {
             wall.near(centre, radius, &mut self.near);
-            self.near.is_empty() && wall.encloses(centre).zip(*inside).is_none_or(|(there, wanted)| there == wanted)
-        })
+            self.near.is_empty()
+        });
+        clear && self.strays(centre).is_none()
     }
 
     /// The same for a place in rows, which may touch the walls that they lie between.
     pub fn fits(&mut self, centre: DVec3, radius: f64) -> bool {
         let reach = 0.999 * radius;
-        self.walls.iter().zip(&self.inside).all(|(wall, inside)| {
+        let clear = self.walls.iter().all(|wall| {
             wall.near(centre, reach, &mut self.near);
             wall.touching(&self.near, centre, reach, &mut self.touches);
-            self.touches.is_empty() && wall.encloses(centre).zip(*inside).is_none_or(|(there, wanted)| there == wanted)
-        })
+            self.touches.is_empty()
+        });
+        clear && self.strays(centre).is_none()
+    }
+
+    /// The wall on whose wrong side a place is.
+    ///
+    /// A place before the mouth of a vessel is wrong if what falls from there passes the vessel, and meets no other curved wall
+    /// or mesh either.
+    pub fn strays(&self, centre: DVec3) -> Option<&'a Wall> {
+        let wrong = |(wall, side): &(&Wall, &Side)| match (side, wall.encloses(centre, self.down)) {
+            (Side::Any, _) => false,
+            (Side::Inside, Some(inside)) => !inside,
+            (Side::Outside, inside) => inside == Some(true),
+            (Side::Inside, None) => {
+                wall.catches(centre, self.down) == Some(false)
+                    && !self.walls.iter().any(|wall| wall.lies_below(centre, self.down))
+            }
+        };
+        self.walls.iter().zip(&self.sides).find(wrong).map(|(wall, _)| wall)
+    }
+}
+
+impl Side {
+    fn of_most(wall: &Wall, places: impl Iterator<Item = DVec3>, down: DVec3) -> Self {
+        // How many are inside and outside, and would fall to the inside and past it.
+        let (mut is, mut falls) = ([0_usize; 2], [0_usize; 2]);
+        for place in places {
+            match wall.encloses(place, down) {
+                Some(inside) => is[usize::from(inside)] += 1,
+                None => {
+                    if let Some(inside) = wall.catches(place, down) {
+                        falls[usize::from(inside)] += 1;
+                    }
+                }
+            }
+        }
+        let [outside, inside] = is;
+        match () {
+            () if is == [0; 2] && falls == [0; 2] => Self::Any,
+            () if inside + falls[1] >= outside + falls[0] => Self::Inside,
+            // What lies below, as a pipe in a bin, is no vessel for what falls past.
+            () if is == [0; 2] => Self::Any,
+            () if inside >= outside => Self::Inside,
+            () => Self::Outside,
+        }
     }
 }

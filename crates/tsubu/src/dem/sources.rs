@@ -3,13 +3,14 @@
 use super::engine::DemEngine;
 use super::fill::Occupied;
 use super::place::{direction, still};
-use super::room::{Clearance, Room, ends, images};
+use super::room::{Clearance, Room, Side, ends, images, sides};
 use super::sizes;
 use crate::contact::Table;
 use crate::engine::Engine;
 use crate::ledger::{Account, Ledger};
 use crate::motion::value_and_rate;
 use crate::random::{Purpose, words};
+use crate::wall::Wall;
 use glam::DVec3;
 use tsubu_scene::plan::{GrainMotion, Particles, Plan, Removal, Signal, Start};
 
@@ -29,6 +30,8 @@ struct Stream {
     first_id: u32,
     /// How many have come.
     placed: usize,
+    /// On which side of every wall its region lies at time 0: to look anew whenever a grain comes would take longer than a step.
+    sides: Vec<Side>,
 }
 
 /// A group that moves as told.
@@ -59,12 +62,13 @@ pub(super) struct Sources {
 
 impl Sources {
     /// The sources of a plan; ids of the grains of streams begin at `first_id`.
-    pub fn new(plan: &Plan, table: &Table, first_id: usize) -> Self {
+    pub fn new(plan: &Plan, table: &Table, walls: &[Wall], first_id: usize) -> Self {
         let (mut streams, mut driven) = (Vec::new(), Vec::new());
         let mut id = first_id as u32;
         for (number, (name, group)) in plan.particles.iter().enumerate() {
-            if let Start::Stream { .. } = group.start {
+            if let Start::Stream { region, .. } = &group.start {
                 let material = table.material(&group.material);
+                let gravity = DVec3::from_array(plan.gravity);
                 streams.push(Stream {
                     name: name.clone(),
                     group: group.clone(),
@@ -72,6 +76,7 @@ impl Sources {
                     material,
                     first_id: id,
                     placed: 0,
+                    sides: sides(walls, &Room::of(region), plan.dimension, gravity),
                 });
                 id += group.count as u32;
             }
@@ -202,7 +207,7 @@ impl DemEngine {
             }
             let (low, high) = (DVec3::from_array(region.low), DVec3::from_array(region.high));
             let room = Room::of(region);
-            let mut clearance = Clearance::new(&self.walls, &room, dimension);
+            let mut clearance = Clearance::on(stream.sides.clone(), &self.walls, self.gravity);
             let largest = self.largest_diameter * 0.5;
             let mut occupied = Occupied::new(largest);
             let margin = DVec3::splat(2.0 * largest);

@@ -9,6 +9,7 @@ use crate::engine::{Engine, Fault};
 use crate::ledger::{Account, Ledger};
 use crate::partner::Hosts;
 use crate::view::Contact;
+use crate::wall::{Mover, Wall};
 use glam::DVec3;
 use tsubu_scene::plan::Integrator;
 
@@ -236,20 +237,23 @@ impl DemEngine {
         if self.sums.deepest <= self.largest_overlap * self.smallest_diameter {
             return Ok(());
         }
-        let grains = &self.grains;
-        let ratios = self.contact_list().into_iter().map(|c| {
-            let mut radius = grains.radius[c.first];
-            if !c.wall {
-                radius = radius.min(grains.radius[c.second]);
-            }
-            (c.overlap / (2.0 * radius), c.first)
-        });
-        let (ratio, i) = ratios.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a });
+        let ratios = self.contact_list().into_iter().map(|contact| (self.overlap_ratio(&contact), contact));
+        let Some((ratio, contact)) = ratios.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Ok(()) };
         if ratio <= self.largest_overlap {
             return Ok(());
         }
-        let grain = grains.id[i] as usize;
-        Err(Fault::Overlap { step: self.step, time: self.time(), grain, ratio, limit: self.largest_overlap })
+        let held = |i: usize| self.grains.inverse_mass[i] == 0.0;
+        let driven = |wall: &Wall| matches!(wall.mover, Mover::Motion(..)) || wall.turning.is_some();
+        let second = contact.second;
+        Err(Fault::Overlap {
+            step: self.step,
+            time: self.time(),
+            grain: self.grains.id[contact.first] as usize,
+            other: self.named(&contact),
+            ratio,
+            limit: self.largest_overlap,
+            crushed: held(contact.first) || if contact.wall { driven(&self.walls[second]) } else { held(second) },
+        })
     }
 }
 

@@ -206,7 +206,8 @@ impl Candidates {
                 }
                 list.start.push(finder.seconds.len() as u32);
                 let reach = grains.radius[i] + search.skin + search.reach;
-                list.near_walls(walls, own as u32, self.reference[i], reach, &mut finder.elements);
+                let moves = grains.inverse_mass[i] > 0.0;
+                list.near_walls(walls, own as u32, self.reference[i], reach, moves, &mut finder.elements);
             }
             list.place(finder);
         });
@@ -298,8 +299,18 @@ impl List {
         self.start.push(0);
     }
 
-    fn near_walls(&mut self, walls: &[Wall], own: u32, centre: DVec3, reach: f64, elements: &mut Vec<u32>) {
-        for (k, wall) in walls.iter().enumerate() {
+    /// Walls near a grain; of a grain that nothing moves those that grains can move: what neither gives way in need not be
+    /// watched, and may lie in the other.
+    fn near_walls(
+        &mut self,
+        walls: &[Wall],
+        own: u32,
+        centre: DVec3,
+        reach: f64,
+        moves: bool,
+        elements: &mut Vec<u32>,
+    ) {
+        for (k, wall) in walls.iter().enumerate().filter(|(_, wall)| moves || wall.inverse_mass > 0.0) {
             elements.clear();
             wall.near(centre, reach, elements);
             self.walls.extend(elements.iter().map(|&element| WallCandidate { own, wall: k as u32, element }));

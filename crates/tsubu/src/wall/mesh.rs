@@ -3,7 +3,7 @@
 use super::Pose;
 use super::nearest::Nearest;
 use super::section::{section, strips};
-use super::topology::{Topology, weld};
+use super::topology::{Topology, edge, weld};
 use super::tree::Tree;
 use super::triangle::Triangle;
 use glam::DVec3;
@@ -21,6 +21,8 @@ pub struct Mesh {
     pub(super) tolerance: f64,
     /// Greatest distance of a corner from the centre of rotation [m].
     radius: f64,
+    /// Whether no edge is open, so that there is an inside.
+    pub(super) closed: bool,
     /// The section with the plane.
     lines: Vec<[DVec3; 2]>,
 }
@@ -35,9 +37,10 @@ impl Mesh {
         let tolerance = if corners.is_empty() { 0.0 } else { WELD * low.distance(high) };
         let (triangles, vertices) = weld(corners, tolerance);
         let tree = Tree::new(&triangles);
+        let closed = closed(&vertices);
         let topology = Topology::new(&triangles, vertices, &tree, tolerance);
         let radius = triangles.iter().flat_map(|t| t.corners).map(|p| p.distance(centre)).fold(0.0, f64::max);
-        Self { triangles, topology, tree, tolerance, radius, lines: Vec::new() }
+        Self { triangles, topology, tree, tolerance, radius, closed, lines: Vec::new() }
     }
 
     /// The section with the plane y = 0, for 2-D scenes.
@@ -70,6 +73,22 @@ impl Mesh {
         out.sort_unstable();
     }
 
+    /// How far along a direction from a point the mesh is crossed, in that direction's length; where triangles share an edge once.
+    pub(super) fn crossings(&self, point: DVec3, way: DVec3) -> Vec<f64> {
+        let mut found = Vec::new();
+        self.tree.along(point, way, |t| found.extend(self.triangles[t as usize].crossing(point, way)));
+        found.sort_unstable_by(f64::total_cmp);
+        let apart = self.tolerance / way.length();
+        found.dedup_by(|next, last| *next - *last <= apart);
+        found
+    }
+
+    /// Corners of the box around it.
+    pub(super) fn extent(&self) -> (DVec3, DVec3) {
+        let corners = self.triangles.iter().flat_map(|t| t.corners);
+        corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
+    }
+
     pub(super) fn nearest(&self, element: u32, centre: DVec3) -> Nearest {
         self.triangles[element as usize].nearest(centre)
     }
@@ -78,4 +97,11 @@ impl Mesh {
     pub(super) fn travel(&self, pose: &Pose, reference: &Pose) -> f64 {
         (pose.offset - reference.offset).length() + pose.turn_since(reference) * self.radius
     }
+}
+
+/// Whether every edge belongs to an even number of triangles.
+fn closed(vertices: &[[u32; 3]]) -> bool {
+    let mut edges: Vec<[u32; 2]> = vertices.iter().flat_map(|v| (0..3).map(|k| edge(v, k))).collect();
+    edges.sort_unstable();
+    !edges.is_empty() && edges.chunk_by(|a, b| a == b).all(|same| same.len() % 2 == 0)
 }

@@ -11,6 +11,7 @@ pub mod body;
 mod distinct;
 pub mod frustum;
 pub mod half_space;
+mod inside;
 pub mod mesh;
 pub mod mover;
 pub mod nearest;
@@ -132,12 +133,6 @@ impl Wall {
             return;
         }
         self.surface.near(self.pose.to_own(centre), reach, out);
-    }
-
-    /// Whether a point lies within a drum, cone or shell; `None` beyond open ends, and for walls without an inside.
-    /// A mesh may be anything, so it has none.
-    pub fn encloses(&self, point: DVec3) -> Option<bool> {
-        if self.gone { None } else { self.surface.encloses(self.pose.to_own(point)) }
     }
 
     /// The nearest point of an element to a point, both in the world.

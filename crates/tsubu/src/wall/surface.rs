@@ -79,15 +79,6 @@ impl Surface {
         }
     }
 
-    /// See [`Wall::encloses`](super::Wall::encloses); in the own frame.
-    pub(super) fn encloses(&self, point: DVec3) -> Option<bool> {
-        match self {
-            Self::Frustum(frustum) => frustum.encloses(point),
-            Self::Shell(shell) => Some(point.distance(shell.centre) < shell.radius),
-            Self::HalfSpaces { .. } | Self::Mesh(_) => None,
-        }
-    }
-
     /// Puts the elements within `reach` of a point into `out`, ascending.
     pub(super) fn near(&self, centre: DVec3, reach: f64, out: &mut Vec<u32>) {
         out.clear();

@@ -100,7 +100,8 @@ impl Topology {
     }
 }
 
-fn edge(v: &[u32; 3], k: usize) -> [u32; 2] {
+/// An edge of a triangle by its two vertices, the lower first.
+pub(super) fn edge(v: &[u32; 3], k: usize) -> [u32; 2] {
     let (a, b) = (v[k], v[(k + 1) % 3]);
     [a.min(b), a.max(b)]
 }

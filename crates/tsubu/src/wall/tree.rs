@@ -65,6 +65,38 @@ impl Tree {
         self.split(triangles, second, from + middle as u32);
     }
 
+    /// Calls `meet` with every triangle whose box lies on the way from a point.
+    pub fn along(&self, point: DVec3, way: DVec3, mut meet: impl FnMut(u32)) {
+        let passes = |node: &Node| {
+            let (a, b) = ((node.low - point) / way, (node.high - point) / way);
+            let (mut from, mut to) = (0.0, f64::INFINITY);
+            for axis in 0..3 {
+                if way[axis] == 0.0 {
+                    if point[axis] < node.low[axis] || point[axis] > node.high[axis] {
+                        return false;
+                    }
+                    continue;
+                }
+                from = a[axis].min(b[axis]).max(from);
+                to = a[axis].max(b[axis]).min(to);
+            }
+            from <= to * (1.0 + 1e-9)
+        };
+        let mut waiting: Vec<u32> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
+        while let Some(index) = waiting.pop() {
+            let node = &self.nodes[index as usize];
+            if !passes(node) {
+                continue;
+            }
+            match node.content {
+                Content::Leaf { from, to } => {
+                    self.order[from as usize..to as usize].iter().copied().for_each(&mut meet);
+                }
+                Content::Fork { second } => waiting.extend([second, index + 1]),
+            }
+        }
+    }
+
     /// Calls `meet` with every triangle whose box is within `reach` of the point.
     pub fn near(&self, point: DVec3, reach: f64, mut meet: impl FnMut(u32)) {
         if self.nodes.is_empty() {

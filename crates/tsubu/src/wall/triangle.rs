@@ -57,6 +57,19 @@ impl Triangle {
         Nearest::face(centre, self.normal, ap.dot(self.normal))
     }
 
+    /// How far along `way` from a point the triangle is crossed, in lengths of `way` (Moller and Trumbore 1997).
+    pub(super) fn crossing(&self, point: DVec3, way: DVec3) -> Option<f64> {
+        let [a, b, c] = self.corners;
+        let (ab, ac, from) = (b - a, c - a, point - a);
+        let (p, q) = (way.cross(ac), from.cross(ab));
+        let volume = ab.dot(p);
+        if volume == 0.0 {
+            return None;
+        }
+        let (u, v, t) = (from.dot(p) / volume, way.dot(q) / volume, ac.dot(q) / volume);
+        (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0).then_some(t)
+    }
+
     /// Whether a point lies on the triangle, give or take `tolerance` [m].
     pub fn holds(&self, point: DVec3, tolerance: f64) -> bool {
         (point - self.corners[0]).dot(self.normal).abs() <= tolerance && self.nearest(point).distance <= tolerance

@@ -13,6 +13,7 @@ mod rest;
 mod same_bits;
 mod seams;
 mod search;
+mod start;
 
 use tsubu::engine::{self, Engine};
 use tsubu::ledger::Ledger;
