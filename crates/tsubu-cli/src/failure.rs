@@ -10,7 +10,7 @@ use tsubu::study::cases::CasesError;
 use tsubu::study::compare::CompareError;
 use tsubu_frame::{CheckpointError, FileError, checkpoint};
 use tsubu_report::ReportError;
-use tsubu_scene::Complaints;
+use tsubu_scene::{Complaints, Scene};
 
 /// The scene or the command line is wrong; nothing was written.
 const WRONG: u8 = 2;
@@ -95,6 +95,25 @@ impl Failure {
         }
         output::tell(&text);
         ExitCode::from(self.code)
+    }
+
+    /// What a method has against a scene, shown where it stands; other errors as ever.
+    pub fn of_open(error: &OpenError, scene: &Scene) -> Self {
+        match error {
+            OpenError::Refused(refusal) => {
+                let notes = refusal.notes.iter().map(|note| (note.key.as_str(), note.text.as_str()));
+                (&scene.refused(refusal.method, notes)).into()
+            }
+            _ => error.into(),
+        }
+    }
+
+    /// What went wrong in a run of a scene into `folder`.
+    pub fn of_scene(error: &RunError, scene: &Scene, folder: &Path) -> Self {
+        match error {
+            RunError::Open(error) => Self::of_open(error, scene),
+            _ => Self::of_run(error, folder),
+        }
     }
 
     /// What went wrong in a run into `folder`.

@@ -91,6 +91,23 @@ impl Scene {
         &self.typed.name
     }
 
+    /// What a method has against entries of this scene, key and reason, as complaints that show where they stand. What follows a
+    /// semicolon in a reason is what to do.
+    pub fn refused<'a>(&self, method: &str, reasons: impl IntoIterator<Item = (&'a str, &'a str)>) -> Complaints {
+        let work = Work::begin(&self.typed);
+        let complaint = |(key, reason): (&str, &str)| {
+            let (why, advice) = reason.split_once("; ").map_or((reason, None), |(why, advice)| (why, Some(advice)));
+            // An entry of a list is a step of its own.
+            let path: Vec<&str> = key.split(['.', '[', ']']).filter(|step| !step.is_empty()).collect();
+            let complaint = Complaint::new(format!("method `{method}` cannot run this scene: `{key}`: {why}"))
+                .hints(advice.map(str::to_owned));
+            let typed = work.root.find(&path[..1]).is_some();
+            if typed { complaint.at(&work.root.locate(&path), "") } else { complaint }
+        };
+        let list = reasons.into_iter().map(complaint).collect();
+        Complaints::new(work.sources, list)
+    }
+
     /// The files that the scene reads, for the run folder: the name there, as [`Self::resolved_toml`] says it, and the
     /// bytes. Files that become numbers of the plan (tables of signals) are not among them.
     pub fn companions(&self) -> Vec<(String, Vec<u8>)> {

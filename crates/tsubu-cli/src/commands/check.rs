@@ -6,6 +6,13 @@ use crate::options::SceneOptions;
 use crate::output::{self, Stream};
 use clap::Args;
 use std::fmt::Write as _;
+use std::sync::mpsc;
+use std::time::{Duration, Instant};
+use tsubu::check::{Verdict, check};
+use tsubu_scene::Scene;
+
+/// How long a user waits for a verdict.
+const LIMIT: Duration = Duration::from_secs(9);
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -21,9 +28,9 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
+    let begun = Instant::now();
     let scene = options.scene.read()?;
-    let verdict =
-        tsubu::check::check(scene.plan(), machine::known().as_ref()).map_err(|error| Failure::from(&error))?;
+    let verdict = judged(&scene, LIMIT.saturating_sub(begun.elapsed()))?;
     let stream = Stream::Data;
     let mut text = String::new();
     for line in &verdict.lines {
@@ -36,6 +43,9 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     output::print(&text)?;
     let warnings = verdict.lines.iter().filter(|line| !line.good).count();
     let plural = if warnings == 1 { "" } else { "s" };
+    if verdict.fails {
+        return Err(Failure::wrong("the scene cannot be run as it is").hint("see the last warning above"));
+    }
     if options.strict && warnings > 0 {
         return Err(Failure::wrong(format!("{warnings} warning{plural}, and `--strict` lets none pass")));
     }
@@ -44,4 +54,31 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         n => output::tell(&format!("the scene can be run, with {n} warning{plural}\n")),
     }
     Ok(())
+}
+
+/// The verdict; if it takes longer than a user waits, as far as it has come.
+fn judged(scene: &Scene, limit: Duration) -> Result<Verdict, Failure> {
+    let (begun, plan) = (Instant::now(), scene.plan().clone());
+    let (send, news) = mpsc::channel();
+    std::thread::spawn(move || {
+        // Nobody listens any more where it came too late.
+        let mut ahead = |verdict: &Verdict, next| _ = send.send((Ok(verdict.clone()), Some(next)));
+        let done = check(&plan, machine::known().as_ref(), &mut ahead);
+        _ = send.send((done, None));
+    });
+    let (mut known, mut doing) = (Verdict::default(), "placing the grains");
+    loop {
+        match news.recv_timeout(limit.saturating_sub(begun.elapsed())) {
+            Ok((done, None)) => return done.map_err(|error| Failure::of_open(&error, scene)),
+            Ok((verdict, Some(next))) => (known, doing) = (verdict.unwrap_or_default(), next),
+            Err(mpsc::RecvTimeoutError::Timeout) => {
+                let text = format!("no time to end: after {} s `check` is still at {doing}", LIMIT.as_secs());
+                let advice =
+                    "fewer or heavier grains, a softer material or a longer step, if a run is not to take as long";
+                known.warn(text, advice);
+                return Ok(known);
+            }
+            Err(mpsc::RecvTimeoutError::Disconnected) => return Err(Failure::failed("the judgement broke off")),
+        }
+    }
 }

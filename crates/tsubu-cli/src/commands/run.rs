@@ -43,7 +43,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     let watcher = Watcher { interrupted: stop::listen(), progress: &|done| progress.set(done) };
     let done = pool.install(|| alone(|| tsubu::run::run(&scene, &folder, existing, &watcher)));
     progress.end();
-    let summary = done.map_err(|error| Failure::of_run(&error, &folder))?;
+    let summary = done.map_err(|error| Failure::of_scene(&error, &scene, &folder))?;
     if summary.status == Status::Interrupted {
         let message = format!(
             "interrupted at t = {} s, step {}; the checkpoint is in {}",

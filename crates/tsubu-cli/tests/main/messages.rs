@@ -151,8 +151,14 @@ fn a_step_too_long_is_warned_of() {
 #[test]
 fn a_run_that_blows_up_keeps_what_it_has() {
     let desk = Desk::new();
-    let check = desk.done("check balls.toml --set 'dem.time-step=1 ms'");
+    // It said that the run would fail, and then that the scene can be run.
+    let check = desk.run("check balls.toml --set 'dem.time-step=1 ms'");
     assert!(check.stdout.contains("warn the run would fail: step "), "{}", check.stdout);
+    assert!(check.stderr.starts_with("error: the scene cannot be run as it is\n"), "{}", check.stderr);
+    assert_eq!(check.code, Some(2));
+    let none = desk.run("check balls.toml --set 'dem.time-step=5 s'");
+    assert!(none.stdout.contains("the run would have no step") || none.stderr.contains("time-step"), "{}", none.stdout);
+    assert_eq!(none.code, Some(2));
     let ended = desk.run("run balls.toml -q -o blown --set 'dem.time-step=1 ms'");
     assert_eq!(ended.code, Some(3), "{}", ended.stderr);
     assert!(ended.stderr.starts_with("error: step "), "{}", ended.stderr);
@@ -201,4 +207,89 @@ fn a_mesh_with_holes_and_flipped_triangles_is_described() {
     let told =
         told.into_iter().filter(|line| line.contains("`crate`") || line.contains("mesh file")).collect::<Vec<_>>();
     assert_snapshot!(told.join("\n"));
+}
+
+/// What a method had against a scene came without file, line and text, unlike all other errors of a scene.
+#[test]
+fn a_refusal_shows_where_it_stands() {
+    let desk = Desk::with(&SCENE.replace("title =", "removal.below.behind.point = [0, -1]\ntitle ="));
+    for command in ["check", "run"] {
+        let ended = desk.run(&format!("{command} balls.toml --set method=lattice"));
+        assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+        assert!(ended.stderr.contains("--> balls.toml:2:"), "{}", ended.stderr);
+        assert!(ended.stderr.contains("removal.below.behind.point = [0, -1]"), "{}", ended.stderr);
+        assert!(ended.stderr.contains("hint: use `method = \"dem\"`"), "{}", ended.stderr);
+    }
+}
+
+/// `check` went on for minutes without a word: a contact of almost no mass takes so many steps that grains never come to rest.
+#[test]
+fn check_ends_though_grains_do_not_settle() {
+    let settled = SCENE.replace("start.rows = { spacing = 1.1, jitter = 0.5, speed = 0.3 }", "start.settled = {}");
+    let desk = Desk::with(&settled);
+    let begun = std::time::Instant::now();
+    let ended = desk.done("check balls.toml --set 'dem.time-step=1e-12 s'");
+    assert!(begun.elapsed().as_secs() < 25, "{:?}", begun.elapsed());
+    assert!(ended.stdout.contains("is still at settling the grains before time 0"), "{}", ended.stdout);
+    assert!(ended.stdout.contains("ok   speed scale"), "{}", ended.stdout);
+}
+
+/// A hundred million grains were placed until the memory was gone, and the program broke off with a backtrace.
+#[test]
+fn more_grains_than_memory_are_refused_with_numbers() {
+    let many = SCENE.replace("count = 20", "count = 100_000_000").replace(
+        "start.rows = { spacing = 1.1, jitter = 0.5, speed = 0.3 }",
+        "start.random.region = { low = [-9e3, -9e3], high = [9e3, 9e3] }",
+    );
+    let desk = Desk::with(&many[..many.find("[response]").unwrap()].replace("[walls.box]", "[walls.plate]").replace(
+        "shape.box = { width = \"60 mm\", height = \"96 mm\", depth = \"6 mm\" }",
+        "shape.plane.point = [0, -1e4]",
+    ));
+    let tsubu = assert_cmd::cargo::cargo_bin("tsubu");
+    for command in ["check", "run"] {
+        let limited = format!("ulimit -v 6000000; '{}' {command} balls.toml", tsubu.display());
+        let out = Command::new("sh").args(["-c", &limited]).current_dir(desk.path("")).output().unwrap();
+        let told = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(out.status.code(), Some(2), "{told}");
+        assert!(told.contains("100000000 grains take about 100.01 GB of memory, more than the"), "{told}");
+        assert!(!told.contains("panicked") && !told.contains("allocation"), "{told}");
+    }
+    assert_eq!(desk.files(), ["balls.toml"]);
+}
+
+/// At a tenth of the natural frequency a period is ten times as long; a run of ninety-six million hours was "ok".
+#[test]
+fn check_tells_the_time_of_slow_drives_and_of_endless_runs() {
+    let desk = Desk::new();
+    let seconds = |ratio: &str| {
+        let ended = desk.run(&format!("check balls.toml --set 'response.frequency-ratio=[{ratio}]'"));
+        let line = ended.stdout.lines().find(|line| line.contains("`tsubu response`")).unwrap().to_owned();
+        let mut words = line.split("for `tsubu").next().unwrap().split_whitespace().rev();
+        let unit = match words.next() {
+            Some("h") => 3600.0,
+            Some("min") => 60.0,
+            Some("s") => 1.0,
+            Some("ms") => 1e-3,
+            other => panic!("{other:?}: {line}"),
+        };
+        unit * words.next().unwrap().parse::<f64>().unwrap()
+    };
+    let slow = seconds("0.01") / seconds("1.0");
+    assert!((20.0..500.0).contains(&slow), "{slow}");
+    let endless = desk.run("check balls.toml --set 'duration=1e9 s'");
+    assert!(endless.stdout.contains("warn time: about"), "{}", endless.stdout);
+}
+
+/// One case that blew up took all the others of a response with it, hours of them.
+#[test]
+fn a_response_keeps_the_cases_that_do_not_fail() {
+    let vary = "vary = { \"particles.balls.count\" = [0, 10, 20] }";
+    let desk = Desk::with(&SCENE.replace(vary, "vary = { \"dem.largest-overlap\" = [1e-7, 0.1] }"));
+    let ended = desk.run("response balls.toml -q -o curve --set 'response.frequency-ratio=[0.95, 1.0, 1.05]'");
+    assert_eq!(ended.code, Some(3), "{}", ended.stderr);
+    assert!(ended.stderr.contains("error: some of the runs failed"), "{}", ended.stderr);
+    assert!(ended.stdout.contains("warning: case `largest-overlap = 0.0000001`, frequency ratio"), "{}", ended.stdout);
+    let curve = desk.read("curve/response.csv");
+    assert_eq!(curve.lines().filter(|line| line.contains("largest-overlap = 0.1")).count(), 3, "{curve}");
+    assert_eq!(desk.summary("curve")["status"], "failed");
 }

@@ -1,6 +1,9 @@
 //! The verdict on a scene before it runs.
 
+mod cost;
+mod fall;
 mod idle;
+pub(crate) mod memory;
 mod mesh;
 mod rest;
 mod verdict;
@@ -120,7 +123,7 @@ pub fn shortest_period(hosts: &Hosts) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Typical fastest relative speed [m/s]: told, or the largest of a fall through the box, the walls' speed, the hosts'
+/// Typical fastest relative speed [m/s]: told, or the largest of a fall through the box or down to the lowest wall, the walls' speed, the hosts'
 /// speed at resonance without grains, and the speeds at the start; 1 m/s where nothing tells.
 pub fn speed_scale(plan: &Plan, hosts: &Hosts) -> f64 {
     if let Some(told) = plan.speed_scale {
@@ -135,6 +138,10 @@ pub fn speed_scale(plan: &Plan, hosts: &Hosts) -> f64 {
         if let Some(motion) = &wall.motion {
             speed = speed.max(fastest(&motion.signal));
         }
+    }
+    // In water grains soon fall no faster.
+    if plan.water.is_none() {
+        speed = speed.max((2.0 * gravity * fall::height(plan)).sqrt());
     }
     // What the stream gives a grain it loses again in part before it hits.
     if let Some(water) = water::water(plan) {

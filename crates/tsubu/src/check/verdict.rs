@@ -1,16 +1,15 @@
 //! The verdict: is this scene resolved well enough, and what will it cost?
 
 use super::rest::{self, IN_A_BED, IN_A_FILM, IN_AN_IMPACT};
-use super::{bodies, idle, mesh, shortest_period, speed_scale, water};
+use super::{bodies, cost, idle, memory, mesh, shortest_period, speed_scale, water};
 use crate::bench::Bench;
 use crate::contact::{Pair, Table};
-use crate::engine::{self, Engine, Fault, OpenError};
+use crate::engine::{self, Engine, Fault, OpenError, Verdict as Noted};
 use crate::find::candidates::WORTH_THREADS;
-use crate::ledger::Ledger;
 use crate::partner::Hosts;
+use crate::study::unsettled;
 use std::fmt;
-use std::time::Instant;
-use tsubu_scene::plan::{Integrator, Method, Normal, Plan, Start};
+use tsubu_scene::plan::{Integrator, Method, Normal, Particles, Plan, Start};
 
 /// One judgement.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +27,8 @@ pub struct Line {
 pub struct Verdict {
     /// The lines, in the order of importance to a reader.
     pub lines: Vec<Line>,
+    /// Whether the run would be refused or would fail.
+    pub fails: bool,
 }
 
 impl Verdict {
@@ -40,11 +41,17 @@ impl Verdict {
         self.lines.push(Line { good: true, text, advice: String::new() });
     }
 
+    /// Adds a warning.
+    pub fn warn(&mut self, text: impl Into<String>, advice: impl Into<String>) {
+        self.lines.push(Line { good: false, text: text.into(), advice: advice.into() });
+    }
+
     /// The other lines say why; without them the user would be left with the blow-up alone.
     fn fail(&mut self, what: &str, fault: &Fault) {
         let text = fault.to_string();
-        let reason = text.split("\nhint: ").next().unwrap_or_default();
-        self.judge(false, format!("{what}: {reason}"), || "what the warnings above name".to_owned());
+        let (reason, hint) = text.split_once("\nhint: ").unwrap_or((&text, "what the warnings above name"));
+        self.judge(false, format!("{what}: {reason}"), || hint.to_owned());
+        self.fails = true;
     }
 
     pub(super) fn judge(&mut self, good: bool, text: String, advice: impl FnOnce() -> String) {
@@ -67,69 +74,120 @@ impl fmt::Display for Verdict {
 
 /// Builds the scene, judges it, and measures for a moment how fast this machine moves it.
 ///
-/// Where `bench` knows this machine, the estimate is for all its cores too.
-pub fn check(plan: &Plan, bench: Option<&Bench>) -> Result<Verdict, OpenError> {
+/// Where `bench` knows this machine, the estimate is for all its cores too. `ahead` hears what is known so far, and what comes
+/// next: a part that may take long.
+pub fn check(
+    plan: &Plan,
+    bench: Option<&Bench>,
+    ahead: &mut dyn FnMut(&Verdict, &'static str),
+) -> Result<Verdict, OpenError> {
+    ahead(&Verdict::default(), "placing the grains");
     let mut hosts = Hosts::new(&plan.hosts);
-    let mut engine = match engine::open(plan, &hosts) {
-        Err(OpenError::Settling(fault)) => return unsettled(plan, &hosts, &fault),
-        other => other?,
-    };
+    let settles = |group: &Particles| matches!(group.start, Start::Settled { time } if time > 0.0);
+    let mut engine = engine::open(&unsettled(plan), &hosts)?;
     let mut verdict = verdict(plan, &hosts, &*engine);
-    let mut ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
     let total = plan.duration / engine.time_step();
-    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().ok();
-    let (mut block, begun) = (64, Instant::now());
-    while begun.elapsed().as_millis() < 300 && (engine.steps() as f64) < total {
-        let done = match &one {
-            Some(pool) => pool.install(|| engine.advance(block, &mut hosts, &mut ledger)),
-            None => engine.advance(block, &mut hosts, &mut ledger),
-        };
-        if let Err(fault) = done {
+    if total.round() < 1.0 {
+        let (duration, dt) = (plan.duration, engine.time_step());
+        verdict.judge(false, format!("the run would have no step: it lasts {duration} s, a step {dt} s"), || {
+            format!("`duration`, or `{}`", step_key(plan))
+        });
+        verdict.fails = true;
+        return Ok(verdict);
+    }
+    if plan.particles.values().any(settles) {
+        ahead(&verdict, "settling the grains before time 0");
+        match engine::open(plan, &hosts) {
+            Ok(settled) => engine = settled,
+            Err(OpenError::Settling(fault)) => {
+                verdict.fail("settling before time 0 would fail", &fault);
+                return Ok(verdict);
+            }
+            Err(other) => return Err(other),
+        }
+    }
+    ahead(&verdict, "the first steps");
+    let now = match cost::trial(&mut *engine, &mut hosts, total) {
+        Ok(cost) => cost,
+        Err(fault) => {
             verdict.fail("the run would fail", &fault);
             return Ok(verdict);
         }
-        block *= 2;
-    }
-    let per_step = begun.elapsed().as_secs_f64() / engine.steps().max(1) as f64;
-    verdict.say(format!(
-        "time: about {} on this machine for one run ({} a step, one thread)",
-        human_time(per_step * total),
-        human_time(per_step)
-    ));
+    };
+    ahead(&verdict, "the first steps of a settled bed");
+    let dense = cost::of_a_bed(plan).map_or(now, |bed| bed.max(now));
+    times(&mut verdict, plan, &hosts, &*engine, [now, dense], bench);
+    Ok(verdict)
+}
+
+/// The longest run [s] that is not worth a warning: a month.
+const LONGEST: f64 = 30.0 * 86_400.0;
+
+/// How long a run takes, with the cost of a step as it is measured now, and of a settled bed [s].
+fn times(
+    verdict: &mut Verdict,
+    plan: &Plan,
+    hosts: &Hosts,
+    engine: &dyn Engine,
+    cost: [f64; 2],
+    bench: Option<&Bench>,
+) {
+    let total = plan.duration / engine.time_step();
+    let [low, high] = cost.map(|cost| cost * total);
+    let shorter = || format!("a shorter `duration`, fewer grains, or a longer `{}`", step_key(plan));
+    verdict.judge(
+        high <= LONGEST,
+        format!(
+            "time: about {} on this machine for one run ({} a step, one thread{})",
+            span(low, high),
+            span(cost[0], cost[1]),
+            if cost[1] > 1.2 * cost[0] { ", as grains are now to all of them lying on each other" } else { "" }
+        ),
+        shorter,
+    );
     let threaded = plan.method == Method::Dem && engine.grains() >= WORTH_THREADS;
     match bench {
         Some(bench) if threaded && bench.cores > 1 => verdict.say(format!(
             "time: about {} with {} threads, {:.2} times as fast by `tsubu bench`",
-            human_time(per_step * total / bench.scaling()),
+            span(low / bench.scaling(), high / bench.scaling()),
             bench.cores,
             bench.scaling()
         )),
         None if threaded => verdict.say("time with more threads: `tsubu bench` measures this machine".to_owned()),
         _ => {}
     }
-    if let Some(response) = &plan.response {
-        let cases: usize = response.vary.values().map(Vec::len).product();
-        let runs = cases * response.frequency_ratio.len() * response.seeds as usize;
-        let f0 = hosts.index(&response.host).and_then(|i| hosts.list[i].natural_frequencies().first().copied());
-        let seconds = f64::from(response.discard_periods + response.measure_periods) / f0.unwrap_or(1.0);
-        let all = per_step * seconds / engine.time_step() * runs as f64 / rayon::current_num_threads() as f64;
-        verdict.say(format!("time: at most about {} for `tsubu response` ({runs} runs side by side)", human_time(all)));
-    }
-    Ok(verdict)
+    let Some(response) = &plan.response else { return };
+    let cases: usize = response.vary.values().map(Vec::len).product();
+    let runs = cases * response.frequency_ratio.len() * response.seeds as usize;
+    let f0 = hosts.index(&response.host).and_then(|i| hosts.list[i].natural_frequencies().first().copied());
+    // A period is that of the drive: at a tenth of the natural frequency ten times as long.
+    let periods = f64::from(response.discard_periods + response.measure_periods);
+    let seconds: f64 = response.frequency_ratio.iter().map(|ratio| periods / (ratio * f0.unwrap_or(1.0))).sum();
+    let steps = seconds / engine.time_step() * (cases * response.seeds as usize) as f64;
+    let [low, high] = cost.map(|cost| cost * steps * grains_of_cases(plan) / rayon::current_num_threads() as f64);
+    verdict.judge(
+        high <= LONGEST,
+        format!("time: about {} for `tsubu response` ({runs} runs side by side)", span(low, high)),
+        || "fewer frequencies, cases or periods".to_owned(),
+    );
 }
 
-/// The judgement on grains that do not come to rest: the same grains in rows say why.
-fn unsettled(plan: &Plan, hosts: &Hosts, fault: &Fault) -> Result<Verdict, OpenError> {
-    let mut plan = plan.clone();
-    for group in plan.particles.values_mut() {
-        if matches!(group.start, Start::Settled { .. }) {
-            group.start = Start::Rows { spacing: 1.0, jitter: 0.0, speed: 0.0, region: None };
-        }
-    }
-    let engine = engine::open(&plan, hosts)?;
-    let mut verdict = verdict(&plan, hosts, &*engine);
-    verdict.fail("settling before time 0 would fail", fault);
-    Ok(verdict)
+/// Grains of the cases of a response over those of the scene, in the mean.
+fn grains_of_cases(plan: &Plan) -> f64 {
+    let all: usize = plan.particles.values().map(|group| group.count).sum();
+    let vary = plan.response.iter().flat_map(|response| &response.vary);
+    let more = plan.particles.iter().map(|(name, group)| {
+        let values = vary.clone().find(|(key, _)| **key == format!("particles.{name}.count")).map(|(_, values)| values);
+        let counts = values.into_iter().flatten().filter_map(toml::Value::as_integer);
+        let (sum, number) = counts.fold((0.0, 0.0), |(sum, number), count| (sum + count as f64, number + 1.0));
+        if number > 0.0 { sum / number - group.count as f64 } else { 0.0 }
+    });
+    if all > 0 { 1.0 + more.sum::<f64>() / all as f64 } else { 1.0 }
+}
+
+/// A time, or from when to when.
+fn span(low: f64, high: f64) -> String {
+    if high <= 1.2 * low { human_time(high) } else { format!("{} to {}", human_time(low), human_time(high)) }
 }
 
 /// The judgement without the measurement.
@@ -161,33 +219,22 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         );
     }
     for note in engine.notes() {
-        verdict.say(format!("approximated: `{}`: {}", note.key, note.text));
+        let (why, advice) = note.text.split_once("; ").unwrap_or((&note.text, ""));
+        match note.verdict {
+            Noted::Doubtful => {
+                verdict.judge(false, format!("`{}`: {why}", note.key), || advice.to_owned());
+            }
+            _ => verdict.say(format!("approximated: `{}`: {}", note.key, note.text)),
+        }
     }
     let steps = plan.duration / dt;
-    let bytes = memory(plan.method, engine);
     verdict.say(format!(
-        "{} grains, {steps:.0} steps of {dt:.3e} s, {:.3e} particle-steps, about {:.1} MB of memory",
+        "{} grains, {steps:.0} steps of {dt:.3e} s, {:.3e} particle-steps, about {} of memory",
         engine.grains(),
         steps * engine.grains() as f64,
-        bytes / 1e6
+        human_memory(memory::of(plan, engine.places()))
     ));
     verdict
-}
-
-/// Bytes that a run takes at most. Measured for DEM: beds of 1,000 to 1,000,000 spheres with friction springs, whole
-/// program with its checkpoints; a bed that has yet to settle will have two contacts a grain. For lattices: 1000 grains on a
-/// million sites, the whole program.
-fn memory(method: Method, engine: &dyn Engine) -> f64 {
-    let (grains, places) = (engine.grains() as f64, engine.places() as f64);
-    match method {
-        Method::Dem => 12e6 + 700.0 * grains + 150.0 * (engine.contacts() as f64).max(2.0 * grains),
-        Method::Lattice => 8e6 + 1000.0 * grains,
-        Method::ClCa => 8e6 + 240.0 * grains + 9.0 * places,
-        // Seven slots a site, before and after a step, with a number each.
-        Method::Fhp | Method::AfterPengHerrmann | Method::AfterBaxterBehringer => 8e6 + 240.0 * grains + 120.0 * places,
-        Method::AfterHemmingssonHerrmann => 8e6 + 300.0 * grains + 46.0 * places,
-        _ => 8e6 + 240.0 * grains + 29.0 * places,
-    }
 }
 
 fn step_key(plan: &Plan) -> &'static str {
@@ -381,4 +428,9 @@ pub fn human_time(seconds: f64) -> String {
         s if s < 7200.0 => format!("{:.0} min", s / 60.0),
         s => format!("{:.1} h", s / 3600.0),
     }
+}
+
+/// An amount of memory in the unit that suits it.
+pub(super) fn human_memory(bytes: f64) -> String {
+    if bytes < 1e9 { format!("{:.1} MB", bytes / 1e6) } else { format!("{:.2} GB", bytes / 1e9) }
 }
