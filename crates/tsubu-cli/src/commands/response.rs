@@ -53,6 +53,11 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     let claims: String = summary.claims.iter().map(claims::line).collect();
     output::print(&(cases(&folder)? + &claims + &warnings(&summary.warnings)))?;
     output::tell(&format!("results in {}; open {}\n", folder.display(), page.display()));
+    if summary.status == Status::Failed {
+        let again = command_to_resume();
+        return Err(Failure::failed("some of the runs failed; the warnings above name them")
+            .hint(format!("the others are kept; `{again}` tries those again that failed")));
+    }
     if summary.claims.iter().all(|claim| claim.pass) { Ok(()) } else { Err(Failure::claim()) }
 }
 

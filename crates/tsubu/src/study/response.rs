@@ -2,7 +2,7 @@
 //!
 //! Each case settles its grains once a seed; all its frequencies start from that bed. Periods in which the transient dies
 //! away are thrown away, then whole periods are measured, mean removed (Komatsuzaki 2003: root mean square over ten
-//! periods). A response that was stopped goes on where it was: every finished run is a line in `progress.jsonl`.
+//! periods). A run that fails is said, and missing in its curve. A response that was stopped goes on where it was: every finished run is a line in `progress.jsonl`.
 
 mod curve;
 mod tasks;
@@ -42,7 +42,7 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
     let resolved = scene.resolved_toml();
     let earlier = earlier(folder, &resolved, overwrite)?;
     let keys = task.missing(earlier.as_ref());
-    let beds = task.settle(&keys)?;
+    let (beds, mut failures) = task.settle(&keys)?;
     // Only now, so that a scene that a method refuses leaves nothing behind.
     let (folder, mut points) = open_folder(folder, earlier, scene, overwrite)?;
     let journal = Mutex::new(journal(&folder)?);
@@ -53,29 +53,45 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
         }
         Ok(())
     };
-    points.extend(task.measure(&keys, &beds, &record, watcher)?);
-    let status = if points.len() < task.total() { Status::Interrupted } else { Status::Finished };
+    let (measured, failed) = task.measure(&keys, &beds, &record, watcher)?;
+    points.extend(measured);
+    failures.extend(failed);
+    let status = match points.len() {
+        done if done == task.total() => Status::Finished,
+        _ if watcher.interrupted.load(Ordering::Relaxed) => Status::Interrupted,
+        0 => return Err(task.first(failures)),
+        _ => Status::Failed,
+    };
     let results = task.results(&points);
     if status == Status::Finished {
         task.film(&results, &folder)?;
     }
-    Ok(write::write(&folder, scene, &task.plans, &results, status, begun.elapsed().as_secs_f64())?)
+    let failures = failures.iter().map(|failure| task.told(failure)).collect();
+    Ok(write::write(&folder, scene, &task.plans, &results, status, failures, begun.elapsed().as_secs_f64())?)
 }
 
 /// The curves of a scene's response, without any file.
 pub fn curves(scene: &Scene) -> Result<Vec<CaseResult>, CasesError> {
     let task = Task::new(scene)?;
     let keys = task.missing(None);
-    let beds = task.settle(&keys)?;
+    let (beds, mut failures) = task.settle(&keys)?;
     let never = AtomicBool::new(false);
     let watcher = Watcher { interrupted: &never, progress: &|_| {} };
-    Ok(task.results(&task.measure(&keys, &beds, &|_, _| Ok(()), &watcher)?))
+    let (points, failed) = task.measure(&keys, &beds, &|_, _| Ok(()), &watcher)?;
+    failures.extend(failed);
+    if failures.is_empty() { Ok(task.results(&points)) } else { Err(task.first(failures)) }
 }
 
 type Done = BTreeMap<Key, Point>;
 
 /// Settled beds by case and seed.
 type Beds = BTreeMap<(usize, u32), State>;
+
+/// A run that broke off: the first of those of a bed where it did not settle. The others go on.
+struct Failed {
+    key: Key,
+    error: RunError,
+}
 
 /// What a response has to compute.
 struct Task {
@@ -120,16 +136,40 @@ impl Task {
         CasesError::Run { case: self.cases[case].name.clone(), error }
     }
 
+    /// A failure in a sentence.
+    fn told(&self, Failed { key, error }: &Failed) -> String {
+        let (case, ratio) = (&self.cases[key.case].name, self.wanted.frequency_ratio[key.frequency]);
+        let case = if case.is_empty() { String::new() } else { format!("case `{case}`, ") };
+        let error = error.to_string();
+        let reason = error.split("\nhint: ").next().unwrap_or_default();
+        format!("{case}frequency ratio {ratio}, seed {}: the run failed and is not in the curve: {reason}", key.seed)
+    }
+
+    /// The failure that stands for all.
+    fn first(&self, mut failures: Vec<Failed>) -> CasesError {
+        failures.sort_by_key(|failed| std::cmp::Reverse(failed.key));
+        let Some(Failed { key, error }) = failures.pop() else {
+            return CasesError::Scene("there is nothing to run".to_owned());
+        };
+        self.fail(key.case, error)
+    }
+
     /// Settles the bed of every case and seed among the keys.
-    fn settle(&self, keys: &[Key]) -> Result<Beds, CasesError> {
+    fn settle(&self, keys: &[Key]) -> Result<(Beds, Vec<Failed>), CasesError> {
         let needed: BTreeSet<(usize, u32)> = keys.iter().map(|k| (k.case, k.seed)).collect();
-        needed
+        let failures = Mutex::new(Vec::new());
+        let settled: Result<Vec<_>, CasesError> = needed
             .par_iter()
-            .map(|&(case, seed)| {
-                let bed = tasks::bed(&self.plans[case], seed).map_err(|e| self.fail(case, e.into()))?;
-                Ok(((case, seed), bed))
+            .map(|&(case, seed)| match tasks::bed(&self.plans[case], seed) {
+                Ok(bed) => Ok(Some(((case, seed), bed))),
+                Err(error @ OpenError::Settling(_)) => {
+                    keep(&failures, Key { case, seed, frequency: 0 }, error.into());
+                    Ok(None)
+                }
+                Err(error) => Err(self.fail(case, error.into())),
             })
-            .collect()
+            .collect();
+        Ok((settled?.into_iter().flatten().collect(), failures.into_inner().unwrap_or_default()))
     }
 
     /// Runs the keys side by side; `record` hears of every finished one.
@@ -139,25 +179,34 @@ impl Task {
         beds: &Beds,
         record: &(dyn Fn(&Key, &Point) -> Result<(), CasesError> + Sync),
         watcher: &Watcher,
-    ) -> Result<Done, CasesError> {
+    ) -> Result<(Done, Vec<Failed>), CasesError> {
+        let failures = Mutex::new(Vec::new());
         let total = self.total();
         let counter = AtomicUsize::new(total - keys.len());
-        keys.par_iter()
+        let done: Result<Done, CasesError> = keys
+            .par_iter()
             .map(|key| {
                 if watcher.interrupted.load(Ordering::Relaxed) {
                     return Ok(None);
                 }
                 let frequency = self.reference * self.wanted.frequency_ratio[key.frequency];
-                let bed = &beds[&(key.case, key.seed)];
-                let point = measure(&self.plans[key.case], &self.wanted, key.seed, bed, frequency)
-                    .map_err(|e| self.fail(key.case, e.into()))?;
+                let Some(bed) = beds.get(&(key.case, key.seed)) else { return Ok(None) };
+                let point = match measure(&self.plans[key.case], &self.wanted, key.seed, bed, frequency) {
+                    Ok(point) => point,
+                    Err(error @ OpenError::Running(_)) => {
+                        keep(&failures, *key, error.into());
+                        return Ok(None);
+                    }
+                    Err(error) => return Err(self.fail(key.case, error.into())),
+                };
                 record(key, &point)?;
                 let finished = counter.fetch_add(1, Ordering::Relaxed) + 1;
                 (watcher.progress)(finished as f64 / total as f64);
                 Ok(Some((*key, point)))
             })
             .filter_map(Result::transpose)
-            .collect()
+            .collect();
+        Ok((done?, failures.into_inner().unwrap_or_default()))
     }
 
     /// Eight pictures of one period of the best case at its peak: of those with grains, the one with the lowest peak.
@@ -183,6 +232,12 @@ impl Task {
                 CaseResult::new(&case.name, plan, self.reference, &self.wanted.frequency_ratio, &of_case(index))
             })
             .collect()
+    }
+}
+
+fn keep(failures: &Mutex<Vec<Failed>>, key: Key, error: RunError) {
+    if let Ok(mut failures) = failures.lock() {
+        failures.push(Failed { key, error });
     }
 }
 

@@ -24,6 +24,7 @@ pub(super) fn write(
     plans: &[Plan],
     results: &[CaseResult],
     status: Status,
+    failures: Vec<String>,
     wall_seconds: f64,
 ) -> Result<Summary, FileError> {
     let plan = scene.plan();
@@ -64,6 +65,7 @@ pub(super) fn write(
         dimension: u32::from(plan.dimension),
         wall_seconds,
         threads: rayon::current_num_threads() as u32,
+        warnings: failures,
         ..Summary::default()
     };
     for (case, case_plan) in results.iter().zip(plans) {
