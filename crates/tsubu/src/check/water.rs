@@ -161,7 +161,7 @@ pub(super) fn judge(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64) 
                 _ => "it flows as a sheet",
             };
             verdict.say(format!(
-                "{name} in the stream: Shields number {shields:.3} (motion begins near 0.045: {fate}), U* = {shear:.4} m/s, U* d/nu = {:.0}",
+                "{name} in the stream as typed, before grains take from it: Shields number {shields:.3} (motion begins near 0.045: {fate}), U* = {shear:.4} m/s, U* d/nu = {:.0}",
                 shear * d / water.viscosity
             ));
         }

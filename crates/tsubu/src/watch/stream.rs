@@ -25,6 +25,8 @@ shear             dU/dz, between the middles of the layers below and above      
 stress            shear stress of the water, mean of the lower and the upper face        [Pa]
 The bed ends with the highest layer that grains fill by 0.3; of a log-law stream, which knows no grains, bed stress is rho U*^2. Density,
 d and w are those of the mean grain of the free groups, or of the group that is asked for, as the scene tells them.
+Which is which: U* is that on the bottom, below the bed, where little of the stress comes to; Shields and Rouse number are those at the
+top of the bed, in the mean and at the end; `check` tells them of the stream as typed, before grains take from it.
 Source: Shields 1936; Rouse 1937. Limits: as those of the layers; velocities and stresses are those of the last step, shares are
 measured every 50 steps. While the stream gains or loses speed the bed stress is not the weight of the water along the slope.";
 
