@@ -128,6 +128,7 @@ impl Failure {
                     .hint("start again with `--overwrite` in place of `--resume`")
             }
             RunError::Checkpoint(error) => Self::wrong(error.to_string()),
+            RunError::NoStep { .. } => Self::wrong(error.to_string()),
             RunError::NotThisScene(message) => Self::wrong(message.as_str()),
             RunError::Fault(fault) => Self::failed(fault.to_string())
                 .hint(format!("what was computed so far is kept in {}", folder.display())),
@@ -161,7 +162,7 @@ impl Failure {
     /// What went wrong with a report.
     pub fn of_report(error: &ReportError) -> Self {
         match error {
-            ReportError::File(_) => Self::failed(error.to_string()),
+            ReportError::File(FileError::Write { .. }) => Self::failed(error.to_string()),
             _ => Self::wrong(error.to_string()),
         }
     }

@@ -44,7 +44,9 @@ tsubu simulates granular matter from one scene file.
 ";
 
 fn main() -> ExitCode {
-    let done = match Arguments::parse().command {
+    let arguments = Arguments::parse();
+    stop::listen();
+    let done = match arguments.command {
         Some(command) => commands::run(command),
         None => output::print(BRIEF),
     };

@@ -54,7 +54,7 @@ impl Progress {
             return;
         }
         if self.bar.position() == 0 {
-            if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:30}] {percent:>3} %, {eta} left") {
+            if let Ok(style) = ProgressStyle::with_template("{msg} [{wide_bar}] {percent:>3} %, {eta} left") {
                 self.bar.set_style(style.progress_chars("=> "));
             }
             // What was done before a resume says nothing about how fast this goes.

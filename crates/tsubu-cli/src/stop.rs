@@ -1,17 +1,54 @@
-//! Ctrl-C: the first asks for a checkpoint, the second ends the program at once.
+//! Ctrl-C, and a polite kill: the first asks whoever has a state to save it, the second ends the program at once.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use crate::output;
+use std::process::exit;
+use std::sync::OnceLock;
+use std::thread;
+use std::time::Duration;
+use tsubu::interrupt::Interrupt;
 
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+static INTERRUPT: Interrupt = Interrupt::new();
 
-/// Listens from now on for Ctrl-C (and a polite kill), and gives the mark that it sets.
-pub fn listen() -> &'static AtomicBool {
+/// What to say where the program has to end by itself.
+static WORDS: OnceLock<String> = OnceLock::new();
+
+/// How long those have who stop by themselves.
+const GRACE: Duration = Duration::from_millis(1500);
+
+const INTERRUPTED: i32 = 130;
+
+/// Listens from now on. A command that has not asked for [`interrupt`] ends at once.
+pub fn listen() {
     // It fails only if something listens already, and then there is nothing to do.
     let _ = ctrlc::set_handler(|| {
-        if INTERRUPTED.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
+        let again = INTERRUPT.ask();
+        match WORDS.get() {
+            Some(_) if again => exit(INTERRUPTED),
+            Some(words) => {
+                output::tell("\nstopping at the next step; once more to stop at once\n");
+                // The handler must be free for the second signal.
+                thread::spawn(move || end(words));
+            }
+            None => {
+                output::tell("\ninterrupted\n");
+                exit(INTERRUPTED);
+            }
         }
-        crate::output::tell("\nstopping at the next step; once more to stop at once\n");
     });
-    &INTERRUPTED
+}
+
+/// The mark that is set then, for commands that stop by themselves; `words` are said where that takes too long. It never takes a
+/// state that is not saved.
+pub fn interrupt(words: &str) -> &'static Interrupt {
+    WORDS.get_or_init(|| words.to_owned());
+    &INTERRUPT
+}
+
+fn end(words: &str) {
+    thread::sleep(GRACE);
+    while INTERRUPT.is_held() {
+        thread::sleep(Duration::from_millis(10));
+    }
+    output::tell(&format!("{words}\n"));
+    exit(INTERRUPTED);
 }

@@ -19,11 +19,11 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use crate::FileError;
-use crate::folder::write_atomically;
 use crate::state::{Section, State};
+use crate::whole::write_atomically;
 
 const MAGIC: &[u8; 8] = b"TSUBU\r\n\x1a";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const END: &[u8; 4] = b"END.";
 /// Fast enough not to be felt beside the disk; higher levels gain little on floats.
 const LEVEL: i32 = 1;
@@ -58,17 +58,19 @@ pub enum CheckpointError {
         /// The file.
         path: PathBuf,
     },
-    /// Written by a later format.
+    /// Written in another format.
     #[error(
-        "the checkpoint {} has format {found}, this program reads up to {VERSION}: \
+        "the checkpoint {} was written by tsubu {writer} in format {found}, this program reads format {VERSION}: \
          resume with the tsubu that wrote it, or start again without --resume",
         path.display()
     )]
-    Newer {
+    OtherFormat {
         /// The file.
         path: PathBuf,
         /// Format version found.
         found: u32,
+        /// Version of the program that wrote it, as far as that can be read.
+        writer: String,
     },
     /// It stops before its end marker.
     #[error("the checkpoint {} is cut short at byte {length}; remove it and start again without --resume", path.display())]
@@ -148,7 +150,7 @@ fn put_text(out: &mut Vec<u8>, text: &str) {
 #[derive(Debug)]
 enum Damage {
     NotOurs,
-    Newer(u32),
+    OtherFormat(u32, String),
     Truncated(usize),
     Altered(String),
 }
@@ -158,7 +160,7 @@ impl Damage {
         let path = path.to_owned();
         match self {
             Self::NotOurs => CheckpointError::NotOurs { path },
-            Self::Newer(found) => CheckpointError::Newer { path, found },
+            Self::OtherFormat(found, writer) => CheckpointError::OtherFormat { path, found, writer },
             Self::Truncated(length) => CheckpointError::Truncated { path, length },
             Self::Altered(part) => CheckpointError::Altered { path, part },
         }
@@ -215,8 +217,11 @@ fn decode(bytes: &[u8]) -> Result<(Header, State), Damage> {
     }
     cursor.take(MAGIC.len() as u64)?;
     let version = cursor.u32()?;
-    if version > VERSION {
-        return Err(Damage::Newer(version));
+    if version != VERSION {
+        // All formats have begun alike so far; what is no name of a version is not shown.
+        let plain = |text: &String| !text.is_empty() && text.len() < 40 && text.chars().all(|c| c.is_ascii_graphic());
+        let writer = cursor.text().ok().filter(plain).unwrap_or_else(|| "of unknown version".to_owned());
+        return Err(Damage::OtherFormat(version, writer));
     }
     // A length that was altered mostly points past the end. The checksum of the whole file tells that from a file
     // that is really cut short, so the message names the right cause.

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::FileError;
-use crate::folder::write_atomically;
+use crate::whole::write_atomically;
 
 /// One cell.
 #[derive(Clone, Debug, PartialEq)]

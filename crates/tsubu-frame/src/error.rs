@@ -40,6 +40,56 @@ pub enum FileError {
         /// The folder.
         path: PathBuf,
     },
+    /// Something stands where a result is to be written, and tsubu has not put it there.
+    #[error(
+        "{} was not written by this tsubu, and is left as it is\n\
+         hint: name another folder with `-o`, or move it away (results of a tsubu from before the file `.tsubu` too)",
+        path.display()
+    )]
+    Foreign {
+        /// What stands there.
+        path: PathBuf,
+    },
+    /// A file that tsubu wrote, and somebody has changed since.
+    #[error(
+        "{} has been changed since tsubu wrote it, and is left as it is\n\
+         hint: name another folder with `-o`, or move the file away",
+        path.display()
+    )]
+    Edited {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file or folder in the output folder that stands somewhere else.
+    #[error(
+        "{} is a link, and tsubu writes through none\n\
+         hint: remove it, or name the folder that it leads to with `-o`",
+        path.display()
+    )]
+    Link {
+        /// The link.
+        path: PathBuf,
+    },
+    /// Somebody else writes there.
+    #[error(
+        "another tsubu is writing into this folder: it holds the lock {}\n\
+         hint: wait for its end, or name another folder with `-o`",
+        path.display()
+    )]
+    Locked {
+        /// The lock.
+        path: PathBuf,
+    },
+    /// A folder of which nobody knows what in it is tsubu's.
+    #[error(
+        "cannot go on in {}: it has no file `.tsubu`, which says what tsubu wrote there\n\
+         hint: start again into another folder, without `--resume`",
+        path.display()
+    )]
+    Unmarked {
+        /// The folder.
+        path: PathBuf,
+    },
     /// There is nothing to go on from.
     #[error("nothing to resume: {} is not a folder; leave out --resume to start the run", path.display())]
     NothingToResume {
@@ -73,6 +123,11 @@ impl FileError {
             | Self::Read { path, .. }
             | Self::Content { path, .. }
             | Self::NotEmpty { path }
+            | Self::Foreign { path }
+            | Self::Edited { path }
+            | Self::Link { path }
+            | Self::Locked { path }
+            | Self::Unmarked { path }
             | Self::NothingToResume { path } => path,
         }
     }

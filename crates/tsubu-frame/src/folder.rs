@@ -1,37 +1,16 @@
-//! The run folder, and files that are whole or not there.
+//! The run folder: what in it is tsubu's, and who may write.
 
-use std::collections::BTreeSet;
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
-use std::path::{Component, Path, PathBuf};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use serde::Serialize;
 
 use crate::FileError;
+use crate::marker::{self, Marker, hash};
 use crate::series::is_snapshot;
-
-/// What a run, sweep or study writes into its folder under names that are always the same. `--overwrite` removes these,
-/// snapshots, and the files in the list [`LIST`], and nothing else, so that a slip in `-o` costs nobody their home directory.
-const OURS: &[&str] = &[
-    "scene.toml",
-    "summary.json",
-    "history.csv",
-    "response.csv",
-    "cases.csv",
-    "energy_by_cause.csv",
-    "sweep.csv",
-    "sweep.json",
-    "compare.csv",
-    "compare.json",
-    "verify.json",
-    "check.txt",
-    "bench.json",
-    "report.html",
-    "progress.jsonl",
-    "watch/index.json",
-    "checkpoint/state.tsubu",
-];
-
-/// Paths of the files in a folder whose names depend on the scene, one a line; folders of runs with a slash behind.
-const LIST: &str = "files.txt";
+use crate::whole::{sync, temporary, write_beside};
 
 /// What to do with a folder that has something in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,31 +23,79 @@ pub enum Existing {
     Resume,
 }
 
-/// The folder of one run.
-#[derive(Clone, Debug)]
+/// A folder of results that nobody else writes into while this lives.
+#[derive(Debug)]
 pub struct RunFolder {
     path: PathBuf,
+    inner: Mutex<Inner>,
+}
+
+#[derive(Debug)]
+struct Inner {
+    marker: Marker,
+    /// Written, but perhaps not on the disk yet.
+    unsynced: Vec<PathBuf>,
 }
 
 impl RunFolder {
-    /// Makes the folder, or takes an existing one as `existing` says.
-    pub fn create(path: impl Into<PathBuf>, existing: Existing) -> Result<Self, FileError> {
+    /// Makes the folder, or takes an existing one as `existing` says. `names` are the files that are going to be written, with a
+    /// slash behind folders of snapshots and of runs: where something else stands in their place nothing is touched.
+    pub fn create<S: AsRef<str>>(
+        path: impl Into<PathBuf>,
+        existing: Existing,
+        names: impl IntoIterator<Item = S>,
+    ) -> Result<Self, FileError> {
         let path = path.into();
-        if existing == Existing::Resume {
-            if !path.is_dir() {
+        if !path.is_dir() {
+            if existing == Existing::Resume {
                 return Err(FileError::NothingToResume { path });
             }
-            return Ok(Self { path });
+            fs::create_dir_all(&path).map_err(FileError::write(&path))?;
+            let marker = Marker::make(&path)?;
+            return Ok(Self::new(path, marker));
         }
-        fs::create_dir_all(&path).map_err(FileError::write(&path))?;
-        let mut entries = fs::read_dir(&path).map_err(FileError::read(&path))?;
-        if entries.next().is_some() {
-            if existing == Existing::Refuse {
-                return Err(FileError::NotEmpty { path });
+        let marker = Marker::find(&path)?;
+        if existing == Existing::Refuse && entries(&path)?.iter().any(|name| name != marker::NAME) {
+            return Err(FileError::NotEmpty { path });
+        }
+        if existing == Existing::Resume && marker.is_none() {
+            return Err(FileError::Unmarked { path });
+        }
+        for name in names {
+            free(&path, marker.as_ref(), name.as_ref())?;
+        }
+        let marker = match marker {
+            Some(mut marker) => {
+                if existing == Existing::Overwrite {
+                    let mut ours = Ours::default();
+                    ours.find(&path, &marker)?;
+                    ours.remove()?;
+                    marker.clear()?;
+                }
+                marker
             }
-            clear(&path)?;
+            None => Marker::make(&path)?,
+        };
+        Ok(Self::new(path, marker))
+    }
+
+    /// A folder of results that is there, whoever made it, to add files to; `names` as for [`Self::create`].
+    pub fn open<S: AsRef<str>>(
+        path: impl Into<PathBuf>,
+        names: impl IntoIterator<Item = S>,
+    ) -> Result<Self, FileError> {
+        let path = path.into();
+        let marker = Marker::find(&path)?;
+        for name in names {
+            free(&path, marker.as_ref(), name.as_ref())?;
         }
-        Ok(Self { path })
+        let marker = marker.map_or_else(|| Marker::make(&path), Ok)?;
+        Ok(Self::new(path, marker))
+    }
+
+    fn new(path: PathBuf, marker: Marker) -> Self {
+        let unsynced = vec![marker.path().to_owned()];
+        Self { path, inner: Mutex::new(Inner { marker, unsynced }) }
     }
 
     /// Where it is.
@@ -81,79 +108,157 @@ impl RunFolder {
         self.path.join(name)
     }
 
+    /// Says that these files (with a slash behind them folders of snapshots and of runs) are going to be written by tsubu.
+    pub fn claim<S: AsRef<str>>(&self, names: impl IntoIterator<Item = S>) -> Result<(), FileError> {
+        names.into_iter().try_for_each(|name| self.add(name.as_ref(), None))
+    }
+
     /// Writes a whole file; it appears under its name complete or not at all.
     pub fn write(&self, name: &str, content: &[u8]) -> Result<(), FileError> {
-        write_atomically(&self.path.join(name), |out| out.write_all(content))
+        self.put(name, None, content)
+    }
+
+    /// Writes a file that people edit: an edited one is not overwritten.
+    pub fn write_editable(&self, name: &str, content: &[u8]) -> Result<(), FileError> {
+        self.put(name, Some(&hash(content)), content)
+    }
+
+    /// Writes any value as indented JSON.
+    pub fn write_json(&self, name: &str, value: &impl Serialize) -> Result<(), FileError> {
+        self.write(name, crate::summary::json(&self.file(name), value)?.as_bytes())
+    }
+
+    /// Waits until all that was written with the methods above is on the disk.
+    pub fn sync(&self) -> Result<(), FileError> {
+        let files = std::mem::take(&mut self.inner().unsynced);
+        sync(&files)
+    }
+
+    fn put(&self, name: &str, hash: Option<&str>, content: &[u8]) -> Result<(), FileError> {
+        self.add(name, hash)?;
+        let path = self.path.join(name);
+        write_beside(&path, |out| out.write_all(content))?;
+        self.inner().unsynced.push(path);
+        Ok(())
+    }
+
+    fn add(&self, name: &str, hash: Option<&str>) -> Result<(), FileError> {
+        let inner = &mut *self.inner();
+        free(&self.path, Some(&inner.marker), name)?;
+        inner.marker.add(name, hash)
+    }
+
+    fn inner(&self) -> MutexGuard<'_, Inner> {
+        // Whoever panicked has left a marker that names more than there is, never less.
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// Adds files to the list of a folder, and with a slash behind their names folders of runs, before they are written: a
-/// killed run may leave them, but never unlisted.
-pub fn list<S: Into<String>>(folder: &Path, names: impl IntoIterator<Item = S>) -> Result<(), FileError> {
-    let mut all = listed(folder)?;
-    let before = all.len();
-    all.extend(names.into_iter().map(Into::into));
-    if all.len() == before {
-        return Ok(());
+/// Whether a file of this name may be written: nothing stands there, or what tsubu has written; no way there leads through a link.
+fn free(folder: &Path, marker: Option<&Marker>, name: &str) -> Result<(), FileError> {
+    way(folder, name)?;
+    let inner = name.ends_with('/');
+    let path = folder.join(name.trim_end_matches('/'));
+    match path.metadata() {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        Ok(about) if about.is_dir() != inner => return Err(FileError::Foreign { path }),
+        _ => {}
     }
-    let text = all.into_iter().map(|name| name + "\n").collect::<String>();
-    write_atomically(&folder.join(LIST), |out| out.write_all(text.as_bytes()))
-}
-
-fn listed(folder: &Path) -> Result<BTreeSet<String>, FileError> {
-    let path = folder.join(LIST);
-    match fs::read_to_string(&path) {
-        Ok(text) => Ok(text.lines().map(str::to_owned).collect()),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(BTreeSet::new()),
-        Err(error) => Err(FileError::read(&path)(error)),
+    match marker.and_then(|marker| marker.names().find(|(known, _)| *known == name)) {
+        Some((_, hashes)) => unedited(&path, hashes),
+        None if inner && entries(&path)?.is_empty() => Ok(()),
+        None => Err(FileError::Foreign { path }),
     }
 }
 
-/// Removes what tsubu wrote into a folder, and those folders in it that are empty then.
-fn clear(folder: &Path) -> Result<(), FileError> {
-    let mut inner = Vec::new();
-    for name in listed(folder)? {
-        // An altered list must not reach outside the folder.
-        if !Path::new(&name).components().all(|part| matches!(part, Component::Normal(_))) {
-            continue;
+/// Refuses a name that leads through a link, for what is behind it is somewhere else, or through a file.
+fn way(folder: &Path, name: &str) -> Result<(), FileError> {
+    let mut path = folder.to_owned();
+    for part in Path::new(name) {
+        if path.is_file() {
+            return Err(FileError::Foreign { path });
         }
-        match name.strip_suffix('/') {
-            Some(name) => inner.push(folder.join(name)),
-            None => remove(&folder.join(name))?,
+        path.push(part);
+        if path.is_symlink() {
+            return Err(FileError::Link { path });
         }
-    }
-    for name in OURS.iter().chain(&[LIST]) {
-        remove(&folder.join(name))?;
-    }
-    let frames = folder.join("frames");
-    for name in names(&frames)? {
-        let whole = name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp")).unwrap_or(&name);
-        if is_snapshot(whole) {
-            remove(&frames.join(whole))?;
-        }
-    }
-    // Cases of a sweep, and what the list has with a slash behind it, are folders like this one.
-    let cases = folder.join("cases");
-    let numbers = names(&cases)?.into_iter().filter(|name| name.bytes().all(|c| c.is_ascii_digit()));
-    for inner in numbers.map(|name| cases.join(name)).chain(inner) {
-        if inner.is_dir() {
-            clear(&inner)?;
-            prune(&inner);
-        }
-    }
-    for name in ["frames", "figures", "watch", "checkpoint", "cases"] {
-        prune(&folder.join(name));
     }
     Ok(())
 }
 
-/// Names of what is in a folder; none where there is no such folder.
-fn names(folder: &Path) -> Result<Vec<String>, FileError> {
-    if !folder.is_dir() {
-        return Ok(Vec::new());
+/// Refuses a file that has none of the contents that tsubu gave it.
+fn unedited(path: &Path, hashes: &[String]) -> Result<(), FileError> {
+    if hashes.is_empty() {
+        return Ok(());
     }
-    let entries = fs::read_dir(folder).map_err(FileError::read(folder))?;
-    Ok(entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect())
+    match fs::read(path) {
+        Ok(content) if hashes.contains(&hash(&content)) => Ok(()),
+        Ok(_) => Err(FileError::Edited { path: path.to_owned() }),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        Err(error) => Err(FileError::read(path)(error)),
+    }
+}
+
+/// What tsubu has written into a folder and the folders in it.
+#[derive(Default)]
+struct Ours {
+    files: Vec<PathBuf>,
+    folders: Vec<PathBuf>,
+    /// Held, so that nobody begins to write there.
+    markers: Vec<Marker>,
+}
+
+impl Ours {
+    fn find(&mut self, folder: &Path, marker: &Marker) -> Result<(), FileError> {
+        for (name, hashes) in marker.names() {
+            way(folder, name)?;
+            let path = folder.join(name);
+            self.folders.extend(path.ancestors().skip(1).take_while(|above| *above != folder).map(Path::to_owned));
+            if name.ends_with('/') {
+                self.find_inside(&path)?;
+            } else {
+                unedited(&path, hashes)?;
+                self.files.push(path);
+            }
+        }
+        Ok(())
+    }
+
+    /// The same in a folder of snapshots or of runs.
+    fn find_inside(&mut self, folder: &Path) -> Result<(), FileError> {
+        if !folder.is_dir() {
+            return Ok(());
+        }
+        self.folders.push(folder.to_owned());
+        if let Some(marker) = Marker::find(folder)? {
+            self.find(folder, &marker)?;
+            self.files.push(marker.path().to_owned());
+            self.markers.push(marker);
+            return Ok(());
+        }
+        for name in entries(folder)? {
+            let path = folder.join(&name);
+            let whole = name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp")).unwrap_or(&name);
+            if is_snapshot(whole) {
+                self.files.push(folder.join(whole));
+            } else if path.join(marker::NAME).exists() && !path.is_symlink() {
+                self.find_inside(&path)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn remove(mut self) -> Result<(), FileError> {
+        for file in &self.files {
+            remove(file)?;
+        }
+        // The innermost first; where something is left in one, that is not ours.
+        self.folders.sort_by_key(|folder| std::cmp::Reverse(folder.components().count()));
+        for folder in &self.folders {
+            let _ = fs::remove_dir(folder);
+        }
+        Ok(())
+    }
 }
 
 /// Removes a file of ours, and what a killed run has left of it under the name it is written as.
@@ -167,50 +272,8 @@ fn remove(path: &Path) -> Result<(), FileError> {
     Ok(())
 }
 
-/// Removes a folder if nothing is left in it.
-fn prune(folder: &Path) {
-    // Where something is, it is not ours.
-    let _ = fs::remove_dir(folder);
-}
-
-/// The name under which a file is written before it is whole.
-fn temporary(path: &Path) -> Option<PathBuf> {
-    let mut hidden = std::ffi::OsString::from(".");
-    hidden.push(path.file_name()?);
-    hidden.push(".tmp");
-    Some(path.with_file_name(hidden))
-}
-
-/// Writes a file so that it is never seen half-written: to `.NAME.tmp` beside it, to the disk, then renamed.
-///
-/// Folders on the way are made. After an error the temporary file is gone and an older file of that name is untouched.
-pub fn write_atomically(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), FileError> {
-    let temporary = temporary(path).ok_or_else(|| FileError::content(path, "it has no file name"))?;
-    let folder = match path.parent() {
-        Some(p) if !p.as_os_str().is_empty() => p,
-        _ => Path::new("."),
-    };
-    fs::create_dir_all(folder).map_err(FileError::write(path))?;
-    let done = fill_and_sync(&temporary, fill).and_then(|()| fs::rename(&temporary, path));
-    if let Err(source) = done {
-        // The first error is the one worth telling; this clean-up may fail for the same cause.
-        let _ = fs::remove_file(&temporary);
-        return Err(FileError::Write { path: path.to_owned(), source });
-    }
-    sync_folder(folder);
-    Ok(())
-}
-
-fn fill_and_sync(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    let mut out = BufWriter::with_capacity(1 << 16, File::create(path)?);
-    fill(&mut out)?;
-    out.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
-}
-
-/// A rename lasts through a power cut only once its folder is on the disk. Some file systems refuse to sync a folder;
-/// the file itself is safe by then, so that is not an error.
-fn sync_folder(folder: &Path) {
-    if let Ok(handle) = File::open(folder) {
-        let _ = handle.sync_all();
-    }
+/// Names of what is in a folder, as far as they are text.
+fn entries(folder: &Path) -> Result<Vec<String>, FileError> {
+    let entries = fs::read_dir(folder).map_err(FileError::read(folder))?;
+    Ok(entries.filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned())).collect())
 }

@@ -6,8 +6,8 @@
 use std::path::Path;
 
 use crate::FileError;
-use crate::folder::write_atomically;
 use crate::frame::{Frame, Kind};
+use crate::whole::write_beside;
 use crate::xyz::bounds;
 
 /// Writes the grains; what a frame does not hold is 0.
@@ -20,7 +20,7 @@ pub fn write(path: &Path, frame: &Frame) -> Result<(), FileError> {
     let (low, size) = bounds(frame);
     let repeats = frame.periodic().map_or([0.0; 3], |periodic| periodic[2]);
     let border = repeats.map(|repeats| if repeats == 0.0 { "ff" } else { "pp" });
-    write_atomically(path, |out| {
+    write_beside(path, |out| {
         writeln!(out, "ITEM: UNITS\nsi\nITEM: TIME\n{:?}\nITEM: TIMESTEP\n{}", frame.time, frame.step)?;
         writeln!(out, "ITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS {}", position.len(), border.join(" "))?;
         for (low, size) in low.iter().zip(&size) {

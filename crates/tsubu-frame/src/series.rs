@@ -3,12 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::folder::write_atomically;
 use crate::frame::{Frame, Kind};
-use crate::vtp::{self, stem};
+use crate::vtp::{self, STEMS};
+use crate::whole::{sync, write_beside};
 use crate::{FileError, lammps, xyz};
-
-const KINDS: [Kind; 4] = [Kind::Grain, Kind::Contact, Kind::Cell, Kind::Surface];
 
 /// One snapshot in the folder.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,54 +17,81 @@ pub struct Snapshot {
     pub path: PathBuf,
 }
 
-/// Formats that are written beside VTK.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// What is written beside the grains and walls as VTK.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Formats {
+    /// Contacts, as VTK.
+    pub contacts: bool,
     /// Extended XYZ.
     pub xyz: bool,
     /// LAMMPS dump files.
     pub lammps: bool,
 }
 
+impl Default for Formats {
+    fn default() -> Self {
+        Self { contacts: true, xyz: false, lammps: false }
+    }
+}
+
 /// Writes snapshots one after the other.
+///
+/// An index is written whole, so that it is never seen half-written: when it has grown by a tenth, and by [`Self::sync`]. After
+/// every snapshot, the writing of indices would take most of the time of a run of many.
 #[derive(Debug)]
 pub struct FrameWriter {
     folder: PathBuf,
     formats: Formats,
     next: usize,
-    indices: [Vec<(f64, String)>; 4],
+    indices: [Index; 4],
+    /// Written, but perhaps not on the disk yet.
+    unsynced: Vec<PathBuf>,
+}
+
+/// The entries of a `.pvd`, and how many of them are not as they are in the file.
+#[derive(Debug, Default)]
+struct Index {
+    entries: Vec<(f64, String)>,
+    stale: usize,
 }
 
 impl FrameWriter {
-    /// Starts `frames/` in the run folder; `formats` adds a file each per snapshot.
-    pub fn create(run_folder: &Path, formats: Formats) -> Result<Self, FileError> {
+    /// Starts `frames/` in the run folder, with its first snapshot.
+    pub fn create(run_folder: &Path, formats: Formats) -> Self {
         let folder = run_folder.join("frames");
-        fs::create_dir_all(&folder).map_err(FileError::write(&folder))?;
-        Ok(Self { folder, formats, next: 0, indices: Default::default() })
+        Self { folder, formats, next: 0, indices: Default::default(), unsynced: Vec::new() }
     }
 
-    /// Goes on behind the snapshots at or before `time`; later ones are computed again under the same numbers.
+    /// Goes on behind the snapshots at or before `time`. Later ones are computed again under the same numbers; [`Self::cut`] them
+    /// before the first.
     pub fn resume(run_folder: &Path, formats: Formats, time: f64) -> Result<Self, FileError> {
-        let mut writer = Self::create(run_folder, formats)?;
-        for (kind, index) in KINDS.into_iter().zip(&mut writer.indices) {
-            let Some(stem) = stem(kind) else { continue };
+        let mut writer = Self::create(run_folder, formats);
+        for ((_, stem), index) in STEMS.into_iter().zip(&mut writer.indices) {
             let pvd = writer.folder.join(format!("{stem}.pvd"));
             if !pvd.exists() {
                 continue;
             }
-            for (t, name) in read_pvd(&pvd)? {
-                if t <= time {
-                    let after = number_of(&name).map_or(0, |n| n + 1);
-                    writer.next = writer.next.max(after);
-                    index.push((t, name));
-                } else {
-                    // An index that no longer names a file matters more than the file; leftovers are overwritten.
-                    let _ = fs::remove_file(writer.folder.join(&name));
-                }
-            }
-            write_pvd(&pvd, index)?;
+            index.entries = read_pvd(&pvd)?.into_iter().filter(|(t, _)| *t <= time).collect();
+            let last = index.entries.iter().filter_map(|(_, name)| number_of(name)).max();
+            writer.next = writer.next.max(last.map_or(0, |n| n + 1));
         }
         Ok(writer)
+    }
+
+    /// Removes the snapshots that are to be computed again.
+    pub fn cut(&mut self) -> Result<(), FileError> {
+        for ((_, stem), index) in STEMS.into_iter().zip(&mut self.indices) {
+            index.stale = usize::from(self.folder.join(format!("{stem}.pvd")).exists());
+        }
+        self.renew(false)?;
+        let entries = fs::read_dir(&self.folder).into_iter().flatten().flatten();
+        for name in entries.filter_map(|entry| entry.file_name().into_string().ok()).filter(|name| is_snapshot(name)) {
+            if number_of(&name).is_some_and(|number| number >= self.next) {
+                // An index that no longer names a file matters more than the file; leftovers are overwritten.
+                let _ = fs::remove_file(self.folder.join(&name));
+            }
+        }
+        Ok(())
     }
 
     /// Number of snapshots so far.
@@ -74,25 +99,60 @@ impl FrameWriter {
         self.next
     }
 
-    /// Writes one snapshot and renews the indices.
+    /// Writes one snapshot.
     pub fn write(&mut self, frame: &Frame) -> Result<(), FileError> {
         let number = self.next;
-        for (kind, index) in KINDS.into_iter().zip(&mut self.indices) {
-            let Some(stem) = stem(kind) else { continue };
+        for ((kind, stem), index) in STEMS.into_iter().zip(&mut self.indices) {
             let name = format!("{stem}_{number:06}.vtp");
-            if vtp::write(&self.folder.join(&name), frame, kind)? {
-                index.push((frame.time, name));
-                write_pvd(&self.folder.join(format!("{stem}.pvd")), index)?;
+            let path = self.folder.join(&name);
+            let wanted = kind != Kind::Contact || self.formats.contacts;
+            if wanted && vtp::write(&path, frame, kind)? {
+                index.entries.push((frame.time, name));
+                index.stale += 1;
+                self.unsynced.push(path);
             }
         }
         if self.formats.xyz {
-            xyz::write(&self.folder.join(format!("grains_{number:06}.xyz")), frame)?;
+            let path = self.folder.join(format!("grains_{number:06}.xyz"));
+            xyz::write(&path, frame)?;
+            self.unsynced.push(path);
         }
         if self.formats.lammps {
-            lammps::write(&self.folder.join(format!("grains_{number:06}.lammpstrj")), frame)?;
+            let path = self.folder.join(format!("grains_{number:06}.lammpstrj"));
+            lammps::write(&path, frame)?;
+            self.unsynced.push(path);
         }
         self.next += 1;
+        self.renew(true)
+    }
+
+    /// Waits until all snapshots, and indices that name them, are on the disk. To be called before a checkpoint is written.
+    pub fn sync(&mut self) -> Result<(), FileError> {
+        self.renew(false)?;
+        sync(&std::mem::take(&mut self.unsynced))
+    }
+
+    /// Writes the indices that have grown; with `now_and_then` those alone that have grown by a tenth.
+    fn renew(&mut self, now_and_then: bool) -> Result<(), FileError> {
+        for ((_, stem), index) in STEMS.into_iter().zip(&mut self.indices) {
+            if index.stale == 0 || (now_and_then && 10 * index.stale < index.entries.len()) {
+                continue;
+            }
+            let path = self.folder.join(format!("{stem}.pvd"));
+            write_pvd(&path, &index.entries)?;
+            index.stale = 0;
+            if !self.unsynced.contains(&path) {
+                self.unsynced.push(path);
+            }
+        }
         Ok(())
+    }
+}
+
+impl Drop for FrameWriter {
+    fn drop(&mut self) {
+        // A run that stops on an error keeps its last snapshots; a second error cannot be told from here.
+        let _ = self.renew(false);
     }
 }
 
@@ -110,7 +170,7 @@ pub fn snapshots(run_folder: &Path) -> Result<Vec<Snapshot>, FileError> {
 /// Whether a file in `frames/` has a name that a [`FrameWriter`] gives.
 pub(crate) fn is_snapshot(name: &str) -> bool {
     let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
-    let kind = |name: &str| KINDS.into_iter().any(|kind| vtp::stem(kind) == Some(name));
+    let kind = |name: &str| STEMS.iter().any(|(_, stem)| *stem == name);
     let numbered = |number: &str| number.len() >= 6 && number.bytes().all(|c| c.is_ascii_digit());
     match ending {
         "pvd" => kind(stem),
@@ -122,11 +182,11 @@ pub(crate) fn is_snapshot(name: &str) -> bool {
 }
 
 fn number_of(name: &str) -> Option<usize> {
-    name.strip_suffix(".vtp")?.rsplit_once('_')?.1.parse().ok()
+    name.rsplit_once('.')?.0.rsplit_once('_')?.1.parse().ok()
 }
 
 fn write_pvd(path: &Path, entries: &[(f64, String)]) -> Result<(), FileError> {
-    write_atomically(path, |out| {
+    write_beside(path, |out| {
         out.write_all(
             b"<?xml version=\"1.0\"?>\n\
               <VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",

@@ -7,8 +7,8 @@ use std::path::Path;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::FileError;
-use crate::folder::write_atomically;
 use crate::named::Named;
+use crate::whole::write_atomically;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -236,9 +236,14 @@ impl Summary {
 
 /// Writes any value as indented JSON, whole or not at all.
 pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), FileError> {
-    let mut text = serde_json::to_string_pretty(value).map_err(|e| FileError::content(path, e.to_string()))?;
-    text.push('\n');
+    let text = json(path, value)?;
     write_atomically(path, |out| out.write_all(text.as_bytes()))
+}
+
+/// A value as indented JSON, for the file `path`.
+pub(crate) fn json(path: &Path, value: &impl Serialize) -> Result<String, FileError> {
+    let text = serde_json::to_string_pretty(value).map_err(|e| FileError::content(path, e.to_string()))?;
+    Ok(text + "\n")
 }
 
 /// Reads a value from JSON.

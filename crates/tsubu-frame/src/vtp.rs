@@ -9,19 +9,12 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use crate::FileError;
-use crate::folder::write_atomically;
 use crate::frame::{Column, Frame, Kind, Values};
+use crate::whole::write_beside;
 
-/// Stem of the file of a kind, for the kinds that have points.
-pub fn stem(kind: Kind) -> Option<&'static str> {
-    match kind {
-        Kind::Grain => Some("grains"),
-        Kind::Contact => Some("contacts"),
-        Kind::Cell => Some("cells"),
-        Kind::Surface => Some("walls"),
-        Kind::Global => None,
-    }
-}
+/// Kinds that have points, and the stem of the file of each.
+pub(crate) const STEMS: [(Kind, &str); 4] =
+    [(Kind::Grain, "grains"), (Kind::Contact, "contacts"), (Kind::Cell, "cells"), (Kind::Surface, "walls")];
 
 /// Writes the columns of one kind; `false` if the frame has no `position` of that kind and so nothing was written.
 pub fn write(path: &Path, frame: &Frame, kind: Kind) -> Result<bool, FileError> {
@@ -74,7 +67,7 @@ pub fn write(path: &Path, frame: &Frame, kind: Kind) -> Result<bool, FileError> 
         let _ = writeln!(head, "</{name}>");
     }
     head.push_str("</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
-    write_atomically(path, |out| {
+    write_beside(path, |out| {
         out.write_all(head.as_bytes())?;
         blocks.write(out)?;
         out.write_all(b"\n</AppendedData>\n</VTKFile>\n")

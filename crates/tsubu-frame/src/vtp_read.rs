@@ -9,7 +9,7 @@ use std::sync::Mutex;
 
 use crate::FileError;
 use crate::frame::{Column, Frame, Kind, Values};
-use crate::vtp::stem;
+use crate::vtp::STEMS;
 
 /// Reads `grains_NNNNNN.vtp` and the contacts, cells and walls of the same moment beside it.
 pub fn read_frame(path: &Path) -> Result<Frame, FileError> {
@@ -17,9 +17,9 @@ pub fn read_frame(path: &Path) -> Result<Frame, FileError> {
     read_into(path, Kind::Grain, &mut frame)?;
     let number = path.file_name().and_then(|n| n.to_str()).and_then(|n| n.strip_prefix("grains"));
     if let Some(number) = number {
-        for kind in [Kind::Contact, Kind::Cell, Kind::Surface] {
-            let beside = stem(kind).map(|s| path.with_file_name(format!("{s}{number}")));
-            if let Some(beside) = beside.filter(|b| b.exists()) {
+        for (kind, stem) in STEMS.into_iter().filter(|(kind, _)| *kind != Kind::Grain) {
+            let beside = path.with_file_name(format!("{stem}{number}"));
+            if beside.exists() {
                 read_into(&beside, kind, &mut frame)?;
             }
         }

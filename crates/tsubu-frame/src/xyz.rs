@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::FileError;
-use crate::folder::write_atomically;
 use crate::frame::{Frame, Kind, Values};
+use crate::whole::write_beside;
 
 /// Columns after species and position: name in the frame, property in the file.
 const COLUMNS: [(&str, &str); 6] = [
@@ -28,7 +28,7 @@ pub fn write(path: &Path, frame: &Frame) -> Result<(), FileError> {
     let (low, size) = bounds(frame);
     let repeats = frame.periodic().map_or([0.0; 3], |periodic| periodic[2]);
     let [p, q, r] = repeats.map(|repeats| if repeats == 0.0 { "F" } else { "T" });
-    write_atomically(path, |out| {
+    write_beside(path, |out| {
         writeln!(out, "{}", position.len())?;
         write!(
             out,

@@ -5,8 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use tsubu_frame::FileError;
-use tsubu_frame::folder::{list, write_atomically};
+use tsubu_frame::{FileError, RunFolder};
 
 pub mod animation;
 pub mod balls;
@@ -32,6 +31,9 @@ mod watch;
 
 use page::Report;
 use source::Source;
+
+/// The file of the page.
+const PAGE: &str = "report.html";
 
 /// A folder of which no report can be made.
 #[derive(Debug, thiserror::Error)]
@@ -59,13 +61,14 @@ pub enum ReportError {
 /// Writes `report.html` and `figures/` into a folder of results, whatever kind it is, and gives the page's path.
 pub fn report(dir: &Path) -> Result<PathBuf, ReportError> {
     let (report, files) = gather(dir)?;
-    list(dir, files.iter().map(|(name, _)| name.as_str()))?;
-    for (name, bytes) in files {
-        write_atomically(&dir.join(name), |out| out.write_all(&bytes))?;
+    let names = files.iter().map(|(name, _)| name.as_str()).chain([PAGE]);
+    let folder = RunFolder::open(dir, names)?;
+    for (name, bytes) in &files {
+        folder.write(name, bytes)?;
     }
-    let path = dir.join("report.html");
-    write_atomically(&path, |out| out.write_all(report.to_html().as_bytes()))?;
-    Ok(path)
+    folder.write(PAGE, report.to_html().as_bytes())?;
+    folder.sync()?;
+    Ok(folder.file(PAGE))
 }
 
 /// What the report of a folder says, without writing anything.

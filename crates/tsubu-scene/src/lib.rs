@@ -37,6 +37,7 @@ mod change;
 mod check;
 mod complaint;
 mod files;
+mod going_on;
 mod grain_file;
 mod header;
 mod lines;
@@ -58,6 +59,7 @@ pub mod mesh {
 }
 
 pub use complaint::Complaints;
+pub use going_on::Difference;
 pub use plan::Plan;
 pub use reference::reference;
 pub use scene::Scene;

@@ -6,7 +6,7 @@ use crate::check::check;
 use crate::complaint::{Complaint, Complaints, Source};
 use crate::files::{self, Files};
 use crate::node::{self, Node};
-use crate::plan::{Output, Plan};
+use crate::plan::Plan;
 use crate::resolve;
 use crate::write;
 use std::path::Path;
@@ -120,18 +120,9 @@ impl Scene {
         write::to_toml(&self.plan)
     }
 
-    /// The same for what decides the steps of a run: when it ends, what is written down, what is claimed and what other
-    /// commands make of the scene stand at one value. A run can go on from the state of another where these are equal.
-    pub fn steps_toml(&self) -> String {
-        write::to_toml(&Plan {
-            title: String::new(),
-            duration: 1.0,
-            output: Output::default(),
-            claim: Vec::new(),
-            response: None,
-            sweep: None,
-            ..self.plan.clone()
-        })
+    /// Whether the text or a change gives a value to a key.
+    pub(crate) fn tells(&self, path: &[&str]) -> bool {
+        Work::begin(&self.typed).root.find(path).is_some()
     }
 }
 

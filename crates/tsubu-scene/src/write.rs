@@ -125,7 +125,8 @@ const fn unit(kind: Kind) -> Option<&'static str> {
     Some(dimension.si)
 }
 
-fn text(value: &Value, may_break: bool) -> String {
+/// A value as it stands in a scene; long lists may be broken into lines.
+pub(crate) fn text(value: &Value, may_break: bool) -> String {
     match value {
         Value::String(text) => quote(text),
         Value::Integer(whole) => whole.to_string(),

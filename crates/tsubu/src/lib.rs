@@ -11,6 +11,7 @@ pub mod contact;
 pub mod dem;
 pub mod engine;
 pub mod find;
+pub mod interrupt;
 pub mod lattice;
 pub mod ledger;
 pub mod motion;

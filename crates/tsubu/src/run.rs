@@ -1,26 +1,28 @@
 //! One run: from a scene to a run folder.
 
+mod resume;
+
 use crate::check;
 use crate::engine::{self, Engine, Fault, OpenError};
+use crate::interrupt::Interrupt;
 use crate::ledger::{Account, Ledger, Stocks};
 use crate::partner::Hosts;
 use crate::scene_files;
-use crate::watch::Watches;
 use crate::watch::means::Means;
+use crate::watch::{Trigger, Watches};
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{
-    CheckpointError, Claim, Existing, FileError, Formats, FrameWriter, Header, History, ResultValue, RunFolder, State,
-    Status, Summary, checkpoint,
+    CheckpointError, Claim, Existing, FileError, Formats, FrameWriter, Header, History, Mark, ResultValue, RunFolder,
+    State, Status, Summary, checkpoint,
 };
 use tsubu_scene::{Plan, Scene};
 
 /// Whoever started the run: may stop it, wants to see it move.
 pub struct Watcher<'a> {
-    /// Set it and the run writes a checkpoint and stops.
-    pub interrupted: &'a AtomicBool,
+    /// Asked, and the run writes a checkpoint and stops.
+    pub interrupt: &'a Interrupt,
     /// Called now and then with the share that is done, 0 to 1.
     pub progress: &'a (dyn Fn(f64) + Sync),
 }
@@ -37,6 +39,17 @@ pub enum RunError {
     /// A checkpoint that cannot be gone on from.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
+    /// A run that would be over before it begins.
+    #[error(
+        "the run has no step: `duration` = {duration} s is less than half of the time step, {dt} s\n\
+         hint: raise `duration`, or shorten the time step"
+    )]
+    NoStep {
+        /// Duration of the scene [s].
+        duration: f64,
+        /// Time step [s].
+        dt: f64,
+    },
     /// A checkpoint of another scene, or of another version.
     #[error("{0}\nhint: run without `--resume` into another folder, or with `--overwrite`")]
     NotThisScene(String),
@@ -62,10 +75,23 @@ impl From<MissingSection> for RunError {
 
 /// Runs a scene to its end, or until it is interrupted, into `folder`.
 pub fn run(scene: &Scene, folder: &Path, existing: Existing, watcher: &Watcher) -> Result<Summary, RunError> {
+    run_with(scene, folder, existing, true, watcher)
+}
+
+/// The same; without `last_checkpoint` a run that comes to its end keeps none of that.
+pub(crate) fn run_with(
+    scene: &Scene,
+    folder: &Path,
+    existing: Existing,
+    last_checkpoint: bool,
+    watcher: &Watcher,
+) -> Result<Summary, RunError> {
+    let resumed = existing == Existing::Resume;
+    let scene = &if resumed { resume::scene(scene, folder) } else { scene.clone() };
     let plan = scene.plan();
     let hosts = Hosts::new(&plan.hosts);
     let engine = engine::open(plan, &hosts)?;
-    let folder = RunFolder::create(folder, existing)?;
+    let last = steps(plan, &*engine)?;
     let mut run = Run {
         ledger: Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum()),
         measured: Measured::new(&hosts),
@@ -73,35 +99,53 @@ pub fn run(scene: &Scene, folder: &Path, existing: Existing, watcher: &Watcher) 
         scene_hash: scene_hash(&scene.steps_toml()),
         wall_before: 0.0,
         started: Instant::now(),
+        last,
+        last_checkpoint,
         plan,
         hosts,
         engine,
     };
+    // From here on there is something to lose.
+    let _held = watcher.interrupt.hold();
+    let names = run.names(scene);
+    let folder = RunFolder::create(folder, existing, &names)?;
     let header = run.header();
     let verdict = check::verdict(plan, &run.hosts, &*run.engine);
     let describe = || {
+        folder.claim(&names)?;
         scene_files::write(&folder, scene)?;
         folder.write("check.txt", verdict.to_string().as_bytes())
     };
-    let (history, frames) = if existing == Existing::Resume {
-        run.resume(folder.path())?;
-        // A run may go on longer than it was meant to.
+    let outputs = if resumed {
+        // All is looked at before anything is written.
+        let mark = run.resume(scene, folder.path())?;
+        let history = History::resume(&folder.file("history.csv"), &header, mark)?;
+        run.watches.resume(folder.path())?;
+        let mut frames = FrameWriter::resume(folder.path(), formats(plan), run.engine.time())?;
         describe()?;
-        let time = run.engine.time();
-        let history = History::resume(&folder.file("history.csv"), &header, time)?;
-        run.watches.resume(folder.path(), time)?;
-        (history, FrameWriter::resume(folder.path(), formats(plan), time)?)
+        frames.cut()?;
+        Outputs { history, frames }
     } else {
         describe()?;
-        run.watches.create(folder.path())?;
-        (History::create(&folder.file("history.csv"), &header)?, FrameWriter::create(folder.path(), formats(plan))?)
+        run.watches.create(&folder)?;
+        let history = History::create(&folder.file("history.csv"), &header)?;
+        Outputs { history, frames: FrameWriter::create(folder.path(), formats(plan)) }
     };
-    run.go(&folder, history, frames, watcher)
+    run.go(&folder, outputs, watcher)
 }
 
-/// What frames are written in beside VTK.
+/// The number of steps of a run; one without any is refused.
+pub(crate) fn steps(plan: &Plan, engine: &dyn Engine) -> Result<u64, RunError> {
+    let (duration, dt) = (plan.duration, engine.time_step());
+    match step_of(duration, dt) {
+        0 => Err(RunError::NoStep { duration, dt }),
+        steps => Ok(steps),
+    }
+}
+
+/// What is written in frames beside grains and walls.
 pub(crate) const fn formats(plan: &Plan) -> Formats {
-    Formats { xyz: plan.output.xyz, lammps: plan.output.lammps }
+    Formats { contacts: plan.output.contacts, xyz: plan.output.xyz, lammps: plan.output.lammps }
 }
 
 /// Hash of a scene as text: what a checkpoint or a journal belongs to.
@@ -110,6 +154,9 @@ pub fn scene_hash(resolved: &str) -> String {
     state.put_text("scene", resolved);
     state.hash()
 }
+
+/// Section of a checkpoint: how far `history.csv` had come.
+const HISTORY: &str = "run.history";
 
 /// A run in progress.
 struct Run<'a> {
@@ -122,73 +169,100 @@ struct Run<'a> {
     scene_hash: String,
     wall_before: f64,
     started: Instant,
+    /// The step it ends with.
+    last: u64,
+    last_checkpoint: bool,
 }
 
+/// What grows as the run goes.
+struct Outputs {
+    history: History,
+    frames: FrameWriter,
+}
+
+/// Checkpoints that come faster than this would take longer than what they save.
+const BETWEEN_CHECKPOINTS: Duration = Duration::from_millis(100);
+
 impl Run<'_> {
-    fn go(
-        &mut self,
-        folder: &RunFolder,
-        mut history: History,
-        mut frames: FrameWriter,
-        watcher: &Watcher,
-    ) -> Result<Summary, RunError> {
+    /// The files that it writes.
+    fn names(&self, scene: &Scene) -> Vec<String> {
+        let mut names = scene_files::names(scene);
+        names.extend(["check.txt", "summary.json", "history.csv", "checkpoint/state.tsubu"].map(str::to_owned));
+        names.extend(self.plan.output.frame_interval.map(|_| "frames/".to_owned()));
+        names.extend(self.watches.files());
+        names
+    }
+
+    fn go(&mut self, folder: &RunFolder, mut out: Outputs, watcher: &Watcher) -> Result<Summary, RunError> {
         let output = &self.plan.output;
-        let last = step_of(self.plan.duration, self.engine.time_step());
-        let clock = |interval: f64| Clock { interval, dt: self.engine.time_step() };
-        let rows = clock(output.history_interval);
+        let clock = |interval: f64| Trigger::each(interval, self.engine.time_step());
+        let (rows, saves) = (clock(output.history_interval), clock(output.checkpoint_interval));
         let pictures = output.frame_interval.map(clock);
-        let saves = clock(output.checkpoint_interval);
-        let resumed = self.engine.steps() > 0;
-        if !resumed {
+        let last = self.last;
+        if self.engine.steps() == 0 {
             self.watches.look(&*self.engine)?;
-            history.append(&self.row())?;
+            out.history.append(&self.row())?;
             if pictures.is_some() {
-                frames.write(&self.engine.frame(&self.hosts))?;
+                out.frames.write(&self.engine.frame(&self.hosts))?;
             }
         }
-        let mut block = 16;
+        let mut block = 1;
+        let mut saved = Instant::now();
         while self.engine.steps() < last {
             let now = self.engine.steps();
-            let next_picture = pictures.map_or(u64::MAX, |p| p.next(now));
-            let (next_row, next_save, next_look) = (rows.next(now), saves.next(now), self.watches.next(now));
+            let next_picture = pictures.map_or(u64::MAX, |p| p.after(now));
+            let (next_row, next_save, next_look) = (rows.after(now), saves.after(now), self.watches.next(now));
             let target = next_row.min(next_picture).min(next_save).min(next_look).min(last).min(now + block);
             let begun = Instant::now();
             if let Err(fault) = self.engine.advance(target - now, &mut self.hosts, &mut self.ledger) {
-                history.sync()?;
-                self.watches.sync()?;
+                self.sync(folder, &mut out)?;
                 let mut summary = self.summary(Status::Failed);
                 summary.warnings.push(fault.to_string());
-                summary.write(&folder.file("summary.json"))?;
+                Self::end(folder, &summary)?;
                 return Err(fault.into());
             }
             // Short enough to answer Ctrl-C at once, long enough that nothing here is felt.
-            block = if begun.elapsed().as_millis() < 20 { (2 * block).min(1 << 20) } else { (block / 2).max(16) };
+            block = if begun.elapsed().as_millis() < 20 { (2 * block).min(1 << 20) } else { (block / 2).max(1) };
             if target == next_look {
                 self.watches.look(&*self.engine)?;
             }
             if target == next_row || target == last {
-                history.append(&self.row())?;
+                out.history.append(&self.row())?;
             }
             if target == next_picture {
-                frames.write(&self.engine.frame(&self.hosts))?;
+                out.frames.write(&self.engine.frame(&self.hosts))?;
             }
-            let stop = watcher.interrupted.load(Ordering::Relaxed);
-            if target == next_save || stop || target == last {
-                history.sync()?;
-                self.watches.sync()?;
-                self.save(folder)?;
+            let stop = watcher.interrupt.asked();
+            let due = target == next_save && saved.elapsed() >= BETWEEN_CHECKPOINTS;
+            if due || (target == last && self.last_checkpoint) || (stop && target < last) {
+                self.save(folder, &mut out)?;
+                saved = Instant::now();
             }
             (watcher.progress)(target as f64 / last.max(1) as f64);
             if stop && target < last {
                 let summary = self.summary(Status::Interrupted);
-                summary.write(&folder.file("summary.json"))?;
+                Self::end(folder, &summary)?;
                 return Ok(summary);
             }
         }
-        history.sync()?;
+        self.sync(folder, &mut out)?;
         let summary = self.summary(Status::Finished);
-        summary.write(&folder.file("summary.json"))?;
+        Self::end(folder, &summary)?;
         Ok(summary)
+    }
+
+    /// Waits until all that was written is on the disk.
+    fn sync(&mut self, folder: &RunFolder, out: &mut Outputs) -> Result<Mark, FileError> {
+        let mark = out.history.sync()?;
+        self.watches.sync()?;
+        out.frames.sync()?;
+        folder.sync()?;
+        Ok(mark)
+    }
+
+    fn end(folder: &RunFolder, summary: &Summary) -> Result<(), FileError> {
+        folder.write_json("summary.json", summary)?;
+        folder.sync()
     }
 
     fn header(&self) -> Vec<String> {
@@ -231,11 +305,13 @@ impl Run<'_> {
         [stocks.kinetic + stocks.rotational, self.engine.centre_of_mass()[2], self.engine.contacts() as f64]
     }
 
-    fn save(&self, folder: &RunFolder) -> Result<(), FileError> {
+    fn save(&mut self, folder: &RunFolder, out: &mut Outputs) -> Result<(), FileError> {
+        let mark = self.sync(folder, out)?;
         let mut state = self.state();
         self.measured.save(&mut state);
         self.watches.save(&mut state);
         state.put_real("run.wall-seconds", vec![self.wall_seconds()]);
+        state.put_integer(HISTORY, mark.numbers());
         let header = Header {
             tsubu_version: crate::VERSION.to_owned(),
             scene_hash: self.scene_hash.clone(),
@@ -251,31 +327,6 @@ impl Run<'_> {
         self.hosts.save(&mut state);
         self.ledger.save(&mut state);
         state
-    }
-
-    fn resume(&mut self, folder: &Path) -> Result<(), RunError> {
-        let (header, state) = checkpoint::read(&checkpoint::path(folder))?;
-        let refuse =
-            |text: String| Err(RunError::NotThisScene(format!("the checkpoint in {} {text}", folder.display())));
-        if header.scene_hash != self.scene_hash {
-            let may = "only `title`, `duration`, [output], [[claim]], [response] and [sweep] may differ";
-            return refuse(format!("belongs to another scene, or to this one with other values: {may}"));
-        }
-        let dt = self.engine.time_step();
-        self.engine.load(&state)?;
-        if self.engine.time() != header.time {
-            return refuse(format!("was made with another time step than {dt} s: set `dem.time-step`"));
-        }
-        if self.engine.steps() > step_of(self.plan.duration, dt) {
-            let (time, end) = (header.time, self.plan.duration);
-            return refuse(format!("is of t = {time} s, behind the end: raise `duration` = {end} s"));
-        }
-        self.hosts.load(&state)?;
-        self.ledger = Ledger::load(&state)?;
-        self.measured.load(&state)?;
-        self.watches.load(&state)?;
-        self.wall_before = state.real("run.wall-seconds")?.first().copied().unwrap_or(0.0);
-        Ok(())
     }
 
     fn wall_seconds(&self) -> f64 {
@@ -310,6 +361,14 @@ impl Run<'_> {
         let residual = self.ledger.residual_relative(&stocks);
         summary.energy.terms.insert("residual", self.ledger.residual(&stocks));
         summary.energy.residual_relative = residual;
+        let finite =
+            self.ledger.residual(&stocks).is_finite() && stocks.terms().iter().all(|(_, value)| value.is_finite());
+        if !finite {
+            summary.warnings.push(
+                "the energy books hold numbers that are not finite: what they say of this run is worth nothing"
+                    .to_owned(),
+            );
+        }
         let tolerance = self.plan.dem.energy_tolerance;
         if residual.abs() > tolerance {
             summary.warnings.push(format!(
@@ -349,27 +408,6 @@ pub(crate) fn judge(plan: &Plan, summary: &mut Summary) {
 /// Number of the step that ends nearest to `time`.
 fn step_of(time: f64, dt: f64) -> u64 {
     (time / dt).round() as u64
-}
-
-/// Events at multiples of an interval, each at the nearest step.
-#[derive(Clone, Copy)]
-struct Clock {
-    interval: f64,
-    dt: f64,
-}
-
-impl Clock {
-    /// First event after step `now`.
-    fn next(self, now: u64) -> u64 {
-        let mut k = (now as f64 * self.dt / self.interval).floor();
-        loop {
-            k += 1.0;
-            let step = step_of(k * self.interval, self.dt);
-            if step > now {
-                return step;
-            }
-        }
-    }
 }
 
 /// What every scene has to tell of itself, with its unit.

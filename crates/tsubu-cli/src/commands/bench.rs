@@ -32,7 +32,10 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<(), Failure> {
     let progress = Progress::new("bench", options.quiet);
-    let watcher = Watcher { interrupted: stop::listen(), progress: &|done| progress.set(done) };
+    let watcher = Watcher {
+        interrupt: stop::interrupt("interrupted; nothing was written"),
+        progress: &|done| progress.set(done),
+    };
     let measured = Bench::measure(f64::from(options.seconds), &watcher);
     progress.end();
     let bench = measured.map_err(|error| match error {

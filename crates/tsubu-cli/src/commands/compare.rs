@@ -42,7 +42,10 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     let folder = options.folder.folder(&options.scene, "-compare");
     let pool = options.work.pool()?;
     let progress = Progress::new("compare", options.work.quiet);
-    let watcher = Watcher { interrupted: stop::listen(), progress: &|done| progress.set(done) };
+    let watcher = Watcher {
+        interrupt: stop::interrupt("interrupted; a comparison does not resume: start it again with `--overwrite`"),
+        progress: &|done| progress.set(done),
+    };
     let done = pool.install(|| alone(|| compare(&scene, &variants, &folder, options.folder.existing(), &watcher)));
     progress.end();
     let compared = done.map_err(|error| Failure::of_compare(&error, &folder))?;

@@ -40,7 +40,8 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         return Err(Failure::wrong(format!("nothing to resume: {} is not a folder", folder.display())));
     }
     let progress = Progress::new("response", options.work.quiet);
-    let watcher = Watcher { interrupted: stop::listen(), progress: &|done| progress.set(done) };
+    let words = format!("interrupted; go on with `{}`", command_to_resume());
+    let watcher = Watcher { interrupt: stop::interrupt(&words), progress: &|done| progress.set(done) };
     let overwrite = options.folder.overwrite;
     let done = pool.install(|| tsubu::study::response::response(&scene, &folder, overwrite, &watcher));
     progress.end();

@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use tsubu::check::human_time;
 use tsubu::run::Watcher;
 use tsubu::threads::alone;
-use tsubu_frame::{Existing, ResultValue, Status, Summary, unit::for_people};
+use tsubu_frame::{Existing, ResultValue, RunFolder, Status, Summary, unit::for_people};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -40,7 +40,10 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     let existing = if options.resume { Existing::Resume } else { options.folder.existing() };
     let pool = options.work.pool()?;
     let progress = Progress::new("run", options.work.quiet);
-    let watcher = Watcher { interrupted: stop::listen(), progress: &|done| progress.set(done) };
+    let watcher = Watcher {
+        interrupt: stop::interrupt("interrupted before time 0; nothing was computed"),
+        progress: &|done| progress.set(done),
+    };
     let done = pool.install(|| alone(|| tsubu::run::run(&scene, &folder, existing, &watcher)));
     progress.end();
     let summary = done.map_err(|error| Failure::of_scene(&error, &scene, &folder))?;
@@ -54,8 +57,11 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         return Err(Failure::interrupted(message).hint(format!("go on with `{}`", command_to_resume())));
     }
     if let Some(bench) = machine::known() {
-        let file = folder.join("bench.json");
-        tsubu_frame::summary::write_json(&file, &bench).map_err(|error| Failure::of_file(&error, &folder))?;
+        let written = RunFolder::open(&folder, ["bench.json"]).and_then(|folder| {
+            folder.write_json("bench.json", &bench)?;
+            folder.sync()
+        });
+        written.map_err(|error| Failure::of_file(&error, &folder))?;
     }
     output::print(&told(&scene.plan().title, &summary))?;
     output::tell(&format!("results in {}; figures and a page: tsubu report {0}\n", folder.display()));

@@ -9,9 +9,8 @@ use crate::{stop, table};
 use clap::Args;
 use std::fmt::Write as _;
 use std::path::Path;
-use std::sync::atomic::Ordering;
 use tsubu::run::Watcher;
-use tsubu_frame::{Existing, RunFolder, Status, Summary, Table, csv::split_unit, unit::for_people};
+use tsubu_frame::{Status, Summary, Table, csv::split_unit, unit::for_people};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -43,16 +42,14 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     if options.resume && !folder.is_dir() {
         return Err(Failure::wrong(format!("nothing to resume: {} is not a folder", folder.display())));
     }
-    if options.folder.overwrite && scene.plan().sweep.is_some() {
-        RunFolder::create(&folder, Existing::Overwrite).map_err(|error| Failure::of_file(&error, &folder))?;
-    }
     let progress = Progress::new("sweep", options.work.quiet);
-    let interrupted = stop::listen();
-    let watcher = Watcher { interrupted, progress: &|done| progress.set(done) };
-    let done = pool.install(|| tsubu::study::sweep::sweep(&scene, &folder, &watcher));
+    let interrupt = stop::interrupt(&format!("interrupted; go on with `{}`", command_to_resume()));
+    let watcher = Watcher { interrupt, progress: &|done| progress.set(done) };
+    let overwrite = options.folder.overwrite;
+    let done = pool.install(|| tsubu::study::sweep::sweep(&scene, &folder, overwrite, &watcher));
     progress.end();
     let summaries = done.map_err(|error| Failure::of_cases(&error, &folder))?;
-    if interrupted.load(Ordering::Relaxed) {
+    if interrupt.asked() {
         let message = format!("interrupted; finished cases and checkpoints are in {}", folder.display());
         return Err(Failure::interrupted(message).hint(format!("go on with `{}`", command_to_resume())));
     }

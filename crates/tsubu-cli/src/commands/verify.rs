@@ -8,10 +8,10 @@ use crate::progress::Progress;
 use crate::table;
 use clap::Args;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::mpsc;
 use tsubu::study::verify::{self, Case};
-use tsubu_frame::{Claim, Existing, RunFolder, summary::write_json};
+use tsubu_frame::{Claim, Existing, RunFolder};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -49,10 +49,13 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     }
     let existing = if options.overwrite { Existing::Overwrite } else { Existing::Refuse };
     let folder = match &options.output {
-        Some(path) => Some(RunFolder::create(path, existing).map_err(|error| Failure::of_file(&error, path))?),
+        Some(path) => {
+            let folder = RunFolder::create(path, existing, ["verify.json"]);
+            Some(folder.map_err(|error| Failure::of_file(&error, path))?)
+        }
         None => None,
     };
-    let claims = judge(&chosen, folder.as_ref().map(RunFolder::path), options)?;
+    let claims = judge(&chosen, folder.as_ref(), options)?;
     let failed = claims.iter().filter(|claim| !claim.pass).count();
     let total = claims.len();
     output::print(&match failed {
@@ -61,9 +64,13 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     })?;
     if let Some(folder) = folder {
         let content = serde_json::json!({ "tsubu_version": tsubu::VERSION, "claims": claims });
-        write_json(&folder.file("verify.json"), &content).map_err(|error| Failure::of_file(&error, folder.path()))?;
-        let page = report::write(folder.path())?;
-        output::tell(&format!("results in {}; open {}\n", folder.path().display(), page.display()));
+        let written = folder.write_json("verify.json", &content).and_then(|()| folder.sync());
+        written.map_err(|error| Failure::of_file(&error, folder.path()))?;
+        let path = folder.path().to_owned();
+        // The report takes the folder for itself.
+        drop(folder);
+        let page = report::write(&path)?;
+        output::tell(&format!("results in {}; open {}\n", path.display(), page.display()));
     }
     if failed == 0 { Ok(()) } else { Err(Failure::claim()) }
 }
@@ -78,7 +85,7 @@ fn list(cases: &[&Case]) -> Result<(), Failure> {
 }
 
 /// Runs the cases side by side and prints each one's claims as soon as it and all before it are done.
-fn judge(cases: &[&'static Case], folder: Option<&Path>, options: &Options) -> Result<Vec<Claim>, Failure> {
+fn judge(cases: &[&'static Case], folder: Option<&RunFolder>, options: &Options) -> Result<Vec<Claim>, Failure> {
     let pool = options.work.pool()?;
     let progress = Progress::new("verify", options.work.quiet);
     let (sender, receiver) = mpsc::channel();

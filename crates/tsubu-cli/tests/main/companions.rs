@@ -90,7 +90,7 @@ fn overwriting_leaves_nothing_of_the_earlier_scene() {
 #[test]
 fn a_cut_run_goes_on_without_the_originals() {
     let desk = desk();
-    let long = "--set 'duration=0.4 s' --set 'output.checkpoint-interval=20 ms'";
+    let long = "--set 'duration=4 s' --set 'output.checkpoint-interval=20 ms'";
     desk.done(&format!("run balls.toml -q -o whole {long}"));
     let mut child = desk.start(&format!("run balls.toml -q -o cut {long}"));
     wait_for(&desk.path("cut/checkpoint/state.tsubu"));

@@ -84,3 +84,81 @@ fn a_scene_in_a_folder_gives_the_folder_its_name() {
     desk.done("run study -q");
     assert!(desk.path("out/study/summary.json").exists());
 }
+
+/// The user's commented scene was replaced by the resolved one.
+#[test]
+fn a_scene_in_the_output_folder_stays_the_users() {
+    let desk = Desk::empty();
+    std::fs::create_dir(desk.path("s")).unwrap();
+    std::fs::write(desk.path("s/scene.toml"), SCENE).unwrap();
+    for line in
+        ["run s -o s --overwrite", "run s/scene.toml -o s", "sweep s -o s --overwrite", "response s -o s --overwrite"]
+    {
+        let ended = desk.run(line);
+        assert_eq!(ended.code, Some(2), "{line}: {}", ended.stderr);
+    }
+    let ended = desk.run("compare s --methods dem -o s --overwrite");
+    assert!(ended.stderr.contains("s/scene.toml was not written by this tsubu"), "{}", ended.stderr);
+    assert_eq!(desk.read("s/scene.toml"), SCENE);
+    assert_eq!(desk.files(), ["s/scene.toml"]);
+    // What tsubu itself has written runs again in its place, until somebody changes it.
+    desk.done("run s -q -o out");
+    desk.done("run out/scene.toml -q -o out --overwrite");
+    let changed = desk.read("out/scene.toml") + "# mine\n";
+    std::fs::write(desk.path("out/scene.toml"), &changed).unwrap();
+    let ended = desk.run("run out -q -o out --overwrite");
+    assert!(ended.code == Some(2) && ended.stderr.contains("changed since"), "{}", ended.stderr);
+    assert_eq!(desk.read("out/scene.toml"), changed);
+}
+
+/// Extending a finished run was refused where a watch follows the history's interval and that the duration; the message blamed
+/// another scene. A run that stopped at a limit that only guards could not be gone on with either.
+#[test]
+fn a_finished_run_goes_on_as_the_book_says() {
+    let scene = SCENE.replace("history-interval = \"1 ms\"\n", "") + "[watch.layers]\nprofile.bins = 5\n";
+    let desk = Desk::with(&scene);
+    desk.done("run balls.toml -q -o out");
+    let longer = "--set 'duration=0.08 s' --set dem.largest-overlap=0.4 --set dem.energy-tolerance=0.5";
+    desk.done(&format!("run balls.toml -q -o out --resume {longer}"));
+    desk.done("run balls.toml -q -o whole --set 'duration=0.08 s' --set output.history-interval=5e-5");
+    assert_eq!(desk.hash("out"), desk.hash("whole"));
+    assert_eq!(desk.read("out/history.csv"), desk.read("whole/history.csv"));
+    assert_eq!(desk.read("out/watch/layers.csv"), desk.read("whole/watch/layers.csv"));
+    let ended =
+        desk.run("run balls.toml -q -o out --resume --set materials.acrylic.friction=0.25 --set 'duration=1 s'");
+    assert_eq!(ended.code, Some(2));
+    assert!(ended.stderr.contains("`materials.acrylic.friction` was 0.5, is 0.25"), "{}", ended.stderr);
+    assert!(!ended.stderr.contains("duration"), "{}", ended.stderr);
+}
+
+/// A missing, cut or edited history was gone on with in silence.
+#[test]
+fn a_changed_history_is_not_gone_on_with() {
+    let desk = Desk::new();
+    desk.done("run balls.toml -q -o out");
+    let whole = desk.read("out/history.csv");
+    let cut = whole.lines().take(10).collect::<Vec<_>>().join("\n");
+    for history in [None, Some(cut), Some(whole.replace("0.001", "0.002"))] {
+        match &history {
+            Some(text) => std::fs::write(desk.path("out/history.csv"), text).unwrap(),
+            None => std::fs::remove_file(desk.path("out/history.csv")).unwrap(),
+        }
+        let before = desk.files();
+        let ended = desk.run("run balls.toml -q -o out --resume --set 'duration=0.1 s'");
+        assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+        assert!(ended.stderr.contains("history.csv"), "{}", ended.stderr);
+        assert_eq!(desk.files(), before);
+    }
+}
+
+/// It "finished" without a step.
+#[test]
+fn a_run_of_no_step_is_refused() {
+    let desk = Desk::new();
+    for command in ["run", "sweep"] {
+        let ended = desk.run(&format!("{command} balls.toml -q --set 'dem.time-step=5 s'"));
+        assert_eq!(ended.code, Some(2), "{command}: {}", ended.stderr);
+        assert!(ended.stderr.contains("no step"), "{command}: {}", ended.stderr);
+    }
+    assert_eq!(desk.files(), ["balls.toml"]);
+}

@@ -12,6 +12,8 @@ mod commands;
 mod companions;
 /// What a run folder holds.
 mod folder;
+/// Signals, locks, and intervals that would never end.
+mod interrupts;
 /// What is said when something is wrong.
 mod messages;
 /// The table of what works.

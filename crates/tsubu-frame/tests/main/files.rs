@@ -2,32 +2,81 @@
 
 use std::fs;
 
-use tsubu_frame::folder::{list, write_atomically};
+use tsubu_frame::whole::write_atomically;
 use tsubu_frame::{Claim, Existing, FileError, Named, ResultValue, RunFolder, Status, Summary};
+
+const NONE: [&str; 0] = [];
 
 #[test]
 fn a_used_folder_is_refused_with_both_ways_out() {
     let parent = tempfile::tempdir().unwrap();
     let path = parent.path().join("out");
-    let folder = RunFolder::create(&path, Existing::Refuse).unwrap();
+    let folder = RunFolder::create(&path, Existing::Refuse, NONE).unwrap();
     folder.write("summary.json", b"{}").unwrap();
-    let error = RunFolder::create(&path, Existing::Refuse).unwrap_err().to_string();
+    drop(folder);
+    let error = RunFolder::create(&path, Existing::Refuse, NONE).unwrap_err().to_string();
     for word in ["out", "--resume", "--overwrite", "-o"] {
         assert!(error.contains(word), "{error}");
     }
 }
 
+/// What a name of ours stood on was taken for ours and removed: `mkdir s; cp drop.toml s/scene.toml; tsubu run s -o s --overwrite`
+/// lost the user's scene, and a folder that tsubu never wrote lost its `report.html`.
 #[test]
-fn overwrite_removes_results_and_nothing_else() {
+fn what_tsubu_did_not_write_is_never_replaced() {
     let folder = tempfile::tempdir().unwrap();
+    let names = ["scene.toml", "report.html", "frames/", "watch/a.csv"];
+    for mine in ["scene.toml", "report.html", "frames/film.mp4", "watch/a.csv", "watch", "frames"] {
+        let path = folder.path().join(mine);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, "mine").unwrap();
+        for existing in [Existing::Overwrite, Existing::Refuse, Existing::Resume] {
+            let error = RunFolder::create(folder.path(), existing, names).unwrap_err();
+            let named =
+                matches!(&error, FileError::Foreign { path: found } if path.starts_with(found) || found == &path);
+            assert!(existing != Existing::Overwrite || named, "{mine}: {error}");
+            assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
+        }
+        let error = RunFolder::open(folder.path(), names).unwrap_err();
+        assert!(matches!(error, FileError::Foreign { .. }), "{mine}: {error}");
+        assert!(!folder.path().join(".tsubu").exists(), "{mine}: something is left behind");
+        fs::remove_file(&path).unwrap();
+        for emptied in ["frames", "watch"] {
+            let _ = fs::remove_dir(folder.path().join(emptied));
+        }
+    }
+    // Beside them there is room.
     fs::write(folder.path().join("notes.txt"), "mine").unwrap();
-    fs::write(folder.path().join("summary.json"), "{}").unwrap();
     fs::create_dir(folder.path().join("frames")).unwrap();
-    fs::write(folder.path().join("frames/grains_000000.vtp"), "").unwrap();
-    RunFolder::create(folder.path(), Existing::Overwrite).unwrap();
-    assert!(folder.path().join("notes.txt").exists());
-    assert!(!folder.path().join("summary.json").exists());
-    assert!(!folder.path().join("frames").exists());
+    let folder_of_ours = RunFolder::create(folder.path(), Existing::Overwrite, names).unwrap();
+    folder_of_ours.write("report.html", b"ours").unwrap();
+    drop(folder_of_ours);
+    RunFolder::create(folder.path(), Existing::Overwrite, names).unwrap();
+    assert!(folder.path().join("notes.txt").exists() && !folder.path().join("report.html").exists());
+}
+
+#[test]
+fn an_edited_scene_is_the_users() {
+    let parent = tempfile::tempdir().unwrap();
+    let path = parent.path().join("out");
+    let folder = RunFolder::create(&path, Existing::Refuse, NONE).unwrap();
+    folder.write_editable("scene.toml", b"first").unwrap();
+    // Written again with another content, as by a run that goes on: both are ours.
+    folder.write_editable("scene.toml", b"second").unwrap();
+    folder.write("history.csv", b"").unwrap();
+    drop(folder);
+    for ours in ["first", "second"] {
+        fs::write(path.join("scene.toml"), ours).unwrap();
+        drop(RunFolder::create(&path, Existing::Resume, ["scene.toml"]).unwrap());
+    }
+    fs::write(path.join("scene.toml"), "second, with my remarks").unwrap();
+    for (existing, names) in
+        [(Existing::Overwrite, &["scene.toml"][..]), (Existing::Resume, &["scene.toml"]), (Existing::Overwrite, &[])]
+    {
+        let error = RunFolder::create(&path, existing, names).unwrap_err();
+        assert!(matches!(error, FileError::Edited { .. }), "{error}");
+    }
+    assert!(path.join("history.csv").exists(), "part of the folder was cleared before it was refused");
 }
 
 /// Whole folders were removed, whatever a user had put into them, and files with names of their own stayed for ever.
@@ -56,9 +105,18 @@ fn overwrite_tells_ours_from_theirs_in_every_folder() {
         "frames/film.mp4",
         "checkpoint/older.tsubu",
         "cases/notes.txt",
-        "cases/0004/notes.txt",
+        "cases/0004/summary.json",
         "dem/notes.txt",
     ];
+    let folder = RunFolder::create(&path, Existing::Refuse, NONE).unwrap();
+    folder.claim(["walls-tray.obj", "figures/speed.svg", "watch/slope.csv", "watch/index.json", "frames/"]).unwrap();
+    folder.claim(["checkpoint/state.tsubu", "cases/", "dem/", "locked/"]).unwrap();
+    for (inner, names) in
+        [("cases/0003", &["history.csv", "walls-tray.obj"][..]), ("dem", &["frames/"]), ("locked", &["summary.json"])]
+    {
+        RunFolder::create(path.join(inner), Existing::Refuse, NONE).unwrap().claim(names).unwrap();
+    }
+    drop(folder);
     for name in ours.iter().chain(&theirs) {
         let file = path.join(name);
         fs::create_dir_all(file.parent().unwrap()).unwrap();
@@ -67,10 +125,9 @@ fn overwrite_tells_ours_from_theirs_in_every_folder() {
     fs::write(parent.path().join("outside.txt"), "mine").unwrap();
     fs::create_dir(parent.path().join("elsewhere")).unwrap();
     fs::write(parent.path().join("elsewhere/summary.json"), "mine").unwrap();
-    list(&path, ["walls-tray.obj", "figures/speed.svg", "../outside.txt"]).unwrap();
-    list(&path, ["watch/slope.csv", "dem/", "locked/", "../elsewhere/"]).unwrap();
-    list(&path.join("cases/0003"), ["walls-tray.obj"]).unwrap();
-    RunFolder::create(&path, Existing::Overwrite).unwrap();
+    let altered = fs::read_to_string(path.join(".tsubu")).unwrap() + "../outside.txt\n../elsewhere/\n";
+    fs::write(path.join(".tsubu"), altered).unwrap();
+    RunFolder::create(&path, Existing::Overwrite, NONE).unwrap();
     for name in ours {
         assert!(!path.join(name).exists(), "{name} stays");
     }
@@ -78,18 +135,59 @@ fn overwrite_tells_ours_from_theirs_in_every_folder() {
         assert!(path.join(name).exists(), "{name} is gone");
     }
     assert!(parent.path().join("outside.txt").exists() && parent.path().join("elsewhere/summary.json").exists());
-    assert!(
-        !path.join("locked").exists()
-            && !path.join("watch").exists()
-            && !path.join("cases/0003").exists()
-            && !path.join("files.txt").exists()
-    );
+    assert!(!path.join("locked").exists() && !path.join("watch").exists() && !path.join("cases/0003").exists());
+}
+
+/// Two runs into one folder left a history with rows missing, and both ended well.
+#[test]
+fn one_at_a_time() {
+    let parent = tempfile::tempdir().unwrap();
+    let path = parent.path().join("out");
+    let first = RunFolder::create(&path, Existing::Refuse, NONE).unwrap();
+    first.claim(["dem/"]).unwrap();
+    let inner = RunFolder::create(path.join("dem"), Existing::Refuse, NONE).unwrap();
+    let locked = |error: FileError, at: &str| {
+        assert!(matches!(&error, FileError::Locked { path: lock } if lock.ends_with(at)), "{error}");
+    };
+    for existing in [Existing::Refuse, Existing::Overwrite, Existing::Resume] {
+        locked(RunFolder::create(&path, existing, NONE).unwrap_err(), "out/.tsubu");
+    }
+    locked(RunFolder::open(&path, NONE).unwrap_err(), "out/.tsubu");
+    drop(first);
+    locked(RunFolder::create(&path, Existing::Overwrite, NONE).unwrap_err(), "dem/.tsubu");
+    drop(inner);
+    RunFolder::create(&path, Existing::Overwrite, NONE).unwrap();
+}
+
+/// Frames were written through a link, and the history behind one would have been cut.
+#[test]
+#[cfg(unix)]
+fn nothing_is_written_through_a_link() {
+    let parent = tempfile::tempdir().unwrap();
+    let (path, elsewhere) = (parent.path().join("out"), parent.path().join("elsewhere"));
+    let folder = RunFolder::create(&path, Existing::Refuse, NONE).unwrap();
+    folder.claim(["frames/", "history.csv"]).unwrap();
+    drop(folder);
+    fs::create_dir(&elsewhere).unwrap();
+    fs::write(elsewhere.join("grains_000000.vtp"), "mine").unwrap();
+    for (name, target) in [("frames", &elsewhere), ("history.csv", &elsewhere.join("grains_000000.vtp"))] {
+        std::os::unix::fs::symlink(target, path.join(name)).unwrap();
+        for existing in [Existing::Overwrite, Existing::Resume] {
+            let error = RunFolder::create(&path, existing, ["frames/", "history.csv"]).unwrap_err();
+            assert!(matches!(&error, FileError::Link { path: link } if link.ends_with(name)), "{error}");
+        }
+        fs::remove_file(path.join(name)).unwrap();
+    }
+    // The folder itself may stand anywhere.
+    std::os::unix::fs::symlink(&path, parent.path().join("linked")).unwrap();
+    RunFolder::create(parent.path().join("linked"), Existing::Overwrite, ["frames/"]).unwrap();
+    assert!(elsewhere.join("grains_000000.vtp").exists());
 }
 
 #[test]
 fn resume_needs_a_folder() {
     let parent = tempfile::tempdir().unwrap();
-    let error = RunFolder::create(parent.path().join("none"), Existing::Resume).unwrap_err();
+    let error = RunFolder::create(parent.path().join("none"), Existing::Resume, NONE).unwrap_err();
     assert!(error.to_string().contains("leave out --resume"), "{error}");
 }
 

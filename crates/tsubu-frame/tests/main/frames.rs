@@ -6,7 +6,7 @@ use std::process::Command;
 use proptest::prelude::*;
 use tsubu_frame::{Formats, Frame, FrameWriter, Kind, read_frame, snapshots, vtp_read};
 
-const ALL: Formats = Formats { xyz: true, lammps: true };
+const ALL: Formats = Formats { contacts: true, xyz: true, lammps: true };
 
 fn sample(time: f64) -> Frame {
     let mut frame = Frame { time, step: (time * 1e4) as u64, ..Frame::default() };
@@ -42,7 +42,7 @@ fn same(a: &Frame, b: &Frame) {
 #[test]
 fn a_snapshot_comes_back() {
     let folder = tempfile::tempdir().unwrap();
-    let mut writer = FrameWriter::create(folder.path(), ALL).unwrap();
+    let mut writer = FrameWriter::create(folder.path(), ALL);
     writer.write(&sample(0.0)).unwrap();
     writer.write(&sample(0.25)).unwrap();
     let found = snapshots(folder.path()).unwrap();
@@ -53,16 +53,40 @@ fn a_snapshot_comes_back() {
 #[test]
 fn resumed_snapshots_go_on_with_the_number_after_the_checkpoint() {
     let folder = tempfile::tempdir().unwrap();
-    let mut writer = FrameWriter::create(folder.path(), Formats::default()).unwrap();
+    let mut writer = FrameWriter::create(folder.path(), Formats::default());
     for time in [0.0, 0.1, 0.2, 0.3] {
         writer.write(&sample(time)).unwrap();
     }
+    writer.sync().unwrap();
     let mut writer = FrameWriter::resume(folder.path(), Formats::default(), 0.1).unwrap();
     assert_eq!(writer.count(), 2);
+    assert_eq!(snapshots(folder.path()).unwrap().len(), 4, "cut before all was looked at");
+    writer.cut().unwrap();
     assert!(!folder.path().join("frames/grains_000003.vtp").exists());
     writer.write(&sample(0.2)).unwrap();
+    writer.sync().unwrap();
     let times: Vec<_> = snapshots(folder.path()).unwrap().iter().map(|s| s.time).collect();
     assert_eq!(times, [0.0, 0.1, 0.2]);
+}
+
+/// Every snapshot wrote its index anew: ten thousand of one ball took a minute.
+#[test]
+fn indices_are_whole_always_and_written_seldom() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = FrameWriter::create(folder.path(), Formats { contacts: false, ..Formats::default() });
+    let mut renewed = 0;
+    for k in 0..300 {
+        writer.write(&sample(f64::from(k))).unwrap();
+        let named = snapshots(folder.path()).unwrap();
+        assert!(named.iter().all(|snapshot| snapshot.path.exists()));
+        assert!(10 * named.len() >= 9 * (k as usize + 1), "{} of {} are named", named.len(), k + 1);
+        renewed += usize::from(named.len() == k as usize + 1);
+    }
+    assert!(renewed < 60, "the index was written {renewed} times");
+    writer.sync().unwrap();
+    assert_eq!(snapshots(folder.path()).unwrap().len(), 300);
+    assert!(!folder.path().join("frames/contacts_000000.vtp").exists());
+    assert!(!folder.path().join("frames/contacts.pvd").exists());
 }
 
 #[test]
@@ -71,7 +95,7 @@ fn an_empty_moment_and_no_folder_are_no_errors() {
     assert!(snapshots(folder.path()).unwrap().is_empty());
     let mut empty = Frame::default();
     empty.vector(Kind::Grain, "position", "m", vec![]);
-    let mut writer = FrameWriter::create(folder.path(), ALL).unwrap();
+    let mut writer = FrameWriter::create(folder.path(), ALL);
     writer.write(&empty).unwrap();
     assert_eq!(read_frame(&snapshots(folder.path()).unwrap()[0].path).unwrap().rows(Kind::Grain), 0);
 }
@@ -79,7 +103,7 @@ fn an_empty_moment_and_no_folder_are_no_errors() {
 #[test]
 fn extended_xyz_reads_as_its_comment_line_says() {
     let folder = tempfile::tempdir().unwrap();
-    FrameWriter::create(folder.path(), ALL).unwrap().write(&sample(0.5)).unwrap();
+    FrameWriter::create(folder.path(), ALL).write(&sample(0.5)).unwrap();
     let text = std::fs::read_to_string(folder.path().join("frames/grains_000000.xyz")).unwrap();
     let lines: Vec<_> = text.lines().collect();
     assert_eq!(lines[0], "2");
@@ -98,7 +122,7 @@ fn a_repeating_world_is_the_cell_of_xyz_and_dump() {
     {
         frame.vector(Kind::Global, name, "-", vec![value]);
     }
-    FrameWriter::create(folder.path(), ALL).unwrap().write(&frame).unwrap();
+    FrameWriter::create(folder.path(), ALL).write(&frame).unwrap();
     let read = |name: &str| std::fs::read_to_string(folder.path().join("frames").join(name)).unwrap();
     let xyz = read("grains_000000.xyz");
     assert!(xyz.contains("Lattice=\"3.0 0 0 0 0.4 ") && xyz.contains("Origin=\"-1.0 0.0 "), "{xyz}");
@@ -115,7 +139,7 @@ fn a_repeating_world_is_the_cell_of_xyz_and_dump() {
 #[test]
 fn a_cut_snapshot_is_refused() {
     let folder = tempfile::tempdir().unwrap();
-    FrameWriter::create(folder.path(), Formats::default()).unwrap().write(&sample(0.5)).unwrap();
+    FrameWriter::create(folder.path(), Formats::default()).write(&sample(0.5)).unwrap();
     let path = folder.path().join("frames/grains_000000.vtp");
     let bytes = std::fs::read(&path).unwrap();
     std::fs::write(&path, &bytes[..bytes.len() / 3]).unwrap();
@@ -126,7 +150,7 @@ fn a_cut_snapshot_is_refused() {
 
 fn bytes_of_sample() -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
-    FrameWriter::create(folder.path(), Formats::default()).unwrap().write(&sample(0.5)).unwrap();
+    FrameWriter::create(folder.path(), Formats::default()).write(&sample(0.5)).unwrap();
     std::fs::read(folder.path().join("frames/grains_000000.vtp")).unwrap()
 }
 
@@ -151,7 +175,7 @@ proptest! {
 fn vtk_reads_every_snapshot() {
     let python = std::env::var_os("TSUBU_VTK_PYTHON").unwrap_or_else(|| "python3".into());
     let folder = tempfile::tempdir().unwrap();
-    let mut writer = FrameWriter::create(folder.path(), Formats::default()).unwrap();
+    let mut writer = FrameWriter::create(folder.path(), Formats::default());
     for time in [0.0, 0.1, 0.2] {
         writer.write(&sample(time)).unwrap();
     }

@@ -3,7 +3,7 @@
 use std::fs;
 
 use proptest::prelude::*;
-use tsubu_frame::{Cell, History, Table};
+use tsubu_frame::{Cell, History, Mark, Table};
 
 #[test]
 fn columns_are_found_with_or_without_their_unit() {
@@ -23,26 +23,46 @@ fn a_line_being_written_is_left_out() {
     assert!(Table::parse("a,b\n1\n").unwrap_err().contains("row 1 has 1 cells"));
 }
 
+/// A missing, cut or edited history was gone on with in silence.
 #[test]
-fn a_resumed_history_is_cut_at_the_checkpoint() {
+fn a_resumed_history_is_the_one_of_the_checkpoint() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("history.csv");
     let header = ["time [s]", "displacement [m]"];
     let mut history = History::create(&path, &header).unwrap();
-    for i in 0..10 {
-        history.append(&[f64::from(i) * 0.1, f64::from(i)]).unwrap();
-    }
+    let rows = |from: u32, to: u32, history: &mut History| {
+        (from..to).for_each(|i| history.append(&[f64::from(i) * 0.1, f64::from(i)]).unwrap());
+    };
+    rows(0, 4, &mut history);
+    let mark = history.sync().unwrap();
+    let checkpoint = fs::read(&path).unwrap();
+    rows(4, 10, &mut history);
     drop(history);
-    let uninterrupted = fs::read(&path).unwrap();
-    fs::write(&path, [&uninterrupted[..], b"1.0,9"].concat()).unwrap();
-    // 3 * 0.1 is 0.30000000000000004: the cut compares the very numbers that were written.
-    let mut history = History::resume(&path, &header, 3.0 * 0.1).unwrap();
-    for i in 4..10 {
-        history.append(&[f64::from(i) * 0.1, f64::from(i)]).unwrap();
+    let whole = fs::read(&path).unwrap();
+    assert_eq!(Mark::from_numbers(&mark.numbers()), Some(mark));
+
+    let edited = String::from_utf8(whole.clone()).unwrap().replace("0.2,2", "0.2,7").into_bytes();
+    let shorter = &checkpoint[..checkpoint.len() - 1];
+    for (content, said) in
+        [(Some(&edited[..]), "have been changed"), (Some(shorter), "are missing"), (None, "not there")]
+    {
+        match content {
+            Some(content) => fs::write(&path, content).unwrap(),
+            None => fs::remove_file(&path).unwrap(),
+        }
+        let error = History::resume(&path, &header, mark).unwrap_err().to_string();
+        assert!(error.contains("history.csv") && error.contains(said) && error.contains("--overwrite"), "{error}");
+        assert_eq!(fs::read(&path).ok().as_deref(), content, "a refusal changed the file");
     }
-    history.sync().unwrap();
-    assert_eq!(fs::read(&path).unwrap(), uninterrupted);
-    let error = History::resume(&path, &["time [s]", "other [m]"], 0.0).unwrap_err().to_string();
+
+    // Rows behind the checkpoint, one of them cut, are computed again.
+    fs::write(&path, [&whole[..], b"1.0,9"].concat()).unwrap();
+    let mut history = History::resume(&path, &header, mark).unwrap();
+    rows(4, 10, &mut history);
+    let end = history.sync().unwrap();
+    assert_eq!(fs::read(&path).unwrap(), whole);
+    end.check(&path).unwrap();
+    let error = History::resume(&path, &["time [s]", "other [m]"], end).unwrap_err().to_string();
     assert!(error.contains("history.csv") && error.contains("columns"), "{error}");
 }
 

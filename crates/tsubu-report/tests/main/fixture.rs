@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use tsubu_frame::folder::write_atomically;
 use tsubu_frame::summary::write_json;
+use tsubu_frame::whole::write_atomically;
 use tsubu_frame::{Cell, Claim, Formats, Frame, FrameWriter, History, Kind, Status, Summary, Table};
 
 const FREQUENCY: f64 = 2.1;
@@ -108,7 +108,7 @@ pub fn run(dir: &Path, method: &str, snapshots: usize) {
     }
     history.sync().unwrap();
     if snapshots > 0 {
-        let mut frames = FrameWriter::create(dir, Formats::default()).unwrap();
+        let mut frames = FrameWriter::create(dir, Formats::default());
         for i in 0..snapshots {
             let t = 5.0 - (snapshots - 1 - i) as f64 / (24.0 * FREQUENCY);
             frames.write(&frame(t, 30)).unwrap();

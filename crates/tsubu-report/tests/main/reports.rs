@@ -100,7 +100,7 @@ fn a_response_names_its_lowest_peak() {
 fn a_response_shows_the_period_it_filmed() {
     let dir = tempfile::tempdir().unwrap();
     fixture::response(dir.path());
-    let mut frames = FrameWriter::create(dir.path(), Formats::default()).unwrap();
+    let mut frames = FrameWriter::create(dir.path(), Formats::default());
     for i in 0..9 {
         frames.write(&fixture::frame(10.0 + f64::from(i) / (8.0 * 2.1), 30)).unwrap();
     }

@@ -38,6 +38,12 @@ pub(super) static OUTPUT: &[Key] = &[
     Key::new("checkpoint-interval", Kind::Quantity(&TIME), "Simulated time between checkpoints")
         .above(0.0)
         .derived("duration / 10"),
+    Key::new(
+        "contacts",
+        Kind::Flag,
+        "Write the contacts of every frame, with their forces, beside the grains: more bytes than these",
+    )
+    .default("true"),
     Key::new("xyz", Kind::Flag, "Also write extended XYZ, which OVITO opens").default("false"),
     Key::new("lammps", Kind::Flag, "Also write LAMMPS dump files, for `read_dump`, `rerun` and OVITO").default("false"),
 ];

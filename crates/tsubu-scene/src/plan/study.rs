@@ -32,7 +32,7 @@ pub struct Sweep {
 }
 
 /// What is written.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Output {
     /// Simulated time between rows of `history.csv` [s].
@@ -41,6 +41,8 @@ pub struct Output {
     pub frame_interval: Option<f64>,
     /// Simulated time between checkpoints [s].
     pub checkpoint_interval: f64,
+    /// Write contacts into frames.
+    pub contacts: bool,
     /// Also write extended XYZ.
     pub xyz: bool,
     /// Also write LAMMPS dump files.

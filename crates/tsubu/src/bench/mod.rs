@@ -12,7 +12,6 @@ use crate::partner::Hosts;
 use crate::run::Watcher;
 use crate::threads::alone;
 use serde::{Deserialize, Serialize};
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 /// What was measured on a machine.
@@ -133,7 +132,7 @@ impl Job<'_> {
         let first = self.engine.steps();
         let mut block = 4;
         while begun.elapsed() < end {
-            if self.watcher.interrupted.load(Ordering::Relaxed) {
+            if self.watcher.interrupt.asked() {
                 return Err(BenchError::Interrupted);
             }
             let took = Instant::now();
@@ -168,12 +167,11 @@ fn processor() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::sync::atomic::AtomicBool;
+    use crate::interrupt::Interrupt;
 
     #[test]
     fn a_short_look_measures_both_pieces_of_work_on_one_thread_and_all() {
-        let never = AtomicBool::new(false);
-        let watcher = Watcher { interrupted: &never, progress: &|_| {} };
+        let watcher = Watcher { interrupt: &Interrupt::new(), progress: &|_| {} };
         let bench = Bench::measure(1.0, &watcher).unwrap_or_else(|error| panic!("{error}"));
         for work in ["chute", "bed"] {
             let rows: Vec<&Row> = bench.rows.iter().filter(|row| row.work == work).collect();
@@ -181,8 +179,9 @@ mod tests {
             assert_eq!(rows.last().map(|row| row.threads), Some(bench.cores));
             assert!(rows.iter().all(|row| row.particle_steps_per_second > 1e3 && row.particles > 2000));
         }
-        let stopped = AtomicBool::new(true);
-        let watcher = Watcher { interrupted: &stopped, progress: &|_| {} };
+        let stopped = Interrupt::new();
+        stopped.ask();
+        let watcher = Watcher { interrupt: &stopped, progress: &|_| {} };
         assert!(matches!(Bench::measure(1.0, &watcher), Err(BenchError::Interrupted)));
     }
 

@@ -8,8 +8,7 @@ use crate::scene_files;
 use serde::Serialize;
 use std::fmt;
 use std::path::Path;
-use tsubu_frame::folder::list;
-use tsubu_frame::{Cell, Existing, FileError, ResultValue, RunFolder, Status, Summary, Table, summary::write_json};
+use tsubu_frame::{Cell, Existing, FileError, ResultValue, RunFolder, Status, Summary, Table};
 use tsubu_scene::{Complaints, Scene};
 
 /// Why there is no comparison.
@@ -72,13 +71,16 @@ pub fn compare(
     if scenes.is_empty() {
         return Err(CompareError::Nobody(refused));
     }
-    let folder = RunFolder::create(folder, existing)?;
-    list(folder.path(), scenes.iter().map(|(variant, _)| format!("{}/", variant.name)))?;
+    let own = ["compare.csv", "compare.json"].into_iter().map(str::to_owned);
+    let runs = scenes.iter().map(|(variant, _)| format!("{}/", variant.name));
+    let names: Vec<String> = scene_files::names(scene).into_iter().chain(own).chain(runs).collect();
+    let folder = RunFolder::create(folder, existing, &names)?;
+    folder.claim(&names)?;
     let share = 1.0 / scenes.len() as f64;
     let mut done: Vec<(Variant, Summary)> = Vec::new();
     for (index, (variant, scene)) in scenes.into_iter().enumerate() {
         let progress = |done: f64| (watcher.progress)((index as f64 + done) * share);
-        let watcher = Watcher { interrupted: watcher.interrupted, progress: &progress };
+        let watcher = Watcher { interrupt: watcher.interrupt, progress: &progress };
         let into = folder.path().join(&variant.name);
         let summary = run::run(&scene, &into, Existing::Overwrite, &watcher)
             .map_err(|error| CompareError::Run { method: variant.name.clone(), error })?;
@@ -89,12 +91,13 @@ pub fn compare(
         }
     }
     scene_files::write(&folder, scene)?;
-    table(&done).write(&folder.file("compare.csv"))?;
+    folder.write("compare.csv", table(&done).to_csv().as_bytes())?;
     let names: Vec<&str> = done.iter().map(|(variant, _)| variant.name.as_str()).collect();
-    write_json(
-        &folder.file("compare.json"),
+    folder.write_json(
+        "compare.json",
         &serde_json::json!({ "methods": names, "refused": refused, "tsubu_version": crate::VERSION }),
     )?;
+    folder.sync()?;
     Ok(Comparison { done, refused })
 }
 
@@ -110,7 +113,11 @@ pub(crate) fn scenes(scene: &Scene, variants: &[Variant]) -> Result<(Runners, Ve
         let scene = scene.changed(method.iter().chain(&variant.changes)).map_err(CompareError::Scene)?;
         let plan = super::unsettled(scene.plan());
         match engine::open(&plan, &Hosts::new(&plan.hosts)) {
-            Ok(_) => scenes.push((variant.clone(), scene)),
+            Ok(engine) => {
+                run::steps(&plan, &*engine)
+                    .map_err(|error| CompareError::Run { method: variant.name.clone(), error })?;
+                scenes.push((variant.clone(), scene));
+            }
             Err(OpenError::Refused(refusal)) if variant.may_refuse => {
                 let because = refusal.notes.into_iter().map(|note| (note.key, note.text)).collect();
                 refused.push(Refused { method: variant.name.clone(), because });

@@ -13,6 +13,7 @@ pub use tasks::{Point, measure};
 
 use super::cases::{Case, CasesError, cases};
 use crate::engine::OpenError;
+use crate::interrupt::Interrupt;
 use crate::run::{RunError, Watcher, scene_hash};
 use crate::scene_files;
 use rayon::prelude::*;
@@ -22,7 +23,7 @@ use std::fs::{File, OpenOptions};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use tsubu_frame::{Existing, FileError, RunFolder, State, Status, Summary};
 use tsubu_scene::{Plan, Scene, plan};
@@ -58,11 +59,12 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
     failures.extend(failed);
     let status = match points.len() {
         done if done == task.total() => Status::Finished,
-        _ if watcher.interrupted.load(Ordering::Relaxed) => Status::Interrupted,
+        _ if watcher.interrupt.asked() => Status::Interrupted,
         0 => return Err(task.first(failures)),
         _ => Status::Failed,
     };
     let results = task.results(&points);
+    let _held = watcher.interrupt.hold();
     if status == Status::Finished {
         task.film(&results, &folder)?;
     }
@@ -75,8 +77,7 @@ pub fn curves(scene: &Scene) -> Result<Vec<CaseResult>, CasesError> {
     let task = Task::new(scene)?;
     let keys = task.missing(None);
     let (beds, mut failures) = task.settle(&keys)?;
-    let never = AtomicBool::new(false);
-    let watcher = Watcher { interrupted: &never, progress: &|_| {} };
+    let watcher = Watcher { interrupt: &Interrupt::new(), progress: &|_| {} };
     let (points, failed) = task.measure(&keys, &beds, &|_, _| Ok(()), &watcher)?;
     failures.extend(failed);
     if failures.is_empty() { Ok(task.results(&points)) } else { Err(task.first(failures)) }
@@ -186,13 +187,15 @@ impl Task {
         let done: Result<Done, CasesError> = keys
             .par_iter()
             .map(|key| {
-                if watcher.interrupted.load(Ordering::Relaxed) {
+                if watcher.interrupt.asked() {
                     return Ok(None);
                 }
                 let frequency = self.reference * self.wanted.frequency_ratio[key.frequency];
                 let Some(bed) = beds.get(&(key.case, key.seed)) else { return Ok(None) };
-                let point = match measure(&self.plans[key.case], &self.wanted, key.seed, bed, frequency) {
-                    Ok(point) => point,
+                let plan = &self.plans[key.case];
+                let point = match measure(plan, &self.wanted, key.seed, bed, frequency, watcher.interrupt) {
+                    Ok(Some(point)) => point,
+                    Ok(None) => return Ok(None),
                     Err(error @ OpenError::Running(_)) => {
                         keep(&failures, *key, error.into());
                         return Ok(None);
@@ -274,13 +277,21 @@ fn open_folder(
     overwrite: bool,
 ) -> Result<(RunFolder, Done), FileError> {
     if let Some(done) = earlier {
-        return Ok((RunFolder::create(path, Existing::Resume)?, done));
+        return Ok((RunFolder::create(path, Existing::Resume, names(scene))?, done));
     }
     let existing = if overwrite { Existing::Overwrite } else { Existing::Refuse };
-    let folder = RunFolder::create(path, existing)?;
+    let folder = RunFolder::create(path, existing, names(scene))?;
     scene_files::write(&folder, scene)?;
+    folder.claim(names(scene))?;
     folder.write("progress.jsonl", format!("{}\n", mark(&scene.resolved_toml())).as_bytes())?;
     Ok((folder, Done::new()))
+}
+
+/// The files of a response; those of its page come later.
+fn names(scene: &Scene) -> Vec<String> {
+    let tables = ["response.csv", "cases.csv", "energy_by_cause.csv"];
+    let own = tables.into_iter().chain(["check.txt", "summary.json", "progress.jsonl", "frames/"]);
+    scene_files::names(scene).into_iter().chain(own.map(str::to_owned)).collect()
 }
 
 fn journal(folder: &RunFolder) -> Result<File, FileError> {

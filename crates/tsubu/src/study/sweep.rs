@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
-use tsubu_frame::summary::{read_json, write_json};
+use tsubu_frame::summary::read_json;
 use tsubu_frame::{Cell, Existing, ResultValue, RunFolder, Status, Summary, Table};
 use tsubu_scene::Scene;
 
@@ -26,7 +26,7 @@ struct Took {
 /// Runs every case of the scene's `[sweep]` into a folder of its own below `folder/cases`; finished cases are kept, cut
 /// ones go on from their checkpoint; one that goes wrong says so in its row. Writes `sweep.csv`, and `sweep.json` with what
 /// it took.
-pub fn sweep(scene: &Scene, folder: &Path, watcher: &Watcher) -> Result<Vec<Summary>, CasesError> {
+pub fn sweep(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Vec<Summary>, CasesError> {
     let wanted = scene.plan().sweep.as_ref().ok_or_else(|| {
         CasesError::Scene("the scene has no `[sweep]`: say what varies, for example `vary = { \"particles.balls.count\" = [10, 20] }`".to_owned())
     })?;
@@ -35,11 +35,19 @@ pub fn sweep(scene: &Scene, folder: &Path, watcher: &Watcher) -> Result<Vec<Summ
     for case in &list {
         let scene = case.scene(scene).map_err(|c| CasesError::Scene(c.to_string()))?;
         let plan = super::unsettled(scene.plan());
-        engine::open(&plan, &Hosts::new(&plan.hosts))
-            .map_err(|error| CasesError::Run { case: case.name.clone(), error: error.into() })?;
+        let open = engine::open(&plan, &Hosts::new(&plan.hosts)).map_err(RunError::from);
+        open.and_then(|engine| run::steps(&plan, &*engine))
+            .map_err(|error| CasesError::Run { case: case.name.clone(), error })?;
     }
-    let existing = if folder.join("cases").is_dir() { Existing::Resume } else { Existing::Refuse };
-    let folder = RunFolder::create(folder, existing)?;
+    let existing = match folder.join("cases").is_dir() {
+        _ if overwrite => Existing::Overwrite,
+        true => Existing::Resume,
+        false => Existing::Refuse,
+    };
+    let names = scene_files::names(scene).into_iter().chain(["sweep.csv", "sweep.json", CASES].map(str::to_owned));
+    let names: Vec<String> = names.collect();
+    let folder = RunFolder::create(folder, existing, &names)?;
+    folder.claim(&names)?;
     scene_files::write(&folder, scene)?;
     let begun = Instant::now();
     let finished = AtomicUsize::new(0);
@@ -47,10 +55,10 @@ pub fn sweep(scene: &Scene, folder: &Path, watcher: &Watcher) -> Result<Vec<Summ
         .par_iter()
         .enumerate()
         .map(|(index, case)| {
-            if watcher.interrupted.load(Ordering::Relaxed) {
+            if watcher.interrupt.asked() {
                 return Ok(None);
             }
-            let summary = one(scene, case, &folder.path().join("cases").join(format!("{index:04}")), watcher)?;
+            let summary = one(scene, case, &folder.file(CASES).join(format!("{index:04}")), watcher)?;
             let done = finished.fetch_add(1, Ordering::Relaxed) + 1;
             (watcher.progress)(done as f64 / list.len() as f64);
             Ok(Some(summary))
@@ -58,13 +66,16 @@ pub fn sweep(scene: &Scene, folder: &Path, watcher: &Watcher) -> Result<Vec<Summ
         .collect::<Result<_, CasesError>>()?;
     let done: Vec<(&Case, &Summary)> =
         list.iter().zip(&summaries).filter_map(|(c, s)| Some((c, s.as_ref()?))).collect();
-    table(&done).write(&folder.file("sweep.csv"))?;
-    let took = folder.file("sweep.json");
-    let earlier = read_json::<Took>(&took).map_or(0.0, |took| took.wall_seconds);
+    folder.write("sweep.csv", table(&done).to_csv().as_bytes())?;
+    let earlier = read_json::<Took>(&folder.file("sweep.json")).map_or(0.0, |took| took.wall_seconds);
     let wall_seconds = earlier + begun.elapsed().as_secs_f64();
-    write_json(&took, &Took { wall_seconds, jobs: rayon::current_num_threads() })?;
+    folder.write_json("sweep.json", &Took { wall_seconds, jobs: rayon::current_num_threads() })?;
+    folder.sync()?;
     Ok(summaries.into_iter().flatten().collect())
 }
+
+/// The folder of the cases' folders.
+const CASES: &str = "cases/";
 
 fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<Summary, CasesError> {
     let scene = case.scene(scene).map_err(|c| CasesError::Scene(c.to_string()))?;
@@ -75,8 +86,8 @@ fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<S
     }
     let cut = same && tsubu_frame::checkpoint::path(folder).exists();
     let existing = if cut { Existing::Resume } else { Existing::Overwrite };
-    let quiet = Watcher { interrupted: watcher.interrupted, progress: &|_| {} };
-    match run::run(&scene, folder, existing, &quiet) {
+    let quiet = Watcher { interrupt: watcher.interrupt, progress: &|_| {} };
+    match run::run_with(&scene, folder, existing, false, &quiet) {
         Ok(summary) => Ok(summary),
         // One case that goes wrong leaves the others their results.
         Err(RunError::Fault(fault)) => Ok(failed(folder, &fault.to_string())),

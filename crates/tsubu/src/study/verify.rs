@@ -40,8 +40,7 @@ mod throw;
 mod voids;
 mod water;
 
-use std::path::Path;
-use tsubu_frame::Claim;
+use tsubu_frame::{Claim, RunFolder};
 
 /// The claims of a case, or why it came to none.
 pub type Judged = Result<Vec<Claim>, String>;
@@ -60,7 +59,7 @@ pub struct Case {
     /// claims can fail.
     pub run: fn(spoiler: f64) -> Judged,
     /// The same into a folder, where it leaves pictures and tables; `None`: claims are all there is.
-    pub kept: Option<fn(folder: &Path) -> Judged>,
+    pub kept: Option<fn(folder: &RunFolder) -> Judged>,
 }
 
 /// All cases, in the order they are listed and run.
@@ -242,7 +241,7 @@ pub fn chosen(names: &[String], all: bool) -> Result<Vec<&'static Case>, String>
 
 impl Case {
     /// Runs the case, into a folder if there is one; its claims carry its study's name.
-    pub fn claims(&self, folder: Option<&Path>) -> Judged {
+    pub fn claims(&self, folder: Option<&RunFolder>) -> Judged {
         let claims = match (self.kept, folder) {
             (Some(kept), Some(folder)) => kept(folder)?,
             _ => (self.run)(1.0)?,

@@ -8,8 +8,7 @@ use serde::Serialize;
 use std::path::Path;
 use tsubu_frame::csv::split_unit;
 use tsubu_frame::state::MissingSection;
-use tsubu_frame::summary::write_json;
-use tsubu_frame::{FileError, History, State, Summary};
+use tsubu_frame::{FileError, History, Mark, RunFolder, State, Summary};
 use tsubu_scene::Plan;
 
 /// What `watch/index.json` says about a watch, for those who draw it.
@@ -42,6 +41,8 @@ struct Watched {
     watch: Box<dyn Watch>,
     sheet: Option<Sheet>,
     file: Option<History>,
+    /// How far that was when it was last put on the disk.
+    mark: Option<Mark>,
     /// Means of the scalars, and of the cells of the table.
     means: [Means; 2],
     /// What the last look gave.
@@ -111,6 +112,7 @@ impl Watches {
                 sheet: watch.sheet(),
                 watch,
                 file: None,
+                mark: None,
                 means,
                 last,
                 looks: 0.0,
@@ -125,23 +127,27 @@ impl Watches {
         Self { list: list.collect(), walls, axes: axes(plan) }
     }
 
-    /// Makes the files, and a list of what is in them.
-    pub fn create(&mut self, folder: &Path) -> Result<(), FileError> {
-        let files: Vec<String> = self.list.iter().filter(|w| w.sheet.is_some()).map(|w| file(&w.name)).collect();
-        tsubu_frame::folder::list(folder, files.iter().map(String::as_str))?;
-        for watched in &mut self.list {
-            if let Some(header) = watched.header() {
-                watched.file = Some(History::create(&folder.join(file(&watched.name)), &header)?);
-            }
-        }
-        if self.list.is_empty() { Ok(()) } else { write_json(&folder.join("watch/index.json"), &self.index()) }
+    /// The files that they write.
+    pub fn files(&self) -> Vec<String> {
+        let tables = self.list.iter().filter(|w| w.sheet.is_some()).map(|w| file(&w.name));
+        tables.chain((!self.list.is_empty()).then(|| INDEX.to_owned())).collect()
     }
 
-    /// Goes on with the files of a run that was cut at `time` [s].
-    pub fn resume(&mut self, folder: &Path, time: f64) -> Result<(), FileError> {
+    /// Makes the files, and a list of what is in them.
+    pub fn create(&mut self, folder: &RunFolder) -> Result<(), FileError> {
         for watched in &mut self.list {
             if let Some(header) = watched.header() {
-                watched.file = Some(History::resume(&folder.join(file(&watched.name)), &header, time)?);
+                watched.file = Some(History::create(&folder.file(&file(&watched.name)), &header)?);
+            }
+        }
+        if self.list.is_empty() { Ok(()) } else { folder.write_json(INDEX, &self.index()) }
+    }
+
+    /// Goes on with the files of a run that was cut; the checkpoint was loaded.
+    pub fn resume(&mut self, folder: &Path) -> Result<(), FileError> {
+        for watched in &mut self.list {
+            if let (Some(header), Some(mark)) = (watched.header(), watched.mark) {
+                watched.file = Some(History::resume(&folder.join(file(&watched.name)), &header, mark)?);
             }
         }
         Ok(())
@@ -188,7 +194,10 @@ impl Watches {
 
     /// Hands all rows to the disk, before a checkpoint is written.
     pub fn sync(&mut self) -> Result<(), FileError> {
-        self.list.iter_mut().filter_map(|w| w.file.as_mut()).try_for_each(History::sync)
+        for watched in &mut self.list {
+            watched.mark = watched.file.as_mut().map(History::sync).transpose()?;
+        }
+        Ok(())
     }
 
     /// Means and last values, for the summary.
@@ -225,6 +234,9 @@ impl Watches {
             for (means, what) in w.means.iter().zip(["scalars", "cells"]) {
                 state.put_real(&format!("{name}.{what}"), means.numbers());
             }
+            if let Some(mark) = w.mark {
+                state.put_integer(&format!("{name}.file"), mark.numbers());
+            }
             w.watch.save(&name, state);
         }
     }
@@ -241,11 +253,19 @@ impl Watches {
             for (means, what) in w.means.iter_mut().zip(["scalars", "cells"]) {
                 *means = Means::from_numbers(state.real(&format!("{name}.{what}"))?);
             }
+            if w.sheet.is_some() {
+                let file = format!("{name}.file");
+                let mark = Mark::from_numbers(state.integer(&file)?);
+                w.mark = Some(mark.ok_or(MissingSection { name: file, kind: "integer" })?);
+            }
             w.watch.load(&name, state)?;
         }
         Ok(())
     }
 }
+
+/// Says what is where.
+const INDEX: &str = "watch/index.json";
 
 /// The table of a watch in the run folder.
 fn file(name: &str) -> String {

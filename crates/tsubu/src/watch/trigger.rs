@@ -17,10 +17,16 @@ impl Trigger {
         Self { from: watch.from, every: watch.every.unwrap_or(dt), until: watch.until.unwrap_or(f64::INFINITY), dt }
     }
 
+    /// Events at all multiples of an interval [s].
+    pub fn each(interval: f64, dt: f64) -> Self {
+        Self { from: 0.0, every: interval, until: f64::INFINITY, dt }
+    }
+
     /// The first look at step `now` or later; `u64::MAX` if there is none any more.
     pub fn at_or_after(&self, now: u64) -> u64 {
-        let mut k = ((now as f64 * self.dt - self.from) / self.every).floor().max(0.0);
-        loop {
+        let before = ((now as f64 * self.dt - self.from) / self.every).floor().max(0.0);
+        // The step nearest to the last look that is not after `now` may lie before it; that of the next one does not.
+        for k in [before, before + 1.0] {
             let time = self.from + k * self.every;
             // The last look is not lost to the last digit.
             if time > self.until + 1e-9 * self.every {
@@ -30,8 +36,13 @@ impl Trigger {
             if step >= now {
                 return step;
             }
-            k += 1.0;
         }
+        now
+    }
+
+    /// The first look after step `now`.
+    pub fn after(&self, now: u64) -> u64 {
+        self.at_or_after(now + 1)
     }
 
     /// Whether there is a look at this step.
@@ -57,6 +68,17 @@ mod tests {
         assert_eq!(looks(0.0, 0.01, f64::INFINITY, 0.1, 3), [0, 1, 2, 3]);
         // Not a multiple of the step: the nearest.
         assert_eq!(looks(0.0, 0.25, f64::INFINITY, 0.1, 10), [0, 3, 5, 8, 10]);
+    }
+
+    /// Looks were counted up one by one: an interval of next to nothing never ended.
+    #[test]
+    fn looks_between_steps_are_not_counted() {
+        for every in [1e-300, 1e-14, 1e-3, 0.06, 0.099] {
+            let trigger = Trigger::each(every, 0.1);
+            assert_eq!([0, 7, 1 << 40].map(|now| trigger.after(now)), [1, 8, (1 << 40) + 1], "{every}");
+        }
+        let rare = Trigger::each(1e300, 0.1);
+        assert_eq!(rare.after(0), u64::MAX);
     }
 
     #[test]

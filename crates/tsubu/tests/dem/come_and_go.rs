@@ -2,8 +2,8 @@
 
 use super::open_text;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 use tsubu::engine;
+use tsubu::interrupt::Interrupt;
 use tsubu::run::{Watcher, run};
 use tsubu_frame::{Existing, Kind, Table};
 use tsubu_scene::Scene;
@@ -130,8 +130,11 @@ fn height_and_speed_are_those_of_the_grains_there_are() {
     let whole = folder.path().join("whole");
     let scene = Scene::parse("rising", RISING, Path::new("."), &[]).unwrap_or_else(|c| panic!("{c}"));
     let go = |into: &Path, existing, interrupted: bool| {
-        let interrupted = AtomicBool::new(interrupted);
-        run(&scene, into, existing, &Watcher { interrupted: &interrupted, progress: &|_| {} }).unwrap()
+        let interrupt = Interrupt::new();
+        if interrupted {
+            interrupt.ask();
+        }
+        run(&scene, into, existing, &Watcher { interrupt: &interrupt, progress: &|_| {} }).unwrap()
     };
     let summary = go(&whole, Existing::Refuse, false);
     let heights = Table::read(&whole.join("history.csv")).unwrap().numbers("centre of mass height").unwrap();

@@ -5,8 +5,8 @@ use crate::dem::open_text;
 use glam::DVec3;
 use std::fs;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 use tsubu::engine::{self, OpenError};
+use tsubu::interrupt::Interrupt;
 use tsubu::partner::Hosts;
 use tsubu::run::{Watcher, run};
 use tsubu::view::{Contact, Wants};
@@ -122,7 +122,7 @@ track.ids = [3]
 pub fn done(text: &str, changes: &[&str], folder: &Path) -> Summary {
     let changes: Vec<String> = changes.iter().map(|c| (*c).to_owned()).collect();
     let scene = Scene::parse("test", text, Path::new("."), &changes).unwrap_or_else(|wrong| panic!("{wrong}"));
-    let watcher = Watcher { interrupted: &AtomicBool::new(false), progress: &|_| {} };
+    let watcher = Watcher { interrupt: &Interrupt::new(), progress: &|_| {} };
     run(&scene, folder, Existing::Overwrite, &watcher).unwrap()
 }
 

@@ -1,6 +1,7 @@
 //! One run of a response: a bed, a frequency, a measurement.
 
 use crate::engine::{self, Engine, OpenError};
+use crate::interrupt::Interrupt;
 use crate::ledger::{Account, Ledger};
 use crate::partner::Hosts;
 use crate::run::RunError;
@@ -76,8 +77,18 @@ pub(super) fn bed(plan: &Plan, seed: u32) -> Result<State, OpenError> {
     Ok(state)
 }
 
-/// Runs one frequency [Hz] from a settled bed and measures.
-pub fn measure(plan: &Plan, wanted: &Response, seed: u32, bed: &State, frequency: f64) -> Result<Point, OpenError> {
+/// Steps between two questions whether to stop.
+const UNASKED: u64 = 8;
+
+/// Runs one frequency [Hz] from a settled bed and measures; `None` where it was interrupted.
+pub fn measure(
+    plan: &Plan,
+    wanted: &Response,
+    seed: u32,
+    bed: &State,
+    frequency: f64,
+    interrupt: &Interrupt,
+) -> Result<Option<Point>, OpenError> {
     let begun = Instant::now();
     let (mut engine, mut hosts, mut ledger) = open(plan, wanted, seed, bed, frequency)?;
     let host = hosts.index(&wanted.host).unwrap_or_default();
@@ -85,11 +96,20 @@ pub fn measure(plan: &Plan, wanted: &Response, seed: u32, bed: &State, frequency
     let steps = |periods: u32| (f64::from(periods) / (frequency * dt)).round() as u64;
     let empty = weight(plan) == 0;
     let discard = if empty { wanted.discard_periods_empty } else { wanted.discard_periods };
-    engine.advance(steps(discard), &mut hosts, &mut ledger)?;
+    let discard = steps(discard);
+    while engine.steps() < discard {
+        if interrupt.asked() {
+            return Ok(None);
+        }
+        engine.advance(UNASKED.min(discard - engine.steps()), &mut hosts, &mut ledger)?;
+    }
     let before = Account::ALL.map(|a| ledger.flow(a));
     let mut window = Window::default();
     let count = steps(wanted.measure_periods);
     for step in 0..count {
+        if interrupt.asked() {
+            return Ok(None);
+        }
         engine.advance(1, &mut hosts, &mut ledger)?;
         let phase = TAU * frequency * engine.time();
         window.take(hosts.list[host].displacement(), hosts.list[host].grain_force(), phase, 2 * step >= count);
@@ -98,7 +118,8 @@ pub fn measure(plan: &Plan, wanted: &Response, seed: u32, bed: &State, frequency
     let flows: Vec<f64> = Account::ALL.iter().zip(before).map(|(&a, b)| (ledger.flow(a) - b) / periods).collect();
     let loss = Account::ALL.iter().zip(&flows).filter(|(a, _)| !a.is_work()).map(|(_, f)| f).sum();
     let residual = ledger.residual_relative(&engine::stocks(&*engine, &hosts));
-    Ok(Point { frequency, loss, flows, residual, wall: begun.elapsed().as_secs_f64(), ..window.point(frequency) })
+    let wall = begun.elapsed().as_secs_f64();
+    Ok(Some(Point { frequency, loss, flows, residual, wall, ..window.point(frequency) }))
 }
 
 /// Everything at time 0 with the bed in place and the host shaken at this frequency [Hz].
@@ -131,12 +152,12 @@ pub(super) fn film(
     let step = |periods: f64| (periods / (frequency * engine.time_step())).round() as u64;
     let begin = f64::from(wanted.discard_periods);
     let moments: Vec<u64> = (0..=8).map(|k| step(begin + f64::from(k) / 8.0)).collect();
-    let mut frames = FrameWriter::create(folder.path(), crate::run::formats(plan))?;
+    let mut frames = FrameWriter::create(folder.path(), crate::run::formats(plan));
     for moment in moments {
         engine.advance(moment - engine.steps(), &mut hosts, &mut ledger)?;
         frames.write(&engine.frame(&hosts))?;
     }
-    Ok(())
+    Ok(frames.sync()?)
 }
 
 /// Sums over the measured periods.

@@ -4,6 +4,7 @@ use super::curve::CaseResult;
 use crate::engine;
 use crate::ledger::Account;
 use crate::partner::Hosts;
+use crate::study::unsettled;
 use crate::{check, run};
 use tsubu_frame::{Cell, FileError, RunFolder, Status, Summary, Table};
 use tsubu_scene::{Plan, Scene};
@@ -129,7 +130,8 @@ pub(super) fn write(
         summary.warnings.push("watches do not look on at a response; `tsubu run` has them".to_owned());
     }
     let hosts = Hosts::new(&plan.hosts);
-    if let Ok(engine) = engine::open(plan, &hosts) {
+    // Nothing of this depends on where grains lie.
+    if let Ok(engine) = engine::open(&unsettled(plan), &hosts) {
         summary.time_step = engine.time_step();
         summary.warnings.extend(engine.notes().iter().map(|n| format!("{}: {}", n.key, n.text)));
         folder.write("check.txt", check::verdict(plan, &hosts, &*engine).to_string().as_bytes())?;
@@ -137,9 +139,10 @@ pub(super) fn write(
     if status == Status::Finished {
         run::judge(plan, &mut summary);
     }
-    curves.write(&folder.file("response.csv"))?;
-    cases.write(&folder.file("cases.csv"))?;
-    causes.write(&folder.file("energy_by_cause.csv"))?;
-    summary.write(&folder.file("summary.json"))?;
+    folder.write("response.csv", curves.to_csv().as_bytes())?;
+    folder.write("cases.csv", cases.to_csv().as_bytes())?;
+    folder.write("energy_by_cause.csv", causes.to_csv().as_bytes())?;
+    folder.write_json("summary.json", &summary)?;
+    folder.sync()?;
     Ok(summary)
 }

@@ -11,20 +11,20 @@ mod seen;
 mod shaken;
 
 use super::Judged;
-use std::path::Path;
+use tsubu_frame::RunFolder;
 
-pub(super) fn hopper(spoiler: f64, folder: Option<&Path>) -> Judged {
+pub(super) fn hopper(spoiler: f64, folder: Option<&RunFolder>) -> Judged {
     seen::judged(&hopper::TEST, spoiler, folder)
 }
 
-pub(super) fn heap(spoiler: f64, folder: Option<&Path>) -> Judged {
+pub(super) fn heap(spoiler: f64, folder: Option<&RunFolder>) -> Judged {
     seen::judged(&heap::TEST, spoiler, folder)
 }
 
-pub(super) fn shaken(spoiler: f64, folder: Option<&Path>) -> Judged {
+pub(super) fn shaken(spoiler: f64, folder: Option<&RunFolder>) -> Judged {
     seen::judged(&shaken::TEST, spoiler, folder)
 }
 
-pub(super) fn collapse(spoiler: f64, folder: Option<&Path>) -> Judged {
+pub(super) fn collapse(spoiler: f64, folder: Option<&RunFolder>) -> Judged {
     seen::judged(&collapse::TEST, spoiler, folder)
 }

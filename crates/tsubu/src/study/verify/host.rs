@@ -1,10 +1,11 @@
 //! Structures: loss factor by three ways, and the added mass of a bed that stays on the floor.
 
 use super::bench;
-use crate::study::response::{CaseResult, measure};
+use crate::interrupt::Interrupt;
+use crate::study::response::{CaseResult, Point, measure};
 use crate::study::ring_down::ring_down;
 use tsubu_frame::{Claim, State};
-use tsubu_scene::plan::{Plan, Signal};
+use tsubu_scene::plan::{Plan, Response, Signal};
 
 const DAMPER: &str = include_str!("../../../../../scenes/damper.toml");
 
@@ -15,6 +16,11 @@ const K: f64 = 123.4;
 
 fn frequency() -> f64 {
     (K / M).sqrt() / std::f64::consts::TAU
+}
+
+fn measured(plan: &Plan, wanted: &Response, bed: &State, frequency: f64) -> Result<Point, String> {
+    let point = measure(plan, wanted, 0, bed, frequency, &Interrupt::new()).map_err(|e| e.to_string())?;
+    point.ok_or_else(|| "interrupted".to_owned())
 }
 
 /// The empty structure: half-power width, energy per cycle and ring-down give twice the damping ratio.
@@ -32,7 +38,7 @@ pub(super) fn loss_factor(spoiler: f64) -> Result<Vec<Claim>, String> {
     let hosts = crate::partner::Hosts::new(&plan.hosts);
     crate::engine::open(&plan, &hosts).map_err(|e| e.to_string())?.save(&mut bed);
     for (i, ratio) in ratios.iter().enumerate() {
-        points.push((i, measure(&plan, &wanted, 0, &bed, ratio * frequency()).map_err(|e| e.to_string())?));
+        points.push((i, measured(&plan, &wanted, &bed, ratio * frequency())?));
     }
     let points: Vec<(usize, &_)> = points.iter().map(|(i, p)| (*i, p)).collect();
     let case = CaseResult::new("empty", &plan, frequency(), &ratios, &points);
@@ -109,7 +115,7 @@ pub(super) fn loss_factor_with_grains(_spoiler: f64) -> Result<Vec<Claim>, Strin
     let hosts = crate::partner::Hosts::new(&plan.hosts);
     let mut bed = State::default();
     crate::engine::open(&plan, &hosts).map_err(|e| e.to_string())?.save(&mut bed);
-    let peak = measure(&plan, &wanted, 0, &bed, 0.9667 * frequency()).map_err(|e| e.to_string())?;
+    let peak = measured(&plan, &wanted, &bed, 0.9667 * frequency())?;
     let driven = peak.loss / (std::f64::consts::PI * K * peak.amplitude * peak.amplitude);
     let mass = 0.2e-3 * 30.0;
     let sag = -mass * 10.0 / K;

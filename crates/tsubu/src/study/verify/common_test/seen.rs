@@ -7,9 +7,7 @@ use crate::watch;
 use glam::DVec3;
 use std::path::Path;
 use std::time::Instant;
-use tsubu_frame::folder::list;
-use tsubu_frame::summary::write_json;
-use tsubu_frame::{Cell, Claim, FileError, Formats, Frame, FrameWriter, Kind, Table};
+use tsubu_frame::{Cell, Claim, FileError, Formats, Frame, FrameWriter, Kind, RunFolder, Table};
 use tsubu_scene::{Plan, Scene};
 
 /// Who runs every test: DEM that rolls freely, that resists rolling and that does not turn, and every other model that can.
@@ -143,7 +141,7 @@ impl Measured {
 }
 
 /// Runs a test and judges it; into a folder also pictures and tables.
-pub(super) fn judged(test: &Test, spoiler: f64, folder: Option<&Path>) -> Result<Vec<Claim>, String> {
+pub(super) fn judged(test: &Test, spoiler: f64, folder: Option<&RunFolder>) -> Result<Vec<Claim>, String> {
     let measured = run(test, spoiler)?;
     if let Some(folder) = folder {
         keep(test, &measured, folder).map_err(|error| error.to_string())?;
@@ -192,19 +190,18 @@ fn run(test: &Test, spoiler: f64) -> Result<Measured, String> {
 }
 
 /// Writes the frames that the figure shows, and the tables.
-fn keep(test: &Test, measured: &Measured, folder: &Path) -> Result<(), FileError> {
-    let place = folder.join("common-test").join(test.name);
-    list(folder, [format!("common-test/{}/", test.name)])?;
+fn keep(test: &Test, measured: &Measured, folder: &RunFolder) -> Result<(), FileError> {
+    let place = format!("common-test/{}", test.name);
     let shown = &measured.runs[..measured.who];
-    list(&place, ["measures.csv", "gallery.json"].map(str::to_owned))?;
-    list(&place, shown.iter().map(|(seen, _)| format!("{}/", seen.name)))?;
+    folder.claim(shown.iter().map(|(seen, _)| format!("{place}/{}/frames/", seen.name)))?;
     let mut panels = Vec::new();
     for (seen, _) in shown {
         let (now, then) = (test.picture.moments)(seen);
-        let mut frames = FrameWriter::create(&place.join(&seen.name), Formats::default())?;
+        let mut frames = FrameWriter::create(&folder.file(&format!("{place}/{}", seen.name)), Formats::default());
         for look in then.into_iter().chain([now]) {
             frames.write(&seen.frames[look])?;
         }
+        frames.sync()?;
         panels.push(&seen.name);
     }
     let what: Vec<&str> =
@@ -216,9 +213,9 @@ fn keep(test: &Test, measured: &Measured, folder: &Path) -> Result<(), FileError
         let values = measured.runs.iter().map(|(seen, _)| Cell::Number(measured.value(&seen.name, what)));
         table.push(std::iter::once(Cell::Text(what.to_owned())).chain(values));
     }
-    table.write(&place.join("measures.csv"))?;
-    write_json(
-        &place.join("gallery.json"),
+    folder.write(&format!("{place}/measures.csv"), table.to_csv().as_bytes())?;
+    folder.write_json(
+        &format!("{place}/gallery.json"),
         &serde_json::json!({
             "title": test.title, "window": test.picture.window, "panels": panels, "refused": measured.refused
         }),

@@ -1,0 +1,78 @@
+//! Ctrl-C and a polite kill end every command soon, with 130, and no state is lost.
+
+use crate::support::{Desk, SCENE, signal, wait_for};
+use std::time::{Duration, Instant};
+
+/// Settles for minutes: its steps are a hundred thousandth of a contact.
+const SLOW: &str = "--set materials.acrylic.restitution=1e-6 --set 'particles.balls.start.settled.time=100 s'";
+
+/// Two seconds on an idle machine; others may be busy.
+const SOON: Duration = Duration::from_secs(8);
+
+fn stops(desk: &Desk, line: &str, after: Duration, how: &str) {
+    let mut child = desk.start(line);
+    std::thread::sleep(after);
+    signal(&child, how);
+    let begun = Instant::now();
+    while child.try_wait().unwrap().is_none() {
+        if begun.elapsed() > SOON {
+            child.kill().unwrap();
+            panic!("tsubu {line} went on after SIG{how}");
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert_eq!(child.wait().unwrap().code(), Some(130), "tsubu {line}, SIG{how}");
+}
+
+/// While grains settled before time 0 nobody listened: the program lived on for more than 40 s.
+#[test]
+fn settling_stops() {
+    let desk =
+        Desk::with(&SCENE.replace("start.rows = { spacing = 1.1, jitter = 0.5, speed = 0.3 }", "start.settled = {}"));
+    for (command, how) in [("run", "INT"), ("run", "TERM"), ("response", "INT"), ("check", "TERM")] {
+        stops(&desk, &format!("{command} balls.toml {SLOW}"), Duration::from_millis(700), how);
+    }
+    assert_eq!(desk.files(), ["balls.toml"], "something was left behind");
+}
+
+/// A verification died of the signal without a word, and a response went on to the end of a frequency.
+#[test]
+fn long_commands_stop() {
+    let desk = Desk::with(&SCENE.replace("measure-periods = 2", "measure-periods = 100000"));
+    stops(&desk, "verify --all", Duration::from_millis(500), "INT");
+    stops(&desk, "bench --seconds 600", Duration::from_millis(500), "TERM");
+    stops(&desk, "sweep balls.toml -o swept --set 'duration=100 s'", Duration::from_millis(1500), "TERM");
+    stops(&desk, "response balls.toml -o out --threads 2", Duration::from_millis(2500), "INT");
+    assert_eq!(desk.summary("out")["status"], "interrupted");
+}
+
+/// Intervals of next to nothing were counted up one by one, and the run never ended.
+#[test]
+fn an_interval_below_a_step_is_a_step() {
+    let desk = Desk::new();
+    desk.done(
+        "run balls.toml -q -o every --set duration=1e-3 --set output.history-interval=1e-14 \
+        --set output.checkpoint-interval=1e-300",
+    );
+    let rows = desk.read("every/history.csv").lines().count() as u64 - 1;
+    assert_eq!(rows, desk.summary("every")["steps"].as_u64().unwrap() + 1);
+}
+
+/// A second run went on beside the first: rows were missing from the history, and both ended well.
+#[test]
+fn a_folder_has_one_writer() {
+    let desk = Desk::new();
+    let options = "-o one -q --set 'duration=100 s' --set 'output.checkpoint-interval=0.05 s'";
+    let mut child = desk.start(&format!("run balls.toml {options}"));
+    wait_for(&desk.path("one/checkpoint/state.tsubu"));
+    for line in
+        [&format!("run balls.toml {options} --resume"), &format!("run balls.toml {options} --overwrite"), "report one"]
+    {
+        let second = desk.run(line);
+        assert_eq!(second.code, Some(2), "{line}: {}", second.stderr);
+        assert!(second.stderr.contains("one/.tsubu") && second.stderr.contains("lock"), "{line}: {}", second.stderr);
+    }
+    signal(&child, "INT");
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    desk.done("report one");
+}

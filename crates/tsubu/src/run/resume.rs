@@ -1,0 +1,77 @@
+//! Going on from a checkpoint: what it must agree with.
+
+use super::{HISTORY, Run, RunError, step_of};
+use crate::ledger::Ledger;
+use std::fmt::Write as _;
+use std::path::Path;
+use tsubu_frame::state::MissingSection;
+use tsubu_frame::{Mark, checkpoint};
+use tsubu_scene::Scene;
+
+/// The scene as the run in `folder` goes on with it: intervals that nobody tells stay as they were there.
+pub(super) fn scene(scene: &Scene, folder: &Path) -> Scene {
+    // A folder without a scene is refused later, for its checkpoint's sake.
+    let earlier = std::fs::read_to_string(folder.join("scene.toml")).unwrap_or_default();
+    scene.going_on(&earlier).unwrap_or_else(|_| scene.clone())
+}
+
+impl Run<'_> {
+    /// Takes the state of the checkpoint, and gives how far the history was then.
+    pub(super) fn resume(&mut self, scene: &Scene, folder: &Path) -> Result<Mark, RunError> {
+        let (header, state) = checkpoint::read(&checkpoint::path(folder))?;
+        let refuse =
+            |text: String| Err(RunError::NotThisScene(format!("the checkpoint in {} {text}", folder.display())));
+        if header.tsubu_version != crate::VERSION {
+            let (found, this) = (header.tsubu_version, crate::VERSION);
+            return refuse(format!("was written by tsubu {found}, this is tsubu {this}: go on with the other"));
+        }
+        if header.scene_hash != self.scene_hash {
+            return refuse(format!("belongs to another scene{}", differences(scene, folder)));
+        }
+        let dt = self.engine.time_step();
+        self.engine.load(&state)?;
+        if self.engine.time() != header.time {
+            let before = header.time / header.step as f64;
+            return refuse(format!("was made with a time step of {before} s, not {dt} s: set `dem.time-step`"));
+        }
+        if self.engine.steps() > step_of(self.plan.duration, dt) {
+            let (time, end) = (header.time, self.plan.duration);
+            return refuse(format!("is of t = {time} s, behind the end: raise `duration` = {end} s"));
+        }
+        self.hosts.load(&state)?;
+        self.ledger = Ledger::load(&state)?;
+        self.measured.load(&state)?;
+        self.watches.load(&state)?;
+        self.wall_before = state.real("run.wall-seconds")?.first().copied().unwrap_or(0.0);
+        let missing = || MissingSection { name: HISTORY.to_owned(), kind: "integer" };
+        Ok(Mark::from_numbers(state.integer(HISTORY)?).ok_or_else(missing)?)
+    }
+}
+
+/// Differences that a message names.
+const NAMED: usize = 8;
+
+/// What differs from the scene of the folder, a line a key.
+fn differences(scene: &Scene, folder: &Path) -> String {
+    let earlier = std::fs::read_to_string(folder.join("scene.toml")).unwrap_or_default();
+    let all = scene.differences(&earlier);
+    if all.is_empty() {
+        return ", and the scene.toml beside it does not tell which".to_owned();
+    }
+    let mut text = String::from("; what differs:");
+    for difference in all.iter().take(NAMED) {
+        let value = |value: &Option<String>| value.as_deref().map_or_else(|| "nothing".to_owned(), shortened);
+        let (before, now) = (value(&difference.before), value(&difference.now));
+        let _ = write!(text, "\n  `{}` was {before}, is {now}", difference.key);
+    }
+    if all.len() > NAMED {
+        let _ = write!(text, "\n  and {} more", all.len() - NAMED);
+    }
+    text
+}
+
+/// The begin of a long value.
+fn shortened(value: &str) -> String {
+    const LONG: usize = 60;
+    if value.chars().count() <= LONG { value.to_owned() } else { value.chars().take(LONG).collect::<String>() + "..." }
+}
