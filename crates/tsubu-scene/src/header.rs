@@ -60,6 +60,11 @@ impl<'a> Header<'a> {
                     .hints(error.hints)
             });
         }
+        if Scale::read(self.name, want).is_ok_and(|scale| scale.apply("1") != Some(1.0)) {
+            return Err(Complaint::new(format!("the name `{}` is a unit", self.name))
+                .at(&place, "a unit stands in brackets behind a name")
+                .hint(format!("write a name before it, such as `value [{}]`", self.name)));
+        }
         match self.unit_in_the_name() {
             None => Ok(Scale::SI),
             Some(unit) => Err(Complaint::new(format!("the name `{}` seems to end in a unit", self.name))
@@ -68,9 +73,10 @@ impl<'a> Header<'a> {
         }
     }
 
-    /// `time_ms`, `value/mm` and `t in ms` mean what they say.
+    /// `time_ms`, `value/mm`, `t in ms` and `value {mm}` mean what they say.
     pub fn unit_in_the_name(&self) -> Option<&'a str> {
-        let (name, last) = self.name.rsplit_once(|c: char| !c.is_alphanumeric() && !matches!(c, '%' | '°' | '^'))?;
+        let between = |c: char| !c.is_alphanumeric() && !matches!(c, '%' | '°' | '^');
+        let (name, last) = self.name.trim_end_matches(between).rsplit_once(between)?;
         (self.unit.is_none() && !name.is_empty() && units::is_unit(last)).then_some(last)
     }
 }
@@ -166,7 +172,20 @@ mod tests {
         assert_eq!(scale("time (ms)", &TIME), Some(0.002));
         assert_eq!(scale("time", &TIME), Some(2.0));
         assert_eq!(scale("base displacement", &LENGTH), Some(2.0));
-        for text in ["time (mm)", "time_ms", "time/ms", "time in ms", "time, ms", "t-min"] {
+        assert_eq!(scale("s", &TIME), Some(2.0));
+        // Braces, and a unit in the place of the name, were once taken for names, and milliseconds for seconds.
+        for text in [
+            "time (mm)",
+            "time_ms",
+            "time/ms",
+            "time in ms",
+            "time, ms",
+            "t-min",
+            "time {ms}",
+            "time <ms>",
+            "ms",
+            "min",
+        ] {
             assert_eq!(scale(text, &TIME), None, "{text}");
         }
     }

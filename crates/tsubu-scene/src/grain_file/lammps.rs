@@ -237,7 +237,7 @@ fn atom_columns(count: usize) -> Vec<Column> {
         [Slot::Id, Slot::Kind, Slot::Diameter, Slot::Density, Slot::Position(0), Slot::Position(1), Slot::Position(2)];
     // Image flags tell how often a grain went round a periodic world; its place is in the world already.
     let flags = if count == 10 { 3 } else { 0 };
-    slots.into_iter().chain([Slot::Skip; 3].into_iter().take(flags)).map(Column::new).collect()
+    slots.into_iter().chain([Slot::Passed; 3].into_iter().take(flags)).map(Column::new).collect()
 }
 
 fn velocity_columns() -> [Column; 7] {

@@ -78,6 +78,8 @@ pub(crate) fn ending(name: &str) -> String {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Slot {
     Skip,
+    /// A number that says nothing here, and still must be one.
+    Passed,
     Position(usize),
     Diameter,
     Density,
@@ -102,7 +104,7 @@ impl Slot {
             Self::Density => &DENSITY,
             Self::Velocity(_) => &SPEED,
             Self::Spin(_) => &SPIN,
-            Self::Skip | Self::Id | Self::Kind => &NUMBER,
+            Self::Skip | Self::Passed | Self::Id | Self::Kind => &NUMBER,
         }
     }
 }
@@ -218,7 +220,7 @@ impl Rows {
             }
             Slot::Diameter => row.diameter = number,
             Slot::Density => row.density = number,
-            Slot::Skip | Slot::Id | Slot::Kind => {}
+            Slot::Skip | Slot::Passed | Slot::Id | Slot::Kind => {}
         }
         Ok(())
     }
