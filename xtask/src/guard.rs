@@ -8,3 +8,11 @@ pub fn guard(name: &str, arguments: &[&str]) -> Result<(), String> {
     cargo(&["build", "--package", "tsubu-cli", "--package", "tsubu-guard", "--quiet"])?;
     cargo(&[&["run", "--package", "tsubu-guard", "--quiet", "--", name], arguments].concat())
 }
+
+/// What must hold in every change: a minute of cases, a few kills.
+pub fn quick() -> Result<(), String> {
+    // The same cases each time. Not yet checkpoints whose checksums are right and whose numbers were made up: some of them
+    // make a watch ask for any amount of memory.
+    guard("fuzz", &["--seconds", "60", "--cases", "15000", "--only", "scenes,data,checks,commands"])?;
+    guard("kills", &["--kills", "6"])
+}

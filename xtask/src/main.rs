@@ -18,7 +18,7 @@ const HELP: &str = "\
 cargo xtask CHORE
 
   check [--no-test]   what must pass before a change goes in: format, lints, documentation, generated pages, a short
-                      run of every scene, all tests
+                      run of every scene, all tests, a minute of the guards
   test                all tests; with Python 3, also those that read written frames back with VTK
   gen [--check]       write the generated pages, or only say which are out of date
   smoke               run every scene for a moment
@@ -27,6 +27,8 @@ cargo xtask CHORE
   variants [--quick] [--seed N]
                       one answer for every way to compute it: every scene by every method in ten ways that must not
                       matter (threads, outputs, a busy machine, cut and resumed); a quarter of an hour, --quick a minute
+  kills [--seed N] [--kills N]
+                      kill runs of all kinds at random moments, resume them, and compare with runs left alone
   bench [ARGUMENT]... the benchmarks; arguments go to cargo bench
   race --peers DIR --lammps LMP [--runs 5] [--out NAME]
                       the race against LAMMPS; fails where a promise is not kept (Linux, about a quarter of an hour)
@@ -44,6 +46,7 @@ fn main() -> ExitCode {
         ["smoke"] => smoke::smoke(),
         ["fuzz", rest @ ..] => guard::guard("fuzz", rest),
         ["variants", rest @ ..] => variants::chore(rest),
+        ["kills", rest @ ..] => guard::guard("kills", rest),
         ["bench", rest @ ..] => bench::bench(rest),
         ["race", rest @ ..] => race::race(rest),
         [] | ["help" | "--help" | "-h"] => {

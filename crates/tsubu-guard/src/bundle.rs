@@ -36,6 +36,11 @@ impl Bundle {
         self.0.keys().map(String::as_str)
     }
 
+    /// Keeps files by their names.
+    pub fn retain(&mut self, keep: impl Fn(&str) -> bool) {
+        self.0.retain(|name, _| keep(name));
+    }
+
     /// What stands in a folder of the bundle.
     #[must_use]
     pub fn inside(&self, folder: &str) -> Self {
@@ -52,8 +57,9 @@ impl Bundle {
         }
     }
 
-    /// Writes every file into a folder.
+    /// Writes every file into a folder, which is made.
     pub fn write(&self, folder: &Path) -> io::Result<()> {
+        fs::create_dir_all(folder)?;
         for (name, bytes) in &self.0 {
             let path = folder.join(name);
             if name.contains('/') {

@@ -13,7 +13,6 @@ pub fn folder() -> PathBuf {
 /// Writes a case into a folder of cases.
 pub fn keep(folder: &Path, kind: Kind, name: &str, bundle: &Bundle) -> io::Result<PathBuf> {
     let case = folder.join(kind.name()).join(name);
-    std::fs::create_dir_all(&case)?;
     bundle.write(&case)?;
     Ok(case)
 }

@@ -1,6 +1,9 @@
 //! Other programs within limits.
 
+use std::env;
 use std::ffi::OsStr;
+use std::io;
+use std::path::PathBuf;
 use std::process::Command;
 
 /// Address space that tsubu has to do with [KiB]: 4 GB.
@@ -15,4 +18,9 @@ pub fn limited(program: impl AsRef<OsStr>) -> Command {
     } else {
         Command::new(program)
     }
+}
+
+/// Another program of the same build.
+pub fn beside(name: &str) -> io::Result<PathBuf> {
+    Ok(env::current_exe()?.with_file_name(format!("{name}{}", env::consts::EXE_SUFFIX)))
 }

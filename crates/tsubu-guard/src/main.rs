@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 use tsubu_guard::bundle::Bundle;
 use tsubu_guard::kind::Kind;
-use tsubu_guard::{corpus, fuzz, work};
+use tsubu_guard::{corpus, fuzz, kills, limits, work};
 
 /// Standing guards of tsubu.
 #[derive(Parser)]
@@ -20,6 +20,18 @@ struct Arguments {
 enum Command {
     /// Draw cases and judge them
     Fuzz(Fuzz),
+    /// Kill runs of all kinds at random moments, resume them, and hold what they give against runs left alone
+    Kills {
+        /// Seed of runs and moments
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        /// How many kills
+        #[arg(long, default_value_t = 200)]
+        kills: u64,
+        /// Runs of this scene alone
+        #[arg(long)]
+        only: Option<String>,
+    },
     /// Judge kept cases again: folders with a case each
     Replay {
         /// The kind of the cases
@@ -49,9 +61,9 @@ struct Fuzz {
     /// The case of this number alone
     #[arg(long, requires = "only", conflicts_with = "cases")]
     case: Option<u64>,
-    /// Cases of this kind alone
-    #[arg(long)]
-    only: Option<Kind>,
+    /// Cases of these kinds alone, with commas between them
+    #[arg(long, value_delimiter = ',')]
+    only: Vec<Kind>,
     /// The folder for what is found, instead of the corpus
     #[arg(long, value_name = "DIR")]
     keep: Option<PathBuf>,
@@ -60,6 +72,7 @@ struct Fuzz {
 fn main() -> ExitCode {
     let held = match Arguments::parse().command {
         Command::Fuzz(options) => options.fuzz(),
+        Command::Kills { seed, kills, only } => kill(seed, kills, only),
         Command::Replay { kind, folders } => replay(kind, &folders),
         Command::Work { kind, folder, seed, from, to } => work::work(kind, &folder, seed, from..to).map(|()| true),
         Command::Judge { kind, folder, case } => {
@@ -79,8 +92,8 @@ fn main() -> ExitCode {
 impl Fuzz {
     /// Whether all held.
     fn fuzz(&self) -> io::Result<bool> {
-        let kinds: Vec<Kind> =
-            Kind::ALL.into_iter().filter(|kind| self.only.is_none_or(|only| only == *kind)).collect();
+        let wanted = |kind: &Kind| self.only.is_empty() || self.only.contains(kind);
+        let kinds: Vec<Kind> = Kind::ALL.into_iter().filter(wanted).collect();
         let shares: f64 = kinds.iter().map(|kind| kind.share()).sum();
         let mut held = true;
         println!("{:<12} {:>10} {:>10} {:>9} {:>9}", "seed", self.seed, "accepted", "a second", "found");
@@ -107,6 +120,15 @@ impl Fuzz {
         }
         Ok(held)
     }
+}
+
+fn kill(seed: u64, kills: u64, only: Option<String>) -> io::Result<bool> {
+    let tally = kills::kills(&kills::Options { seed, kills, only, tsubu: limits::beside("tsubu")? })?;
+    println!("\nseed {seed}: {} kills in {} runs, {} gave another answer", tally.kills, tally.runs, tally.wrong.len());
+    for text in &tally.wrong {
+        println!("  {text}");
+    }
+    Ok(tally.wrong.is_empty())
 }
 
 fn replay(kind: Kind, folders: &[PathBuf]) -> io::Result<bool> {

@@ -31,19 +31,20 @@ impl Expect {
         ("other", Self::Other),
     ];
 
-    /// Writes it into the bundle, together with what was there before the change.
-    pub fn of(self, mut bundle: Bundle, before: &Bundle) -> Bundle {
+    /// Writes it into the bundle, with what was changed and with what was there before.
+    pub fn of(self, change: &str, mut bundle: Bundle, before: &Bundle) -> Bundle {
         let name = Self::ALL.iter().find(|(_, expect)| *expect == self).map_or("", |(name, _)| name);
-        bundle.put("expect", name);
+        bundle.put("expect", format!("{name}: {change}\n"));
         if matches!(self, Self::Same | Self::SameOrRefuse | Self::Other) {
             bundle.put_inside("before", before);
         }
         bundle
     }
 
-    fn read(bundle: &Bundle) -> Self {
+    /// What the bundle says.
+    pub fn read(bundle: &Bundle) -> Self {
         let text = bundle.text("expect").unwrap_or_default();
-        let word = text.split_whitespace().next().unwrap_or_default();
+        let word = text.split([':', '\n']).next().unwrap_or_default();
         Self::ALL.iter().find(|(name, _)| *name == word).map_or(Self::Survive, |(_, expect)| *expect)
     }
 }
@@ -57,12 +58,14 @@ const SAME: f64 = 1e-12;
 /// Reads the scene of a bundle in `folder` and holds what comes of it against what must.
 pub fn judge(bundle: &Bundle, folder: &Path) -> Result<Outcome, String> {
     let expect = Expect::read(bundle);
+    let change = bundle.text("expect").unwrap_or_default();
+    let change = change.trim();
     let scene = match read(bundle, &folder.join("scene")) {
         Err(complaints) => {
             of_complaints(&complaints)?;
             let title = complaints.titles().next().unwrap_or_default();
             return match expect {
-                Expect::Same => Err(format!("refused what is right: {title}")),
+                Expect::Same => Err(format!("refused ({change}): {title}")),
                 _ => Ok(Outcome::Refused),
             };
         }
@@ -71,15 +74,15 @@ pub fn judge(bundle: &Bundle, folder: &Path) -> Result<Outcome, String> {
     again(&scene, &folder.join("again"))?;
     match expect {
         Expect::Survive => {}
-        Expect::Refuse => return Err("accepted what must be refused".to_owned()),
+        Expect::Refuse => return Err(format!("accepted ({change})")),
         Expect::Same | Expect::SameOrRefuse | Expect::Other => {
             let before = read(&bundle.inside("before"), &folder.join("before"))
                 .map_err(|complaints| format!("what was there before is wrong: {complaints}"))?;
             let different = difference(&numbers(before.plan()), &numbers(scene.plan()));
             match (expect, different) {
-                (Expect::Other, None) => return Err("accepted a change that changes nothing".to_owned()),
+                (Expect::Other, None) => return Err(format!("accepted ({change}), and nothing is different")),
                 (Expect::Same | Expect::SameOrRefuse, Some(text)) => {
-                    return Err(format!("accepted other numbers: {text}"));
+                    return Err(format!("accepted ({change}): {text}"));
                 }
                 _ => {}
             }
@@ -92,7 +95,7 @@ pub fn judge(bundle: &Bundle, folder: &Path) -> Result<Outcome, String> {
 pub fn read(bundle: &Bundle, folder: &Path) -> Result<Scene, Complaints> {
     let changes: Vec<String> =
         bundle.bytes("changes.json").and_then(|bytes| serde_json::from_slice(bytes).ok()).unwrap_or_default();
-    let written = fs::create_dir_all(folder).and_then(|()| bundle.write(folder));
+    let written = bundle.write(folder);
     assert!(written.is_ok(), "cannot write to {}: {written:?}", folder.display());
     let scene = Scene::read(&folder.join("scene.toml"), &changes);
     // What is left of one case must not be read by the next.
@@ -142,6 +145,8 @@ fn numbers(plan: &Plan) -> Vec<(String, Value)> {
         Ok(value) => leaves(String::new(), &value, &mut out),
         Err(error) => out.push(("error".to_owned(), Value::String(error.to_string()))),
     }
+    // Watches stand in the order of the scene, which says only where their results are shown.
+    out.sort_by(|(a, _), (b, _)| a.cmp(b));
     for (name, group) in &plan.particles {
         if let tsubu_scene::plan::Start::File { grains, .. } = &group.start {
             let columns = [&grains.position, &grains.velocity, &grains.spin];

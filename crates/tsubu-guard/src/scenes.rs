@@ -14,25 +14,25 @@ use tsubu_scene::units::{self, Dimension};
 /// A case: a scene that is right with one change whose outcome is known, or with several.
 pub fn draw(draw: &mut Draw) -> Bundle {
     let seed = draw.pick(seeds());
-    let (table, expect) = match draw.below(8) {
+    let (change, expect, table) = match draw.below(8) {
         0 => return as_text(draw, seed),
         1 => return with_changes(draw, seed),
-        2 => (misspelt(draw, &seed.table), Expect::Refuse),
-        3 => (another_number(draw, &seed.table), Expect::Other),
-        4 => (another_unit(draw, &seed.table), Expect::Other),
-        5 => (a_wrong_unit(draw, &seed.table), Expect::Refuse),
-        6 => (Some(in_another_order(draw, &seed.table)), Expect::Same),
-        _ => (None, Expect::Survive),
+        2 => ("a key misspelt", Expect::Refuse, misspelt(draw, &seed.table)),
+        3 => ("another number", Expect::Other, another_number(draw, &seed.table)),
+        4 => ("another unit", Expect::Other, another_unit(draw, &seed.table)),
+        5 => ("a unit of another kind", Expect::Refuse, a_wrong_unit(draw, &seed.table)),
+        6 => ("keys in another order", Expect::Same, Some(in_another_order(draw, &seed.table))),
+        _ => ("", Expect::Survive, None),
     };
-    let (table, expect) = match table {
-        Some(table) => (table, expect),
-        None => (nasty(draw, &seed.table), Expect::Survive),
+    let (change, expect, table) = match table {
+        Some(table) => (change, expect, table),
+        None => ("nasty values and keys", Expect::Survive, nasty(draw, &seed.table)),
     };
     let Ok(mut text) = toml::to_string(&table) else { return seed.bundle.clone() };
     if matches!(expect, Expect::Same) {
         text = spoil::same_text(draw, &text);
     }
-    expect.of(seed.bundle.clone().with("scene.toml", text), &seed.bundle)
+    expect.of(change, seed.bundle.clone().with("scene.toml", text), &seed.bundle)
 }
 
 /// Damage that knows nothing of TOML, and depths that nobody types.
@@ -53,7 +53,7 @@ fn as_text(draw: &mut Draw, seed: &Seed) -> Bundle {
             text = spoil::bytes(draw, &text, other.text.as_bytes());
         }
     }
-    Expect::Survive.of(seed.bundle.clone().with("scene.toml", text), &seed.bundle)
+    Expect::Survive.of("a damaged text", seed.bundle.clone().with("scene.toml", text), &seed.bundle)
 }
 
 /// Changes on the command line.
@@ -73,7 +73,7 @@ fn with_changes(draw: &mut Draw, seed: &Seed) -> Bundle {
         changes.push(if draw.one_in(20) { path } else { format!("{path}={value}") });
     }
     let changes = serde_json::to_vec(&changes).unwrap_or_default();
-    Expect::Survive.of(seed.bundle.clone().with("changes.json", changes), &seed.bundle)
+    Expect::Survive.of("changes", seed.bundle.clone().with("changes.json", changes), &seed.bundle)
 }
 
 /// Up to four changes that may go with each other or not.
@@ -241,7 +241,8 @@ fn another_unit(draw: &mut Draw, table: &Table) -> Option<Table> {
 fn a_wrong_unit(draw: &mut Draw, table: &Table) -> Option<Table> {
     change_a_number(draw, table, |_, value, dimension| {
         let (number, _) = split(value.as_str()?)?;
-        let wrong = if dimension.si == "kg" { "mm" } else { "g" };
+        // Not g, which may be a gram and the acceleration of gravity.
+        let wrong = if dimension.si == "kg" { "mm" } else { "mg" };
         Some(Value::String(format!("{number} {wrong}")))
     })
 }

@@ -1,0 +1,20 @@
+//! Judges what `tsubu check` makes of a scene that was accepted: the engine is built and goes a little way.
+
+use crate::bundle::Bundle;
+use crate::kind::Outcome;
+use crate::reading;
+use std::path::Path;
+use tsubu::check;
+
+/// Checks the scene of a bundle.
+pub fn judge(bundle: &Bundle, folder: &Path) -> Result<Outcome, String> {
+    let Ok(scene) = reading::read(bundle, &folder.join("scene")) else { return Ok(Outcome::Refused) };
+    let text = match check::check(scene.plan(), None, &mut |_, _| ()) {
+        Ok(verdict) => verdict.to_string(),
+        Err(refusal) => refusal.to_string(),
+    };
+    match text.lines().find(|line| line.contains("NaN")) {
+        Some(line) => Err(format!("says what is no number: {line}")),
+        None => Ok(Outcome::Accepted),
+    }
+}
