@@ -15,6 +15,11 @@ use std::time::Instant;
 use tsubu_scene::Scene;
 use tsubu_scene::plan::Method;
 
+const HISTORY: &str = "history.csv";
+
+/// Fewer steps than this cannot be cut twice.
+const FEWEST_STEPS: f64 = 60.0;
+
 /// What is tried.
 struct Wanted {
     /// Seconds of computing for a run, about.
@@ -52,7 +57,7 @@ struct Answer {
     hash: Value,
     energy: Value,
     steps: Value,
-    /// Rows of every table by their times, without those of the watches in the history; of watches only where the times are all the same.
+    /// Rows of every table.
     tables: BTreeMap<String, Vec<String>>,
 }
 
@@ -121,7 +126,7 @@ fn ways(case: &Case, seed: u64) -> Vec<Variant> {
     };
     let first = Variant { threads: 1, rows: 40, ..Variant::default() };
     let (early, late) = (0.05 + 0.4 * draw(1), 0.5 + 0.45 * draw(2));
-    vec![
+    let mut ways = vec![
         Variant { name: "2 threads", threads: 2, ..first.clone() },
         Variant { name: "3 threads", threads: 3, ..first.clone() },
         Variant { name: "8 threads", threads: 8, ..first.clone() },
@@ -129,9 +134,14 @@ fn ways(case: &Case, seed: u64) -> Vec<Variant> {
         Variant { name: "few rows", rows: 8, ..first.clone() },
         Variant { name: "with frames", frames: true, ..first.clone() },
         Variant { name: "beside busy programs", busy: true, ..first.clone() },
-        Variant { name: "cut and resumed", cuts: vec![early], ..first.clone() },
-        Variant { name: "cut twice, resumed on 3 threads", cuts: vec![early, late], threads: 3, frames: true, ..first },
-    ]
+    ];
+    // A pile at rest knows no time: its step is a share of the duration, and a run that ends earlier is another one.
+    if case.method != Method::AfterHemmingssonHerrmann.name() {
+        let twice = vec![early, late];
+        ways.push(Variant { name: "cut and resumed", cuts: vec![early], ..first.clone() });
+        ways.push(Variant { name: "cut twice, resumed on 3 threads", cuts: twice, threads: 3, frames: true, ..first });
+    }
+    ways
 }
 
 /// Holds all ways against the first; how many runs, and what differed.
@@ -167,14 +177,15 @@ fn cases(wanted: &Wanted, tsubu: &Path) -> Result<Vec<Case>, String> {
             for share in [0.003, 0.03, 0.3] {
                 case.duration = share * whole;
                 let begun = Instant::now();
-                match case.run(&Variant { threads: 1, rows: 1, ..Variant::default() }) {
-                    Ok(_) => {}
+                let steps = match case.run(&Variant { threads: 1, rows: 1, ..Variant::default() }) {
+                    Ok(answer) => answer.steps.as_f64().unwrap_or_default(),
                     Err(_) if method != own => break,
                     Err(text) => return Err(format!("{name}: {text}")),
-                }
+                };
                 let speed = begun.elapsed().as_secs_f64() / case.duration;
                 if speed * case.duration > 0.1 * wanted.seconds || share == 0.3 {
-                    case.duration = whole.min(wanted.seconds / speed);
+                    let least = case.duration * FEWEST_STEPS / steps.max(1.0);
+                    case.duration = whole.min((wanted.seconds / speed).max(least));
                     cases.push(case);
                     break;
                 }
@@ -240,8 +251,9 @@ impl Answer {
         let summary: Value = serde_json::from_str(&text("summary.json")?).map_err(|error| error.to_string())?;
         let mut tables = BTreeMap::new();
         let rows = |text: String| text.lines().map(str::to_owned).collect::<Vec<_>>();
-        tables.insert("history.csv".to_owned(), rows(text("history.csv")?));
-        for entry in fs::read_dir(folder.join("watch")).into_iter().flatten().flatten() {
+        tables.insert(HISTORY.to_owned(), rows(text(HISTORY)?));
+        let watches = fs::read_dir(folder.join("watch")).into_iter().flatten().flatten();
+        for entry in watches.filter(|entry| entry.path().extension().is_some_and(|e| e == "csv")) {
             let name = format!("watch/{}", entry.file_name().to_string_lossy());
             tables.insert(name.clone(), rows(text(&name)?));
         }
@@ -262,31 +274,31 @@ impl Answer {
         }
         self.tables.iter().find_map(|(name, rows)| {
             let Some(others) = other.tables.get(name) else { return Some(format!("{name} is not there")) };
-            table_differs(rows, others).map(|text| format!("{name}: {text}"))
+            table_differs(name, rows, others).map(|text| format!("{name}: {text}"))
         })
     }
 }
 
-/// What differs between two tables: all of it where they have the same times. Where they have not, what the engine itself tells at
-/// the times of both, in the columns before those of watches, which may be means since the last row.
-fn table_differs(one: &[String], other: &[String]) -> Option<String> {
+/// What differs between two tables: all of it where they have the same times. Where they have not, what the engine itself tells in
+/// the history at the times of both; columns and tables of watches may hold what has been since the last look.
+fn table_differs(name: &str, one: &[String], other: &[String]) -> Option<String> {
     let time = |row: &String| row.split(',').next().unwrap_or_default().to_owned();
+    let told = |here: &str, there: &str| Some(format!("{here}\n        then {there}"));
+    if one.iter().map(time).eq(other.iter().map(time)) {
+        return one.iter().zip(other).find(|(here, there)| here != there).and_then(|(here, there)| told(here, there));
+    }
     if one.first() != other.first() {
         return Some("another header".to_owned());
     }
-    let same_times = one.iter().map(time).eq(other.iter().map(time));
+    if name != HISTORY {
+        return None;
+    }
     let header: Vec<&str> = one.first()?.split(',').collect();
     let of_engine = header.iter().position(|cell| cell.starts_with("centre of mass")).map_or(0, |k| k + 1);
     let of_hosts = header[of_engine..].iter().take_while(|c| c.starts_with("host ") || c.starts_with("force on host"));
-    let own = of_engine + of_hosts.count();
-    let columns = if same_times { usize::MAX } else { own };
+    let columns = of_engine + of_hosts.count();
     let cut = |row: &String| row.split(',').take(columns).collect::<Vec<_>>().join(",");
     let there: BTreeMap<String, String> = other.iter().map(|row| (time(row), cut(row))).collect();
-    if columns == 0 {
-        return None;
-    }
-    one.iter().find_map(|row| {
-        let (here, there) = (cut(row), there.get(&time(row))?);
-        (&here != there).then(|| format!("{here}\n    then {there}"))
-    })
+    let both = one.iter().filter_map(|row| Some((cut(row), there.get(&time(row))?)));
+    both.into_iter().find(|(here, there)| here != *there).and_then(|(here, there)| told(&here, there))
 }

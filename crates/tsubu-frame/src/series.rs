@@ -128,8 +128,13 @@ impl FrameWriter {
 
     /// Waits until all snapshots, and indices that name them, are on the disk. To be called before a checkpoint is written.
     pub fn sync(&mut self) -> Result<(), FileError> {
-        self.renew(false)?;
+        self.flush()?;
         sync(&std::mem::take(&mut self.unsynced))
+    }
+
+    /// Writes indices that name all snapshots so far.
+    pub fn flush(&mut self) -> Result<(), FileError> {
+        self.renew(false)
     }
 
     /// Writes the indices that have grown; with `now_and_then` those alone that have grown by a tenth.

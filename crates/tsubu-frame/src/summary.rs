@@ -234,6 +234,12 @@ impl Summary {
     }
 }
 
+/// The mean that a result of a watch goes with, if it is one of what is told beside a mean: its spread, the ends between which
+/// the number was, and the last one.
+pub fn mean_beside(result: &str) -> Option<&str> {
+    [" spread", " least", " largest", " final"].iter().find_map(|what| result.strip_suffix(what))
+}
+
 /// Writes any value as indented JSON, whole or not at all.
 pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), FileError> {
     let text = json(path, value)?;

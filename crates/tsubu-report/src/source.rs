@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use tsubu_frame::summary::mean_beside;
 use tsubu_frame::{Claim, FileError, ResultValue, Summary, Table, csv::split_unit, unit::for_people};
 
 use crate::figure::{Axis, Bars, Figure};
@@ -195,8 +196,7 @@ pub(crate) fn result_cards(summary: &Summary, most: usize) -> Vec<Card> {
             continue;
         }
         let claim = summary.claims.iter().find(|claim| claim.name == result);
-        let mean = [" spread", " final"].iter().find_map(|what| result.strip_suffix(what));
-        if claim.is_none() && mean.is_some_and(|mean| summary.results.get(mean).is_some()) {
+        if claim.is_none() && mean_beside(result).is_some_and(|mean| summary.results.get(mean).is_some()) {
             continue;
         }
         let (name, unit) = named(summary, result);

@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use serde::Deserialize;
-use tsubu_frame::{Summary, Table, csv::split_unit, summary::read_json};
+use tsubu_frame::summary::{mean_beside, read_json};
+use tsubu_frame::{Summary, Table, csv::split_unit};
 
 use crate::figure::{Axis, Figure, Series, Style, prefix};
 use crate::moments;
@@ -134,8 +135,12 @@ impl<'a> Sweep<'a> {
         let mut blocks = Vec::new();
         // What the books miss is told in the table.
         let told = |column: &&usize| {
-            let name = split_unit(&self.table.header[**column]).0;
-            !name.contains("residual") && !name.ends_with(" spread")
+            let header = &self.table.header;
+            let name = split_unit(&header[**column]).0;
+            // What is told beside a mean comes before it only where the scene asks for it.
+            let mean = mean_beside(name).filter(|_| !name.ends_with(" final"));
+            let asked = mean.is_none_or(|mean| header.iter().position(|c| split_unit(c).0 == mean) > Some(**column));
+            !name.contains("residual") && asked
         };
         for &column in self.results.iter().filter(told).take(MOST_FIGURES) {
             let header = &self.table.header[column];

@@ -34,7 +34,7 @@ pub use methods::{
 pub use sites::{GuttHaff, Heap, Savage, Split, Voids};
 pub use study::{Claim, Output, Response, Sweep};
 pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall};
-pub use watch::{Axis, Bed, Heading, Kernel, Measure, Quantity, Watch, submerged};
+pub use watch::{Axis, Bed, Face, Heading, Kernel, Measure, Quantity, Watch, submerged};
 pub use water::{Buoyancy, Directions, Drag, Flow, Fluctuation, Hindrance, Lid, Lift, StreamStart, Torque, Water};
 
 use serde::{Deserialize, Serialize};
@@ -196,6 +196,18 @@ impl Plan {
             let [x, y] = &pair.between;
             (x == a && y == b) || (x == b && y == a)
         })
+    }
+
+    /// Number of the first grain of a group: groups follow each other in the order of their names, those of streams after the
+    /// others.
+    pub fn first_of(&self, group: &str) -> usize {
+        let comes_later = |group: &Particles| matches!(group.start, Start::Stream { .. });
+        let Some(wanted) = self.particles.get(group) else { return 0 };
+        let before = self
+            .particles
+            .iter()
+            .filter(|(name, other)| (comes_later(other), name.as_str()) < (comes_later(wanted), group));
+        before.map(|(_, other)| other.count).sum()
     }
 
     /// The contact law of two materials.

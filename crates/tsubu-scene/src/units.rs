@@ -48,7 +48,7 @@ dimensions! {
     STIFFNESS "a stiffness" "N/m" [0, 1, -2, 0] [1e-20, 1e20] ["N/m", "N/mm", "kN/m", "N/cm"] ["123.4 N/m"] "Stiffnesses."
     DAMPING "a damping coefficient" "N s/m" [0, 1, -1, 0] [1e-25, 1e20] ["N s/m", "N.s/m", "N s/mm", "kg/s"] ["0.08 N s/m"]
         "Coefficients of viscous damping."
-    PRESSURE "a pressure or modulus" "Pa" [-1, 1, -2, 0] [1e-15, 1e15] ["Pa", "kPa", "MPa", "GPa", "N/mm^2"] ["0.5 GPa", "3 MPa"]
+    PRESSURE "a pressure or modulus" "Pa" [-1, 1, -2, 0] [1e-15, 1e25] ["Pa", "kPa", "MPa", "GPa", "N/mm^2"] ["0.5 GPa", "3 MPa"]
         "Pressures and elastic moduli."
     DENSITY "a density" "kg/m^3" [-3, 1, 0, 0] [1e-9, 1e9] ["kg/m^3", "g/cm^3"] ["2650 kg/m^3", "1.18 g/cm^3"] "Densities."
     ANGLE "an angle" "rad" [0, 0, 0, 1] [1e-15, 1e9] ["deg", "rad"] ["40 deg", "0.5 rad"] "Angles."

@@ -196,7 +196,7 @@ fn malformed_data() {
         DATA.replace("0 1 xlo xhi", "0 1 xlow xhi"),
         DATA.replace("LAMMPS data file", "LAMMPS data file via write_data, timestep = 7, units = cgs"),
         // Once passed over in silence: a density that is no number.
-        DATA.replace("4 2 0.004 2500", "4 2 0.004 heavy"),
+        DATA.replace("4 2 0.004 6000", "4 2 0.004 heavy"),
     ];
     insta::assert_snapshot!(texts.map(|text| about("a.data", &text)).join("\n\n"));
 }

@@ -78,12 +78,13 @@ pub fn run(scene: &Scene, folder: &Path, existing: Existing, watcher: &Watcher) 
     run_with(scene, folder, existing, true, watcher)
 }
 
-/// The same; without `last_checkpoint` a run that comes to its end keeps none of that.
+/// The same. One of many runs (`alone` false) keeps no checkpoint of its end, and does not wait for the disk there: after a power cut
+/// it is done again.
 pub(crate) fn run_with(
     scene: &Scene,
     folder: &Path,
     existing: Existing,
-    last_checkpoint: bool,
+    alone: bool,
     watcher: &Watcher,
 ) -> Result<Summary, RunError> {
     let resumed = existing == Existing::Resume;
@@ -100,7 +101,7 @@ pub(crate) fn run_with(
         wall_before: 0.0,
         started: Instant::now(),
         last,
-        last_checkpoint,
+        alone,
         plan,
         hosts,
         engine,
@@ -171,7 +172,7 @@ struct Run<'a> {
     started: Instant,
     /// The step it ends with.
     last: u64,
-    last_checkpoint: bool,
+    alone: bool,
 }
 
 /// What grows as the run goes.
@@ -234,7 +235,7 @@ impl Run<'_> {
             }
             let stop = watcher.interrupt.asked();
             let due = target == next_save && saved.elapsed() >= BETWEEN_CHECKPOINTS;
-            if due || (target == last && self.last_checkpoint) || (stop && target < last) {
+            if due || (target == last && self.alone) || (stop && target < last) {
                 self.save(folder, &mut out)?;
                 saved = Instant::now();
             }
@@ -245,9 +246,18 @@ impl Run<'_> {
                 return Ok(summary);
             }
         }
-        self.sync(folder, &mut out)?;
+        if self.alone {
+            self.sync(folder, &mut out)?;
+        } else {
+            out.history.flush()?;
+            self.watches.flush()?;
+            out.frames.flush()?;
+        }
         let summary = self.summary(Status::Finished);
-        Self::end(folder, &summary)?;
+        folder.write_json("summary.json", &summary)?;
+        if self.alone {
+            folder.sync()?;
+        }
         Ok(summary)
     }
 

@@ -11,6 +11,7 @@ use std::fmt::Write as _;
 use tsubu::check::human_time;
 use tsubu::run::Watcher;
 use tsubu::threads::alone;
+use tsubu_frame::summary::mean_beside;
 use tsubu_frame::{Existing, ResultValue, RunFolder, Status, Summary, unit::for_people};
 
 #[derive(Args)]
@@ -107,20 +108,19 @@ fn told(title: &str, summary: &Summary) -> String {
     text + &warnings(&summary.warnings)
 }
 
-/// The results as a table: a mean stands beside its spread and the value at the end.
+/// The results as a table: a mean stands beside its spread, its ends and the value at the end.
 fn results(summary: &Summary) -> String {
     let twin = |name: &str, what: &str| match summary.results.get(&format!("{name} {what}")) {
         Some(ResultValue::Number(value)) => table::number(value * for_people(summary.unit(name)).0),
         _ => "-".to_owned(),
     };
-    let is_twin = |name: &str| {
-        let mean = [" spread", " final"].iter().find_map(|what| name.strip_suffix(what));
-        mean.is_some_and(|mean| summary.results.get(mean).is_some())
-    };
-    let mut rows = vec![["  result", "value or mean", "spread", "at the end", ""].map(str::to_owned).to_vec()];
+    let is_twin = |name: &str| mean_beside(name).is_some_and(|mean| summary.results.get(mean).is_some());
+    let mut rows =
+        vec![["  result", "value or mean", "spread", "least", "largest", "at the end", ""].map(str::to_owned).to_vec()];
     for (name, value) in summary.results_in_order().into_iter().filter(|(name, _)| !is_twin(name)) {
         let [name_cell, value, unit] = result(summary, name, value);
-        rows.push(vec![name_cell, value, twin(name, "spread"), twin(name, "final"), unit]);
+        let [spread, least, largest, last] = ["spread", "least", "largest", "final"].map(|what| twin(name, what));
+        rows.push(vec![name_cell, value, spread, least, largest, last, unit]);
     }
     if rows.len() > 1 { table::aligned(&rows) } else { String::new() }
 }

@@ -43,6 +43,7 @@ fn a_summary_has_exactly_its_keys() {
         "energy",
         "state_hash",
         "results",
+        "units",
         "claims",
         "warnings",
     ];

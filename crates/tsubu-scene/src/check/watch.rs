@@ -5,7 +5,7 @@ use super::place::Room;
 use super::{Parts, named};
 use crate::complaint::Complaint;
 use crate::keys::WATCHES;
-use crate::plan::{self, Axis, Bed, GrainMotion, Measure, Particles, Region, Vector, Watch};
+use crate::plan::{self, Axis, Bed, Face, GrainMotion, Measure, Particles, Region, Vector, Watch};
 use crate::suggest;
 
 /// More points than this are a slip, not a field.
@@ -140,13 +140,32 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
                 .at(&at("direction"), "says how the pressure acts")
                 .hint("give an `area`, or leave `direction` out: forces are given along all axes"),
         ),
-        Measure::Track { ids } => {
-            let grains: usize = parts.particles.values().map(|group| group.count).sum();
+        Measure::WallLoad { wall, face: Some(face), .. } => {
+            let turns = |wall: &plan::Wall| wall.rotation.is_some() || wall.body.is_some();
+            let known = parts.walls.get(wall);
+            if known.is_some_and(|wall| !matches!(wall.shape, plan::Shape::Box { .. }) || turns(wall)) {
+                complaints.push(
+                    Complaint::new(format!("the wall `{wall}` has no `face` of its own"))
+                        .at(&at("face"), "asks for one face of a box that does not turn")
+                        .hint("leave `face` out; a plane is one face, and a box of planes has a load for each"),
+                );
+            }
+            if matches!(face, Face::Front | Face::Back) && !parts.space() {
+                complaints.push(
+                    Complaint::new("in the plane a box has no front and no back")
+                        .at(&at("face"), "the scene has dimension 2"),
+                );
+            }
+        }
+        Measure::Track { ids, group } => {
+            let counted = parts.particles.iter().filter(|(name, _)| group.as_ref().is_none_or(|only| only == *name));
+            let grains: usize = counted.map(|(_, group)| group.count).sum();
+            let whose = group.as_ref().map_or_else(|| "the scene".to_owned(), |name| format!("the group `{name}`"));
             let beyond = ids.iter().find(|id| **id as usize >= grains);
             if let Some(id) = beyond.filter(|_| !parts.incomplete && !counts_vary(parts)) {
                 complaints.push(
                     Complaint::new(format!("there is no grain {id} to track"))
-                        .at(&at("ids"), format!("the scene has {grains}, counted from 0")),
+                        .at(&at("ids"), format!("{whose} has {grains}, counted from 0")),
                 );
             }
             if let Some(k) = (1..ids.len()).find(|&k| ids[..k].contains(&ids[k])) {

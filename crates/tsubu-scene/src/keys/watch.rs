@@ -15,6 +15,7 @@ pub(crate) const KINDS: &[&str] = &[
     "coordination",
     "fabric",
     "forces",
+    "contacts",
     "segregation",
     "wall-load",
     "stream",
@@ -53,6 +54,7 @@ pub(super) static WATCH: &[Key] = &[
     kind("coordination", COORDINATION, "Contacts per grain, with and without rattlers"),
     kind("fabric", FABRIC, "Fabric tensor of the contact normals, its deviator and principal direction"),
     kind("forces", FORCES, "Distribution of normal contact forces, and the share of contacts in force chains"),
+    kind("contacts", CONTACTS, "Contacts one by one: who touches whom, where, with what force and overlap"),
     kind(
         "segregation",
         SEGREGATION,
@@ -234,8 +236,20 @@ static SEGREGATION: &[Key] = &[
     WITHIN,
 ];
 
+static FACES: &[Word] = &[
+    Word { name: "left", about: "at the low end of x" },
+    Word { name: "right", about: "at the high end of x" },
+    Word { name: "front", about: "at the low end of y, only in space" },
+    Word { name: "back", about: "at the high end of y, only in space" },
+    Word { name: "floor", about: "at the low end of z" },
+    Word { name: "lid", about: "at the high end of z" },
+];
+
+static CONTACTS: &[Key] = &[WALLS.default("true"), WITHIN];
+
 static WALL_LOAD: &[Key] = &[
     Key::new("wall", Kind::Name(Family::Wall), "The wall"),
+    Key::new("face", Kind::OneOf(FACES), "Only this face of a box that does not turn; without torque").optional(),
     Key::new("area", Kind::Quantity(&AREA), "Area for the pressure; in the plane times the depth that is meant")
         .above(0.0)
         .optional(),
@@ -243,7 +257,10 @@ static WALL_LOAD: &[Key] = &[
         .derived("of a plane against its normal; else required with `area`"),
 ];
 
-static TRACK: &[Key] =
-    &[Key::new("ids", Kind::Wholes, "Numbers of the grains, from 0 in the order of the groups' names")
+static TRACK: &[Key] = &[
+    Key::new("ids", Kind::Wholes, "Numbers of the grains, from 0 in the order of the groups' names")
         .at_least(0.0)
-        .at_most(4e9)];
+        .at_most(4e9),
+    Key::new("group", Kind::Name(Family::Group), "The group that the numbers count in, from its first grain")
+        .optional(),
+];

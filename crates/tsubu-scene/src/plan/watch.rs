@@ -144,6 +144,13 @@ pub enum Measure {
         /// Only grains inside.
         region: Option<Region>,
     },
+    /// Contacts one by one.
+    Contacts {
+        /// Whether contacts with walls count.
+        walls: bool,
+        /// Only contacts inside.
+        region: Option<Region>,
+    },
     /// Mixing of two groups.
     Segregation {
         /// The two groups.
@@ -157,6 +164,9 @@ pub enum Measure {
     WallLoad {
         /// The wall.
         wall: String,
+        /// Only what touches this face of a box.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        face: Option<Face>,
         /// Area for the pressure [m^2].
         area: Option<f64>,
         /// Unit direction in which the pressure acts on the wall.
@@ -169,8 +179,11 @@ pub enum Measure {
     },
     /// Single grains.
     Track {
-        /// Their numbers.
+        /// Their numbers, among all or in the group.
         ids: Vec<u32>,
+        /// The group that they are counted in.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        group: Option<String>,
     },
 }
 
@@ -188,6 +201,7 @@ impl Measure {
             Self::Coordination { .. } => "coordination",
             Self::Fabric { .. } => "fabric",
             Self::Forces { .. } => "forces",
+            Self::Contacts { .. } => "contacts",
             Self::Segregation { .. } => "segregation",
             Self::WallLoad { .. } => "wall-load",
             Self::Stream { .. } => "stream",
@@ -206,12 +220,45 @@ impl Measure {
             Self::Coordination { region, .. }
             | Self::Fabric { region, .. }
             | Self::Forces { region, .. }
+            | Self::Contacts { region, .. }
             | Self::Segregation { region, .. } => region.as_ref(),
             Self::Discharge { .. }
             | Self::Hops { .. }
             | Self::WallLoad { .. }
             | Self::Stream { .. }
             | Self::Track { .. } => None,
+        }
+    }
+}
+
+/// A face of a box, seen from within.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Face {
+    /// At the low end of x.
+    Left,
+    /// At the high end of x.
+    Right,
+    /// At the low end of y.
+    Front,
+    /// At the high end of y.
+    Back,
+    /// At the low end of z.
+    Floor,
+    /// At the high end of z.
+    Lid,
+}
+
+impl Face {
+    /// Unit normal, towards the grains.
+    pub const fn normal(self) -> Vector {
+        match self {
+            Self::Left => [1.0, 0.0, 0.0],
+            Self::Right => [-1.0, 0.0, 0.0],
+            Self::Front => [0.0, 1.0, 0.0],
+            Self::Back => [0.0, -1.0, 0.0],
+            Self::Floor => [0.0, 0.0, 1.0],
+            Self::Lid => [0.0, 0.0, -1.0],
         }
     }
 }

@@ -11,7 +11,7 @@ const HUGE: (f64, f64) = (1000.0, 10.0);
 
 /// Judges every wall that is a mesh.
 pub(super) fn meshes(verdict: &mut Verdict, plan: &Plan) {
-    let grains = plan.particles.values().map(|group| group.largest_diameter()).reduce(f64::max);
+    let grains = plan.particles.values().map(tsubu_scene::plan::Particles::largest_diameter).reduce(f64::max);
     for (name, wall) in &plan.walls {
         let Shape::Mesh { triangles, scale, .. } = &wall.shape else { continue };
         let found = diagnose(triangles);

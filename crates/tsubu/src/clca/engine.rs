@@ -433,6 +433,12 @@ impl Engine for ClCaEngine {
         }
         (self.bed.step, self.bed.moves) = (clock[0] as u64, clock[1] as u64);
         self.bed.count_motion();
+        if let Rule::Passive(_, pushers, _) = &mut self.rule {
+            // What they cover is that of time 0, and would stay where a wall has not moved in the last step.
+            for pusher in pushers {
+                pusher.cells.clear();
+            }
+        }
         self.place_movers(self.bed.step);
         // The walls of the last step: those that vanish now do so in the next.
         self.paint(self.bed.step.saturating_sub(1) as f64 * self.dt);

@@ -61,6 +61,8 @@ pub(super) struct Hops {
     turns: Axes,
     /// By number of the grain.
     courses: Vec<Course>,
+    /// Grains that there will ever be.
+    grains: usize,
     means: Means,
     largest: [f64; 2],
     counted: usize,
@@ -81,6 +83,7 @@ impl Hops {
             most: most.unwrap_or(usize::MAX),
             turns: if plan.dimension == 3 { axes(plan) } else { &[1] },
             courses: Vec::new(),
+            grains: plan.particles.values().map(|group| group.count).sum(),
             means: Means::new(5),
             largest: [f64::NAN; 2],
             counted: 0,
@@ -240,6 +243,10 @@ impl Watch for Hops {
             return Err(wrong());
         }
         (self.counted, self.largest, self.means) = (*hops as usize, *largest, Means::from_numbers(means));
+        // A checkpoint that names grains which the scene has not would ask for any amount of memory.
+        if whole.as_chunks::<2>().0.iter().any(|[id, _]| !(0..self.grains as i64).contains(id)) {
+            return Err(wrong());
+        }
         self.courses.clear();
         for (&[id, phase], numbers) in whole.as_chunks::<2>().0.iter().zip(numbers.as_chunks::<NUMBERS>().0) {
             self.courses.resize_with(self.courses.len().max(id as usize + 1), Course::default);

@@ -1,4 +1,4 @@
-//! Means and spreads over time of a fixed number of values.
+//! Means and spreads over time of a fixed number of values, and between which ends they were.
 
 /// Sums and counts; what is not a number is left out.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -50,5 +50,21 @@ impl Means {
         let (sum, rest) = numbers.split_at(numbers.len() / 3);
         let (count, square) = rest.split_at(sum.len());
         Self { sum: sum.to_vec(), count: count.to_vec(), square: square.to_vec() }
+    }
+}
+
+/// The least and the largest of each of some values; what is not a number is left out.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Extremes(pub Vec<[f64; 2]>);
+
+impl Extremes {
+    pub fn new(values: usize) -> Self {
+        Self(vec![[f64::NAN; 2]; values])
+    }
+
+    pub fn take(&mut self, values: &[f64]) {
+        for ([least, largest], value) in self.0.iter_mut().zip(values) {
+            (*least, *largest) = (least.min(*value), largest.max(*value));
+        }
     }
 }

@@ -6,6 +6,7 @@
 
 mod bedload;
 mod coarse_grain;
+mod contacts;
 mod coordination;
 mod course;
 mod discharge;
@@ -118,24 +119,31 @@ pub fn open(measure: &Measure, plan: &Plan) -> Box<dyn Watch> {
             walls: *walls,
             region: Inside::new(region.as_ref(), plan),
         }),
+        Measure::Contacts { walls, region } => {
+            Box::new(contacts::List { walls: *walls, region: Inside::new(region.as_ref(), plan), axes: axes(plan) })
+        }
         Measure::Segregation { groups, cell, region } => Box::new(segregation::Segregation {
             groups: [0, 1].map(|k| group_number(plan, &groups[k])),
             cell: *cell,
             region: Inside::new(region.as_ref(), plan),
             axes: axes(plan),
         }),
-        Measure::WallLoad { wall, area, direction } => Box::new(wall_load::Load {
+        Measure::WallLoad { wall, face, area, direction } => Box::new(wall_load::Load {
+            face: face.map(|face| DVec3::from_array(face.normal())),
             wall: plan.walls.keys().position(|name| name == wall).unwrap_or(0),
             pressed: area.zip(*direction).map(|(area, along)| (area, DVec3::from_array(along))),
             axes: axes(plan),
         }),
         Measure::Stream { group } => Box::new(stream::Watched::new(group.as_deref(), plan)),
-        Measure::Track { ids } => Box::new(track::Track { ids: ids.clone(), axes: axes(plan) }),
+        Measure::Track { ids, group } => {
+            let first = group.as_ref().map_or(0, |name| plan.first_of(name)) as u32;
+            Box::new(track::Track { ids: ids.iter().map(|id| first.saturating_add(*id)).collect(), axes: axes(plan) })
+        }
     }
 }
 
 /// Every kind of watch with its text, for the book.
-pub const ABOUT: [(&str, &str); 14] = [
+pub const ABOUT: [(&str, &str); 15] = [
     ("profile", profile::ABOUT),
     ("coarse-grain", coarse_grain::ABOUT),
     ("slope", slope::ABOUT),
@@ -146,6 +154,7 @@ pub const ABOUT: [(&str, &str); 14] = [
     ("coordination", coordination::ABOUT),
     ("fabric", fabric::ABOUT),
     ("forces", forces::ABOUT),
+    ("contacts", contacts::ABOUT),
     ("segregation", segregation::ABOUT),
     ("wall-load", wall_load::ABOUT),
     ("stream", stream::ABOUT),

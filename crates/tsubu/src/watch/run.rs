@@ -1,6 +1,6 @@
 //! The watches of a run: when they look, where their numbers go, what of them a checkpoint holds.
 
-use super::means::Means;
+use super::means::{Extremes, Means};
 use super::{Axes, Sheet, Trigger, Watch, axes, open, wall_load};
 use crate::engine::Engine;
 use crate::view::{View, Wants};
@@ -45,6 +45,8 @@ struct Watched {
     mark: Option<Mark>,
     /// Means of the scalars, and of the cells of the table.
     means: [Means; 2],
+    /// The least and the largest of the scalars.
+    extremes: Extremes,
     /// What the last look gave.
     last: Vec<f64>,
     /// How often it has looked.
@@ -79,6 +81,7 @@ impl Watched {
         let sample = self.watch.take(view);
         self.looks += 1.0;
         self.means[0].take(sample.scalars.iter().copied());
+        self.extremes.take(&sample.scalars);
         self.last = sample.scalars;
         let Some(sheet) = &self.sheet else { return Ok(()) };
         if sheet.steady {
@@ -114,6 +117,7 @@ impl Watches {
                 file: None,
                 mark: None,
                 means,
+                extremes: Extremes::new(last.len()),
                 last,
                 looks: 0.0,
             }
@@ -192,6 +196,11 @@ impl Watches {
         row
     }
 
+    /// Hands all rows to the system.
+    pub fn flush(&mut self) -> Result<(), FileError> {
+        self.list.iter_mut().filter_map(|watched| watched.file.as_mut()).try_for_each(History::flush)
+    }
+
     /// Hands all rows to the disk, before a checkpoint is written.
     pub fn sync(&mut self) -> Result<(), FileError> {
         for watched in &mut self.list {
@@ -207,12 +216,14 @@ impl Watches {
                 summary.warnings.push(format!("the watch `{}` has not looked once: it begins later", w.name));
             }
             summary.warnings.extend(w.watch.remark().map(|remark| format!("the watch `{}`: {remark}", w.name)));
-            let means = w.means[0].get().zip(w.means[0].spreads()).zip(&w.last);
-            for (what, ((mean, spread), last)) in w.watch.scalars().iter().zip(means) {
+            let means = w.means[0].get().zip(w.means[0].spreads()).zip(&w.extremes.0).zip(&w.last);
+            for (what, (((mean, spread), [least, largest]), last)) in w.watch.scalars().iter().zip(means) {
                 let (what, unit) = split_unit(what);
-                summary.give(w.column(what), unit.unwrap_or("-"), mean);
-                summary.give(w.column(&format!("{what} spread")), unit.unwrap_or("-"), spread);
-                summary.give(w.column(&format!("{what} final")), unit.unwrap_or("-"), *last);
+                let unit = unit.unwrap_or("-");
+                summary.give(w.column(what), unit, mean);
+                for (which, value) in [("spread", spread), ("least", *least), ("largest", *largest), ("final", *last)] {
+                    summary.give(w.column(&format!("{what} {which}")), unit, value);
+                }
             }
             // Lists of fields over two axes would fill the summary; they are in the table.
             let Some(sheet) = w.sheet.as_ref().filter(|s| s.steady && s.coordinates.len() == 1) else { continue };
@@ -231,6 +242,7 @@ impl Watches {
         for w in &self.list {
             let name = format!("watch.{}", w.name);
             state.put_real(&format!("{name}.last"), [&[w.looks], w.last.as_slice()].concat());
+            state.put_real(&format!("{name}.extremes"), w.extremes.0.concat());
             for (means, what) in w.means.iter().zip(["scalars", "cells"]) {
                 state.put_real(&format!("{name}.{what}"), means.numbers());
             }
@@ -250,6 +262,11 @@ impl Watches {
                 _ => return Err(MissingSection { name, kind: "real" }),
             };
             (w.looks, w.last) = (*looks, last.to_vec());
+            let extremes = state.real(&format!("{name}.extremes"))?.as_chunks::<2>().0;
+            if extremes.len() != w.extremes.0.len() {
+                return Err(MissingSection { name, kind: "real" });
+            }
+            w.extremes = Extremes(extremes.to_vec());
             for (means, what) in w.means.iter_mut().zip(["scalars", "cells"]) {
                 *means = Means::from_numbers(state.real(&format!("{name}.{what}"))?);
             }

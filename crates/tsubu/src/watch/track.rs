@@ -6,7 +6,8 @@ use std::collections::HashMap;
 
 pub(super) const ABOUT: &str = "\
 Where single grains are: position [m], velocity [m/s], spin [rad/s], a row of the table for each look and grain. Grains
-are numbered from 0 in the order of the names of their groups, then as they are listed; those of streams come last.
+are numbered from 0 in the order of the names of their groups, then as they are listed; those of streams come last. With
+`group` they are counted from the first one of that group; the table has the numbers among all.
 Positions go on across periodic ends. A grain that is not there (yet, or any more) has no row. If only one grain is asked
 for, the same numbers go into the history.";
 

@@ -24,6 +24,12 @@ impl Trigger {
 
     /// The first look at step `now` or later; `u64::MAX` if there is none any more.
     pub fn at_or_after(&self, now: u64) -> u64 {
+        if self.every <= self.dt {
+            // A look falls to every step. They are not counted: there may be more of them than numbers tell apart.
+            let step = now.max((self.from / self.dt).round() as u64);
+            let earliest = self.from.max((step as f64 - 0.5) * self.dt);
+            return if earliest > self.until { u64::MAX } else { step };
+        }
         let before = ((now as f64 * self.dt - self.from) / self.every).floor().max(0.0);
         // The step nearest to the last look that is not after `now` may lie before it; that of the next one does not.
         for k in [before, before + 1.0] {

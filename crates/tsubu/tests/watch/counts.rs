@@ -62,7 +62,9 @@ fn an_outlet_that_nothing_passes_any_more_says_so() {
     };
     let remark = |looks: &[View]| {
         let mut gate = fresh();
-        looks.iter().for_each(|look| drop(gate.take(look)));
+        for look in looks {
+            drop(gate.take(look));
+        }
         let mut state = State::default();
         gate.save("w", &mut state);
         let mut again = fresh();

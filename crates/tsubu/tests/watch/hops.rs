@@ -208,7 +208,8 @@ fn restitution_is_along_the_normal() {
 /// Cut in flight, in contact, and after a hop: what follows is the same, and a watch that forgot says something else.
 #[test]
 fn hops_go_on_after_a_checkpoint() {
-    let plan = plan(2, "[walls.floor]\nmaterial = \"glass\"\nshape.plane = {}", "hops = {}");
+    let ball = "[particles.a]\nmaterial = \"glass\"\ndiameter = 1\nstart.at.position = [[0, 5]]";
+    let plan = plan(2, &format!("[walls.floor]\nmaterial = \"glass\"\nshape.plane = {{}}\n{ball}"), "hops = {}");
     let fresh = || open(&plan.watch["w"].measure, &plan);
     let looks: Vec<(Ball, bool, f64)> = [(0.3, 1.0), (0.2, 0.7)]
         .iter()
@@ -237,6 +238,13 @@ fn hops_go_on_after_a_checkpoint() {
             differs |= sample != take(&mut *forgetful, k);
         }
         assert!(second.load("watch.other", &state).is_err());
+        // A checkpoint that names a grain which the scene has not once asked for 584 GB.
+        let mut forged = state.integer("watch.w.courses").unwrap().to_vec();
+        if let Some(id) = forged.get_mut(1) {
+            *id = 4_000_000_000;
+            state.put_integer("watch.w.courses", forged);
+            assert!(second.load("watch.w", &state).is_err());
+        }
         // The control; at the second look there is nothing to forget yet.
         assert!(differs || cut == 1, "cut at {cut}");
     }

@@ -8,6 +8,7 @@ mod hops;
 mod hydrostatic;
 mod kernel;
 mod profile;
+mod single;
 mod slope;
 mod transport;
 
