@@ -217,7 +217,7 @@ fn collect(folder: &Path, inside: &str, files: &mut BTreeMap<String, Vec<u8>>) -
         }
         let bytes = fs::read(&path)?;
         let bytes = match name.as_str() {
-            "summary.json" => lasting(&bytes),
+            "summary.json" | "sweep.json" => lasting(&bytes),
             _ if path.extension().is_some_and(|ending| ending == "csv") => without_the_clock(&bytes),
             _ => bytes,
         };
@@ -226,7 +226,7 @@ fn collect(folder: &Path, inside: &str, files: &mut BTreeMap<String, Vec<u8>>) -
     Ok(())
 }
 
-/// A summary without what the machine has to do with.
+/// A summary, of a sweep too, without what the machine has to do with.
 fn lasting(bytes: &[u8]) -> Vec<u8> {
     let Ok(Value::Object(mut summary)) = serde_json::from_slice(bytes) else { return bytes.to_vec() };
     summary.retain(|name, _| !["wall_seconds", "threads", "particle_steps_per_second"].contains(&name.as_str()));
