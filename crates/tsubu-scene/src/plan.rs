@@ -198,6 +198,11 @@ impl Plan {
         })
     }
 
+    /// Number of all grains, those that come later included: grains are numbered below it.
+    pub fn grains(&self) -> usize {
+        self.particles.values().map(|group| group.count).sum()
+    }
+
     /// Number of the first grain of a group: groups follow each other in the order of their names, those of streams after the
     /// others.
     pub fn first_of(&self, group: &str) -> usize {

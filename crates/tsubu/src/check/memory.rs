@@ -41,7 +41,7 @@ pub(crate) fn of(plan: &Plan, places: usize) -> f64 {
 pub(crate) fn refuse_more_than_there_is(plan: &Plan, places: usize) -> Result<(), Refusal> {
     let needed = of(plan, places);
     let Some((free, whose)) = free().filter(|(free, _)| needed > *free) else { return Ok(()) };
-    let grains: usize = plan.particles.values().map(|group| group.count).sum();
+    let grains = plan.grains();
     let what = if places > 0 { format!("{grains} grains on {places} places") } else { format!("{grains} grains") };
     let text = format!(
         "{what} take about {} of memory, more than the {} that {whose}; take fewer, or another machine",

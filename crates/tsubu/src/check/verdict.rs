@@ -174,7 +174,7 @@ fn times(
 
 /// Grains of the cases of a response over those of the scene, in the mean.
 fn grains_of_cases(plan: &Plan) -> f64 {
-    let all: usize = plan.particles.values().map(|group| group.count).sum();
+    let all = plan.grains();
     let vary = plan.response.iter().flat_map(|response| &response.vary);
     let more = plan.particles.iter().map(|(name, group)| {
         let values = vary.clone().find(|(key, _)| **key == format!("particles.{name}.count")).map(|(_, values)| values);

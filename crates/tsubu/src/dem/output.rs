@@ -146,6 +146,10 @@ impl DemEngine {
             return Err(missing("dem.step"));
         };
         self.grains = Grains::load("grains", grains as usize, state)?;
+        // Whoever keeps something by the numbers of grains would make room for any number.
+        if self.grains.id.iter().any(|id| *id >= self.sources.numbers) {
+            return Err(missing("grains.id"));
+        }
         // Added up anew, in the order that grains have now, it would be another number in its last digits.
         let &[mass] = state.real("dem.moved-mass")? else { return Err(missing("dem.moved-mass")) };
         self.total_mass = mass;

@@ -58,6 +58,8 @@ pub(super) struct Sources {
     streams: Vec<Stream>,
     removal: Vec<Drain>,
     driven: Vec<Driven>,
+    /// Grains are numbered below this, those that are yet to come included.
+    pub numbers: u32,
 }
 
 impl Sources {
@@ -90,7 +92,7 @@ impl Sources {
         let drain =
             |(name, region): (&String, &Removal)| Drain { name: name.clone(), region: region.clone(), taken: 0 };
         let removal = plan.removal.iter().map(drain).collect();
-        Self { plan, streams, removal, driven }
+        Self { plan, streams, removal, driven, numbers: id }
     }
 
     /// How many grains of every stream have come, and how many every removal region has taken, for a checkpoint.

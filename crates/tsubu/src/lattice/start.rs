@@ -55,7 +55,7 @@ type Taken = BTreeMap<(usize, usize), usize>;
 
 pub(super) fn place(plan: &Plan, geometry: &Geometry, scale: &Scale, remarks: &mut Remarks) -> Vec<Ball> {
     let cells = geometry.columns * geometry.rows;
-    let count: usize = plan.particles.values().map(|group| group.count).sum();
+    let count = plan.grains();
     if count > cells {
         remarks.refuse(
             "particles",

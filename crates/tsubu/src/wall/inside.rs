@@ -55,10 +55,9 @@ impl Wall {
             }
             Surface::Frustum(_) | Surface::Shell(_) => {
                 // Nothing is nearer than the nearest point, so this far one can go.
-                let (mut at, mut nearest) = (point, f64::INFINITY);
+                let mut at = point;
                 for _ in 0..STEPS {
                     let distance = self.nearest(0, at).distance;
-                    nearest = nearest.min(distance);
                     if distance < 1e-3 * (at - point).length() || distance == 0.0 {
                         return true;
                     }

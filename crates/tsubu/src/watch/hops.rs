@@ -83,7 +83,7 @@ impl Hops {
             most: most.unwrap_or(usize::MAX),
             turns: if plan.dimension == 3 { axes(plan) } else { &[1] },
             courses: Vec::new(),
-            grains: plan.particles.values().map(|group| group.count).sum(),
+            grains: plan.grains(),
             means: Means::new(5),
             largest: [f64::NAN; 2],
             counted: 0,
