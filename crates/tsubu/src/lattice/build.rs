@@ -1,6 +1,6 @@
 //! From a plan to the automaton: what it honours, what it approximates and by how much, and what it refuses.
 
-use super::damper::{BoxPlace, Damper, Rules};
+use super::damper::{Beyond, BoxPlace, Damper, Rules};
 use super::fixed::{Restitution, Scale};
 use super::grid::COLUMN_SPACING;
 use super::remarks::{Remarks, World};
@@ -116,8 +116,29 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
     if let Some(refusal) = remarks.refusal() {
         return Err(refusal);
     }
+    let damper = Damper::new(scale, rules, place, &balls);
+    match damper.within_reach() {
+        Ok(()) => {}
+        Err(Beyond::Cell) => remarks.refuse(
+            "particles",
+            format!(
+                "a ball begins faster than {:.4} m/s, a cell a step, which is as fast as balls move; shorten `lattice.time-step`, or begin slower",
+                scale.cell as f64 * scale.speed
+            ),
+        ),
+        Err(Beyond::Books) => remarks.refuse(
+            "lattice.time-step",
+            format!(
+                "{} s is so short that whole numbers cannot hold the energy of the balls in units of (g dt / 1024)^2; lengthen it",
+                lattice.time_step
+            ),
+        ),
+    }
+    if let Some(refusal) = remarks.refusal() {
+        return Err(refusal);
+    }
     Ok(Built {
-        damper: Damper::new(scale, rules, place, &balls),
+        damper,
         notes: remarks.notes,
         wall: casing.name.to_owned(),
         dt: lattice.time_step,

@@ -294,6 +294,8 @@ impl Engine for LatticeEngine {
         (d.place.level, d.rest.speed, d.rest.risen) = (numbers[0], numbers[1], numbers[2]);
         d.step = numbers[3] as u64;
         d.rebuild();
-        Ok(())
+        let section = |name: &str| MissingSection { name: name.to_owned(), kind: "integer" };
+        d.within_reach().map_err(|_| section("lattice.speed"))?;
+        if d.fault().is_some() { Err(section("lattice.cell")) } else { Ok(()) }
     }
 }

@@ -4,6 +4,7 @@ use super::plans::{at, casing, coupled, plan};
 use tsubu::engine::Engine;
 use tsubu::lattice::engine::LatticeEngine;
 use tsubu::partner::Hosts;
+use tsubu_frame::State;
 use tsubu_scene::plan::*;
 
 fn message(plan: &Plan) -> String {
@@ -47,6 +48,37 @@ fn bad_plans_are_refused_with_all_reasons() {
     bad.lattice.time_step = 0.1;
     assert!(message(&bad).contains("lattice.time-step: "), "{}", message(&bad));
     assert_eq!(message(&good()), "it was accepted");
+}
+
+/// A ball that began at 1 km/s, or a step of 1 ns, gave energies beyond whole numbers: a panic where overflow is looked for,
+/// and wrong books where it is not.
+#[test]
+fn what_whole_numbers_cannot_hold_is_refused() {
+    let fast = at(plan(1, LatticeMode::Extended), vec![[0.0, 0.0, 0.02]], vec![[0.0, 0.0, 1000.0]]);
+    assert!(message(&fast).contains("particles: a ball begins faster than 60"), "{}", message(&fast));
+    let mut fine = plan(50, LatticeMode::Extended);
+    fine.lattice.time_step = 1e-9;
+    assert!(message(&fine).contains("lattice.time-step: "), "{}", message(&fine));
+}
+
+/// Checkpoints with right checksums and made-up numbers: speeds beyond whole numbers, two balls in a cell, a ball that rests
+/// on nothing. They were gone on from.
+#[test]
+fn states_that_no_run_comes_to_are_refused() {
+    let mut run = super::plans::Run::new(&plan(20, LatticeMode::Extended));
+    let mut whole = State::default();
+    run.engine.save(&mut whole);
+    run.engine.load(&whole).expect("its own state");
+    for (name, value) in
+        [("lattice.speed", i64::MAX), ("lattice.stored", i64::MIN), ("lattice.cell", 0), ("lattice.resting", 1)]
+    {
+        let mut forged = whole.clone();
+        let mut numbers = whole.integer(name).expect("a section").to_vec();
+        let last = numbers.len() - 1;
+        numbers[last] = value;
+        forged.put_integer(name, numbers);
+        assert!(run.engine.load(&forged).is_err(), "{name}");
+    }
 }
 
 /// What is only approximated is noted with its size.

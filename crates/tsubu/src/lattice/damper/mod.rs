@@ -54,6 +54,18 @@ pub struct Rules {
     pub seed: u64,
 }
 
+/// Half of what whole numbers hold: what a run adds to the energy of its beginning has as much room again.
+const MOST: f64 = (1_u64 << 62) as f64;
+
+/// What is beyond the automaton.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Beyond {
+    /// A ball moves more than a cell a step.
+    Cell,
+    /// Whole numbers cannot hold its books.
+    Books,
+}
+
 /// What happened in one step, in whole numbers.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tally {
@@ -273,12 +285,21 @@ impl Damper {
         Ok(())
     }
 
-    /// The first ball that is not alone in a cell of the box.
+    /// The first ball that is not alone in a cell of the box, or rests on nothing.
     pub fn fault(&self) -> Option<String> {
-        let astray = |i: &usize| self.grid.at(self.cell[*i]) != *i as i32;
+        let astray = |i: &usize| self.grid.at(self.cell[*i]) != *i as i32 || !self.has_seat(*i);
         (0..self.balls())
             .find(astray)
             .map(|i| format!("the cell of ball {i} belongs to {}", self.grid.at(self.cell[i])))
+    }
+
+    /// Whether a ball is inside the box, and in the stack of its column if it rests.
+    fn has_seat(&self, i: usize) -> bool {
+        let (column, row) = self.grid.place(self.cell[i]);
+        if !(1..=self.place.columns).contains(&column) || row < self.place.floor() {
+            return false;
+        }
+        row - self.place.floor() < if self.resting[i] { self.rest.height[column] } else { self.place.rows }
     }
 
     /// Velocity of a ball [speed units].
@@ -386,6 +407,22 @@ impl Damper {
                 self.stale.insert(other as usize);
             }
         }
+    }
+
+    /// Whether every ball moves less than a cell a step, and whether whole numbers can hold the books: squares of speeds, and
+    /// heights up to the top of the grid.
+    pub(crate) fn within_reach(&self) -> Result<(), Beyond> {
+        let moving = self.speed.iter().chain([&self.rest.speed]);
+        if moving.clone().any(|speed| speed.unsigned_abs() > self.scale.cell.unsigned_abs()) {
+            return Err(Beyond::Cell);
+        }
+        let (gravity, cell) = (self.scale.gravity as f64, self.scale.cell as f64);
+        let balls = self.balls() as f64;
+        let kinetic: f64 = self.speed.iter().map(|speed| (*speed as f64).powi(2)).sum();
+        let shared = balls * (self.rest.speed as f64).powi(2);
+        let offsets: f64 = self.stored.iter().map(|stored| (*stored as f64).abs()).sum();
+        let height = balls * (self.grid.rows() as f64 * cell + (self.rest.risen as f64).abs()) + offsets;
+        if kinetic + shared + 2.0 * gravity * height < MOST { Ok(()) } else { Err(Beyond::Books) }
     }
 
     /// Recomputes everything that follows from cells, directions, speeds, stored distances, rest flags and the box.
