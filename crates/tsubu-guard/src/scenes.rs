@@ -261,19 +261,13 @@ fn change_a_number(draw: &mut Draw, table: &Table, change: Change) -> Option<Tab
     let mut numbers: Vec<(Spot, &'static Dimension)> = Vec::new();
     for spot in spots(&table) {
         let dimension = match spot.key.map(|key| key.kind) {
-            Some(
-                Kind::Quantity(dimension)
-                | Kind::Vector(dimension)
-                | Kind::Vectors(dimension)
-                | Kind::Quantities(dimension)
-                | Kind::Ends(dimension)
-                | Kind::Turning(dimension)
-                | Kind::Matrix(dimension),
-            ) => dimension,
-            Some(Kind::Gravity) => &units::ACCELERATION,
-            Some(Kind::Spins) => &units::SPIN,
             Some(Kind::Whole) => &units::NUMBER,
-            _ => continue,
+            // It may be told in percent.
+            None | Some(Kind::Slope) => continue,
+            Some(kind) => match kind.dimension() {
+                Some(dimension) => dimension,
+                None => continue,
+            },
         };
         numbers.push((spot, dimension));
     }

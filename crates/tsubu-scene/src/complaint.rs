@@ -2,7 +2,7 @@
 //!
 //! They are collected, not thrown: a user who fixes a file wants to see all of it at once.
 
-mod brief;
+pub(crate) mod brief;
 mod excerpt;
 
 use annotate_snippets::renderer::DecorStyle;
@@ -58,6 +58,11 @@ impl Complaint {
     pub fn also(mut self, place: &Place, label: impl Into<String>) -> Self {
         self.also.push((place.clone(), label.into()));
         self
+    }
+
+    /// Points nowhere: what is wrong stands in no text.
+    pub fn nowhere(self) -> Self {
+        Self { place: None, also: Vec::new(), ..self }
     }
 
     pub fn hint(mut self, hint: impl Into<String>) -> Self {

@@ -1,6 +1,6 @@
 //! Going on with a run: what of a scene may change then, and what has changed.
 
-use crate::complaint::Complaints;
+use crate::complaint::{Complaints, brief};
 use crate::scene::Scene;
 use crate::write::text;
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,9 +19,9 @@ const INTERVALS: [&str; 2] = ["history-interval", "checkpoint-interval"];
 pub struct Difference {
     /// Where it is, for example `materials.sand.friction`.
     pub key: String,
-    /// Its value then; nothing where there was none.
+    /// Its value then, without the middle of what is long; nothing where there was none.
     pub before: Option<String>,
-    /// Its value now; nothing where there is none.
+    /// Its value now, shortened likewise; nothing where there is none.
     pub now: Option<String>,
 }
 
@@ -51,7 +51,10 @@ impl Scene {
         let keys: BTreeSet<&String> = before.keys().chain(now.keys()).collect();
         let differs = keys.into_iter().filter(|key| before.get(*key) != now.get(*key));
         differs
-            .map(|key| Difference { key: key.clone(), before: before.get(key).cloned(), now: now.get(key).cloned() })
+            .map(|key| {
+                let [before, now] = [&before, &now].map(|values| values.get(key).map(|value| brief::value(value)));
+                Difference { key: key.clone(), before, now }
+            })
             .collect()
     }
 }

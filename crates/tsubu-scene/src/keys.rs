@@ -20,7 +20,7 @@ pub(crate) use grains::PARTICLES;
 pub(crate) use watch::KINDS as WATCHES;
 pub use world::SCENE;
 
-use crate::units::Dimension;
+use crate::units::{self, Dimension};
 
 /// One key of a table.
 #[derive(Clone, Copy, Debug)]
@@ -100,6 +100,25 @@ pub enum Kind {
     NamedChoice(&'static [Variant], &'static str),
     /// Scene keys (quoted) with the lists of values they take.
     Vary,
+}
+
+impl Kind {
+    /// What its numbers measure; nothing for a cohesion, which may be one of two.
+    pub const fn dimension(self) -> Option<&'static Dimension> {
+        Some(match self {
+            Self::Quantity(dimension)
+            | Self::Vector(dimension)
+            | Self::Vectors(dimension)
+            | Self::Quantities(dimension)
+            | Self::Ends(dimension)
+            | Self::Turning(dimension)
+            | Self::Matrix(dimension) => dimension,
+            Self::Slope => &units::ANGLE,
+            Self::Gravity => &units::ACCELERATION,
+            Self::Spins => &units::SPIN,
+            _ => return None,
+        })
+    }
 }
 
 /// A word that a key can take.

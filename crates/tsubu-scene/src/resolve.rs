@@ -4,12 +4,14 @@
 //! be checked; the result is complete only when there are no complaints.
 
 mod derive;
+mod limits;
 mod several;
 mod table;
 mod value;
 mod vector;
 
 pub(crate) use derive::derive;
+pub(crate) use limits::limits;
 
 use crate::complaint::{Complaint, Place};
 use crate::keys::{self, Family, Key, Kind, Need, Variant};
@@ -19,18 +21,28 @@ use crate::suggest;
 /// A file of results is called after a name, and file systems end at 255 bytes.
 const LONGEST_NAME: usize = 120;
 
+/// What of a tree is complained about.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Read {
+    /// Everything.
+    All,
+    /// Not what is missing: after syntax errors half of the file may be, and saying so for every key would bury the cause.
+    Broken,
+    /// Values alone: a resolved tree has copies that no key says, and lacks what it does without.
+    Numbers,
+}
+
 /// Walks the typed tree along the registry.
 pub(crate) struct Resolver<'a> {
     root: &'a Node,
     /// `None`: the dimension itself is wrong, so vectors of either length are let through.
     dimension: Option<u8>,
-    /// After syntax errors half of the file may be missing; saying so for every key would bury the cause.
-    quiet_about_missing: bool,
+    read: Read,
     complaints: Vec<Complaint>,
 }
 
 /// The resolved tree and what was wrong on the way.
-pub(crate) fn resolve(root: &Node, quiet_about_missing: bool) -> (toml::Table, Vec<Complaint>) {
+pub(crate) fn resolve(root: &Node, read: Read) -> (toml::Table, Vec<Complaint>) {
     let empty = Table::default();
     let top = root.table().unwrap_or(&empty);
     let dimension = match top.get("dimension").map(|node| &node.value) {
@@ -38,7 +50,7 @@ pub(crate) fn resolve(root: &Node, quiet_about_missing: bool) -> (toml::Table, V
         Some(Value::Whole(n @ (2 | 3))) => u8::try_from(*n).ok(),
         _ => None,
     };
-    let mut resolver = Resolver { root, dimension, quiet_about_missing, complaints: Vec::new() };
+    let mut resolver = Resolver { root, dimension, read, complaints: Vec::new() };
     let resolved = resolver.table(keys::SCENE, top, &root.place, "");
     (resolved, resolver.complaints)
 }
@@ -51,7 +63,7 @@ impl Resolver<'_> {
     fn table(&mut self, keys: &'static [Key], typed: &Table, place: &Place, path: &str) -> toml::Table {
         let mut misspelt = Vec::new();
         for entry in &typed.entries {
-            if keys::find(keys, &entry.key).is_none() {
+            if self.read != Read::Numbers && keys::find(keys, &entry.key).is_none() {
                 misspelt.extend(suggest::nearest(&entry.key, keys.iter().map(|key| key.name)));
                 self.complain(unknown_key(&entry.key, &entry.place, keys, path));
             }
@@ -88,7 +100,7 @@ impl Resolver<'_> {
                 resolved.insert(key.name.to_string(), value);
             }
         }
-        if !missing.is_empty() && !self.quiet_about_missing {
+        if !missing.is_empty() && self.read == Read::All {
             self.complain(missing_keys(&missing, place, path));
         }
         resolved
@@ -329,7 +341,7 @@ mod tests {
             for key in keys {
                 let Need::Default(text) = key.need else { continue };
                 let mut resolver =
-                    Resolver { root: &root, dimension: Some(2), quiet_about_missing: false, complaints: Vec::new() };
+                    Resolver { root: &root, dimension: Some(2), read: Read::All, complaints: Vec::new() };
                 assert!(resolver.default(key, text, path).is_some(), "{path}.{}: {text}", key.name);
                 assert!(resolver.complaints.is_empty(), "{path}.{}: {:?}", key.name, resolver.complaints);
             }

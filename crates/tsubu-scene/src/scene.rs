@@ -7,7 +7,8 @@ use crate::complaint::{Complaint, Complaints, Source};
 use crate::files::{self, Files};
 use crate::node::{self, Node};
 use crate::plan::Plan;
-use crate::resolve;
+use crate::resolve::{self, Read};
+use crate::study;
 use crate::write;
 use std::path::Path;
 
@@ -115,9 +116,9 @@ impl Scene {
     }
 
     /// The scene in SI numbers with every default written out; read again beside its [`Self::companions`] it gives the
-    /// same plan, bit by bit.
+    /// same plan, bit by bit. What follows from what a study varies is left to follow it.
     pub fn resolved_toml(&self) -> String {
-        write::to_toml(&self.plan)
+        write::to_toml(&self.plan, |table| study::leave_open(table, &self.plan, &Work::begin(&self.typed).root))
     }
 
     /// Whether the text or a change gives a value to a key.
@@ -148,7 +149,8 @@ impl Work {
 
     fn plan(&mut self, files: &mut Files, try_varied: bool, typed: &Typed) -> Option<Plan> {
         let broken = !self.complaints.is_empty();
-        let (mut resolved, mut complaints) = resolve::resolve(&self.root, broken);
+        let (mut resolved, mut complaints) =
+            resolve::resolve(&self.root, if broken { Read::Broken } else { Read::All });
         complaints.retain(|complaint| !self.follows_from_syntax(complaint));
         self.complaints.extend(complaints);
         // What follows looks for what is missing, and would complain about the consequences of broken syntax.
@@ -157,6 +159,10 @@ impl Work {
         }
         self.complaints.extend(resolve::derive(&mut resolved, &self.root, files, &mut self.sources));
         self.complaints.extend(check(&resolved, &self.root, files));
+        // After all others: they say more of what is wrong.
+        if self.complaints.is_empty() {
+            self.complaints.extend(resolve::limits(&resolved, &self.root));
+        }
         if !self.complaints.is_empty() {
             if try_varied {
                 self.check_varied_paths();

@@ -6,18 +6,18 @@
 
 use crate::keys::{self, Key, Kind, Need, Variant};
 use crate::plan::Plan;
-use crate::units::Dimension;
 use std::fmt::Write as _;
 use toml::Value;
 
 /// Longer lists are broken into lines of about this many characters.
 const LINE: usize = 100;
 
-/// The plan as a scene: SI numbers and every default. Reading it gives the same plan, bit by bit.
-pub fn to_toml(plan: &Plan) -> String {
+/// The plan as a scene: SI numbers and every default, without what is left open. Reading it gives the same plan, bit by bit.
+pub(crate) fn to_toml(plan: &Plan, leave_open: impl FnOnce(&mut toml::Table)) -> String {
     let mut out = String::from("# Every value of the run, defaults included; numbers are in SI units.\n");
     // A plan is plain data with string keys; there is nothing in it that TOML cannot hold.
-    let Ok(Value::Table(table)) = Value::try_from(plan) else { return out };
+    let Ok(Value::Table(mut table)) = Value::try_from(plan) else { return out };
+    leave_open(&mut table);
     keys_of(&mut out, keys::SCENE, &table, "");
     out
 }
@@ -39,7 +39,7 @@ fn keys_of(out: &mut String, keys: &'static [Key], table: &toml::Table, path: &s
             (Some(_), Kind::Table(_) | Kind::Named(..) | Kind::NamedChoice(..) | Kind::Many(_) | Kind::Vary) => {}
             (Some(value), kind) => {
                 let _ = write!(out, "{} = {}", key.name, text(value, true));
-                match unit(kind) {
+                match kind.dimension().map(|dimension| dimension.si) {
                     Some(unit) if !unit.is_empty() => {
                         let _ = writeln!(out, " # {unit}");
                     }
@@ -106,23 +106,6 @@ fn chosen(out: &mut String, variants: &'static [Variant], choice: &toml::Table, 
 fn empty_choice(value: &Value) -> Option<&str> {
     let (name, inner) = value.as_table()?.iter().next()?;
     inner.as_table()?.is_empty().then_some(name)
-}
-
-const fn unit(kind: Kind) -> Option<&'static str> {
-    let dimension: &Dimension = match kind {
-        Kind::Quantity(dimension)
-        | Kind::Vector(dimension)
-        | Kind::Vectors(dimension)
-        | Kind::Quantities(dimension)
-        | Kind::Ends(dimension)
-        | Kind::Turning(dimension)
-        | Kind::Matrix(dimension) => dimension,
-        Kind::Slope => &crate::units::ANGLE,
-        Kind::Gravity => &crate::units::ACCELERATION,
-        Kind::Spins => &crate::units::SPIN,
-        _ => return None,
-    };
-    Some(dimension.si)
 }
 
 /// A value as it stands in a scene; long lists may be broken into lines.

@@ -141,3 +141,28 @@ fn outputs_have_an_end() {
     // A change of the duration alone keeps what follows from it.
     assert!(read(GOOD, &["duration=1e10"]).is_ok());
 }
+
+/// What follows from other values had no limits: a run of 1e-13 s was accepted, its rows follow each other in 1e-16 s, and the
+/// resolved scene in the run folder was refused. The same for the mass of a tiny grain.
+#[test]
+fn what_follows_is_held_to_the_limits_of_its_key() {
+    let light = edited("mass = \"0.2 g\"\n", "").replace("\"6 mm\"", "1e-11");
+    let light = light.replace("[materials.acrylic]", "[materials.acrylic]\ndensity = 1000");
+    insta::assert_snapshot!([complaint(GOOD, &["duration=1e-13"]), complaint(&light, &[])].join("\n\n"));
+}
+
+/// The resolved scene had the mass of a grain written out, so that in a sweep over diameters all grains had one mass and many
+/// densities; it was refused where they became lighter than water.
+#[test]
+fn what_follows_from_what_a_study_varies_is_left_to_follow() {
+    let text = edited("mass = \"0.2 g\"\n", "").replace("[materials.acrylic]", "[materials.acrylic]\ndensity = 1190")
+        + "[sweep.vary]\n\"particles.balls.diameter\" = [5e-3, 6e-3]\n";
+    let scene = read(&text, &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let again = read(&scene.resolved_toml(), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    assert_eq!((again.plan(), again.resolved_toml()), (scene.plan(), scene.resolved_toml()));
+    let case = |scene: &Scene| scene.with(&[("particles.balls.diameter", &toml::Value::Float(5e-3))]).expect("a case");
+    assert_eq!(case(&again).plan().particles["balls"].mass, case(&scene).plan().particles["balls"].mass);
+    // What is typed, and what nothing varied leads to, stays written out.
+    let typed = read(&format!("{GOOD}[sweep.vary]\n\"particles.balls.diameter\" = [5e-3]\n"), &[]).expect("good");
+    assert!(typed.resolved_toml().contains("mass = ") && again.resolved_toml().contains("history-interval = "));
+}

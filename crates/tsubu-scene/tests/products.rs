@@ -301,6 +301,8 @@ fn the_resolved_form_reads_well() {
 fn every_field_of_the_plan_is_a_key_and_is_written() {
     // What is not in the registry would be lost in the run folder; comparing the trees finds it.
     let everything = EVERYTHING.replace("\"1/3 m\"", "0.3333333333333333");
+    // What follows from diameters that a study varies is left out.
+    let everything = everything.replace("\"particles.second.diameter\" = [\"3 mm\", 0.0031]", "\"gravity\" = [9.81]");
     let scene = read(&everything, &[]).unwrap_or_else(|complaints| panic!("{complaints}"));
     let mut of_plan = toml::Table::try_from(scene.plan()).expect("plain data");
     of_plan.retain(|_, value| value.as_table().is_none_or(|table| !table.is_empty()));

@@ -43,6 +43,11 @@ fn word(word: &str) -> String {
     without_middle(word, WORD)
 }
 
+/// A value that stands in a sentence.
+pub(crate) fn value(text: &str) -> String {
+    without_middle(text, WORD)
+}
+
 fn without_middle(text: &str, most: usize) -> String {
     let count = text.chars().count();
     if count <= most {

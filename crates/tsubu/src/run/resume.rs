@@ -60,18 +60,11 @@ fn differences(scene: &Scene, folder: &Path) -> String {
     }
     let mut text = String::from("; what differs:");
     for difference in all.iter().take(NAMED) {
-        let value = |value: &Option<String>| value.as_deref().map_or_else(|| "nothing".to_owned(), shortened);
-        let (before, now) = (value(&difference.before), value(&difference.now));
+        let [before, now] = [&difference.before, &difference.now].map(|value| value.as_deref().unwrap_or("nothing"));
         let _ = write!(text, "\n  `{}` was {before}, is {now}", difference.key);
     }
     if all.len() > NAMED {
         let _ = write!(text, "\n  and {} more", all.len() - NAMED);
     }
     text
-}
-
-/// The begin of a long value.
-fn shortened(value: &str) -> String {
-    const LONG: usize = 60;
-    if value.chars().count() <= LONG { value.to_owned() } else { value.chars().take(LONG).collect::<String>() + "..." }
 }
