@@ -22,13 +22,15 @@ are built with products (`N s/m` or `N.s/m`), quotients and powers (`m/s^2`). Te
 the tables of a choice can be given.
 
 **Files** are named from the folder of the scene file. The run folder gets copies of those with grains and meshes, so that its
-`scene.toml` runs again. Grains come from CSV, extended XYZ and LAMMPS data files, all in SI units unless a header says otherwise:
+`scene.toml` runs again. Grains come from CSV, extended XYZ, LAMMPS data and LAMMPS dump files, all in SI units unless a header says otherwise:
 
 - `.csv` with a header: `x`, `y`, `z`, then what there is of `d` (or `diameter`) or `r` (or `radius`), `vx`, `vy`, `vz`, `wx`, `wy`,
   `wz`, in any order, with units as in `x [mm]`; other columns are passed over. Without a header: x, y, z and perhaps the
   radius; in the plane x, z and perhaps the radius. Lines that begin with `#` are passed over.
 - `.xyz`: one frame, `Properties` with `pos` and what there is of `radius` (or `diameter`), `velo` and `omega`.
 - `.data`: atom_style sphere, the sections `Atoms` and `Velocities`; densities are the materials'.
+- `.lammpstrj`: dump files as tsubu and LAMMPS write them, of several snapshots the last: `x y z` (or `xu yu zu`) and what there is of `id`, `type`,
+  `vx`, `vy`, `vz`, `omegax`, `omegay`, `omegaz`, `radius` (or `diameter`), `density` and `mass`; masses must be those of the scene.
 
 In the plane every y must be 0. Meshes come from `.stl` (text or binary) and `.obj` files.
 

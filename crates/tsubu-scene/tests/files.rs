@@ -65,6 +65,55 @@ fn all_formats_say_the_same() {
     assert_eq!(*grains("a.csv", blanks), bare);
 }
 
+const DUMP: &str = "ITEM: UNITS\nsi\nITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n\
+                    ITEM: ATOMS id x y z\n1 0 0 0\nITEM: TIMESTEP\n100\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff ff\n0 1\n\
+                    0 1\n0 1\nITEM: ATOMS id type x y z vx vy vz omegax omegay omegaz radius mass c_1 ix\n\
+                    4 2 0.04 0.05 0.06 0 0 -1 7 8 9 0.002 2.0106193e-4 0.5 1\n\
+                    3 1 0.01 0.02 0.03 1 2 3 4 5 6 0.001 2.5132741e-5 0.5 0\n";
+
+/// tsubu wrote dump files and could not begin from them; nor from those of LAMMPS.
+#[test]
+fn the_last_snapshot_of_a_dump_is_read() {
+    assert_eq!(grains("a.lammpstrj", DUMP), grains("a.data", DATA));
+    let chosen = SCENE.replace("path = \"NAME\"", "path = \"a.lammpstrj\"\nstart.file.kind = 2");
+    let scene = in_folder(&[("a.lammpstrj", DUMP.as_bytes())], &chosen).unwrap_or_else(|wrong| panic!("{wrong}"));
+    assert_eq!(scene.plan().particles["sand"].count, 1);
+    // Where a grain went round the world, its place in it counts.
+    let unwrapped = DUMP.replace("x y z vx", "xu yu zu vx");
+    assert_eq!(grains("a.lammpstrj", &unwrapped), grains("a.data", DATA));
+    let both = DUMP.replace("c_1 ix", "xu yu").replace("0.5 ", "5 ");
+    assert_eq!(grains("a.lammpstrj", &both), grains("a.data", DATA));
+}
+
+#[test]
+fn dumps_that_are_wrong() {
+    let changed = |from: &str, to: &str| {
+        assert!(DUMP.contains(from), "{from}");
+        about("a.lammpstrj", &DUMP.replace(from, to))
+    };
+    let cut = DUMP.rsplit_once("\n3").expect("a row").0;
+    let all = [
+        changed("si", "cgs"),
+        changed("ITEM: TIMESTEP", "ITEM: STEP"),
+        about("a.lammpstrj", "1 0 0 0\n"),
+        about("a.lammpstrj", &format!("{cut}\n")),
+        about("a.lammpstrj", &DUMP[..DUMP.len() - 10]),
+        about("a.lammpstrj", DUMP.split_once("ITEM: ATOMS id type").expect("a section").0),
+        changed("\n3 1", "\n4 1"),
+        changed("x y z vx", "xs ys zs vx"),
+        changed("radius mass", "radius weight"),
+        changed("2.0106193e-4", "2.6e-4"),
+        changed("type x y", "type x z"),
+        in_folder(
+            &[("a.lammpstrj", DUMP.as_bytes())],
+            &SCENE.replace("path = \"NAME\"", "path = \"a.lammpstrj\"\nstart.file.kind = 5"),
+        )
+        .expect_err("there is no 5")
+        .to_string(),
+    ];
+    insta::assert_snapshot!(all.join("\n\n"));
+}
+
 /// `write_data` writes atoms in the order in which LAMMPS holds them; grains took that order, and their numbers with it.
 #[test]
 fn grains_stand_in_the_order_of_their_ids() {

@@ -41,7 +41,8 @@ fn cut(draw: &mut Draw, file: &File) -> Damaged {
     let told = match file.format {
         // Nothing in these tells where they end, and a number cut short is a number.
         Format::Csv | Format::Obj => false,
-        Format::BinaryStl => true,
+        // Every line of a dump has an end.
+        Format::BinaryStl | Format::Dump => true,
         Format::Stl => text.find("endsolid").is_some_and(|end| at < end + "endsolid".len()),
         // So is the last number of the last row, and velocities need not be there.
         Format::Xyz | Format::Data => {
@@ -88,7 +89,7 @@ fn row(draw: &mut Draw, file: &File) -> Damaged {
     let mut lines: Vec<&str> = text.split_inclusive('\n').collect();
     let rows: Vec<usize> = (0..lines.len()).filter(|at| is_row(lines[*at], file.format)).collect();
     let at = *rows.get(draw.below(rows.len().max(1)))?;
-    let counted = matches!(file.format, Format::Xyz | Format::Data | Format::Stl);
+    let counted = matches!(file.format, Format::Xyz | Format::Data | Format::Dump | Format::Stl);
     // One that is there twice is no other one.
     let expect = if counted { Expect::Refuse } else { Expect::Other };
     if draw.one_in(2) {
@@ -166,6 +167,8 @@ fn is_row(line: &str, format: Format) -> bool {
         Format::Xyz => line.starts_with("G "),
         // Not the counts and ends of the head.
         Format::Data => numbers && !line.ends_with(|c: char| c.is_alphabetic()),
+        // Not steps, counts and ends of the box.
+        Format::Dump => numbers && line.split_whitespace().count() > 4,
         Format::Obj => line.starts_with("f "),
         Format::Stl => line.to_lowercase().starts_with("vertex"),
         Format::BinaryStl => false,

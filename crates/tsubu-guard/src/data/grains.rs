@@ -1,4 +1,4 @@
-//! Grains in CSV, extended XYZ and LAMMPS data.
+//! Grains in CSV, extended XYZ, LAMMPS data and LAMMPS dumps.
 
 use super::{File, Format, header, lines, number};
 use crate::draw::Draw;
@@ -32,7 +32,7 @@ struct Columns {
 
 /// A file of grains.
 pub fn draw(draw: &mut Draw) -> File {
-    let format = *draw.pick(&[Format::Csv, Format::Xyz, Format::Data]);
+    let format = *draw.pick(&[Format::Csv, Format::Xyz, Format::Data, Format::Dump]);
     let data = format == Format::Data;
     let moves = draw.one_in(2);
     let columns = Columns {
@@ -45,6 +45,7 @@ pub fn draw(draw: &mut Draw) -> File {
     let (name, rows, expect) = match format {
         Format::Csv => csv(draw, &grains, columns),
         Format::Xyz => xyz(draw, &grains, columns),
+        Format::Dump => dump(draw, &grains, columns),
         _ => data_file(draw, &grains, columns),
     };
     let comment = match format {
@@ -178,6 +179,34 @@ fn xyz(draw: &mut Draw, grains: &[Grain], columns: Columns) -> Written {
         rows.push(format!("G {}", cells.collect::<Vec<_>>().join(" ")));
     }
     ("grains.xyz", rows, Expect::Same)
+}
+
+/// A dump of one or two snapshots; the last one counts.
+fn dump(draw: &mut Draw, grains: &[Grain], columns: Columns) -> Written {
+    let radius = draw.one_in(2);
+    let mut names = "id type x y z".to_owned();
+    let size = if radius { " radius" } else { " diameter" };
+    let others = [(columns.diameter, size), (columns.velocity, " vx vy vz"), (columns.spin, " omegax omegay omegaz")];
+    others.iter().filter(|(there, _)| *there).for_each(|(_, name)| names.push_str(name));
+    let mut rows = if draw.one_in(2) { vec!["ITEM: UNITS".to_owned(), "si".to_owned()] } else { Vec::new() };
+    let mut snapshot = |count: usize, names: &str| {
+        let bounds = ["ITEM: BOX BOUNDS ff ff ff", "-1 1", "-1 1", "-1 1"].map(String::from);
+        rows.extend(["ITEM: TIMESTEP", "7", "ITEM: NUMBER OF ATOMS"].map(String::from));
+        rows.push(count.to_string());
+        rows.extend(bounds);
+        rows.push(format!("ITEM: ATOMS {names}"));
+    };
+    if draw.one_in(2) {
+        snapshot(0, "id xs ys zs");
+    }
+    snapshot(grains.len(), &names);
+    for (index, grain) in grains.iter().enumerate() {
+        let cells = cells(grain, columns).map(|(name, _, millionths)| {
+            number(millionths, if name == "diameter" && radius { 2 * METRE } else { METRE })
+        });
+        rows.push(format!("{} 1 {}", index + 1, cells.collect::<Vec<_>>().join(" ")));
+    }
+    ("grains.lammpstrj", rows, Expect::Same)
 }
 
 fn data_file(draw: &mut Draw, grains: &[Grain], columns: Columns) -> Written {

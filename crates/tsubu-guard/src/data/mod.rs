@@ -21,6 +21,8 @@ enum Format {
     Xyz,
     /// LAMMPS data.
     Data,
+    /// LAMMPS dump.
+    Dump,
     Obj,
     /// STL as text.
     Stl,

@@ -59,15 +59,16 @@ fn density(parts: &Parts<'_>, name: &str, group: &Particles) -> Option<Complaint
     let file = parts.files.known_grains(path, How { space: parts.space(), kind: *kind })?;
     let own = group.mass / group.shape.mass(1.0, group.diameter);
     let differs = |told: &f64| (told - own).abs() > SAME_DENSITY * own;
-    let index = file.densities.iter().position(differs)?;
-    let (told, line) = (file.densities[index], file.lines.get(index)?);
+    let densities = file.told_densities(group.diameter, |diameter| group.shape.mass(1.0, diameter));
+    let index = densities.iter().position(differs)?;
+    let (told, line) = (densities[index], file.lines.get(index)?);
     let complaint = Complaint::new(format!("`{path}` has other densities than the grains `{name}`"))
         .at(
             &parts.root.locate(&["particles", name, "start", "file", "path"]),
-            format!("line {line}: {told} kg/m^3, but the grains have {}", short(own)),
+            format!("line {line}: {} kg/m^3, but the grains have {}", short(told), short(own)),
         )
         .hint(format!("give [materials.{}] the density of the file, or correct the file", group.material));
-    let many = file.densities.iter().any(|other| (other - told).abs() > SAME_DENSITY * told);
+    let many = densities.iter().any(|other| (other - told).abs() > SAME_DENSITY * told);
     Some(if many && kind.is_none() {
         complaint.hint("of grains of several densities make several groups; `start.file.kind` chooses an atom type")
     } else {

@@ -4,13 +4,14 @@
 //! message everywhere.
 
 mod csv;
+mod dump;
 mod lammps;
 mod xyz;
 
 use crate::complaint::{Complaint, Place};
 use crate::lines::{Cell, Line, MOST_COMPLAINTS};
 use crate::plan::{GrainTable, Vector};
-use crate::units::{DENSITY, Dimension, LENGTH, NUMBER, SPEED, SPIN, Scale};
+use crate::units::{DENSITY, Dimension, LENGTH, MASS, NUMBER, SPEED, SPIN, Scale};
 use std::sync::Arc;
 
 /// What a file holds, and where.
@@ -21,6 +22,18 @@ pub(crate) struct GrainFile {
     pub lines: Vec<u32>,
     /// The density of each grain [kg/m^3], where the file tells it: the scene's own must agree.
     pub densities: Vec<f64>,
+    /// The mass of each grain [kg], likewise.
+    pub masses: Vec<f64>,
+}
+
+impl GrainFile {
+    /// The density that the file tells of each grain [kg/m^3]: itself, or by a mass; `volume` is that of a grain of a
+    /// diameter, for which the scene's is taken where the file has none.
+    pub fn told_densities(&self, diameter: f64, volume: impl Fn(f64) -> f64) -> Vec<f64> {
+        let size = |index| self.grains.diameter.get(index).copied().unwrap_or(diameter);
+        let by_mass = self.masses.iter().enumerate().map(|(index, mass)| mass / volume(size(index)));
+        if self.densities.is_empty() { by_mass.collect() } else { self.densities.clone() }
+    }
 }
 
 /// What a scene says about how the file is to be read.
@@ -28,7 +41,7 @@ pub(crate) struct GrainFile {
 pub(crate) struct How {
     /// Three dimensions, not two.
     pub space: bool,
-    /// Which atom type of a LAMMPS data file.
+    /// Which atom type of a LAMMPS file.
     pub kind: Option<u32>,
 }
 
@@ -39,6 +52,7 @@ pub(crate) fn read(name: &str, text: &str, source: usize, how: How) -> Result<Gr
         "csv" => csv::read(text, &mut rows),
         "xyz" => xyz::read(text, &mut rows),
         "data" => lammps::read(text, &mut rows),
+        "lammpstrj" => dump::read(text, &mut rows),
         // Refused before it was read.
         _ => {}
     }
@@ -49,7 +63,12 @@ pub(crate) fn read(name: &str, text: &str, source: usize, how: How) -> Result<Gr
     }
     if rows.complaints.is_empty() {
         rows.sort_by_id();
-        Ok(GrainFile { grains: Arc::new(rows.grains), lines: rows.lines, densities: rows.densities })
+        Ok(GrainFile {
+            grains: Arc::new(rows.grains),
+            lines: rows.lines,
+            densities: rows.densities,
+            masses: rows.masses,
+        })
     } else {
         Err(rows.complaints)
     }
@@ -57,10 +76,9 @@ pub(crate) fn read(name: &str, text: &str, source: usize, how: How) -> Result<Gr
 
 /// Whether a file of this name can be read; the complaint has yet to be placed.
 pub(crate) fn known(name: &str) -> Result<(), Complaint> {
-    const FORMATS: &str =
-        "`.csv` (columns x, y, z, radius), `.xyz` (extended XYZ), `.data` (LAMMPS, atom_style sphere)";
+    const FORMATS: &str = "`.csv` (columns x, y, z, radius), `.xyz` (extended XYZ), `.data` (LAMMPS, atom_style sphere), `.lammpstrj` (a dump of LAMMPS)";
     match ending(name).as_str() {
-        "csv" | "xyz" | "data" => Ok(()),
+        "csv" | "xyz" | "data" | "lammpstrj" => Ok(()),
         "gz" | "bz2" | "xz" | "zip" | "zst" => {
             Err(Complaint::new(format!("`{name}` is compressed")).hint("unpack it and name what was in it"))
         }
@@ -83,6 +101,7 @@ enum Slot {
     Position(usize),
     Diameter,
     Density,
+    Mass,
     Velocity(usize),
     Spin(usize),
     Id,
@@ -102,6 +121,7 @@ impl Slot {
         match self {
             Self::Position(_) | Self::Diameter => &LENGTH,
             Self::Density => &DENSITY,
+            Self::Mass => &MASS,
             Self::Velocity(_) => &SPEED,
             Self::Spin(_) => &SPIN,
             Self::Skip | Self::Passed | Self::Id | Self::Kind => &NUMBER,
@@ -125,6 +145,7 @@ struct Row {
     position: Vector,
     diameter: f64,
     density: f64,
+    mass: f64,
     velocity: Vector,
     spin: Vector,
     id: u64,
@@ -139,6 +160,7 @@ struct Rows {
     grains: GrainTable,
     lines: Vec<u32>,
     densities: Vec<f64>,
+    masses: Vec<f64>,
     ids: Vec<u64>,
     complaints: Vec<Complaint>,
 }
@@ -201,7 +223,7 @@ impl Rows {
             return Err(Complaint::new(format!("`{}` is not a finite number", cell.text))
                 .at(&cell.place(self.source), "needs a number"));
         }
-        let above_zero = matches!(column.slot, Slot::Diameter | Slot::Density) && number > 0.0;
+        let above_zero = matches!(column.slot, Slot::Diameter | Slot::Density | Slot::Mass) && number > 0.0;
         if let Some(why) = column.slot.dimension().absurd(number, above_zero) {
             return Err(Complaint::new(format!("`{}` cannot be meant: it {why}", cell.text))
                 .at(&cell.place(self.source), format!("needs {}", column.slot.dimension().name)));
@@ -220,6 +242,8 @@ impl Rows {
             }
             Slot::Diameter => row.diameter = number,
             Slot::Density => row.density = number,
+            // What is held in place may weigh nothing.
+            Slot::Mass => row.mass = number,
             Slot::Skip | Slot::Passed | Slot::Id | Slot::Kind => {}
         }
         Ok(())
@@ -235,6 +259,9 @@ impl Rows {
         }
         if has(|slot| slot == Slot::Density) {
             self.densities.push(row.density);
+        }
+        if has(|slot| slot == Slot::Mass) {
+            self.masses.push(row.mass);
         }
         if has(|slot| slot == Slot::Id) {
             self.ids.push(row.id);
@@ -267,6 +294,7 @@ impl Rows {
         }
         sorted(&order, diameter);
         sorted(&order, &mut self.densities);
+        sorted(&order, &mut self.masses);
         sorted(&order, &mut self.lines);
     }
 }

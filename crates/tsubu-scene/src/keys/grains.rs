@@ -135,9 +135,9 @@ static START: &[Variant] = &[
             Key::new(
                 "path",
                 Kind::Text,
-                "A CSV (`.csv`), extended XYZ (`.xyz`) or LAMMPS data (`.data`) file, from the folder of the scene file",
+                "A CSV (`.csv`), extended XYZ (`.xyz`), LAMMPS data (`.data`) or LAMMPS dump (`.lammpstrj`, its last snapshot) file, from the folder of the scene file",
             ),
-            Key::new("kind", Kind::Whole, "Which atom type of a LAMMPS data file; left out: all of them")
+            Key::new("kind", Kind::Whole, "Which atom type of a LAMMPS file; left out: all of them")
                 .optional()
                 .at_least(1.0)
                 .at_most(1e9),

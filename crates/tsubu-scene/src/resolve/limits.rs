@@ -14,9 +14,9 @@ pub(crate) fn limits(resolved: &toml::Table, root: &Node) -> Vec<Complaint> {
     let complaints = resolve(&tree, Read::Numbers).1.into_iter();
     let hint = "nobody typed it: it follows from other values, and from defaults";
     let told = complaints.map(|complaint| complaint.hint(hint));
-    let placed = |complaint: Complaint| match complaint.place() == Some(&root.place) {
-        true => complaint.nowhere(),
-        false => complaint,
+    let placed = |complaint: Complaint| {
+        let nowhere = complaint.place() == Some(&root.place);
+        if nowhere { complaint.nowhere() } else { complaint }
     };
     told.map(placed).collect()
 }

@@ -41,9 +41,9 @@ impl Derive<'_> {
         let Some(path) = file.get("path").and_then(Value::as_str).map(str::to_string) else { return File::Wrong };
         let kind = file.get("kind").and_then(Value::as_integer).and_then(|kind| u32::try_from(kind).ok());
         let here = ["particles", name, "start", "file"];
-        if kind.is_some() && crate::grain_file::ending(&path) != "data" {
+        if kind.is_some() && !["data", "lammpstrj"].contains(&crate::grain_file::ending(&path).as_str()) {
             self.complain(
-                Complaint::new(format!("`kind` chooses an atom type, but `{path}` is no LAMMPS data file"))
+                Complaint::new(format!("`kind` chooses an atom type, but `{path}` is no LAMMPS file"))
                     .at(&self.root.locate(&[&here[..], &["kind"]].concat()), "not for this file")
                     .hint("leave it out"),
             );
