@@ -8,7 +8,6 @@ mod dem;
 mod grouping;
 mod host;
 mod lattice;
-mod verify;
 mod wall;
 mod watch;
 mod water;

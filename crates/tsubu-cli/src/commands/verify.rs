@@ -10,8 +10,8 @@ use clap::Args;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::mpsc;
-use tsubu::study::verify::{self, Case};
 use tsubu_frame::{Claim, Existing, RunFolder};
+use tsubu_verify::{self as verify, Case};
 
 #[derive(Args)]
 #[command(after_help = "\

@@ -2,6 +2,6 @@
 
 pub mod columns;
 pub mod grains;
-pub(crate) mod sphere;
+pub mod sphere;
 
 pub use grains::{Grain, Grains};

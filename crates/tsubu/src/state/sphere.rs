@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 /// Volume of a sphere [m^3] of a radius [m].
 #[inline(always)]
-pub(crate) fn volume(radius: f64) -> f64 {
+pub fn volume(radius: f64) -> f64 {
     4.0 / 3.0 * PI * (radius * radius * radius)
 }
 

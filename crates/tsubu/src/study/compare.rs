@@ -102,10 +102,10 @@ pub fn compare(
 }
 
 /// Who can run a scene, and the scene as each of them runs it.
-type Runners = Vec<(Variant, Scene)>;
+pub type Runners = Vec<(Variant, Scene)>;
 
 /// The scene as each variant runs it, and who cannot.
-pub(crate) fn scenes(scene: &Scene, variants: &[Variant]) -> Result<(Runners, Vec<Refused>), CompareError> {
+pub fn scenes(scene: &Scene, variants: &[Variant]) -> Result<(Runners, Vec<Refused>), CompareError> {
     let mut scenes = Vec::new();
     let mut refused = Vec::new();
     for variant in variants {

@@ -6,7 +6,6 @@ pub mod response;
 pub mod ring_down;
 pub mod sweep;
 pub mod variant;
-pub mod verify;
 
 use tsubu_scene::plan::{Plan, Start};
 

@@ -1,0 +1,151 @@
+//! Transport by a stream that the grains slow (V-57).
+
+use super::bench::{Rig, refused, within};
+use tsubu::state::sphere;
+use tsubu::view::Wants;
+use tsubu::water::Stream;
+use tsubu_frame::Claim;
+
+/// Diameter of the grains [m], and density over that of water.
+const D: f64 = 3e-3;
+const S: f64 = 2.65;
+/// World along and across the stream, in diameters, and layers of grains in the bed.
+const LONG: f64 = 24.0;
+const WIDE: f64 = 6.0;
+const DEEP: f64 = 5.0;
+/// When looks begin and end [s]. Grains that fall to the bed take its speed from the stream, and the slope gives it back within some
+/// U/(g sin(slope)), 2 to 3 s: before, the bed feels less than the weight of the water.
+const STEADY: [f64; 2] = [10.0, 16.0];
+const EARLY: [f64; 2] = [1.0, 2.0];
+/// Strength of turbulence over U* at a rough bed: 2.30, 1.63 and 1.27 along, across and up (Nezu and Nakagawa 1993).
+const STRENGTH: f64 = 1.78;
+const UPWARDS: f64 = 1.27;
+
+/// How the water moves.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// In layers, by its mean velocity alone.
+    Mean,
+    /// In layers, with fluctuations as over a rough bed, for the time that the depth of water tells.
+    Turbulent,
+    /// By the log law, whatever the grains do.
+    Unslowed,
+}
+
+/// What a stream comes to.
+#[derive(Clone, Copy)]
+struct Load {
+    /// Stress on the bed over (s-1) rho g d.
+    shields: f64,
+    /// The same over the weight of the water along the slope.
+    balance: f64,
+    /// Rate over sqrt((s-1) g d^3).
+    rate: f64,
+}
+
+/// What a stream of a slope [rad] and a depth of water over its bed, in diameters, comes to in a time.
+fn transport([slope, water]: [f64; 2], stream: Kind, [from, until]: [f64; 2], spoiler: f64) -> Result<Load, String> {
+    let height = (DEEP + water) * D;
+    let coupled = format!("flow.coupled = {{ bottom = 0, top = {height} }}\nhindrance.richardson-zaki = {{}}");
+    let flow = match stream {
+        Kind::Mean => coupled,
+        Kind::Turbulent => {
+            let time = 2.0 * water * D / (15.0 * UPWARDS.powi(2) * (9.8 * slope.sin() * water * D).sqrt());
+            format!("{coupled}\nfluctuation = {{ strength = {STRENGTH}, directions = \"stream\", time = {time} }}")
+        }
+        // The log law over a bed that is not there would press on all grains alike.
+        Kind::Unslowed => format!("flow.log-law = {{ depth = {height} }}"),
+    };
+    let text = format!(
+        r#"
+        dimension = 3
+        slope = {slope}
+        duration = 60
+        speed-scale = "0.5 m/s"
+        [materials.sand]
+        young-modulus = "3 MPa"
+        density = "2650 kg/m^3"
+        restitution = 0.5
+        friction = 0.4
+        [particles.base]
+        material = "sand"
+        count = {base}
+        diameter = {D}
+        motion.frozen = {{}}
+        start.rows = {{ spacing = 1, jitter = 0, region = {{ low = [0, 0, 0], high = [{length}, {width}, {D}] }} }}
+        [particles.sand]
+        material = "sand"
+        count = {count}
+        size.uniform = {{ smallest = {small}, largest = {large} }}
+        start.rows = {{ spacing = 1.01, jitter = 1, region = {{ low = [0, 0, {D}], high = [{length}, {width}, {high}] }} }}
+        [periodic]
+        x = [0, {length}]
+        y = [0, {width}]
+        [water]
+        drag.stokes-newton = {{}}
+        {flow}
+        [contact]
+        tangential.mindlin = {{}}
+        "#,
+        base = LONG * WIDE,
+        count = LONG * WIDE * DEEP,
+        length = LONG * D,
+        width = WIDE * D,
+        small = 0.9 * D,
+        large = 1.1 * D,
+        high = height + 20.0 * D,
+    );
+    let mut rig = Rig::new(&text, spoiler)?;
+    let area = LONG * WIDE * D * D;
+    rig.until(from)?;
+    let (mut rate, mut stress, mut weight, mut looks, mut time) = (0.0, 0.0, 0.0, 0.0, from);
+    while time < until {
+        time += 0.02;
+        rig.until(time)?;
+        let view = rig.engine.view(Wants::GRAINS);
+        let free = (0..view.len()).filter(|&i| view.free(i));
+        rate += free.map(|i| sphere::volume(view.grains.radius[i]) * view.grains.velocity[i].x).sum::<f64>() / area;
+        looks += 1.0;
+        if let Some(Stream::Coupled(stream)) = view.water.map(|water| &water.stream) {
+            stress += stream.bed_stress();
+            weight += 1000.0 * 9.8 * slope.sin() * stream.over_bed();
+        } else {
+            stress += 1000.0 * 9.8 * slope.sin() * water * D;
+            weight = stress;
+        }
+    }
+    Ok(Load {
+        shields: stress / looks / ((S - 1.0) * 1000.0 * 9.8 * D),
+        balance: stress / weight,
+        rate: rate / looks / ((S - 1.0) * 9.8 * D.powi(3)).sqrt(),
+    })
+}
+
+/// V-57: rates within a factor of 2 of published ones.
+pub(super) fn rates(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let published = |t: f64| (8.0 * (t - 0.047).powf(1.5), 3.97 * (t - 0.0495).powf(1.5));
+    let source = "between half of Wong and Parker 2006 and twice Meyer-Peter and Mueller 1948 (V-57)";
+    let gate = |Load { shields, rate, .. }: Load, what: &str| {
+        let (high, low) = published(shields);
+        let name = format!("{what}, Shields number {shields:.3}: rate over sqrt((s-1) g d^3)");
+        Claim::judge(name, rate, Some(0.5 * low), Some(2.0 * high), source)
+    };
+    let steady = |Load { shields, balance, .. }: Load, what: &str| {
+        let name =
+            format!("{what}, Shields number {shields:.3}: stress at the bed over weight of the water along the slope");
+        within(name, balance, 1.0, 0.05, "momentum of a steady stream: what drives it arrives at the bed")
+    };
+    let mut claims = Vec::new();
+    for (kind, name) in [(Kind::Mean, "bedload, mean stream"), (Kind::Turbulent, "bedload, turbulent stream")] {
+        for stream in [[0.025, 8.0], [0.06, 8.0], [0.06, 15.0]] {
+            let found = transport(stream, kind, STEADY, spoiler)?;
+            claims.push(gate(found, name));
+            claims.push(steady(found, name));
+        }
+    }
+    let early = transport([0.025, 8.0], Kind::Turbulent, EARLY, spoiler)?;
+    claims.push(refused("a stream that is not steady yet", &[gate(early, ""), steady(early, "")], 1));
+    let wrong = transport([0.06, 8.0], Kind::Unslowed, STEADY, spoiler)?;
+    claims.push(refused("a stream that grains do not slow, down to the bottom of the bed", &[gate(wrong, "")], 1));
+    Ok(claims)
+}

@@ -1,0 +1,61 @@
+//! A heap grows below a funnel.
+
+use super::super::bench::{at_least, between, refused};
+use super::seen::{Measured, Picture, Seen, Test, quantile};
+use tsubu_frame::Claim;
+
+const ANGLE: &str = "slope of the heap [deg]";
+const TOP: &str = "height of the heap [mm]";
+const FOOT: &str = "half-width that holds 80 % [mm]";
+const FLOOR: &str = "share that has come down [-]";
+
+/// Below the outlet of the funnel [m].
+const BELOW: f64 = 90e-3;
+
+pub(super) const TEST: Test = Test {
+    name: "heap",
+    title: "heap below a funnel",
+    scene: include_str!("../../../../studies/common-test/heap.toml"),
+    more: "",
+    controls: "",
+    spoil: |plan| {
+        plan.walls.remove("floor");
+    },
+    measure,
+    judge,
+    picture: Picture { window: [-0.085, 0.0, 0.085, 0.14], moments: |seen| (seen.last(), Some(0)) },
+};
+
+fn measure(seen: &Seen) -> Vec<(&'static str, f64)> {
+    let grains = seen.grains(seen.last());
+    let down: Vec<_> = grains.iter().filter(|grain| grain.at.z < BELOW).collect();
+    let top = down.iter().map(|grain| grain.at.z + grain.radius).fold(f64::NAN, f64::max);
+    vec![
+        (ANGLE, seen.said(seen.last(), "heap heap angle [rad]").to_degrees()),
+        (TOP, 1e3 * top),
+        (FOOT, 1e3 * quantile(down.iter().map(|grain| grain.at.x.abs()).collect(), 0.8)),
+        (FLOOR, down.len() as f64 / grains.len() as f64),
+    ]
+}
+
+fn judge(of: &Measured) -> Vec<Claim> {
+    let angle = |name: &str| of.value(name, ANGLE);
+    let steeper = |more: &str, less: &str, source: &str| {
+        at_least(format!("heap, slope by {more} less that by {less}, degrees"), angle(more) - angle(less), 3.0, source)
+    };
+    let turns = "the less grains turn, the steeper they lie (Osada 2004, figures 19 and 23)";
+    let lattice = "a lattice has its own slope, steeper than friction 0.3 holds (C-x3)";
+    vec![
+        steeper("rolling", "dem", turns),
+        steeper("locked", "rolling", turns),
+        steeper("cl-ca", "locked", lattice),
+        between(
+            "heap, slope by after-caram-hong, degrees",
+            angle("after-caram-hong"),
+            55.0,
+            65.0,
+            "60: the lattice (R-2)",
+        ),
+        refused("heap, discs that do not turn for free ones", &[steeper("dem", "locked", turns)], 1),
+    ]
+}

@@ -1,0 +1,166 @@
+//! elongated grains in a hopper, after Baxter and Behringer.
+
+use super::super::bench::{refused, within};
+use tsubu::lattice::direction::Direction;
+use tsubu::lattice::gas::collide::{REST, SLOTS};
+use tsubu::lattice::gas::elongated::Alignment;
+use tsubu::lattice::gas::grains::{Grains, Habits};
+use tsubu::random::{Purpose, words};
+use tsubu_frame::Claim;
+
+const SOURCE: &str = "Baxter and Behringer 1990, from memory; rules after them";
+const COLUMNS: usize = 60;
+const ROWS: usize = 160;
+/// Rows of the throat, and of the end of the slope.
+const THROAT: usize = 40;
+const SHOULDER: usize = 110;
+
+/// Half the width of the hopper at a height [columns].
+fn half_width(row: usize) -> f64 {
+    match row {
+        ..34 | SHOULDER.. => 28.0,
+        34..THROAT => 6.0,
+        _ => 6.0 + 22.0 * (row - THROAT) as f64 / (SHOULDER - THROAT) as f64,
+    }
+}
+
+fn from_middle(column: usize) -> f64 {
+    (column as f64 - 0.5 * (COLUMNS - 1) as f64).abs()
+}
+
+/// A hopper with rough walls; what falls out below comes in above. Two grains a site at first.
+fn hopper(elongated: bool) -> Grains {
+    let habits = Habits { gravity: 0.2, dissipation: 0.3, roughness: 1.0 };
+    let mut grains = Grains::new(COLUMNS, ROWS, [true, true], habits, 1);
+    for column in 0..COLUMNS {
+        for row in 0..ROWS {
+            if from_middle(column) > half_width(row) {
+                grains.set_wall(column, row, Some(0));
+            } else if row > THROAT {
+                let drawn = words(1, Purpose::Placement, (column * ROWS + row) as u32, 0);
+                let there = |slot: &usize| drawn[slot % 4].rotate_left(5 * *slot as u32) < u32::MAX / 7 * 2;
+                grains.set_site(column, row, (0..SLOTS).filter(there).map(|slot| 1 << slot).sum());
+            }
+        }
+    }
+    if elongated {
+        grains.number();
+        grains.elongate();
+    }
+    grains
+}
+
+/// What was seen in steps 400 to 1400.
+#[derive(Default)]
+struct Seen {
+    /// Share of upright grains in the throat, and above the slope.
+    throat: f64,
+    above: f64,
+    /// Shares of upright grains between the upright walls above the slope: within four columns of a wall, and in the middle.
+    shoulder: [f64; 2],
+    /// Mean speed down in the lower half of the slope: in the middle, and within three columns of the walls.
+    middle: f64,
+    corner: f64,
+    /// Grains that pass the throat in a step.
+    flow: f64,
+    /// Sites in the end.
+    sites: Vec<u8>,
+}
+
+fn run(alignment: Option<Alignment>) -> Seen {
+    let mut grains = hopper(alignment.is_some());
+    let (mut upright, mut speed, mut flow, mut looks) = ([[0.0; 2]; 2], [[0.0; 2]; 2], 0.0, 0.0);
+    let mut sides = [[0.0; 2]; 2];
+    let inside: Vec<(usize, usize)> = (0..COLUMNS).flat_map(|c| (0..ROWS).map(move |r| (c, r))).collect();
+    while grains.steps() < 1400 {
+        grains.step();
+        if let Some(alignment) = alignment {
+            grains.align(alignment);
+        }
+        if grains.steps() < 400 || !grains.steps().is_multiple_of(20) {
+            continue;
+        }
+        looks += 1.0;
+        for &(column, row) in inside.iter().filter(|(c, r)| !grains.is_wall(*c, *r)) {
+            for slot in (0..SLOTS).filter(|slot| grains.site(column, row) >> slot & 1 == 1) {
+                let down = if slot == REST { 0.0 } else { -0.5 * Direction::from_index(slot).k() as f64 };
+                let zone = if (34..THROAT).contains(&row) { Some(0) } else { (row > SHOULDER).then_some(1) };
+                let to_wall = half_width(row) - from_middle(column);
+                if let (Some(zone), Some(axis)) = (zone, grains.axis(column, row, slot)) {
+                    let beside = zone == 1 && to_wall < 4.0;
+                    let apart = zone == 1 && from_middle(column) < 4.0;
+                    let [walls, middle] = &mut sides;
+                    for (sums, here) in [(&mut upright[zone], true), (walls, beside), (middle, apart)] {
+                        if here {
+                            sums[0] += f64::from(axis == 0);
+                            sums[1] += 1.0;
+                        }
+                    }
+                }
+                if (34..THROAT).contains(&row) {
+                    flow += down / (THROAT - 34) as f64;
+                }
+                if (50..75).contains(&row) && (to_wall < 3.0 || from_middle(column) < 3.0) {
+                    let zone = usize::from(to_wall < 3.0);
+                    speed[zone][0] += down;
+                    speed[zone][1] += 1.0;
+                }
+            }
+        }
+    }
+    let share = |pair: [f64; 2]| pair[0] / pair[1];
+    let sites = inside.iter().map(|(c, r)| grains.site(*c, *r)).collect();
+    let [throat, above] = upright.map(share);
+    let [middle, corner] = speed.map(share);
+    Seen { throat, above, shoulder: sides.map(share), middle, corner, flow: flow / looks, sites }
+}
+
+/// Grains that like to lie along their way stand upright where the hopper narrows; nothing else changes.
+#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
+pub(crate) fn hopper_order(spoiler: f64) -> Result<Vec<Claim>, String> {
+    // The spoiler heats the grains.
+    let temperature = 1.0 / spoiler.powi(60);
+    let with = run(Some(Alignment { neighbours: 0.5, way: 1.0, temperature }));
+    let without = run(Some(Alignment { neighbours: 0.0, way: 0.0, temperature: 1.0 }));
+    let round = run(None);
+    let differ = without.sites.iter().zip(&round.sites).filter(|(a, b)| a != b).count();
+    let gate = |name: &str, seen: &Seen| Claim::judge(name, seen.throat - seen.above, Some(0.05), None, SOURCE);
+    let order = |name: &str, seen: &Seen| Claim::judge(name, seen.throat, Some(0.8), None, SOURCE);
+    Ok(vec![
+        order("hopper: share of upright grains in the throat", &with),
+        gate("hopper: that share less the one above the slope", &with),
+        refused("no alignment", &[order("throat", &without), gate("growth", &without)], 2),
+        within(
+            "hopper: share of upright grains in the throat without alignment",
+            without.throat,
+            1.0 / 3.0,
+            0.03,
+            "symmetry",
+        ),
+        within("hopper: sites that differ from round grains (R-3.1)", differ as f64, 0.0, 0.0, "R-3.1"),
+        Claim::judge("hopper: grains through the throat in a step", with.flow, Some(1.0), None, SOURCE),
+        Claim::judge(
+            "hopper: speed near the walls of the slope over that in the middle",
+            with.corner / with.middle,
+            None,
+            Some(0.6),
+            SOURCE,
+        ),
+    ])
+}
+
+/// Order was to grow near walls as well as along the slope.
+#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
+pub(crate) fn hopper_walls(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let gate = |alignment: Alignment| {
+        let [walls, middle] = run(Some(alignment)).shoulder;
+        let name =
+            "hopper, above the slope: share of upright grains within four columns of the walls less that in the middle";
+        Claim::judge(name, walls - middle, Some(0.1), None, SOURCE)
+    };
+    let temperature = 1.0 / spoiler.powi(60);
+    Ok(vec![
+        gate(Alignment { neighbours: 0.5, way: 1.0, temperature }),
+        refused("no alignment", &[gate(Alignment { neighbours: 0.0, way: 0.0, temperature: 1.0 })], 1),
+    ])
+}

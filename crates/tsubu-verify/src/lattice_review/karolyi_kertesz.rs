@@ -1,0 +1,188 @@
+//! piles and avalanches, after Karolyi and Kertesz.
+
+use super::super::bench::refused;
+use super::fhp::slope;
+use tsubu::lattice::gas::pile::{Habits, Pile};
+use tsubu::lattice::gas::sites::Sites;
+use tsubu::lattice::grid::COLUMN_SPACING;
+use tsubu::random::{Purpose, words};
+use tsubu_frame::Claim;
+
+const SOURCE: &str = "Karolyi and Kertesz 1998, from memory; rules after them";
+
+/// A table on which grains are dropped one by one, each when all are at rest, and how many fell off for each.
+fn heap(friction: f64, half: usize, count: usize) -> (Pile, Vec<u64>) {
+    let habits = Habits { gravity: 0.5, dissipation: 0.8, friction: vec![friction; 2] };
+    let mut pile = Pile::new(Sites::new(2 * half + 1, 3 * half, [false, false]), habits, 1);
+    (0..=2 * half).for_each(|column| pile.set_wall(column, 0));
+    let mut fell = Vec::new();
+    for _ in 0..count {
+        let before = pile.gone()[0];
+        pile.drop_at(half, (pile.height(half) + 10).min(3 * half - 1), 0);
+        settle(&mut pile);
+        fell.push(pile.gone()[0] - before);
+    }
+    (pile, fell)
+}
+
+/// Until all are at rest; a grain that nothing lets rest does not hold up the study.
+fn settle(pile: &mut Pile) {
+    let end = pile.steps() + 20_000;
+    while pile.flying() > 0 && pile.steps() < end {
+        pile.step();
+    }
+}
+
+/// Mean slope of both sides, without foot and top [degrees].
+fn angle(friction: f64) -> f64 {
+    const HALF: usize = 60;
+    let (mut sum, mut looks) = (0.0, 0.0);
+    let (mut pile, _) = heap(friction, HALF, 8000);
+    for _ in 0..20 {
+        for _ in 0..100 {
+            pile.drop_at(HALF, (pile.height(HALF) + 10).min(3 * HALF - 1), 0);
+            settle(&mut pile);
+        }
+        for side in [10..50, 2 * HALF - 50..2 * HALF - 10] {
+            let x: Vec<f64> = side.clone().map(|c| c as f64 * COLUMN_SPACING).collect();
+            let z: Vec<f64> = side.map(|c| pile.height(c) as f64 + 0.5 * (c % 2) as f64).collect();
+            sum += slope(&x, &z).abs().atan().to_degrees();
+            looks += 1.0;
+        }
+    }
+    sum / looks
+}
+
+/// The slope is finite and grows with friction.
+#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
+pub(crate) fn pile_angle(spoiler: f64) -> Result<Vec<Claim>, String> {
+    // The spoiler takes friction away.
+    let angles = [0.02, 0.1, 0.2].map(|friction| angle(friction * spoiler.powi(60)));
+    let gate = |name: &str, rise: f64| Claim::judge(name, rise, Some(4.0), None, SOURCE);
+    let mut claims =
+        vec![Claim::judge("pile: slope at friction 0.02 [degrees]", angles[0], Some(30.0), Some(40.0), SOURCE)];
+    claims.push(gate("pile: rise of the slope from friction 0.02 to 0.1 [degrees]", angles[1] - angles[0]));
+    claims.push(gate("pile: rise of the slope from friction 0.1 to 0.2 [degrees]", angles[2] - angles[1]));
+    claims.push(Claim::judge("pile: slope at friction 0.2 [degrees]", angles[2], None, Some(75.0), SOURCE));
+    let again = angle(0.1 * spoiler.powi(60));
+    claims.push(refused("the same friction twice", &[gate("rise", again - angles[1])], 1));
+    Ok(claims)
+}
+
+/// Exponent of the share of drops after which at least so many grains fell off, between two sizes.
+fn exponent(fell: &[f64], from: f64, to: f64) -> f64 {
+    let share = |size: f64| fell.iter().filter(|&&f| f >= size).count() as f64 / fell.len() as f64;
+    -(share(to).max(1e-9) / share(from)).ln() / (to / from).ln()
+}
+
+/// Avalanches over the edge have a largest size: their distribution falls ever more steeply.
+#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
+pub(crate) fn pile_avalanches(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let (pile, fell) = heap(0.1 * spoiler, 60, 30_000);
+    let fell: Vec<f64> = fell[8000..].iter().map(|f| *f as f64).collect();
+    let gates = |fell: &[f64], name: &str| {
+        let steeper = exponent(fell, 64.0, 256.0) - exponent(fell, 1.0, 8.0);
+        Claim::judge(
+            format!("{name}: exponent beyond 64 grains over that below 8, difference"),
+            steeper,
+            Some(1.0),
+            None,
+            SOURCE,
+        )
+    };
+    let mean = fell.iter().sum::<f64>() / fell.len() as f64;
+    let largest = fell.iter().fold(0.0_f64, |most, f| most.max(*f)) / pile.grains() as f64;
+    // The same number of avalanches without a scale: shares 1/size.
+    let scale_free: Vec<f64> = (1..=fell.len()).map(|rank| (fell.len() as f64 / rank as f64).floor()).collect();
+    Ok(vec![
+        gates(&fell, "pile: avalanches over the edge"),
+        refused("avalanches without a scale", &[gates(&scale_free, "scale-free")], 1),
+        Claim::judge("pile: largest of 22 000 avalanches over the pile", largest, Some(0.01), Some(0.3), SOURCE),
+        Claim::judge(
+            "pile: grains that fall off for one that is dropped",
+            mean,
+            Some(0.9),
+            Some(1.1),
+            "a pile in balance",
+        ),
+    ])
+}
+
+/// Columns and rows of a silo.
+const COLUMNS: usize = 80;
+const ROWS: usize = 200;
+
+/// A silo into which 4000 grains of two kinds were poured at the left.
+fn silo(friction: [f64; 2]) -> Pile {
+    let habits = Habits { gravity: 0.5, dissipation: 0.8, friction: friction.to_vec() };
+    let mut pile = Pile::new(Sites::new(COLUMNS, ROWS, [false, false]), habits, 1);
+    (0..COLUMNS).for_each(|column| pile.set_wall(column, 0));
+    (0..ROWS).for_each(|row| [0, COLUMNS - 1].into_iter().for_each(|column| pile.set_wall(column, row)));
+    for grain in 0..4000 {
+        let kind = words(1, Purpose::Stream, grain, 0)[0] & 1;
+        pile.drop_at(2, (pile.height(2) + 10).min(ROWS - 2), kind);
+        settle(&mut pile);
+    }
+    pile
+}
+
+/// How much farther from the spout grains of kind 0 come to rest than those of kind 1 [columns].
+fn farther(pile: &Pile) -> f64 {
+    let mean = |kind: usize| {
+        let sites = (0..COLUMNS).flat_map(|c| (0..ROWS).map(move |r| (c, r)));
+        let (sum, count) = sites
+            .filter(|(c, r)| pile.at_rest(*c, *r) == Some(kind))
+            .fold((0.0, 0.0), |s, (c, _)| (s.0 + c as f64, s.1 + 1.0));
+        sum / count
+    };
+    mean(0) - mean(1)
+}
+
+/// Poured at one side of a silo, smooth grains go farther than rough ones; equal ones do not part.
+#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
+pub(crate) fn pile_segregation(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let rough = 0.02 + 0.38 * spoiler.powi(60);
+    let gate = |name: &str, value: f64| Claim::judge(name, value, Some(4.0), None, SOURCE);
+    let equal = farther(&silo([0.2; 2]));
+    Ok(vec![
+        gate(
+            "silo: smooth grains lie farther from the spout than rough ones [columns of 78]",
+            farther(&silo([0.02, rough])),
+        ),
+        Claim::judge("silo: the same for equal grains", equal, Some(-2.0), Some(2.0), "symmetry"),
+        refused("grains of equal friction", &[gate("equal", equal)], 1),
+    ])
+}
+
+/// Of neighbours at rest, how much more often those down the slope are of one kind than those straight above each other: layers
+/// lie along the slope.
+fn layered(kind: impl Fn(usize, usize) -> Option<usize>) -> f64 {
+    let alike = |next: &dyn Fn(usize, usize) -> (usize, usize)| {
+        let sites = (1..COLUMNS - 2).flat_map(|c| (1..ROWS - 1).map(move |r| (c, r)));
+        let pairs = sites.filter_map(|(c, r)| {
+            let (column, row) = next(c, r);
+            Some((kind(c, r)?, kind(column, row)?))
+        });
+        let (same, all) = pairs.fold((0.0, 0.0), |(same, all), (a, b)| (same + f64::from(u8::from(a == b)), all + 1.0));
+        same / all
+    };
+    // Odd columns stand half a site higher: the lower right neighbour.
+    alike(&|c, r| (c + 1, r - (c + 1) % 2)) - alike(&|c, r| (c, r + 1))
+}
+
+/// Grains of two kinds were to part into layers, as real ones do when they are poured.
+#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
+pub(crate) fn silo_layers(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let rough = 0.02 + 0.38 * spoiler.powi(60);
+    let gate = |name: &str, value: f64| Claim::judge(name, value, Some(0.1), None, SOURCE);
+    let at_rest = |pile: Pile| move |c: usize, r: usize| pile.at_rest(c, r);
+    let drawn = |c: usize, r: usize| Some((r + c.div_ceil(2)) / 4 % 2);
+    Ok(vec![
+        gate(
+            "silo: share of like neighbours down the slope less that of those above each other",
+            layered(at_rest(silo([0.02, rough]))),
+        ),
+        Claim::judge("silo: the same where layers of four rows are drawn", layered(drawn), Some(0.1), None, "by hand"),
+        refused("grains of equal friction", &[gate("equal", layered(at_rest(silo([0.2; 2]))))], 1),
+    ])
+}

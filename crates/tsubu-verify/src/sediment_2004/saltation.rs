@@ -1,0 +1,222 @@
+//! Osada 2004: one grain leaps along a fixed bed (B-F6, B-F7, B-F20, B-F21), and what the torque of the water does to its spin.
+
+use super::super::bench::{Rig, near, refused};
+use glam::DVec3;
+use std::f64::consts::PI;
+use std::path::Path;
+use tsubu::view::Wants;
+use tsubu_frame::Claim;
+use tsubu_scene::Scene;
+
+/// Diameter [m] and mass [kg] of the grain.
+const D: f64 = 2e-3;
+const MASS: f64 = 2650.0 * PI / 6.0 * D * D * D;
+/// Left out at the begin [s], and hops that are recorded, as in the paper.
+const DISCARD: f64 = 1.0;
+const HOPS: usize = 30;
+/// Steps in a contact.
+const STEPS: f64 = 40.0;
+
+/// What the hops of a run come to.
+#[derive(Clone, Debug, Default)]
+struct Leaps {
+    /// Means of contact time [s], hop height and hop length [m], of the velocity along the bed [m/s].
+    contact: f64,
+    height: f64,
+    length: f64,
+    speed: f64,
+    /// Highest hop [m].
+    highest: f64,
+    /// Mean of |w| d/2 [m/s], and the largest |w| [rad/s].
+    rim: f64,
+    fastest: f64,
+    /// Impulse of friction over that of the normal force at impacts, from the change of velocity.
+    resistance: f64,
+}
+
+/// Contact time of the undamped grain on a fixed one (B8) [s].
+fn contact_seconds(mass: f64, stiffness: f64) -> f64 {
+    PI * (mass / stiffness).sqrt()
+}
+
+/// Lets the grain leap `hops` times after the begin; contacts of stiffness [N/m].
+fn leaps(stiffness: f64, changes: &[&str], hops: usize, spoiler: f64) -> Result<Leaps, String> {
+    let text = include_str!("../../../../studies/sediment-2004/saltation.toml");
+    let dt = contact_seconds(MASS, stiffness) / STEPS;
+    let mut all = vec![format!("contact.normal.hooke.stiffness={stiffness}"), format!("dem.time-step={dt:e}")];
+    all.extend(changes.iter().map(|c| (*c).to_owned()));
+    let scene = Scene::parse("saltation", text, Path::new("."), &all).map_err(|c| c.to_string())?;
+    let mut rig = Rig::of(scene.plan().clone(), spoiler)?;
+    rig.until(DISCARD)?;
+    let look = |rig: &Rig| {
+        let view = rig.engine.view(Wants { spins: true, ..Wants::GRAINS });
+        let i = (0..view.len()).find(|&i| view.free(i)).unwrap_or(0);
+        (view.unwrapped(i), view.grains.velocity[i], view.grains.spin[i].y)
+    };
+    let mut found = Leaps::default();
+    // From the first end of a contact on: flights and contacts in turn.
+    while rig.engine.contacts() > 0 {
+        rig.steps(1)?;
+    }
+    while rig.engine.contacts() == 0 {
+        rig.steps(1)?;
+    }
+    let (mut time, mut rims, mut steps) = (0.0, 0.0, 0u64);
+    let (mut pushed, mut rubbed) = (0.0, 0.0);
+    for _ in 0..hops {
+        let (mut touching, before) = (0u64, look(&rig).1);
+        while rig.engine.contacts() > 0 {
+            rig.steps(1)?;
+            touching += 1;
+        }
+        let (take_off, velocity, _) = look(&rig);
+        let change: DVec3 = velocity - before;
+        pushed += change.z;
+        rubbed -= change.x;
+        found.contact += touching as f64 * dt;
+        let mut top = take_off.z;
+        let mut flown = 0u64;
+        let mut place = take_off;
+        while rig.engine.contacts() == 0 {
+            rig.steps(1)?;
+            let (now, _, spin) = look(&rig);
+            place = now;
+            top = top.max(now.z);
+            rims += spin.abs() * 0.5 * D;
+            found.fastest = found.fastest.max(spin.abs());
+            flown += 1;
+        }
+        time += flown as f64 * dt;
+        steps += flown;
+        found.height += top - take_off.z;
+        found.highest = found.highest.max(top - take_off.z);
+        found.length += place.x - take_off.x;
+        found.speed += place.x - take_off.x;
+    }
+    let n = hops as f64;
+    found.speed /= time;
+    found.rim = rims / steps as f64;
+    found.resistance = rubbed / pushed;
+    for mean in [&mut found.contact, &mut found.height, &mut found.length] {
+        *mean /= n;
+    }
+    Ok(found)
+}
+
+/// Locked, with the contacts of the paper's figure 20.
+const LOCKED: &[&str] = &["contact.rotation=false"];
+const FREE: &[&str] = &["contact.rotation=true"];
+const IN_WATER: &[&str] = &["contact.rotation=true", "water.torque={finite-reynolds={}}"];
+/// Hops that means of hops are taken over: 30 are too few to tell two stiffnesses apart.
+const MANY: usize = 300;
+
+/// Contact time of a stiffness [N/m], over that of the paper's equation.
+fn contact_claim(stiffness: f64, found: &Leaps) -> Claim {
+    let name = format!("leaping grain, k = {} N/cm: contact time over pi sqrt(m/k)", stiffness / 100.0);
+    near(
+        name,
+        found.contact / contact_seconds(MASS, stiffness),
+        1.0,
+        0.1,
+        "Osada et al. 2004, figure 6 and (B8): general agreement",
+    )
+}
+
+/// B-F6, B-F7: contact times follow the stiffness, hops do not while grains overlap little; published hops.
+pub(in super::super) fn saltation(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let mut claims = Vec::new();
+    for stiffness in [1e3, 1e5] {
+        claims.push(contact_claim(stiffness, &leaps(stiffness, LOCKED, HOPS, spoiler)?));
+    }
+    let soft = leaps(1e2, LOCKED, MANY, spoiler)?;
+    let (paper, stiff) = (leaps(1e4, LOCKED, MANY, spoiler)?, leaps(1e5, LOCKED, MANY, spoiler)?);
+    claims.push(contact_claim(1e4, &paper));
+    let source = "Osada et al. 2004: what counts is the impulse";
+    let same = |what: &str, a: f64, b: f64| {
+        near(format!("leaping grain, {what}, k = 1000 over 100 N/cm"), b / a, 1.0, 0.2, source)
+    };
+    claims.push(same("mean hop height", paper.height, stiff.height));
+    claims.push(same("mean hop length", paper.length, stiff.length));
+    let gates = [same("", soft.height, stiff.height), same("", soft.length, stiff.length)];
+    claims.push(refused("contacts of 1 N/cm, in which the grain sinks between those of the bed", &gates, 2));
+    let source = "Sklar and Dietrich 2004, of measured hops, a factor of 2 (V-58)";
+    let twice = |name: &str, value: f64, wanted: f64| {
+        Claim::judge(
+            format!("leaping grain, Shields number 0.3: {name}"),
+            value,
+            Some(0.5 * wanted),
+            Some(2.0 * wanted),
+            source,
+        )
+    };
+    claims.push(twice("mean hop height over d", paper.height / D, 3.4));
+    claims.push(twice("mean hop length over d", paper.length / D, 36.8));
+    claims.push(twice("mean speed [m/s]", paper.speed, 0.741));
+    Ok(claims)
+}
+
+/// B-F6 at its softest: in a contact of 1 ms the grain goes on by half a diameter, so that the bed's grain lets it go early.
+pub(in super::super) fn softest(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let found = leaps(100.0, LOCKED, MANY, spoiler)?;
+    let source = "why the contact ends early";
+    let moved = found.contact * found.speed / D;
+    Ok(vec![
+        contact_claim(100.0, &found),
+        Claim::judge(
+            "leaping grain, k = 1 N/cm: way along the bed in a contact, over d",
+            moved,
+            Some(0.3),
+            None,
+            source,
+        ),
+    ])
+}
+
+/// B-F20, B-F21: free to spin, grains leap higher and farther, friction holds them half as much, and they spin up to what rolling
+/// would have; the torque of the water, which the paper leaves out, takes most of the spin away.
+pub(in super::super) fn spinning(spoiler: f64) -> Result<Vec<Claim>, String> {
+    let run = |changes: &[&str]| leaps(1e4, changes, MANY, spoiler);
+    let (locked, free, wet) = (run(LOCKED)?, run(FREE)?, run(IN_WATER)?);
+    let source = "Osada et al. 2004, figures 20 and 21";
+    let more = |what: &str, a: f64, b: f64| {
+        Claim::judge(format!("leaping grain, {what}, free over locked"), b / a, Some(1.05), None, source)
+    };
+    let spins = |leaps: &Leaps| {
+        near(
+            "leaping grain, mean |w| d/2 over mean speed",
+            leaps.rim / leaps.speed,
+            1.0,
+            0.2,
+            "rolling without slip; figure 21",
+        )
+    };
+    let fastest = free.fastest * 0.5 * D;
+    let mut claims = vec![
+        more("mean hop height", locked.height, free.height),
+        more("mean hop length", locked.length, free.length),
+        near(
+            "leaping grain, friction over normal impulse at impacts, free over locked",
+            free.resistance / locked.resistance,
+            0.5,
+            0.3,
+            source,
+        ),
+        spins(&free),
+        Claim::judge(
+            "leaping grain, largest |w| d/2 [m/s]",
+            fastest,
+            None,
+            Some(1.41),
+            "not above the fastest water, at the surface",
+        ),
+        Claim::judge(
+            "leaping grain, mean |w| d/2 with the torque of the water over without",
+            wet.rim / free.rim,
+            None,
+            Some(0.5),
+            "a spin lasts 0.04 s in water, less than a hop (Dennis et al. 1980)",
+        ),
+    ];
+    claims.push(refused("grains in water that does not resist their spin, as spins of real ones", &[spins(&wet)], 1));
+    Ok(claims)
+}
