@@ -207,7 +207,7 @@ impl From<&Complaints> for Failure {
 impl From<&OpenError> for Failure {
     fn from(error: &OpenError) -> Self {
         match error {
-            OpenError::Running(_) => Self::failed(error.to_string()),
+            OpenError::Running(_) | OpenError::Settling(_) => Self::failed(error.to_string()),
             _ => Self::wrong(error.to_string()),
         }
     }

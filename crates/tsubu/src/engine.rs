@@ -67,6 +67,25 @@ pub enum Fault {
         /// Whether one of the two gives way to nothing: frozen, driven, or a wall that is moved as told.
         crushed: bool,
     },
+    /// A bed did not come to rest in the time that it was given before time 0.
+    #[error(
+        "after {step} steps, {time} s, the grains have not come to rest: grain {grain} moves at {speed:.3} m/s, and all together have \
+         {share:.2} of the energy of a fall by a diameter\n\
+         hint: raise `start.settled.time` of their group; grains without friction and damping, or with a `restitution` near 1, do not come to rest; \
+         `start.rows` begins without it"
+    )]
+    Unsettled {
+        /// Steps of settling.
+        step: u64,
+        /// Time of settling [s].
+        time: f64,
+        /// Id of the fastest grain.
+        grain: usize,
+        /// Its speed [m/s].
+        speed: f64,
+        /// Kinetic energy of all over that of a fall by the smallest diameter.
+        share: f64,
+    },
     /// A lattice cluster was squeezed between opposite walls, or the box left its grid.
     #[error("step {step}, t = {time} s: {text}")]
     Lattice {

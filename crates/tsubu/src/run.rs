@@ -30,7 +30,7 @@ pub struct Watcher<'a> {
 /// Why there is no result.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    /// The scene cannot be run by this method, or its grains would not settle; nothing was written.
+    /// The scene cannot be run by this method, or its grains did not settle; nothing was written.
     #[error(transparent)]
     Open(OpenError),
     /// A file or folder.

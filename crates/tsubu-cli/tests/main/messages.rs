@@ -234,6 +234,27 @@ fn check_ends_though_grains_do_not_settle() {
     assert!(ended.stdout.contains("ok   speed scale"), "{}", ended.stdout);
 }
 
+/// A bed that was still falling when its time was over was stopped in the air, and the run began from there as if it had settled.
+#[test]
+fn grains_that_do_not_come_to_rest_are_told() {
+    let settled =
+        SCENE.replace("start.rows = { spacing = 1.1, jitter = 0.5, speed = 0.3 }", "start.settled.time = 0.05");
+    let desk = Desk::with(&settled);
+    let ended = desk.run("run balls.toml --set materials.acrylic.restitution=1 --set materials.acrylic.friction=0");
+    assert_eq!(ended.code, Some(3), "{}", ended.stderr);
+    for part in [
+        "while settling before time 0: after",
+        "0.05",
+        "have not come to rest: grain",
+        "hint: raise `start.settled.time`",
+    ] {
+        assert!(ended.stderr.contains(part), "{}", ended.stderr);
+    }
+    assert_eq!(desk.files(), ["balls.toml"]);
+    // Until it is at rest, or nearly so.
+    assert_eq!(desk.run("run balls.toml --set particles.balls.start.settled.time=1").code, Some(0));
+}
+
 /// A hundred million grains were placed until the memory was gone, and the program broke off with a backtrace.
 #[test]
 fn more_grains_than_memory_are_refused_with_numbers() {

@@ -9,9 +9,14 @@ use glam::DVec3;
 
 /// Kinetic energy over the energy of a fall by one diameter below which a bed is at rest.
 const AT_REST: f64 = 1e-6;
+/// The same, above which it is not: after the longest time that it may take, what still moves a little is stopped.
+const IN_MOTION: f64 = 1e-2;
+/// More steps than any bed takes: where steps are as short as that, it would never come to rest.
+const MOST_STEPS: u64 = 100_000_000;
 
 impl DemEngine {
-    /// Lets the grains fall for at most `time` [s] with all walls still, then sets the clock back to zero.
+    /// Lets the grains fall for at most `time` [s] with all walls still, then sets the clock back to zero. Grains that have not
+    /// come to rest by then are a fault.
     pub(super) fn settle(&mut self, time: f64) -> Result<(), Fault> {
         let poses: Vec<Pose> = self.walls.iter().map(|w| w.pose).collect();
         for wall in &mut self.walls {
@@ -28,12 +33,17 @@ impl DemEngine {
         let block = (1e-2 / self.dt).ceil() as u64;
         let fall = self.total_mass * self.gravity.length() * self.smallest_diameter;
         let mut result = Ok(());
-        while self.time() < time && result.is_ok() {
-            result = self.advance(block, &mut hosts, &mut ledger);
+        let (mut left, mut at_rest) = (0.0, false);
+        while self.time() < time && self.step < MOST_STEPS && result.is_ok() && !at_rest {
+            let steps = block.min(MOST_STEPS - self.step);
+            result = self.advance(steps, &mut hosts, &mut ledger);
             let stocks = self.grain_stocks();
-            if stocks.kinetic + stocks.rotational <= AT_REST * fall {
-                break;
-            }
+            left = stocks.kinetic + stocks.rotational;
+            // Shortly after they are let go all grains are slow.
+            at_rest = left <= AT_REST * fall && steps == block;
+        }
+        if result.is_ok() && !at_rest && (left > IN_MOTION * fall || self.time() < time) {
+            result = Err(self.unsettled(left / fall));
         }
         for (wall, pose) in self.walls.iter_mut().zip(poses) {
             wall.pose = pose;
@@ -43,5 +53,11 @@ impl DemEngine {
         self.grains.velocity.fill(DVec3::ZERO);
         self.grains.spin.fill(DVec3::ZERO);
         result
+    }
+    fn unsettled(&self, share: f64) -> Fault {
+        let speeds = self.grains.velocity.iter().map(|velocity| velocity.length());
+        let (fastest, speed) = speeds.enumerate().fold((0, 0.0), |most, one| if one.1 > most.1 { one } else { most });
+        let grain = self.grains.id.get(fastest).map_or(0, |id| *id as usize);
+        Fault::Unsettled { step: self.step, time: self.time(), grain, speed, share }
     }
 }
