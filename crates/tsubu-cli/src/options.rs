@@ -22,6 +22,12 @@ impl SceneOptions {
         Scene::read(&self.file(), &self.set).map_err(|complaints| Failure::from(&complaints))
     }
 
+    /// What to type for the same scene with the same changes in another command.
+    pub fn words(&self) -> String {
+        let changes = self.set.iter().map(|change| format!(" --set {}", quoted(change)));
+        quoted(&self.scene.display().to_string()) + &changes.collect::<String>()
+    }
+
     fn file(&self) -> PathBuf {
         let inside = self.scene.join("scene.toml");
         if inside.is_file() { inside } else { self.scene.clone() }

@@ -14,6 +14,6 @@ fn main() {
     fixture::calibration(&dir.join("calibration"));
     fixture::verify(&dir.join("verification"), false);
     for name in ["swinging-box", "damper-response", "two-methods", "sweep", "calibration", "verification"] {
-        println!("{}", tsubu_report::report(&dir.join(name)).unwrap().display());
+        println!("{}", tsubu_report::report(&dir.join(name)).unwrap().page.display());
     }
 }

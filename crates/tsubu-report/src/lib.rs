@@ -58,9 +58,18 @@ pub enum ReportError {
     File(#[from] FileError),
 }
 
-/// Writes `report.html` and `figures/` into a folder of results, whatever kind it is, and gives the page's path.
-pub fn report(dir: &Path) -> Result<PathBuf, ReportError> {
-    let (report, files) = gather(dir)?;
+/// A page that was written.
+#[derive(Clone, Debug)]
+pub struct Written {
+    /// Its path.
+    pub page: PathBuf,
+    /// What is missing, cut off or not tsubu's among the results; the page says it, too.
+    pub damage: Vec<String>,
+}
+
+/// Writes `report.html` and `figures/` into a folder of results, whatever kind it is.
+pub fn report(dir: &Path) -> Result<Written, ReportError> {
+    let (report, Source { files, damage, .. }) = gather(dir)?;
     let names = files.iter().map(|(name, _)| name.as_str()).chain([PAGE]);
     let folder = RunFolder::open(dir, names)?;
     for (name, bytes) in &files {
@@ -68,7 +77,7 @@ pub fn report(dir: &Path) -> Result<PathBuf, ReportError> {
     }
     folder.write(PAGE, report.to_html().as_bytes())?;
     folder.sync()?;
-    Ok(folder.file(PAGE))
+    Ok(Written { page: folder.file(PAGE), damage })
 }
 
 /// What the report of a folder says, without writing anything.
@@ -76,9 +85,7 @@ pub fn build(dir: &Path) -> Result<Report, ReportError> {
     gather(dir).map(|(report, _)| report)
 }
 
-type Files = Vec<(String, Vec<u8>)>;
-
-fn gather(dir: &Path) -> Result<(Report, Files), ReportError> {
+fn gather(dir: &Path) -> Result<(Report, Source), ReportError> {
     if !dir.is_dir() {
         return Err(ReportError::NoFolder { path: dir.to_owned() });
     }
@@ -96,5 +103,5 @@ fn gather(dir: &Path) -> Result<(Report, Files), ReportError> {
     } else {
         return Err(ReportError::NoResults { path: dir.to_owned() });
     };
-    Ok((report, source.files))
+    Ok((report, source))
 }

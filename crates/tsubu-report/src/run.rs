@@ -20,6 +20,9 @@ pub(crate) fn build(source: &mut Source) -> Report {
     if history.is_none() && !source.has("history.csv") {
         source.notes.push("There is no history.csv, so nothing is drawn over time.".into());
     }
+    if let Some(table) = &history {
+        source.notes.extend(cut(table, summary.as_ref()));
+    }
     let mut report = Report {
         kind: "Simulation run".into(),
         title: source.title(),
@@ -94,6 +97,20 @@ fn verdict(summary: Option<&Summary>) -> (Tone, String) {
         Status::Interrupted => (Tone::Warning, "interrupted".into()),
         Status::Failed => (Tone::Bad, "failed".into()),
     }
+}
+
+/// What tells that rows of the history are missing, or that it is another table.
+fn cut(history: &Table, summary: Option<&Summary>) -> Option<String> {
+    let Some(times) =
+        history.numbers("time").filter(|_| history.header.first().is_some_and(|first| first == "time [s]"))
+    else {
+        return Some("history.csv does not begin with a column `time [s]`: it is not the history of a run.".into());
+    };
+    let end = summary?.simulated_seconds;
+    let last = times.last().copied()?;
+    let interval = times.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    (last + 1.5 * interval < end)
+        .then(|| format!("history.csv ends at {last} s and the run at {end} s: rows at its end are missing."))
 }
 
 fn headline(summary: Option<&Summary>, history: Option<&Table>) -> String {

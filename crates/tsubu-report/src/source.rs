@@ -17,6 +17,8 @@ const FEW: usize = 6;
 pub(crate) struct Source {
     pub dir: PathBuf,
     pub notes: Vec<String>,
+    /// The notes that stand on the page already.
+    pub damage: Vec<String>,
     pub files: Vec<(String, Vec<u8>)>,
 }
 
@@ -73,6 +75,9 @@ impl Source {
         }
         let read = Table::read(&self.dir.join(name));
         let table = self.told(read)?;
+        if self.text(name).is_some_and(|text| !text.ends_with('\n')) {
+            self.notes.push(format!("{name} ends within a line: it was cut off."));
+        }
         if table.rows.is_empty() {
             self.notes.push(format!("{name} has no rows."));
             return None;
@@ -103,6 +108,7 @@ impl Source {
 
     /// The notes as blocks, for the head of the page.
     pub fn note_blocks(&mut self) -> Vec<Block> {
+        self.damage.extend_from_slice(&self.notes);
         self.notes.drain(..).map(|n| Block::Note(Tone::Warning, n)).collect()
     }
 

@@ -50,7 +50,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         return Err(Failure::wrong(format!("{warnings} warning{plural}, and `--strict` lets none pass")));
     }
     match warnings {
-        0 => output::tell(&format!("the scene is right; run it: tsubu run {}\n", options.scene.scene.display())),
+        0 => output::tell(&format!("the scene is right; run it: tsubu run {}\n", options.scene.words())),
         n => output::tell(&format!("the scene can be run, with {n} warning{plural}\n")),
     }
     Ok(())

@@ -1,7 +1,7 @@
 //! `tsubu report`: figures and one page.
 
 use crate::failure::Failure;
-use crate::output;
+use crate::output::{self, Stream};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -16,11 +16,18 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
-    let page = write(&options.folder)?;
-    output::print(&format!("{}\n", page.display()))
+    let written = tsubu_report::report(&options.folder).map_err(|error| Failure::of_report(&error))?;
+    output::print(&format!("{}\n", written.page.display()))?;
+    if written.damage.is_empty() {
+        return Ok(());
+    }
+    let mark = Stream::Error.yellow("warning");
+    output::tell(&written.damage.iter().map(|note| format!("{mark}: {note}\n")).collect::<String>());
+    Err(Failure::failed(format!("results in {} are not whole", options.folder.display()))
+        .hint("the page has what could be read"))
 }
 
-/// Writes figures and page into a folder of results, and gives the page's path.
+/// Writes figures and page into a folder of results that were just computed, and gives the page's path.
 pub fn write(folder: &Path) -> Result<PathBuf, Failure> {
-    tsubu_report::report(folder).map_err(|error| Failure::of_report(&error))
+    tsubu_report::report(folder).map(|written| written.page).map_err(|error| Failure::of_report(&error))
 }

@@ -133,3 +133,13 @@ fn bench_is_kept_for_check_and_quoted_by_reports() {
     desk.done("check balls.toml");
     assert_eq!(desk.run("bench --seconds 0").code, Some(2));
 }
+
+/// The command that `check` suggested ran another scene than the one that it had judged.
+#[test]
+fn check_suggests_what_it_judged() {
+    let desk = Desk::new();
+    let set = "--set 'duration=0.02 s' --set speed-scale=0.2";
+    let ended = desk.run(&format!("check balls.toml {set} --set materials.acrylic.young-modulus=1e8"));
+    let whole = format!("run it: tsubu run balls.toml {set} --set materials.acrylic.young-modulus=1e8");
+    assert!(ended.stderr.contains(&whole), "{}{}", ended.stdout, ended.stderr);
+}

@@ -163,3 +163,34 @@ fn a_run_of_no_step_is_refused() {
     }
     assert_eq!(desk.files(), ["balls.toml"]);
 }
+
+/// Damage was told inside the page alone: a script saw exit code 0 and an empty stderr, and rows that were cut off at the end of
+/// a line were told nowhere.
+#[test]
+fn reports_tell_damage() {
+    let desk = Desk::with(SCENE);
+    desk.done("run balls.toml -o whole --set output.frame-interval=0.01");
+    assert_eq!(desk.run("report whole").code, Some(0));
+    let history = desk.read("whole/history.csv");
+    let some: String = history.lines().take(4).map(|line| format!("{line}\n")).collect();
+    for (file, content, told) in [
+        ("history.csv", Some(some.as_str()), "rows at its end are missing"),
+        ("history.csv", Some(&history[..history.len() - 7]), "history.csv"),
+        ("history.csv", Some("a,b\n1,2\n"), "is not the history of a run"),
+        ("history.csv", None, "no history.csv"),
+        ("summary.json", Some("{ \"tsubu"), "summary.json"),
+        ("frames/grains_000001.vtp", None, "grains_000001.vtp"),
+    ] {
+        let path = desk.path(&format!("whole/{file}"));
+        let before = std::fs::read(&path).unwrap();
+        match content {
+            Some(content) => std::fs::write(&path, content).unwrap(),
+            None => std::fs::remove_file(&path).unwrap(),
+        }
+        let ended = desk.run("report whole");
+        assert_eq!(ended.code, Some(3), "{file} {content:?}: {}", ended.stderr);
+        assert!(ended.stderr.contains(told) && ended.stdout.contains("report.html"), "{file}: {}", ended.stderr);
+        std::fs::write(&path, before).unwrap();
+    }
+    assert_eq!(desk.run("report whole").code, Some(0));
+}

@@ -14,7 +14,7 @@ fn titles(report: &Report) -> Vec<&str> {
 }
 
 fn written(dir: &Path) -> String {
-    let page = report(dir).unwrap();
+    let page = report(dir).unwrap().page;
     assert_eq!(page, dir.join("report.html"));
     fs::read_to_string(page).unwrap()
 }
