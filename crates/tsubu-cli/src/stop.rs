@@ -2,7 +2,7 @@
 
 use crate::output;
 use std::process::exit;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
 use std::thread;
 use std::time::Duration;
 use tsubu::interrupt::Interrupt;
@@ -11,6 +11,9 @@ static INTERRUPT: Interrupt = Interrupt::new();
 
 /// What to say where the program has to end by itself.
 static WORDS: OnceLock<String> = OnceLock::new();
+
+/// What to say where a command without a state ends.
+static SO_FAR: Mutex<String> = Mutex::new(String::new());
 
 /// How long those have who stop by themselves.
 const GRACE: Duration = Duration::from_millis(1500);
@@ -30,7 +33,8 @@ pub fn listen() {
                 thread::spawn(move || end(words));
             }
             None => {
-                output::tell("\ninterrupted\n");
+                let so_far = SO_FAR.lock().map(|text| text.clone()).unwrap_or_default();
+                output::tell(&format!("\ninterrupted{so_far}\n"));
                 exit(INTERRUPTED);
             }
         }
@@ -42,6 +46,13 @@ pub fn listen() {
 pub fn interrupt(words: &str) -> &'static Interrupt {
     WORDS.get_or_init(|| words.to_owned());
     &INTERRUPT
+}
+
+/// How far a command has come that has no state to save, to be said behind "interrupted".
+pub fn so_far(text: String) {
+    if let Ok(mut so_far) = SO_FAR.lock() {
+        *so_far = text;
+    }
 }
 
 fn end(words: &str) {

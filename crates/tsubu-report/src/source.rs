@@ -349,6 +349,7 @@ pub(crate) fn shown(table: &Table) -> Block {
         .map(|(c, header)| {
             let largest = table.rows.iter().filter_map(|r| r[c].number()).fold(0.0_f64, |a, x| a.max(x.abs()));
             match split_unit(header) {
+                (name, Some("text")) => (1.0, name.to_owned()),
                 (name, Some("kg")) if largest < 0.1 => (1e3, format!("{name} [g]")),
                 (name, Some(unit @ ("m" | "J" | "rad"))) => {
                     let (factor, unit) = crate::figure::prefix(unit, largest);

@@ -22,7 +22,9 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         return Ok(());
     }
     let mark = Stream::Error.yellow("warning");
-    output::tell(&written.damage.iter().map(|note| format!("{mark}: {note}\n")).collect::<String>());
+    for note in &written.damage {
+        output::tell(&format!("{mark}: {note}\n"));
+    }
     Err(Failure::failed(format!("results in {} are not whole", options.folder.display()))
         .hint("the page has what could be read"))
 }

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::options::WorkOptions;
 use crate::output::{self, Stream};
 use crate::progress::Progress;
-use crate::table;
+use crate::{stop, table};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -88,6 +88,7 @@ fn list(cases: &[&Case]) -> Result<(), Failure> {
 fn judge(cases: &[&'static Case], folder: Option<&RunFolder>, options: &Options) -> Result<Vec<Claim>, Failure> {
     let pool = options.work.pool()?;
     let progress = Progress::new("verify", options.work.quiet);
+    stop::so_far(so_far(0, cases.len(), ""));
     let (sender, receiver) = mpsc::channel();
     let claims = pool.in_place_scope(|scope| {
         for (index, case) in cases.iter().copied().enumerate() {
@@ -100,7 +101,7 @@ fn judge(cases: &[&'static Case], folder: Option<&RunFolder>, options: &Options)
         drop(sender);
         let mut waiting = BTreeMap::new();
         let mut claims = Vec::new();
-        let (mut next, mut done) = (0, 0);
+        let (mut next, mut done) = (0, 0_usize);
         for (index, outcome) in receiver {
             waiting.insert(index, outcome);
             done += 1;
@@ -111,12 +112,21 @@ fn judge(cases: &[&'static Case], folder: Option<&RunFolder>, options: &Options)
                 claims.extend(of_case);
                 next += 1;
             }
-            progress.set(f64::from(done) / cases.len() as f64);
+            let untold = waiting.values().flatten().flatten().map(claims::line);
+            stop::so_far(so_far(done, cases.len(), &untold.collect::<String>()));
+            progress.set(done as f64 / cases.len() as f64);
         }
         Ok(claims)
     });
     progress.end();
     claims
+}
+
+/// What is said of an interrupted verification; `untold` are the claims of cases that were done before others ahead of them.
+fn so_far(done: usize, all: usize, untold: &str) -> String {
+    let told = if done == 0 { "" } else { "; their claims were told" };
+    let text = format!(": {done} of {all} cases were done{told}");
+    if untold.is_empty() { text } else { format!("{text}, the last of them here:\n{}", untold.trim_end()) }
 }
 
 /// A case that came to no value: a claim that fails.

@@ -46,6 +46,20 @@ fn long_commands_stop() {
     assert_eq!(desk.summary("out")["status"], "interrupted");
 }
 
+/// Nobody could tell from an interrupted verification how much of it was done.
+#[test]
+fn an_interrupted_verification_says_how_far_it_came() {
+    let desk = Desk::new();
+    let mut child = desk.command("verify --all --threads 1").stderr(std::process::Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(1500));
+    signal(&child, "INT");
+    let mut said = String::new();
+    std::io::Read::read_to_string(&mut child.stderr.take().unwrap(), &mut said).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let (_, rest) = said.split_once("interrupted: ").unwrap_or_else(|| panic!("{said}"));
+    assert!(rest.contains(" cases were done"), "{said}");
+}
+
 /// Intervals of next to nothing were counted up one by one, and the run never ended.
 #[test]
 fn an_interval_below_a_step_is_a_step() {

@@ -102,7 +102,11 @@ fn a_case_that_fails_is_told_beside_the_others() {
 fn two_methods_side_by_side() {
     let desk = Desk::new();
     let shown = desk.done("compare balls.toml --methods dem,lattice -q").stdout;
-    assert!(shown.contains("computing time s"), "{shown}");
+    assert!(shown.contains("computing time"), "{shown}");
+    // Every number stood under `[SI]`, whatever it measured.
+    let table = desk.read("out/balls-compare/compare.csv");
+    assert!(table.starts_with("quantity [text],unit [text],dem,lattice\ncomputing time,s,"), "{table}");
+    assert!(table.contains("\nhost spring rms displacement,m,") && table.contains("\nkinetic,J,"), "{table}");
     for name in ["compare.csv", "report.html", "dem/summary.json", "lattice/summary.json"] {
         assert!(desk.path(&format!("out/balls-compare/{name}")).exists(), "{name}");
     }
@@ -196,4 +200,20 @@ fn a_ball_is_stopped_by_a_bed() {
     let most = rows.iter().copied().fold(0.0, f64::max);
     assert!((0.95..1.1).contains(&(most / begun)), "the ball came with {most} J, not {begun} J");
     assert!(rows.last().unwrap() / begun < 0.1, "after the impact {} J are left", rows.last().unwrap());
+}
+
+/// A response that went on told how long its last part had taken, as if that were all.
+#[test]
+fn a_response_that_goes_on_tells_the_time_of_all_its_parts() {
+    let desk = Desk::new();
+    desk.done("response balls.toml -q -o out");
+    let journal = desk.read("out/progress.jsonl");
+    let lines: Vec<&str> = journal.lines().filter(|line| !line.is_empty()).collect();
+    std::fs::write(desk.path("out/progress.jsonl"), lines[..lines.len() - 1].join("\n")).unwrap();
+    let mut summary = desk.summary("out");
+    summary["wall_seconds"] = 1000.0.into();
+    std::fs::write(desk.path("out/summary.json"), summary.to_string()).unwrap();
+    desk.done("response balls.toml -q -o out");
+    let took = desk.summary("out")["wall_seconds"].as_f64().unwrap();
+    assert!((1000.0..1100.0).contains(&took), "{took}");
 }

@@ -183,10 +183,10 @@ pub fn response(dir: &Path) {
 
 /// A folder of `tsubu compare`.
 pub fn compare(dir: &Path) {
-    let mut table = Table::new(["quantity [text]", "dem [-]", "lattice [-]"]);
-    table.push([Cell::from("rms displacement [m]"), Cell::from(2.81e-3), Cell::from(2.77e-3)]);
-    table.push([Cell::from("lift-off phase [deg]"), Cell::from(41.2), Cell::from(f64::NAN)]);
-    table.push([Cell::from("buoyancy J"), Cell::from(0.0), Cell::from(f64::NAN)]);
+    let mut table = Table::new(["quantity [text]", "unit [text]", "dem", "lattice"]);
+    table.push([Cell::from("rms displacement"), Cell::from("m"), Cell::from(2.81e-3), Cell::from(2.77e-3)]);
+    table.push([Cell::from("lift-off phase"), Cell::from("deg"), Cell::from(41.2), Cell::from(f64::NAN)]);
+    table.push([Cell::from("buoyancy"), Cell::from("J"), Cell::from(0.0), Cell::from(f64::NAN)]);
     table.write(&dir.join("compare.csv")).unwrap();
     text(dir, "compare.json", "{}");
     run(&dir.join("dem"), "dem", 30);

@@ -6,6 +6,7 @@ use crate::partner::Hosts;
 use crate::run::{self, RunError, Watcher};
 use crate::scene_files;
 use serde::Serialize;
+use std::collections::BTreeSet;
 use std::fmt;
 use std::path::Path;
 use tsubu_frame::{Cell, Existing, FileError, ResultValue, RunFolder, Status, Summary, Table};
@@ -128,42 +129,33 @@ pub fn scenes(scene: &Scene, variants: &[Variant]) -> Result<(Runners, Vec<Refus
     Ok((scenes, refused))
 }
 
-/// One row a quantity, one column a method.
+/// One row a quantity with its unit, one column a method.
 fn table(done: &[(Variant, Summary)]) -> Table {
     let summaries: Vec<&Summary> = done.iter().map(|(_, summary)| summary).collect();
-    let names = done.iter().map(|(variant, _)| format!("{} [SI]", variant.name));
-    let header = ["quantity [text]".to_owned()].into_iter().chain(names);
+    let names = done.iter().map(|(variant, _)| variant.name.clone());
+    let header = ["quantity [text]", "unit [text]"].map(str::to_owned).into_iter().chain(names);
     let mut table = Table::new(header);
-    let mut row = |name: &str, values: &mut dyn Iterator<Item = f64>| {
-        table.push([Cell::Text(name.to_owned())].into_iter().chain(values.map(Cell::Number)));
+    let mut row = |name: &str, unit: &str, value: &dyn Fn(&Summary) -> f64| {
+        let values = summaries.iter().map(|summary| Cell::Number(value(summary)));
+        table.push([name, unit].map(|text| Cell::Text(text.to_owned())).into_iter().chain(values));
     };
-    row("computing time s", &mut summaries.iter().map(|s| s.wall_seconds));
-    row("time step s", &mut summaries.iter().map(|s| s.time_step));
-    row("steps", &mut summaries.iter().map(|s| s.steps as f64));
-    row("particle-steps per second", &mut summaries.iter().map(|s| s.particle_steps_per_second));
-    row("mean contacts", &mut summaries.iter().map(|s| s.contacts_mean));
-    let mut names: Vec<&str> = Vec::new();
+    row("computing time", "s", &|s| s.wall_seconds);
+    row("time step", "s", &|s| s.time_step);
+    row("steps", "-", &|s| s.steps as f64);
+    row("particle-steps per second", "1/s", &|s| s.particle_steps_per_second);
+    row("mean contacts", "-", &|s| s.contacts_mean);
+    let mut seen = BTreeSet::new();
     for summary in &summaries {
-        names.extend(summary.results.iter().map(|(name, _)| name));
-    }
-    names.dedup();
-    let mut seen = Vec::new();
-    for name in names {
-        if seen.contains(&name) {
-            continue;
-        }
-        seen.push(name);
-        row(
-            name,
-            &mut summaries.iter().map(|s| match s.results.get(name) {
+        for (name, _) in summary.results.iter().filter(|(name, _)| seen.insert((*name).to_owned())) {
+            row(name, summary.unit(name), &|s| match s.results.get(name) {
                 Some(ResultValue::Number(value)) => *value,
                 _ => f64::NAN,
-            }),
-        );
+            });
+        }
     }
-    for (term, _) in summaries.first().map(|s| s.energy.terms.iter().collect::<Vec<_>>()).unwrap_or_default() {
-        row(&format!("{term} J"), &mut summaries.iter().map(|s| s.energy.terms.get(term).map_or(f64::NAN, |j| j.0)));
+    for (term, _) in summaries.first().iter().flat_map(|summary| summary.energy.terms.iter()) {
+        row(term, "J", &|s| s.energy.terms.get(term).map_or(f64::NAN, |joule| joule.0));
     }
-    row("energy residual, relative", &mut summaries.iter().map(|s| s.energy.residual_relative));
+    row("energy residual, relative", "-", &|s| s.energy.residual_relative);
     table
 }

@@ -42,6 +42,9 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
     let task = Task::new(scene)?;
     let resolved = scene.resolved_toml();
     let earlier = earlier(folder, &resolved, overwrite)?;
+    // An interrupted response has told how long it took until then.
+    let before = earlier.as_ref().and_then(|_| Summary::read(&folder.join("summary.json")).ok());
+    let before = before.map_or(0.0, |summary| summary.wall_seconds);
     let keys = task.missing(earlier.as_ref());
     let (beds, mut failures) = task.settle(&keys)?;
     // Only now, so that a scene that a method refuses leaves nothing behind.
@@ -69,7 +72,8 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
         task.film(&results, &folder)?;
     }
     let failures = failures.iter().map(|failure| task.told(failure)).collect();
-    Ok(write::write(&folder, scene, &task.plans, &results, status, failures, begun.elapsed().as_secs_f64())?)
+    let took = before + begun.elapsed().as_secs_f64();
+    Ok(write::write(&folder, scene, &task.plans, &results, status, failures, took)?)
 }
 
 /// The curves of a scene's response, without any file.
