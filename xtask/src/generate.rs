@@ -1,20 +1,31 @@
 //! Pages that are made from the code.
 
-use crate::shell::root;
+use crate::blocks;
+use crate::shell::{cargo, output, root};
 use std::fs;
 
+/// Pages of the book that the program prints.
+const PRINTED: [&str; 6] = ["contact", "water", "watches", "walls", "methods", "claims"];
+
 /// Every generated file with its content.
-fn pages() -> [(&'static str, String); 2] {
-    [
-        ("docs/src/scene-reference.md", tsubu_scene::reference()),
-        ("docs/scene.schema.json", format!("{:#}\n", tsubu_scene::schema())),
-    ]
+fn pages() -> Result<Vec<(String, String)>, String> {
+    let mut pages = vec![
+        ("docs/src/scene-reference.md".to_owned(), tsubu_scene::reference()),
+        ("docs/scene.schema.json".to_owned(), format!("{:#}\n", tsubu_scene::schema())),
+    ];
+    cargo(&["build", "--package", "tsubu-cli", "--quiet"])?;
+    for name in PRINTED {
+        let text = output(&["run", "--package", "tsubu-cli", "--quiet", "--", "explain", "--page", name])?;
+        pages.push((format!("docs/src/explained/{name}.md"), text));
+    }
+    pages.extend(blocks::pages()?);
+    Ok(pages)
 }
 
 /// Writes them.
 pub fn write() -> Result<(), String> {
-    for (name, content) in pages() {
-        let path = root().join(name);
+    for (name, content) in pages()? {
+        let path = root().join(&name);
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder).map_err(|error| format!("cannot make the folder of {name}: {error}"))?;
         }
@@ -26,7 +37,7 @@ pub fn write() -> Result<(), String> {
 
 /// Fails if one is out of date.
 pub fn check() -> Result<(), String> {
-    let stale: Vec<&str> = pages()
+    let stale: Vec<String> = pages()?
         .into_iter()
         .filter(|(name, content)| fs::read_to_string(root().join(name)).is_ok_and(|text| text == *content).eq(&false))
         .map(|(name, _)| name)

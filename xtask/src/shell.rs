@@ -35,6 +35,17 @@ pub fn run(mut command: Command) -> Result<(), String> {
     if status.success() { Ok(()) } else { Err(format!("`{told}` failed ({status})")) }
 }
 
+/// What cargo, given these arguments, prints to stdout.
+pub fn output(arguments: &[&str]) -> Result<String, String> {
+    let told = format!("cargo {}", arguments.join(" "));
+    let done = command(&cargo_path(), arguments).stderr(Stdio::inherit()).output();
+    let done = done.map_err(|error| format!("cannot start `{told}`: {error}"))?;
+    if !done.status.success() {
+        return Err(format!("`{told}` failed ({})", done.status));
+    }
+    String::from_utf8(done.stdout).map_err(|_| format!("`{told}` printed what is no text"))
+}
+
 /// Whether a command can be run and succeeds, in silence.
 pub fn succeeds(mut command: Command) -> bool {
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|s| s.success())

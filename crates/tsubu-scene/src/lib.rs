@@ -4,8 +4,10 @@
 //! text + --set  ->  node (typed, with places)  ->  resolve (along keys)  ->  derive  ->  check  ->  Plan
 //! ```
 //!
-//! [`keys`] is the table of everything a scene may say. Validation, unit conversion, defaults, the JSON Schema
-//! ([`schema()`]) and the reference page ([`reference()`]) all read it; nothing about a key is said anywhere else.
+//! [`keys`] is the table of everything a scene may say: names, units, ranges, defaults and a sentence each. Reading, the JSON
+//! Schema ([`schema()`]), the reference page ([`reference()`]) and what is explained by name ([`choices()`]) follow it. A key
+//! has a field of the same name in [`plan`]; what values must be to one another stands in `check`, and what follows from
+//! others in `resolve`.
 //!
 //! ```
 //! use tsubu_scene::Scene;
@@ -35,6 +37,7 @@ pub mod units;
 mod attach;
 mod change;
 mod check;
+mod choices;
 mod complaint;
 mod files;
 mod going_on;
@@ -59,10 +62,12 @@ pub mod mesh {
     pub use crate::mesh_check::{Diagnosis, Found, diagnose};
 }
 
+pub use choices::{Choice, KeyText, choices};
 pub use complaint::Complaints;
 pub use going_on::Difference;
 pub use plan::Plan;
 pub use reference::reference;
 pub use scene::Scene;
 pub use schema::schema;
+pub use suggest::nearest;
 pub use templates::{TEMPLATES, Template};

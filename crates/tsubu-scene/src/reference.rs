@@ -124,7 +124,7 @@ fn rows(page: &mut String, keys: &[Key]) {
 }
 
 /// What the value is, in a few words.
-fn value(key: &Key) -> String {
+pub(crate) fn value(key: &Key) -> String {
     match key.kind {
         Kind::Quantity(dimension) if dimension.si.is_empty() => "number".to_string(),
         Kind::Quantity(dimension) => format!("{} [{}]", bare_name(dimension.name), dimension.si),
@@ -163,7 +163,8 @@ fn words_of(words: &[Word]) -> String {
     words.iter().map(|word| format!("`\"{}\"` ({})", word.name, word.about)).collect::<Vec<_>>().join(", ")
 }
 
-fn default(key: &Key) -> String {
+/// What is read where it is not given, in a few words.
+pub(crate) fn default(key: &Key) -> String {
     match key.need {
         Need::Required => "required".to_string(),
         Need::Optional => "not there".to_string(),

@@ -4,7 +4,7 @@
 const LONGEST: usize = 100;
 
 /// The nearest candidate, when it is near enough that a slip of the hand explains the difference.
-pub(crate) fn nearest<'a>(typed: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(typed: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if typed.len() > LONGEST {
         return None;
     }

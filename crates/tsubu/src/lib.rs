@@ -10,6 +10,7 @@ pub mod clca;
 pub mod contact;
 pub mod dem;
 pub mod engine;
+pub mod explain;
 pub mod find;
 pub mod interrupt;
 pub mod lattice;

@@ -5,6 +5,7 @@ mod check;
 mod claims;
 mod compare;
 mod completions;
+mod explain;
 mod new;
 mod report;
 mod response;
@@ -32,6 +33,8 @@ pub enum Command {
     Compare(compare::Options),
     /// Check the shipped verification cases and published studies, claim by claim
     Verify(verify::Options),
+    /// What a law, a watch, a wall, a method or a claim is: formula, symbols with units, limits, source
+    Explain(explain::Options),
     /// Make figures and a self-contained report.html from a folder of results
     Report(report::Options),
     /// Measure how fast this machine is, in about a minute
@@ -55,6 +58,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Response(options) => response::run(&options),
         Command::Compare(options) => compare::run(&options),
         Command::Verify(options) => verify::run(&options),
+        Command::Explain(options) => explain::run(&options),
         Command::Report(options) => report::run(&options),
         Command::Bench(options) => bench::run(&options),
         Command::View(options) => view::run(&options),

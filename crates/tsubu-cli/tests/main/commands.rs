@@ -26,9 +26,20 @@ fn nothing_asked() {
 #[test]
 fn help_lists_the_commands() {
     let help = Desk::empty().done("--help").stdout;
-    for command in
-        ["run", "check", "sweep", "response", "compare", "verify", "report", "view", "new", "schema", "completions"]
-    {
+    for command in [
+        "run",
+        "check",
+        "sweep",
+        "response",
+        "compare",
+        "verify",
+        "explain",
+        "report",
+        "view",
+        "new",
+        "schema",
+        "completions",
+    ] {
         assert!(help.contains(&format!("\n  {command} ")), "{command}: {help}");
         Desk::empty().done(&format!("{command} --help"));
     }
@@ -43,6 +54,54 @@ fn a_misspelt_command() {
 #[test]
 fn view_is_not_there_yet() {
     assert_snapshot!(Desk::empty().shown("view out/damper --port 8000"));
+}
+
+#[test]
+fn a_law_a_watch_and_a_case_are_explained() {
+    let desk = Desk::empty();
+    assert_snapshot!(desk.shown("explain hertz"));
+    assert_snapshot!(desk.shown("explain rolling.epsd"));
+    assert_snapshot!(desk.shown("explain fabric"));
+    assert_snapshot!(desk.shown("explain haff"));
+    let springs = desk.done("explain spring").stdout;
+    assert!(
+        ["tangential", "rolling", "twisting"].iter().all(|part| springs.contains(&format!("[contact.{part}.spring]")))
+    );
+    assert!(desk.done("explain rolling").stdout.contains("slide-to-roll"), "a study");
+}
+
+/// A name that is almost one gets the one that is meant, and nothing is explained.
+#[test]
+fn what_has_no_explanation_is_told() {
+    let desk = Desk::empty();
+    for (typed, meant) in [
+        ("hertzz", "hertz"),
+        ("schiller-nauman", "schiller-naumann"),
+        ("contact.normal.hok", "hook"),
+        ("brazilnut", "brazil-nut"),
+    ] {
+        let ended = desk.run(&format!("explain {typed}"));
+        assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""), "{typed}");
+        assert!(ended.stderr.contains(meant), "{typed}: {}", ended.stderr);
+    }
+    assert_snapshot!(desk.shown("explain qqq"));
+}
+
+#[test]
+fn everything_that_is_listed_can_be_explained() {
+    let desk = Desk::empty();
+    let list = desk.done("explain").stdout;
+    let names: Vec<&str> = list
+        .lines()
+        .filter(|line| line.starts_with("    "))
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
+    for name in ["hertz", "schiller-naumann", "discharge", "mesh", "after-savage", "haff"] {
+        assert!(names.contains(&name), "{name}: {list}");
+    }
+    for name in names {
+        assert!(!desk.done(&format!("explain {name}")).stdout.is_empty(), "{name}");
+    }
 }
 
 #[test]

@@ -45,10 +45,14 @@ const COHESIVE_FORCE: Key = Key::new("cohesion", Kind::Choice(COHESION), "Attrac
 const FILM_BETWEEN: Key = Key::new("film", Kind::Choice(FILM), "Liquid between bodies that are near, touching or not");
 
 static NORMAL: &[Variant] = &[
-    Variant { name: "hertz", about: "k d^(3/2), k from the materials", keys: &[] },
+    Variant {
+        name: "hertz",
+        about: "Elastic contact of smooth spheres, or of a sphere and a plane, as stiff as the materials make it (Hertz 1882)",
+        keys: &[],
+    },
     Variant {
         name: "hooke",
-        about: "k d, one k for all contacts",
+        about: "Linear spring, one stiffness for all contacts; the contact time does not depend on the impact speed",
         keys: &[Key::new("stiffness", Kind::Quantity(&STIFFNESS), "k").above(0.0)],
     },
 ];
@@ -62,23 +66,27 @@ static DAMPING: &[Variant] = &[
     Variant { name: "none", about: "No damping, whatever the restitution", keys: &[] },
     Variant {
         name: "sqrt",
-        about: "c d^(1/2) d' (visco-elastic, Kuwabara-Kono): restitution falls slowly with speed",
+        about: "Visco-elastic spheres (Kuwabara and Kono 1987): the restitution falls slowly with the impact speed",
         keys: &[REFERENCE_SPEED],
     },
-    Variant { name: "quarter", about: "c d^(1/4) d' (Tsuji 1992): constant restitution with Hertz", keys: &[] },
+    Variant {
+        name: "quarter",
+        about: "The same restitution at every impact speed, with Hertz (Tsuji, Tanaka and Ishida 1992)",
+        keys: &[],
+    },
     Variant {
         name: "linear",
-        about: "c d': constant restitution with Hooke; with Hertz it is met at the reference speed",
+        about: "A dashpot of constant strength: constant restitution with Hooke; with Hertz it is met at the reference speed",
         keys: &[REFERENCE_SPEED],
     },
     Variant {
         name: "rate",
-        about: "rate m* d', m* the reduced mass, whatever the restitution (`mass_velocity` of other codes)",
+        about: "A dashpot in proportion to the reduced mass, one rate of decay for all sizes, whatever the restitution (`mass_velocity` of other codes)",
         keys: &[Key::new("rate", Kind::Quantity(&RATE), "Damping coefficient over reduced mass").at_least(0.0)],
     },
     Variant {
         name: "dashpot",
-        about: "c d', one c for all contacts, whatever the restitution (Osada 2004)",
+        about: "One dashpot for all contacts, whatever the restitution (Osada 2004)",
         keys: &[Key::new("coefficient", Kind::Quantity(&DASHPOT), "c").at_least(0.0)],
     },
 ];
@@ -92,12 +100,12 @@ static TANGENTIAL: &[Variant] = &[
     Variant { name: "none", about: "No tangential force", keys: &[] },
     Variant {
         name: "coulomb",
-        about: "Sliding friction without a spring, smoothed near zero sliding speed; heaps creep",
+        about: "Sliding friction without a spring, fading below a small sliding speed; heaps creep",
         keys: &[SLIDING_FADES],
     },
     Variant {
         name: "mindlin",
-        about: "Spring with history, capped at the friction limit; with `normal.hertz`",
+        about: "Elastic tangential contact of spheres: a spring with history that slides at the friction limit; with `normal.hertz`",
         keys: &[
             Key::new("form", Kind::OneOf(MINDLIN_FORM), "How force and slip belong together").default("'incremental'"),
             Key::new(
@@ -111,7 +119,7 @@ static TANGENTIAL: &[Variant] = &[
     },
     Variant {
         name: "spring",
-        about: "Linear spring with history and a dashpot, capped at mu f_n + c b (Cundall and Strack 1979; Osada 2004); with `normal.hooke`",
+        about: "Linear spring with history and a dashpot that slide at the friction limit, with cohesion between grains (Cundall and Strack 1979; Osada 2004); with `normal.hooke`",
         keys: &[
             Key::new("ratio", Kind::Quantity(&NUMBER), "Tangential over normal stiffness")
                 .default("0.2857142857142857")
@@ -129,8 +137,11 @@ static TANGENTIAL: &[Variant] = &[
 ];
 
 static MINDLIN_FORM: &[Word] = &[
-    Word { name: "incremental", about: "dF = -k_t(d) dx, F scaled down on unloading (Thornton, Cummins, Cleary 2013)" },
-    Word { name: "secant", about: "F = -k_t(d) x, x the whole slip (Chung and Ooi 2011)" },
+    Word {
+        name: "incremental",
+        about: "by steps of the slip, scaled down on unloading (Thornton, Cummins, Cleary 2013)",
+    },
+    Word { name: "secant", about: "by the whole slip since first touch (Chung and Ooi 2011)" },
 ];
 
 const ROLLING_FADES: Key =
@@ -142,7 +153,7 @@ static ROLLING: &[Variant] = &[
     Variant { name: "none", about: "No rolling resistance", keys: &[] },
     Variant {
         name: "constant",
-        about: "Torque of rolling friction times radius times normal force, against the relative rolling",
+        about: "Torque in proportion to the normal force, against the rolling, fading below a small speed (model A of Ai 2011)",
         keys: &[ROLLING_FADES],
     },
     Variant {
@@ -157,7 +168,7 @@ static ROLLING: &[Variant] = &[
     },
     Variant {
         name: "epsd",
-        about: "Elastic-plastic spring-dashpot k_r = ratio k_n (mu_r R)^2, capped at mu_r R f_n (model C of Ai 2011)",
+        about: "Elastic-plastic spring and dashpot on the angle of rolling: holds a grain at rest (model C of Ai 2011)",
         keys: &[
             Key::new("ratio", Kind::Quantity(&NUMBER), "Rolling stiffness over k_n (mu_r R)^2")
                 .above(0.0)
@@ -167,10 +178,14 @@ static ROLLING: &[Variant] = &[
                 .at_least(0.0),
         ],
     },
-    Variant { name: "epsd2", about: "The same without a dashpot, k_r = k_t R^2; with a tangential spring", keys: &[] },
+    Variant {
+        name: "epsd2",
+        about: "The same without a dashpot, as stiff in rolling as the contact is in shear; with a tangential spring",
+        keys: &[],
+    },
     Variant {
         name: "spring",
-        about: "Spring-dashpot-slider on the rolling displacement: force k x + c v, capped at mu_r f_n, at arm R (Luding 2008)",
+        about: "Spring, dashpot and slider on the rolling displacement, a force that acts as a torque alone (Luding 2008)",
         keys: &[
             Key::new("stiffness", Kind::Quantity(&STIFFNESS), "k").above(0.0),
             Key::new("damping", Kind::Quantity(&DASHPOT), "c").default("0").at_least(0.0),
@@ -178,7 +193,7 @@ static ROLLING: &[Variant] = &[
     },
     Variant {
         name: "contact-width",
-        about: "Torque f' b f_n, b the half width of contact, f' the rolling friction (Osada 2004)",
+        about: "A bump ahead of the contact: the normal force has an arm in proportion to the width of the overlap (Osada 2004)",
         keys: &[ROLLING_FADES],
     },
 ];
@@ -187,14 +202,14 @@ static TWISTING: &[Variant] = &[
     Variant { name: "none", about: "No twisting resistance", keys: &[] },
     Variant {
         name: "sliding",
-        about: "Torque 2/3 mu_t a f_n against the twisting, a the contact radius",
+        about: "Friction of a disc of contact that turns as a whole, fading below a small spin (Marshall 2009)",
         keys: &[Key::new("smoothing-spin", Kind::Quantity(&SPIN), "Relative spin below which the torque fades")
             .default("'1 rad/s'")
             .above(0.0)],
     },
     Variant {
         name: "spring",
-        about: "Spring k_t a^2 / 2 on the angle of twist, capped at 2/3 mu_t a f_n (Marshall 2009); with a tangential spring",
+        about: "An elastic disc of contact that twists, and turns as a whole where its friction ends (Marshall 2009); with a tangential spring",
         keys: &[],
     },
 ];
@@ -203,27 +218,31 @@ static COHESION: &[Variant] = &[
     Variant { name: "none", about: "No attraction", keys: &[] },
     Variant {
         name: "dmt",
-        about: "Hertz less 4 pi gamma R* (Derjaguin, Muller, Toporov 1975); with `normal.hertz`",
+        about: "Adhesion of stiff spheres: Hertz under a constant pull (Derjaguin, Muller, Toporov 1975); with `normal.hertz`",
         keys: &[],
     },
     Variant {
         name: "jkr",
-        about: "Johnson, Kendall, Roberts 1971: takes the place of Hertz and holds on until pull-off; with `normal.hertz`",
+        about: "Adhesion of soft spheres, in place of Hertz: holds on beyond the overlap until pull-off (Johnson, Kendall, Roberts 1971); with `normal.hertz`",
         keys: &[],
     },
     Variant {
         name: "sjkr",
-        about: "The materials' `cohesion` (an energy density) times the area of the overlap lens",
+        about: "Attraction by the materials' `cohesion`, an energy density, times the area in which the spheres overlap",
         keys: &[],
     },
-    Variant { name: "constant", about: "The materials' `cohesion` (a force) in every contact", keys: &[] },
+    Variant {
+        name: "constant",
+        about: "One attraction in every contact, whatever the sizes: the materials' `cohesion`, a force",
+        keys: &[],
+    },
 ];
 
 static FILM: &[Variant] = &[
     Variant { name: "none", about: "No film", keys: &[] },
     Variant {
         name: "lubrication",
-        about: "6 pi mu R*^2 v/h against bodies that near or part at v over a gap h, as the liquid must flow (Reynolds 1886)",
+        about: "Liquid that must be pushed out before bodies touch, and drawn in when they part (Reynolds 1886)",
         keys: &[
             Key::new("roughness", Kind::Quantity(&LENGTH), "Gap below which the film gets no stiffer")
                 .above(0.0)

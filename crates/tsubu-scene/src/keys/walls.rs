@@ -19,13 +19,9 @@ pub(super) static WALL: &[Key] = &[
     )
     .optional()
     .rivals(&["host", "servo", "body"]),
-    Key::new(
-        "servo",
-        Kind::Table(SERVO),
-        "A mass on a guide that a constant force pushes: M s'' = F - c s' + F_grains",
-    )
-    .optional()
-    .rivals(&["host", "motion", "rotation", "body", "until"]),
+    Key::new("servo", Kind::Table(SERVO), "A mass on a guide that a constant force pushes against the grains")
+        .optional()
+        .rivals(&["host", "motion", "rotation", "body", "until"]),
     Key::new("body", Kind::Table(BODY), "A free rigid body under gravity and the grains' forces")
         .optional()
         .rivals(&["host", "motion", "rotation", "servo", "until"]),

@@ -74,7 +74,7 @@ static FLOW: &[Variant] = &[
     Variant { name: "still", about: "Water at rest", keys: &[] },
     Variant {
         name: "log-law",
-        about: "A stream along x over a rough bed: U = U* (8.5 + 5.75 log10(Z/k)), 0 where that is negative; Z = z - zero-level",
+        about: "A stream along x over a rough bed, by the logarithmic law",
         keys: &[
             Key::new("shear-velocity", Kind::Quantity(&SPEED), "Shear velocity U*")
                 .above(0.0)
@@ -146,7 +146,7 @@ static FLOW: &[Variant] = &[
     },
     Variant {
         name: "column",
-        about: "Water that rises evenly through a column: its velocity is the superficial one over the share that grains leave it",
+        about: "Water that rises evenly through a column of grains",
         keys: &[
             BOTTOM,
             TOP,
@@ -188,39 +188,39 @@ static HINDRANCE: &[Variant] = &[
     Variant { name: "none", about: "A grain alone", keys: &[] },
     Variant {
         name: "di-felice",
-        about: "Re with e |U - u|, force times e^(2 - b), b = 3.7 - 0.65 exp(-(1.5 - log10 Re)^2/2) (Di Felice 1994)",
+        about: "More drag in a crowd, by a power that depends on Re (Di Felice 1994)",
         keys: &[],
     },
     Variant {
         name: "richardson-zaki",
-        about: "Force times e^-exponent (Richardson and Zaki 1954)",
+        about: "More drag in a crowd, by one power (Richardson and Zaki 1954)",
         keys: &[Key::new("exponent", Kind::Quantity(&NUMBER), "The exponent").default("3.1").at_least(0.0)],
     },
 ];
 
 static DRAG: &[Variant] = &[
     Variant { name: "none", about: "No drag", keys: &[] },
-    Variant { name: "constant", about: "C = coefficient", keys: &[COEFFICIENT] },
-    Variant { name: "stokes-newton", about: "C = coefficient + 24/Re", keys: &[COEFFICIENT] },
+    Variant { name: "constant", about: "One coefficient, as of large grains", keys: &[COEFFICIENT] },
     Variant {
-        name: "schiller-naumann",
-        about: "C = 24/Re (1 + 0.15 Re^0.687) up to Re = 1000, 0.44 above (Schiller and Naumann 1935)",
-        keys: &[],
+        name: "stokes-newton",
+        about: "Stokes's drag and that of large grains, added (Osada 2004)",
+        keys: &[COEFFICIENT],
     },
+    Variant { name: "schiller-naumann", about: "The measured drag of a sphere (Schiller and Naumann 1935)", keys: &[] },
     Variant {
         name: "gidaspow",
         about: "In a crowd: Ergun (1952) where grains leave less than 0.8 to the water, Wen and Yu (1966) above (Gidaspow 1994)",
         keys: &[],
     },
-    Variant { name: "abraham", about: "C = (0.63 + 4.8/sqrt(Re))^2 (Dalla Valle 1948; Abraham 1970)", keys: &[] },
+    Variant { name: "abraham", about: "One formula for all Re (Dalla Valle 1948; Abraham 1970)", keys: &[] },
 ];
 
 static TORQUE: &[Variant] = &[
     Variant { name: "none", about: "No torque: only contacts change the spin (Osada et al. 2004)", keys: &[] },
-    Variant { name: "stokes", about: "8 pi mu r^3 (Omega - w), Omega half the vorticity of the stream", keys: &[] },
+    Variant { name: "stokes", about: "The torque of slow spin (Stokes 1845)", keys: &[] },
     Variant {
         name: "finite-reynolds",
-        about: "the same, and rho/2 r^5 |Omega - w|^2 (12.9/sqrt(Re) + 128.4/Re) from Re = |Omega - w| d^2/nu = 32 on (Dennis, Singh and Ingham 1980)",
+        about: "The same, and that of a boundary layer where the spin is fast (Dennis, Singh and Ingham 1980)",
         keys: &[],
     },
 ];

@@ -15,3 +15,14 @@ pub mod passive;
 mod place;
 pub mod shape;
 mod strips;
+
+use crate::explain::About;
+
+pub(crate) const ABOUT: About = About {
+    key: "method.cl-ca",
+    formula: "a grain is a connected set of lattice points; in a step it moves by one spacing where there is room, else it rests",
+    symbols: "spacing [m], time step from free fall through `cl-ca.fall-height` [s]",
+    limits: "No forces, no velocities: the number of shared points under the passive rule stands for the force. Slopes \
+are those of the lattice.",
+    reference: "Sakaguchi, Murakami, Hasegawa, Kawai 2001",
+};

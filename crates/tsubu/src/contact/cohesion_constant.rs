@@ -5,9 +5,8 @@ use super::dmt::pull;
 use super::part::{About, Plain, Stage};
 use multiversion::multiversion;
 
-const ABOUT: About = About {
-    name: "constant",
-    models: "one attraction in every contact of two materials, whatever the sizes",
+pub(super) const ABOUT: About = About {
+    key: "contact.cohesion.constant",
     formula: "f_n = f_elastic - F; friction sees f_n + F; stored less F d",
     symbols: "F the materials' cohesion [N], d overlap [m]",
     limits: "a model force; it ends with the overlap",

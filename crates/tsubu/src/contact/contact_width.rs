@@ -5,9 +5,8 @@ use super::part::{About, Plain, Stage};
 use super::slider::resist;
 use multiversion::multiversion;
 
-const ABOUT: About = About {
-    name: "contact-width",
-    models: "rolling friction from a bump ahead of the contact: the arm of the normal force is a part f' of the contact's width",
+pub(super) const ABOUT: About = About {
+    key: "contact.rolling.contact-width",
     formula: "M = -f' b f_n w / max(|w|, v_eps / R*, w_dt), b = 2 sqrt(2 R* d), which for equal spheres is 2 sqrt(r d)",
     symbols: "w relative spin without its normal part [rad/s], f' [-], b width of the overlap [m], r radius, d overlap [m]",
     limits: "f' = 1/2 puts the arm at the rim of the overlap; b grows as the material gets softer; below v_eps it creeps",

@@ -6,9 +6,8 @@ use super::root::most;
 use super::slider::TINY;
 use multiversion::multiversion;
 
-const ABOUT: About = About {
-    name: "coulomb",
-    models: "sliding friction, fading below a small speed instead of sticking",
+pub(super) const ABOUT: About = About {
+    key: "contact.tangential.coulomb",
     formula: "f_t = -mu f_n v_t / max(|v_t|, v_eps, 2 mu f_n dt / m*)",
     symbols: "mu friction coefficient [-], f_n normal force [N], v_t slip velocity [m/s], v_eps [m/s], m* [kg]",
     limits: "no static friction: a heap creeps at speeds below v_eps",

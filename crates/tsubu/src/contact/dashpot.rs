@@ -6,18 +6,16 @@ use super::root::{least, most};
 use super::table::Pair;
 use multiversion::multiversion;
 
-const RATE: About = About {
-    name: "rate",
-    models: "a dashpot in proportion to the reduced mass: one rate of decay for all sizes",
+pub(super) const RATE: About = About {
+    key: "contact.damping.rate",
     formula: "f = c d', c = rate m*; with Hooke e = exp(-rate t_c / 2), t_c the damped contact time, if attraction is allowed",
     symbols: "d' overlap rate [m/s], m* reduced mass [kg], rate [1/s], c [N.s/m]",
     limits: "the restitution is what comes out of it; the force jumps at first touch",
     reference: "the damping `mass_velocity` of LAMMPS; Silbert et al. 2001",
 };
 
-const DASHPOT: About = About {
-    name: "dashpot",
-    models: "one dashpot for all contacts",
+pub(super) const DASHPOT: About = About {
+    key: "contact.damping.dashpot",
     formula: "f = c d'",
     symbols: "d' overlap rate [m/s], c [N.s/m]",
     limits: "the restitution is what comes out of it and differs between sizes; the force jumps at first touch",

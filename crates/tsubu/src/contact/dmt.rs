@@ -5,9 +5,8 @@ use super::part::{About, Plain, Stage};
 use multiversion::multiversion;
 use std::f64::consts::PI;
 
-const ABOUT: About = About {
-    name: "dmt",
-    models: "adhesion of stiff spheres: Hertz's contact under a constant pull; the bodies part at the end of the overlap",
+pub(super) const ABOUT: About = About {
+    key: "contact.cohesion.dmt",
     formula: "f_n = f_Hertz - F_c, F_c = 4 pi gamma R*; friction sees f_n + 2 F_c; stored less F_c d",
     symbols: "gamma surface energy of one face [J/m^2] (work of adhesion 2 gamma), R* reduced radius [m], d overlap [m]",
     limits: "no attraction before touch and after parting; for R* gamma^2 / (E*^2 z^3) well below 1, z the range of the forces",

@@ -5,18 +5,16 @@ use super::part::{About, Part, Slot, Stage};
 use super::slider::{self, Strength, roll};
 use multiversion::multiversion;
 
-const EPSD: About = About {
-    name: "epsd",
-    models: "rolling resistance that holds a grain at rest: a spring on the angle of rolling that gives way at a torque",
+pub(super) const EPSD: About = About {
+    key: "contact.rolling.epsd",
     formula: "dM = -k_r w dt, |M| <= mu_r R* f_n, k_r = ratio k_n (mu_r R*)^2; dashpot 2 z sqrt(I k_r), I = 7/5 m* R*^2",
     symbols: "w relative spin without its normal part [rad/s], k_n = f/d [N/m], mu_r, z, ratio [-], R* [m], m* [kg]",
     limits: "k_n is the secant stiffness under Hertz; I is right for a ball on a wall, a quarter of that of two equal balls",
     reference: "model C of Ai, Chen, Rotter, Ooi 2011; Iwashita and Oda 1998",
 };
 
-const EPSD2: About = About {
-    name: "epsd2",
-    models: "the same without a dashpot, as stiff in rolling as the contact is in shear",
+pub(super) const EPSD2: About = About {
+    key: "contact.rolling.epsd2",
     formula: "dM = -k_r w dt, |M| <= mu_r R* f_n, k_r = k_t R*^2",
     symbols: "w relative spin without its normal part [rad/s], k_t tangential stiffness [N/m], mu_r [-], R* [m]",
     limits: "needs a tangential law with a stiffness; nothing but friction elsewhere ends a swing within the limit",

@@ -6,9 +6,8 @@ use super::root::most;
 use super::table::{Constants, Pair};
 use multiversion::multiversion;
 
-const ABOUT: About = About {
-    name: "hertz",
-    models: "elastic contact of smooth spheres, or of a sphere and a plane",
+pub(super) const ABOUT: About = About {
+    key: "contact.normal.hertz",
     formula: "f_n = k d^(3/2), k = (4/3) E* sqrt(R*); radius of contact a = sqrt(R* d); stored (2/5) k d^(5/2)",
     symbols: "d overlap [m], E* reduced modulus [Pa], R* reduced radius [m], k [N/m^1.5], a [m]",
     limits: "small overlaps (d below about 1 % of the diameter), no adhesion, no plasticity",

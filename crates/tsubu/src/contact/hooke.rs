@@ -6,9 +6,8 @@ use super::root::most;
 use super::table::{Constants, Pair};
 use multiversion::multiversion;
 
-const ABOUT: About = About {
-    name: "hooke",
-    models: "contact as a linear spring; its contact time does not depend on the impact speed",
+pub(super) const ABOUT: About = About {
+    key: "contact.normal.hooke",
     formula: "f_n = k d; radius of contact a = sqrt(R* d); stored (1/2) k d^2; contact time pi sqrt(m*/k)",
     symbols: "d overlap [m], k [N/m], m* reduced mass [kg], R* reduced radius [m], a [m]",
     limits: "k is a choice, not a material constant",

@@ -14,9 +14,8 @@ use super::table::Pair;
 use multiversion::multiversion;
 use std::f64::consts::PI;
 
-const ABOUT: About = About {
-    name: "jkr",
-    models: "adhesion of soft spheres: nothing before touch, then a disc of contact that holds on beyond the overlap",
+pub(super) const ABOUT: About = About {
+    key: "contact.cohesion.jkr",
     formula: "f = 4 E* a^3 / (3 R*) - 4 sqrt(pi gamma E* a^3), d = a^2/R* - 2 sqrt(pi gamma a / E*); parts at f = -3 pi gamma R*",
     symbols: "d overlap, negative while it holds on [m], a radius of contact [m], gamma surface energy of one face [J/m^2]",
     limits: "replaces Hertz; friction sees f_n + 6 pi gamma R*; the energy set free by snapping together is lost normally",

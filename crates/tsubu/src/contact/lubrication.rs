@@ -13,9 +13,8 @@ use super::part::{About, Part, Stage};
 use super::table::Pair;
 use std::f64::consts::PI;
 
-const ABOUT: About = About {
-    name: "lubrication",
-    models: "the liquid between two bodies that are near: it must be pushed out before they touch, and drawn in when they part",
+pub(super) const ABOUT: About = About {
+    key: "contact.film.lubrication",
     formula: "f_n = 6 pi mu R*^2 h'/max(h, h_r) for 0 < h < reach, its mean over a time step",
     symbols: "h gap, -h' the rate at which it grows [m, m/s], h_r roughness [m], R* reduced radius [m], mu viscosity [Pa.s]",
     limits: "h small against R*; no cavity on parting, no shear of the film, no give of the faces (elastohydrodynamics); ends at touch, \

@@ -8,18 +8,16 @@ use glam::DVec3;
 use multiversion::multiversion;
 use tsubu_scene::plan::MindlinForm;
 
-const INCREMENTAL: About = About {
-    name: "mindlin",
-    models: "elastic tangential contact of spheres that slides when the spring exceeds the friction cone",
+pub(super) const INCREMENTAL: About = About {
+    key: "contact.tangential.mindlin",
     formula: "dF = -k_t v_t dt, F scaled down with k_t on unloading, |F + F_dashpot| <= mu f_n; k_t = 8 G* a",
     symbols: "F spring force [N], v_t slip velocity [m/s], G* reduced shear modulus [Pa], a contact radius [m], mu [-]",
     limits: "no micro-slip inside the contact disc; contacts that turn about their normal do not turn F",
     reference: "Mindlin and Deresiewicz 1953; Thornton, Cummins, Cleary 2013",
 };
 
-const SECANT: About = About {
-    name: "mindlin, secant",
-    models: "the same with a displacement that keeps its length when the disc of contact changes",
+pub(super) const SECANT: About = About {
+    key: "contact.tangential.mindlin.form.secant",
     formula: "F = -k_t(d) x, x the slip since first touch, cut so that |F + F_dashpot| <= mu f_n; k_t = 8 G* a",
     symbols: "x slip [m], d overlap [m], G* reduced shear modulus [Pa], a contact radius [m], mu [-]",
     limits: "pressing a sheared contact makes energy out of nothing; for comparison with codes that use it",

@@ -46,6 +46,35 @@ mod twisting_sliding;
 mod twisting_spring;
 mod viscous;
 
+use crate::explain::About;
 pub use chunk::Chunk;
 pub use law::Law;
 pub use table::{Pair, Table};
+
+/// What the parts of contact laws are.
+pub const ABOUT: &[&About] = &[
+    &hertz::ABOUT,
+    &hooke::ABOUT,
+    &viscous::SQRT,
+    &viscous::QUARTER,
+    &viscous::LINEAR,
+    &dashpot::RATE,
+    &dashpot::DASHPOT,
+    &coulomb::ABOUT,
+    &mindlin::INCREMENTAL,
+    &mindlin::SECANT,
+    &spring::ABOUT,
+    &rolling_constant::ABOUT,
+    &rolling_viscous::ABOUT,
+    &epsd::EPSD,
+    &epsd::EPSD2,
+    &rolling_spring::ABOUT,
+    &contact_width::ABOUT,
+    &twisting_sliding::ABOUT,
+    &twisting_spring::ABOUT,
+    &dmt::ABOUT,
+    &jkr::ABOUT,
+    &sjkr::ABOUT,
+    &cohesion_constant::ABOUT,
+    &lubrication::ABOUT,
+];

@@ -2,23 +2,7 @@
 
 use super::chunk::Chunk;
 use super::table::{Constants, Pair};
-
-/// Text of a part, with fixed sections; shown to users.
-#[derive(Clone, Copy, Debug)]
-pub struct About {
-    /// Name in the scene file.
-    pub name: &'static str,
-    /// What it models.
-    pub models: &'static str,
-    /// The formula.
-    pub formula: &'static str,
-    /// Symbols with units.
-    pub symbols: &'static str,
-    /// Where it stops being right.
-    pub limits: &'static str,
-    /// Author, year, equation.
-    pub reference: &'static str,
-}
+pub use crate::explain::About;
 
 /// When a part acts within its law; parts are sorted by it, so a scene cannot misorder them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

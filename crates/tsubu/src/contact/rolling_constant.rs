@@ -5,9 +5,8 @@ use super::part::{About, Plain, Stage};
 use super::slider::resist;
 use multiversion::multiversion;
 
-const ABOUT: About = About {
-    name: "constant",
-    models: "rolling resistance proportional to the normal force, fading below a small rolling speed",
+pub(super) const ABOUT: About = About {
+    key: "contact.rolling.constant",
     formula: "M = -mu_r R* f_n w / max(|w|, v_eps / R*, w_dt), w_dt = 5 mu_r f_n dt / (m* R*)",
     symbols: "w relative spin without its normal part [rad/s], R* reduced radius [m], mu_r [-], v_eps [m/s], m* [kg]",
     limits: "does not hold a slope at rest: below v_eps the grain creeps; w_dt keeps a step from turning the rolling",

@@ -5,9 +5,8 @@ use super::part::{About, Part, Slot, Stage};
 use super::slider::{self, Strength, roll};
 use multiversion::multiversion;
 
-const ABOUT: About = About {
-    name: "spring",
-    models: "rolling resistance by a pseudo-force on the rolling displacement, which acts as a torque only",
+pub(super) const ABOUT: About = About {
+    key: "contact.rolling.spring",
     formula: "F = -(k x + c v), |F| <= mu_r f_n; v = -R* (w_1 - w_2) x n, x its integral; torque on the first -R* n x F",
     symbols: "v rolling velocity [m/s], x [m], k [N/m], c [N.s/m], mu_r [-], n normal from the first to the second body",
     limits: "where it slides the spring stays at the limit (LAMMPS shifts it by c v, which can load it without work)",

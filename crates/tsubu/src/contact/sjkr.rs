@@ -5,9 +5,8 @@ use super::part::{About, Plain, Stage};
 use multiversion::multiversion;
 use std::f64::consts::PI;
 
-const ABOUT: About = About {
-    name: "sjkr",
-    models: "attraction by an energy density times the area in which the undeformed spheres overlap",
+pub(super) const ABOUT: About = About {
+    key: "contact.cohesion.sjkr",
     formula: "f_n = f_elastic - C A, A = 2 pi R* d; friction sees f_n + C A; stored less C pi R* d^2",
     symbols: "C the materials' cohesion [Pa], R* reduced radius [m], d overlap [m]",
     limits: "no theory of adhesion: the same C binds a softer material more strongly, as d is larger; nothing at d = 0",

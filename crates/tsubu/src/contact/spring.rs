@@ -7,9 +7,8 @@ use super::slider::{self, Strength};
 use super::table::Constants;
 use multiversion::multiversion;
 
-const ABOUT: About = About {
-    name: "spring",
-    models: "a linear tangential spring and dashpot that slide at the friction cone, with cohesion between grains",
+pub(super) const ABOUT: About = About {
+    key: "contact.tangential.spring",
     formula: "e_s = -k_t s, |e_s| <= mu f_n + c; f_t = e_s - c_t v_t within the same limit; k_t = ratio k, c_t = damping c_n",
     symbols: "s slip [m], v_t slip velocity [m/s], k, k_t [N/m], c_n, c_t dashpots [N.s/m], mu [-], c cohesion [N]",
     limits: "contacts that turn about their normal do not turn e_s; with Hertz k_t follows the secant stiffness f/d",

@@ -6,9 +6,8 @@ use super::root::most;
 use super::slider::{TINY, turning};
 use multiversion::multiversion;
 
-const ABOUT: About = About {
-    name: "sliding",
-    models: "the friction of a disc of contact that turns as a whole, fading below a small spin",
+pub(super) const ABOUT: About = About {
+    key: "contact.twisting.sliding",
     formula: "M = -(2/3) mu_t a f_n w / max(|w|, w_eps, w_dt), w_dt = 2 |M| dt / (2/5 m* R*^2)",
     symbols: "w relative spin about the normal [rad/s], a radius of the contact disc [m], mu_t [-], w_eps [rad/s]",
     limits: "even pressure over the disc; no static resistance: below w_eps it creeps",

@@ -7,9 +7,8 @@ use super::slider::{bearable, inertia, inverse};
 use super::twisting_sliding::limit;
 use multiversion::multiversion;
 
-const ABOUT: About = About {
-    name: "spring",
-    models: "an elastic disc of contact that twists, and turns as a whole where its friction ends",
+pub(super) const ABOUT: About = About {
+    key: "contact.twisting.spring",
     formula: "dM = -k_w w dt, k_w = k_t a^2 / 2; dashpot c_n a^2 / 2; |M| <= (2/3) mu_t a f_n",
     symbols: "w relative spin about the normal [rad/s], a radius of the disc [m], k_t [N/m], c_n normal dashpot [N.s/m]",
     limits: "even pressure over the disc; needs a tangential law with a stiffness",

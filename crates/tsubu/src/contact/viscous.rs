@@ -9,27 +9,24 @@ use super::root::fifth_root;
 use super::table::{Constants, Pair};
 use multiversion::multiversion;
 
-const SQRT: About = About {
-    name: "sqrt",
-    models: "visco-elastic spheres: restitution falls slowly with impact speed, as 1 - O(v^(1/5))",
+pub(super) const SQRT: About = About {
+    key: "contact.damping.sqrt",
     formula: "f = c d^(1/2) d'; c such that the restitution is the asked one at the reference speed",
     symbols: "d overlap [m], d' overlap rate [m/s], c [N.s/m^1.5]",
     limits: "the restitution is the asked one at one speed only",
     reference: "Kuwabara and Kono 1987; Komatsuzaki 2003, eq. (3)",
 };
 
-const QUARTER: About = About {
-    name: "quarter",
-    models: "damping of a Hertz contact with the same restitution at every impact speed",
+pub(super) const QUARTER: About = About {
+    key: "contact.damping.quarter",
     formula: "f = a sqrt(m* k) d^(1/4) d', a = -sqrt(5) ln e / sqrt(pi^2 + ln^2 e) when attraction is allowed",
     symbols: "d overlap [m], d' overlap rate [m/s], m* reduced mass [kg], k [N/m^1.5]",
     limits: "with attraction cut, a is found numerically so that e comes back; with Hooke e is met at 1 m/s only",
     reference: "Tsuji, Tanaka, Ishida 1992; Antypov and Elliott 2011",
 };
 
-const LINEAR: About = About {
-    name: "linear",
-    models: "a dashpot of constant strength",
+pub(super) const LINEAR: About = About {
+    key: "contact.damping.linear",
     formula: "f = c d'; with Hooke c = 2 z sqrt(m* k), z = -ln e / sqrt(pi^2 + ln^2 e) when attraction is allowed",
     symbols: "d' overlap rate [m/s], m* reduced mass [kg], k [N/m], c [N.s/m]",
     limits: "the force jumps at first touch; with Hertz the restitution is met at the reference speed only",

@@ -11,7 +11,17 @@
 //! bit a site for "grain" and one for "void".
 
 use super::sheet::{EMPTY, OUT, Sheet, Trail};
+use crate::explain::About;
 use crate::random::{Purpose, words};
+
+pub(crate) const ABOUT: About = About {
+    key: "method.after-caram-hong",
+    formula: "a void swaps with one of the two grains above it, with the left one with probability p; a grain slides while a site below it is empty",
+    symbols: "p, rate of the outlet [-]; one row a step",
+    limits: "Slopes rest at 60 degrees, the slope of the lattice. A step is no time of physics but by the speed of free \
+fall that the scene sets.",
+    reference: "after Caram and Hong 1991",
+};
 
 /// Chances of the rule.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -19,7 +19,17 @@
 
 use super::direction::Direction;
 use super::grid::{EMPTY, Grid, WALL};
+use crate::explain::About;
 use crate::random::{Purpose, words};
+
+pub(crate) const ABOUT: About = About {
+    key: "method.gutt-haff",
+    formula: "o += v dt + g dt^2/2, v += g dt;  a collision exchanges (1 + e)/2 u along the line of centres;  at |o| > 1/2 along a direction the grain jumps to that node",
+    symbols: "o offset from the node [spacings], v velocity [spacings/step], u approach of the pair [spacings/step], e \
+restitution [-]",
+    limits: "One grain a node; no friction, no spin; equal diameters. Free fall is exact.",
+    reference: "Gutt and Haff 1990",
+};
 
 /// A grain in flight or at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

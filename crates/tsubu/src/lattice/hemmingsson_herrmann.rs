@@ -16,7 +16,17 @@
 //! `arching`, the probability with which a grain gives all of T to its outer neighbour below.
 
 use super::sheet::{EMPTY, OUT, Sheet, WALL};
+use crate::explain::About;
 use crate::random::{Purpose, unit, words};
+
+pub(crate) const ABOUT: About = About {
+    key: "method.after-hemmingsson-herrmann",
+    formula: "f_left = T_z/sqrt(3) - T_x, f_right = T_z/sqrt(3) + T_x, both at least 0; what friction cannot hold goes to the neighbour",
+    symbols: "T sum of the forces from above and the weight, x to the right, z down [N], f on the two grains below [N]",
+    limits: "A pile at rest on a triangular lattice: nothing moves. Only vertical balance is exact where level forces \
+find no neighbour.",
+    reference: "after Hemmingsson, Herrmann and Roux 1997",
+};
 
 /// tan 30 degrees.
 const TANGENT: f64 = 0.577_350_269_189_625_8;

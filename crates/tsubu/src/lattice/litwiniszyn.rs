@@ -14,7 +14,17 @@
 //! it is at the surface and ends there.
 
 use super::sheet::{EMPTY, OUT, Sheet, Trail};
+use crate::explain::About;
 use crate::random::{Purpose, unit, words};
+
+pub(crate) const ABOUT: About = About {
+    key: "method.litwiniszyn",
+    formula: "a void takes the grain of one of the two cages above it, with probability p and 1 - p;  dP/dy = B d2P/dx2, B = a^2/(2 b)",
+    symbols: "P mean number of voids that pass a cage [-], y height, x across [m], cages 2a wide and b high [m], B = \
+0.14434 d, d spacing [m]",
+    limits: "Voids do not feel each other; no time but the order of voids, no inertia, no walls' friction.",
+    reference: "Litwiniszyn 1956, 1964",
+};
 
 /// B of the lattice over the spacing [-]: a^2/(2 b) with a = 1/2 and b = sqrt(3)/2.
 pub const SPREAD: f64 = 0.144_337_567_297_406_43;

@@ -25,3 +25,19 @@ pub mod sheet;
 pub mod site;
 pub mod stage;
 pub mod start;
+
+use crate::explain::About;
+
+/// What the methods on lattices are, but CL-CA.
+pub(crate) const ABOUT: &[&About] = &[
+    &damper::ABOUT,
+    &litwiniszyn::ABOUT,
+    &caram_hong::ABOUT,
+    &savage::ABOUT,
+    &gutt_haff::ABOUT,
+    &hemmingsson_herrmann::ABOUT,
+    &gas::ABOUT,
+    &gas::grains::ABOUT,
+    &gas::elongated::ABOUT,
+    &gas::pile::ABOUT,
+];

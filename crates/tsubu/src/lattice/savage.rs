@@ -17,7 +17,17 @@
 //! order of grains is of no consequence.
 
 use super::sheet::{EMPTY, OUT, Sheet, Trail};
+use crate::explain::About;
 use crate::random::{Purpose, unit, words};
+
+pub(crate) const ABOUT: About = About {
+    key: "method.after-savage",
+    formula: "on a square lattice a grain tries down, down to a side, to a side, up, each with a chance of its own; downstream chances (1 + s)/2, upstream (1 - s)/2\n\
+n/(1 - n) = exp((z0 - z)/h), h = 1/ln(all downward chances over the upward one)",
+    symbols: "s sine of the slope [-], n share of full sites [-], z height, h, z0 [sites]",
+    limits: "Kinematic: no forces. Large grains go down with the chance of the smallest times the ratio of diameters.",
+    reference: "after Savage 1993",
+};
 
 /// Chances of a grain of the smallest size to use an empty site [-].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,10 +5,21 @@
 //! flow of its share L_k^2 / (2 I_k) of the energy (an exponential map): time-reversible, symplectic, and L, kept in
 //! the world frame, does not change at all (Dullweber, Leimkuhler, McLachlan 1997).
 
+use crate::explain::About;
 use glam::{DQuat, DVec3};
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 use tsubu_scene::plan;
+
+pub(crate) const ABOUT: About = About {
+    key: "walls.NAME.body",
+    formula: "m x'' = m g + sum f,  dL/dt = sum (c - x) x f",
+    symbols: "x centre of mass [m], m mass [kg], g gravity [m/s^2], f contact forces at points c [N, m], L angular \
+momentum [kg.m^2/s]",
+    limits: "Its surface is a wall: two bodies do not touch each other, nor walls. Rotation is a product of exact turns \
+about the principal axes, symplectic and time-reversible.",
+    reference: "Dullweber, Leimkuhler, McLachlan 1997",
+};
 
 /// A rigid body in motion.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,7 +8,26 @@
 
 use super::Pose;
 use super::nearest::{Feature, Nearest};
+use crate::explain::About;
 use glam::{DVec2, DVec3};
+
+pub(crate) const CYLINDER: About = About {
+    key: "walls.NAME.shape.cylinder",
+    formula: "d = r - |radius - x_c|, x_c the distance of the grain from the axis",
+    symbols: "x centre of the grain [m], r its radius [m], d overlap [m], radius, length and x_c [m]",
+    limits: "The curved surface alone, open at the ends, touched from both sides; no length: no end. In the plane along \
+y: a circle. A grain that plugs it is held by the near and the far line of the surface.",
+    reference: "by definition",
+};
+
+pub(crate) const CONE: About = About {
+    key: "walls.NAME.shape.cone",
+    formula: "d = r - distance to the surface x = radius + (end-radius - radius) s/length, 0 <= s <= length",
+    symbols: "x centre of the grain [m], r its radius [m], d overlap [m], s along the axis [m], x from the axis [m], \
+radius, end-radius, length [m]",
+    limits: "The curved surface alone, open at the ends, touched from both sides. A grain that plugs a funnel is held by the near and the far line of the surface.",
+    reference: "by definition",
+};
 
 /// Element that holds the nearest point of the surface.
 const NEAR: u32 = 0;

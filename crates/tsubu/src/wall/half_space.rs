@@ -2,8 +2,28 @@
 
 use super::Pose;
 use super::nearest::{Feature, Nearest};
+use crate::explain::About;
 use glam::DVec3;
 use tsubu_scene::plan::Shape;
+
+pub(crate) const PLANE: About = About {
+    key: "walls.NAME.shape.plane",
+    formula: "d = r - (x - point) . normal, contact normal: the plane's",
+    symbols: "x centre of the grain [m], r its radius [m], d overlap [m], point [m], normal unit vector towards the grains \
+[-]",
+    limits: "Endless. Grains behind it are overlapping: nothing may begin there. A wall is a body of infinite radius; its \
+mass is infinite, on a host the one that the host shows.",
+    reference: "by definition",
+};
+
+pub(crate) const BOX: About = About {
+    key: "walls.NAME.shape.box",
+    formula: "six planes (in the plane four) with their normals inwards; d = r - distance to each of them",
+    symbols: "x centre of the grain [m], r its radius [m], d overlap [m], distances [m]",
+    limits: "Closed: grains are inside. In the plane the panes in front and behind are frictionless and ignored. A grain \
+in a corner has a contact with every face.",
+    reference: "by definition",
+};
 
 /// An endless plane with grains on the side of its normal; behind it, distances are negative.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,7 +6,17 @@ use super::section::{section, strips};
 use super::topology::{Topology, edge, weld};
 use super::tree::Tree;
 use super::triangle::Triangle;
+use crate::explain::About;
 use glam::DVec3;
+
+pub(crate) const MESH: About = About {
+    key: "walls.NAME.shape.mesh",
+    formula: "d = r - distance to the nearest points of the triangles; contacts with nearly one normal are one",
+    symbols: "x centre of the grain [m], r its radius [m], d overlap [m], corners [m] after `scale` and `shift`",
+    limits: "Touched from both sides; in the plane the section with y = 0 counts. Corners nearer than 1e-7 of its size \
+are one. Friction springs go on from triangle to triangle. Triangles without area are refused.",
+    reference: "nearest point on a triangle: Ericson 2005, Real-Time Collision Detection, section 5.1.5",
+};
 
 /// Over the diagonal of the mesh: corners nearer than this are one. Rounding of single-precision files is 6e-8.
 const WELD: f64 = 1e-7;

@@ -33,11 +33,26 @@ pub use pose::Pose;
 pub use servo::Servo;
 pub use surface::Surface;
 
+use crate::explain::About;
 use crate::partner::Hosts;
 use glam::DVec3;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 use tsubu_scene::plan;
+
+/// What the shapes of walls are, and who moves walls.
+pub(crate) const ABOUT: &[&About] = &[
+    &half_space::BOX,
+    &half_space::PLANE,
+    &frustum::CYLINDER,
+    &frustum::CONE,
+    &shell::SPHERE,
+    &mesh::MESH,
+    &mover::MOTION,
+    &mover::ROTATION,
+    &servo::ABOUT,
+    &body::ABOUT,
+];
 
 /// A wall: a surface, where it is, and who moves it.
 #[derive(Clone, Debug)]

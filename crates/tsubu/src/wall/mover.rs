@@ -1,10 +1,27 @@
 //! Who moves a wall: nobody, a motion given in advance, a host, or the grains themselves.
 
 use super::{Body, Pose, Servo};
+use crate::explain::About;
 use crate::motion::value_and_rate;
 use crate::partner::Hosts;
 use glam::{DQuat, DVec3};
 use tsubu_scene::plan::{self, Signal};
+
+pub(crate) const MOTION: About = About {
+    key: "walls.NAME.motion",
+    formula: "x = x0 + direction s(t), v = direction ds/dt",
+    symbols: "s displacement [m], direction unit vector [-], v velocity that friction and damping see [m/s]",
+    limits: "Given in advance: grains do not slow it. Its work on the grains is in the ledger.",
+    reference: "by definition",
+};
+
+pub(crate) const ROTATION: About = About {
+    key: "walls.NAME.rotation",
+    formula: "turned by angle(t) about the axis through `centre`; v = axis dangle/dt x (c - centre)",
+    symbols: "angle [rad], axis unit vector [-], c point of contact [m], v velocity that friction and damping see [m/s]",
+    limits: "Given in advance: grains do not slow it. May be had together with `motion`, which carries the axis along.",
+    reference: "by definition",
+};
 
 /// What displaces a wall.
 #[derive(Clone, Debug)]

@@ -4,10 +4,20 @@
 //! implicit, so any c is stable.
 
 use super::mover::Exchange;
+use crate::explain::About;
 use glam::DVec3;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 use tsubu_scene::plan;
+
+pub(crate) const ABOUT: About = About {
+    key: "walls.NAME.servo",
+    formula: "M s'' = F - c s' + F_grains",
+    symbols: "s displacement along the guide [m], M moving mass [kg], F constant force, or pressure times area [N], c \
+damping of the guide [N.s/m], F_grains force of the grains along the guide [N]",
+    limits: "Velocity Verlet in step with the grains, the damper implicit, so any c is stable. The force keeps its direction.",
+    reference: "Newton's second law",
+};
 
 /// A mass on a guide.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,16 @@
 
 use super::Pose;
 use super::nearest::Nearest;
+use crate::explain::About;
 use glam::DVec3;
+
+pub(crate) const SPHERE: About = About {
+    key: "walls.NAME.shape.sphere",
+    formula: "d = r - | |x - centre| - radius |",
+    symbols: "x centre of the grain [m], r its radius [m], d overlap [m], centre [m], radius [m]",
+    limits: "A shell, touched from both sides; at its very centre the normal is z.",
+    reference: "by definition",
+};
 
 /// Centre and radius of a spherical shell.
 #[derive(Clone, Copy, Debug, PartialEq)]

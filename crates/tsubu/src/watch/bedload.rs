@@ -1,6 +1,7 @@
 //! What grains carry along a bed, and how many start and stop.
 
 use super::{Inside, Sample, Watch, axes, group_number};
+use crate::explain::About;
 use crate::state::sphere;
 use crate::view::{View, Wants};
 use glam::DVec3;
@@ -9,7 +10,9 @@ use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 use tsubu_scene::plan::{self, Axis, Measure, Plan};
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.bedload",
+    formula: "\
 Transport of grains along a horizontal axis over the plan area A of a region, by free grains whose centres are in it.
 transport rate        q = sum V u / A, V the volume of a grain, u its velocity along the axis      [m^2/s]
 mean transport rate   of the looks so far                                                          [m^2/s]
@@ -25,9 +28,12 @@ that rocks in its pocket between the two does not start again and again. It coun
 is new, or comes into the region moving, has not started.
 In the plane A is a length and V the area of the disc, so q is again per width; with `width` grains are spheres in a bed of
 that width, V = pi d^3 / 6 / width. Entrainment is per length then. Density and d of the Einstein number are means over the
-free groups, or of the one that is asked for, as the scene tells them.
-Source: q as in Ancey et al. 2008 (J. Fluid Mech. 595, 83); Einstein 1950. Limits: q is of volumes without voids; a grain
-that starts and stops between two looks is not seen; entrainment depends on the two speeds, so tell them with it.";
+free groups, or of the one that is asked for, as the scene tells them.",
+    symbols: "",
+    limits: "Q is of volumes without voids; a grain that starts and stops between two looks is not seen; entrainment \
+depends on the two speeds, so tell them with it.",
+    reference: "q as in Ancey et al. 2008 (J. Fluid Mech. 595, 83); Einstein 1950",
+};
 
 /// Sums up volumes on their way.
 #[derive(Clone, Debug)]
@@ -105,8 +111,8 @@ impl Bedload {
 }
 
 impl Watch for Bedload {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

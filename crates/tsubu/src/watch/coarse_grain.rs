@@ -3,11 +3,14 @@
 use super::kernel::Kernel;
 use super::points::Points;
 use super::{Axes, Inside, LETTERS, Sample, Sheet, Watch, axes, mean};
+use crate::explain::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use tsubu_scene::plan::{Measure, Plan};
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.coarse-grain",
+    formula: "\
 Fields on points, from grains smeared out by a kernel phi of width w (Goldhirsch 2010, Granular Matter 12, 239).
 density            rho = sum m phi(x - r)                                     [kg/m^3]; in the plane [kg/m^2]
 velocity           V = sum m v phi(x - r) / rho                               [m/s]
@@ -19,9 +22,13 @@ f is the force on a grain, b its branch: to the centre of the other grain (or it
 point of contact c with a wall or with a frozen or driven grain, which are boundaries (Weinhart et al. 2012, Granular
 Matter 14, 289). Tension is positive. The first letter of a stress is that of the force.
 Then rho DV/Dt = div(stress) + rho g + boundary force holds at every point, and the integral of the stress is the sum of
-Love and Weber.
-Limits: along axes that are not asked for, fields are means over the region, to which a body belongs by its centre and a
-contact by the middle of its branch. Fields within a kernel of the region's ends see what lies beyond. Spins are left out.";
+Love and Weber.",
+    symbols: "",
+    limits: "Along axes that are not asked for, fields are means over the region, to which a body belongs by its centre \
+and a contact by the middle of its branch. Fields within a kernel of the region's ends see what lies beyond. \
+Spins are left out.",
+    reference: "Goldhirsch 2010, Granular Matter 12, 239; boundaries: Weinhart et al. 2012, Granular Matter 14, 289",
+};
 
 /// Numbers kept at every point: density, momentum, two stresses, boundary force.
 #[derive(Clone, Copy, Debug, Default)]
@@ -151,8 +158,8 @@ impl CoarseGrain {
 }
 
 impl Watch for CoarseGrain {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

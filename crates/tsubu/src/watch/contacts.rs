@@ -1,15 +1,21 @@
 //! Contacts one by one.
 
 use super::{Axes, Inside, LETTERS, Sample, Sheet, Watch};
+use crate::explain::About;
 use crate::view::{Contact, View, Wants};
 use glam::DVec3;
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.contacts",
+    formula: "\
 The contacts one by one, a row of the table for each look and contact: numbers of both grains, or of a grain and a wall (walls
 are numbered from 0 in the order of their names, and `wall` is 1), point of contact [m], unit normal from the first to the
 second, force on the first [N], overlap [m]. In the history: how many there are, the deepest overlap, the largest force.
-The region holds points of contact; a point beyond a periodic end is put back between the ends.
-Limits: the list is long. A look at every contact of a large bed is a large table; look rarely.";
+The region holds points of contact; a point beyond a periodic end is put back between the ends.",
+    symbols: "",
+    limits: "The list is long. A look at every contact of a large bed is a large table; look rarely.",
+    reference: "by definition",
+};
 
 /// Lists contacts.
 #[derive(Clone, Debug)]
@@ -33,8 +39,8 @@ impl List {
 }
 
 impl Watch for List {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

@@ -1,9 +1,12 @@
 //! Contacts per grain.
 
 use super::{Inside, Sample, Watch, mean};
+use crate::explain::About;
 use crate::view::{View, Wants};
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.coordination",
+    formula: "\
 Coordination number: contacts per grain, both grains of a contact counting it.
 mean              Z = sum z / N over the free grains, frozen and driven ones left out       [-]
 without rattlers  the same over the grains that are no rattlers, contacts among them alone  [-]
@@ -12,8 +15,11 @@ contacts          number of contacts of these grains, each once                 
 A rattler has fewer contacts than `fewest`; without it others may become rattlers, so they are taken out until none is
 left. With fewest = 2 this is near the mechanical coordination number of Thornton (2000, Geotechnique 50, 43), which takes
 grains with 0 and 1 contacts out once. Isostatic without friction are 2 D, with infinite friction D + 1.
-Grains in a region count all their contacts, also those with grains outside. Limits: a grain that touches a wall in two
-places, or a box in a corner, has two contacts with it.";
+Grains in a region count all their contacts, also those with grains outside.",
+    symbols: "",
+    limits: "A grain that touches a wall in two places, or a box in a corner, has two contacts with it.",
+    reference: "Thornton 2000, Geotechnique 50, 43",
+};
 
 /// Counts contacts.
 #[derive(Clone, Debug)]
@@ -51,8 +57,8 @@ impl Coordination {
 }
 
 impl Watch for Coordination {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

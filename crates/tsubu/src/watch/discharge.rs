@@ -1,13 +1,16 @@
 //! Grains that have passed a plane.
 
 use super::{Sample, Watch};
+use crate::explain::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.discharge",
+    formula: "\
 Grains that have passed a plane along its normal since the first look, less those that came back.
 passed grains  number                                                            [-]
 passed mass    their mass                                                        [kg]
@@ -16,7 +19,11 @@ mass rate      the same for the mass                                            
 A grain has passed when its centre has. Where the world repeats itself along the normal, every passage counts. Grains that
 come into the world in front of the plane do not count. One that vanished (see `removal`) between two looks counts if in
 free fall from where and as fast as it was last seen it would have passed by now: look often enough to see grains that pass.
-The mean of the rate is the number that passed over the time from the first to the last look.";
+The mean of the rate is the number that passed over the time from the first to the last look.",
+    symbols: "",
+    limits: "A passage between two looks is seen only by where a grain is at the looks.",
+    reference: "by definition",
+};
 
 /// Where a grain was last seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,8 +81,8 @@ impl Discharge {
 }
 
 impl Watch for Discharge {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

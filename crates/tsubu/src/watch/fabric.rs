@@ -1,17 +1,23 @@
 //! The fabric of the contacts.
 
 use super::{Axes, Inside, LETTERS, Sample, Watch};
+use crate::explain::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use nalgebra::{Matrix3, SymmetricEigen};
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.fabric",
+    formula: "\
 Fabric tensor F = sum n n / N over the N contacts, n their unit normals; its trace is 1.
 fabric xx, xz, ...     entries on and above the diagonal                                            [-]
 deviator               sqrt(((F1 - F2)^2 + (F2 - F3)^2 + (F3 - F1)^2) / 2), in the plane F1 - F2    [-]
 principal direction    unit vector of the largest principal value, its last entry not negative      [-]
-Source: Satake 1982; Oda 1982. Contacts with walls count if asked for: their normals show the wall, not the grains.
-In a region, a contact counts if its point is inside. Limits: where two principal values are equal the direction is any.";
+Contacts with walls count if asked for: their normals show the wall, not the grains. In a region, a contact counts if its point is inside.",
+    symbols: "",
+    limits: "Where two principal values are equal the direction is any.",
+    reference: "Satake 1982; Oda 1982",
+};
 
 /// Sums up normals.
 #[derive(Clone, Debug)]
@@ -30,8 +36,8 @@ impl Fabric {
 }
 
 impl Watch for Fabric {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

@@ -1,9 +1,12 @@
 //! Distribution of contact forces, and force chains.
 
 use super::{Inside, Sample, Sheet, Watch, mean};
+use crate::explain::About;
 use crate::view::{View, Wants};
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.forces",
+    formula: "\
 Distribution of the normal forces f of the contacts; what pulls counts as zero.
 mean force       <f>                                                                     [N]
 chain share      share of the contacts with f > <f>, which carry the force chains        [-]
@@ -12,8 +15,12 @@ tail exponent    beta of P(f / <f>) ~ exp(-beta f / <f>) above the mean, by grea
                  f / <f> over those above 1, less 1)                                     [-]
 largest force    over the mean                                                           [-]
 The table is the histogram of f / <f> as a probability density: its integral is the share of contacts below `largest`.
-Source: Radjai et al. 1996 (Phys. Rev. Lett. 77, 274) for the division at the mean; Mueth et al. 1998 for the tail, about
-1.5. In a region, a contact counts if its point is inside. Limits: the exponent of few contacts is noise.";
+In a region, a contact counts if its point is inside.",
+    symbols: "",
+    limits: "The exponent of few contacts is noise.",
+    reference: "Radjai et al. 1996 (Phys. Rev. Lett. 77, 274) for the division at the mean; Mueth et al. 1998 for the tail, \
+about 1.5",
+};
 
 /// Sorts forces.
 #[derive(Clone, Debug)]
@@ -25,8 +32,8 @@ pub(super) struct Forces {
 }
 
 impl Watch for Forces {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

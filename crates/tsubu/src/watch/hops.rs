@@ -3,13 +3,16 @@
 use super::course::{Course, Hop, NUMBERS, Phase, Seen, Sense, Touch};
 use super::means::Means;
 use super::{Axes, LETTERS, Sample, Sheet, Watch, axes, group_number};
+use crate::explain::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 use tsubu_scene::plan::{Bed, Measure, Plan};
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.hops",
+    formula: "\
 Hops: a grain that touched the bed leaves it, flies, and touches it again. The bed is what `bed` names: walls, frozen and
 driven grains, other free grains. Touching is overlap; the contact is from the first touch of the bed to the last.
 A row of the table for each finished hop, at the look that saw it end, with the contact that it began with:
@@ -27,13 +30,16 @@ spin            before the contact                                              
 The history has the number of hops so far, their means, the highest and the deepest.
 What nobody has seen is left out: a flight that was under way at the first look is no hop, and a contact that was there
 then has no impact (`NaN`). A grain that comes to rest ends its last hop when it lands; that impact has no row. `from`
-discards what is before; `lowest` leaves out the rattling of a grain between two others; after `most` hops the watch rests.
-Limits: it looks at every step unless `every` is given, and a contact or flight between two looks is not seen: 10 looks a
-contact are few. Times of touch and take-off are taken between looks from overlap and speed, and are off by much less than
-a look where the look is short against the contact, by at most one where it is not; the apex is that of a parabola between
-looks. Speeds before and after a contact are those of the nearest look off the bed. Walls count as still. Where a grain
-touches several bodies the deepest gives the normal.
-Source: Niño and Garcia 1998 (Hydrol. Process. 12, 1197) for what a hop is; contact time as from first overlap to last.";
+discards what is before; `lowest` leaves out the rattling of a grain between two others; after `most` hops the watch rests.",
+    symbols: "",
+    limits: "It looks at every step unless `every` is given, and a contact or flight between two looks is not seen: 10 \
+looks a contact are few. Times of touch and take-off are taken between looks from overlap and speed, and are \
+off by much less than a look where the look is short against the contact, by at most one where it is not; \
+the apex is that of a parabola between looks. Speeds before and after a contact are those of the nearest \
+look off the bed. Walls count as still. Where a grain touches several bodies the deepest gives the normal.",
+    reference: "Niño and Garcia 1998 (Hydrol. Process. 12, 1197) for what a hop is; contact time as from first overlap to \
+last",
+};
 
 /// Names of the single numbers; the first five are means.
 const SCALARS: [&str; 8] = [
@@ -157,8 +163,8 @@ impl Hops {
 }
 
 impl Watch for Hops {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

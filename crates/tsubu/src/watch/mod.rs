@@ -30,6 +30,7 @@ mod wall_load;
 pub use run::Watches;
 pub use trigger::Trigger;
 
+use crate::explain::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use std::fmt::Debug;
@@ -40,7 +41,7 @@ use tsubu_scene::plan::{self, Measure, Plan, Region};
 /// Something that looks on.
 pub trait Watch: Send + Debug {
     /// What is measured, formula, units, source, limits.
-    fn about(&self) -> &'static str;
+    fn about(&self) -> &'static About;
 
     /// What it wants to see.
     fn wants(&self) -> Wants;
@@ -142,23 +143,23 @@ pub fn open(measure: &Measure, plan: &Plan) -> Box<dyn Watch> {
     }
 }
 
-/// Every kind of watch with its text, for the book.
-pub const ABOUT: [(&str, &str); 15] = [
-    ("profile", profile::ABOUT),
-    ("coarse-grain", coarse_grain::ABOUT),
-    ("slope", slope::ABOUT),
-    ("discharge", discharge::ABOUT),
-    ("hops", hops::ABOUT),
-    ("bedload", bedload::ABOUT),
-    ("run-out", run_out::ABOUT),
-    ("coordination", coordination::ABOUT),
-    ("fabric", fabric::ABOUT),
-    ("forces", forces::ABOUT),
-    ("contacts", contacts::ABOUT),
-    ("segregation", segregation::ABOUT),
-    ("wall-load", wall_load::ABOUT),
-    ("stream", stream::ABOUT),
-    ("track", track::ABOUT),
+/// What the kinds of watches are.
+pub const ABOUT: &[&About] = &[
+    &profile::ABOUT,
+    &coarse_grain::ABOUT,
+    &slope::ABOUT,
+    &discharge::ABOUT,
+    &hops::ABOUT,
+    &bedload::ABOUT,
+    &run_out::ABOUT,
+    &coordination::ABOUT,
+    &fabric::ABOUT,
+    &forces::ABOUT,
+    &contacts::ABOUT,
+    &segregation::ABOUT,
+    &wall_load::ABOUT,
+    &stream::ABOUT,
+    &track::ABOUT,
 ];
 
 /// Names of the axes.

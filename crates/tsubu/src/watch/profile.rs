@@ -1,12 +1,15 @@
 //! Averages in slices across an axis.
 
 use super::{Axes, Inside, LETTERS, Sample, Sheet, Watch, axes};
+use crate::explain::About;
 use crate::state::sphere;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use tsubu_scene::plan::{Axis, Measure, Plan, Quantity};
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.profile",
+    formula: "\
 Averages in equal slices of a region across an axis. A grain belongs to the region by its centre across the axis; along
 it, its volume is cut by the slices, and it counts in each by its share s there.
 solid fraction        sum s V / volume of the slice; in the plane areas                     [-]
@@ -15,10 +18,12 @@ granular temperature  sum s m |v - V|^2 / (D sum s m), D the dimension          
 coordination          sum s z / sum s, z all contacts of a grain, those with walls among them [-]
 spin                  W = sum s m r^2 w / sum s m r^2: by moment of inertia; in the plane about y  [rad/s]
 Frozen and driven grains fill space, but are left out of the others. The history has the same for the whole region;
-its temperature is the mean over slices by mass.
-Source: averages as in any textbook; the cut of a sphere by a plane in closed form. Limits: overlaps count twice; the
-region is still, also where the box moves. Stresses in slices, of contacts (Love and Weber) and of fluctuations, are those of
-`coarse-grain` with `axes = [\"z\"]`.";
+its temperature is the mean over slices by mass.",
+    symbols: "",
+    limits: "Overlaps count twice; the region is still, also where the box moves. Stresses in slices, of contacts (Love \
+and Weber) and of fluctuations, are those of `coarse-grain` with `axes = [\"z\"]`.",
+    reference: "averages as in any textbook; the cut of a sphere by a plane in closed form",
+};
 
 /// Averages in slices.
 #[derive(Clone, Debug)]
@@ -143,8 +148,8 @@ fn below(t: f64, flat: bool) -> f64 {
 }
 
 impl Watch for Profile {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

@@ -16,7 +16,7 @@ use tsubu_scene::Plan;
 struct Entry<'a> {
     name: &'a str,
     kind: &'a str,
-    about: &'a str,
+    about: String,
     /// Columns of `history.csv`.
     scalars: Vec<String>,
     /// Its table in the run folder.
@@ -63,7 +63,7 @@ impl Watched {
         Entry {
             name: &self.name,
             kind: self.kind,
-            about: self.watch.about(),
+            about: self.watch.about().text(),
             scalars: self.watch.scalars().iter().map(|what| self.column(what)).collect(),
             file: self.sheet.as_ref().map(|_| file(&self.name)),
             coordinates: sheet.coordinates,

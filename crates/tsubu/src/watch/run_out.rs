@@ -2,13 +2,16 @@
 
 use super::surface::Surface;
 use super::{Sample, Sheet, Watch, group_number};
+use crate::explain::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 use tsubu_scene::plan::{Heading, Measure, Plan};
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.run-out",
+    formula: "\
 Run-out along a horizontal axis, of the free grains (of a group), against where they were at the first look.
 front           furthest point of the grains that touch anything, on the axis                       [m]
 run-out         from the furthest point of all grains at the first look to the front                [m]
@@ -20,11 +23,15 @@ deposit height  highest point of the columns above the low end of the region    
 The table is the deposit: the region is cut into columns along the axis, and the surface of each is the highest point of the
 grains whose centres are in it and that touch anything; `NaN` where there are none.
 Horizontal and down are against gravity, also where that is tilted to make a slope; the axis, the fronts and the deposit are
-those of the scene. Positions go on across periodic ends, those of the deposit do not.
-Source: Heim 1932 (Bergsturz und Menschenleben), whose fahrboeschung is from the crest of the scar to the toe and whose
-pauschalgefaelle is the travel angle here: with sliding friction alone its tangent is the coefficient of friction.
-Limits: one grain that rolls on ahead is the front, so see the mass front; two that collide in flight touch. A column is
-taken at its highest grain, up to a radius above the mean surface. Grains that vanish move the centre of mass.";
+those of the scene. Positions go on across periodic ends, those of the deposit do not.",
+    symbols: "",
+    limits: "One grain that rolls on ahead is the front, so see the mass front; two that collide in flight touch. A \
+column is taken at its highest grain, up to a radius above the mean surface. Grains that vanish move the \
+centre of mass.",
+    reference: "Heim 1932 (Bergsturz und Menschenleben), whose fahrboeschung is from the crest of the scar to the toe and \
+whose pauschalgefaelle is the travel angle here: with sliding friction alone its tangent is the coefficient \
+of friction",
+};
 
 /// Follows the front and the centre of mass.
 #[derive(Clone, Debug)]
@@ -76,8 +83,8 @@ impl RunOut {
 }
 
 impl Watch for RunOut {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

@@ -1,10 +1,13 @@
 //! Mixing of two groups.
 
 use super::{Axes, Inside, Sample, Watch};
+use crate::explain::About;
 use crate::view::{View, Wants};
 use std::collections::BTreeMap;
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.segregation",
+    formula: "\
 How well two groups are mixed, by number.
 Lacey index        M = (S0^2 - S^2) / (S0^2 - Sr^2)                                        [-]
 height difference  mean height of the first group less that of the second, by mass        [m]
@@ -13,9 +16,12 @@ cells              number of cells with grains in them                          
 S^2 is the variance of the share of the first group over cubic cells (squares in the plane), each weighed by its grains;
 S0^2 = p (1 - p) is that of groups apart, Sr^2 = p (1 - p) / n that of a random mixture, n the mean number of grains in a
 cell. M is 0 where every cell is pure and 1 for random mixtures in the mean: a single one lies above or below 1 by chance, by
-about sqrt(2 / cells) / (n - 1). More than that above 1 is order: groups in perfect order reach n / (n - 1). M is not cut at 1.
-Source: Lacey 1954 (J. Appl. Chem. 4, 257). Limits: depends on the size of the cells; cells at the border hold fewer.
-Cells begin at the origin of the scene. Frozen and driven grains are left out.";
+about sqrt(2 / cells) / (n - 1). More than that above 1 is order: groups in perfect order reach n / (n - 1). M is not cut at 1.",
+    symbols: "",
+    limits: "Depends on the size of the cells; cells at the border hold fewer. Cells begin at the origin of the scene. \
+Frozen and driven grains are left out.",
+    reference: "Lacey 1954 (J. Appl. Chem. 4, 257)",
+};
 
 /// Counts grains in cells.
 #[derive(Clone, Debug)]
@@ -27,8 +33,8 @@ pub(super) struct Segregation {
 }
 
 impl Watch for Segregation {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

@@ -2,20 +2,26 @@
 
 use super::surface::Surface;
 use super::{Sample, Sheet, Watch, mean};
+use crate::explain::About;
 use crate::view::{View, Wants};
 use tsubu_scene::plan::{Axis, Measure, Plan};
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.slope",
+    formula: "\
 Slope of the free surface. The region is cut into columns along a horizontal axis; the surface of a column is the highest
 point of the grains whose centres are in it. Through the columns whose middles are in the middle share of the width,
 lines are laid by least squares:
 angle           atan(b) of z = a + b x: positive where the surface rises along the axis           [rad]
 heap angle      -atan(b) of z = a + b |x - centre|: the mean slope of both flanks of a heap        [rad]
 surface height  mean of the columns                                                                [m]
-Grains that touch nothing are in flight and no surface, unless `touching` is off; frozen and driven ones count.
-Limits: grains of a falling stream that touch each other count; columns narrower than a grain have holes (left out); each
-column is taken at its highest grain, so a line lies up
-to a radius above the mean surface, which changes its height but not its slope. A line needs two columns.";
+Grains that touch nothing are in flight and no surface, unless `touching` is off; frozen and driven ones count.",
+    symbols: "",
+    limits: "Grains of a falling stream that touch each other count; columns narrower than a grain have holes (left out); \
+each column is taken at its highest grain, so a line lies up to a radius above the mean surface, which \
+changes its height but not its slope. A line needs two columns.",
+    reference: "least squares, by definition",
+};
 
 /// Heights of columns, and lines through them.
 #[derive(Clone, Debug)]
@@ -55,8 +61,8 @@ pub(crate) fn line(points: &[(f64, f64)]) -> f64 {
 }
 
 impl Watch for Slope {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

@@ -2,13 +2,16 @@
 
 use super::{Sample, Sheet, Watch};
 use crate::check::KARMAN;
+use crate::explain::About;
 use crate::state::sphere;
 use crate::view::{View, Wants};
 use crate::water::{Coupled, Layers, Stream, Water};
 use glam::DVec3;
 use tsubu_scene::plan::{self, Flow, Plan};
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.stream",
+    formula: "\
 The water. Of a stream along x (`water.flow.coupled`, `water.flow.log-law`)
 shear velocity    U*, sqrt(stress on the bottom over density)                            [m/s]
 bed stress        stress at the top of the bed, and what is given to grains above it     [Pa]
@@ -26,9 +29,12 @@ stress            shear stress of the water, mean of the lower and the upper fac
 The bed ends with the highest layer that grains fill by 0.3; of a log-law stream, which knows no grains, bed stress is rho U*^2. Density,
 d and w are those of the mean grain of the free groups, or of the group that is asked for, as the scene tells them.
 Which is which: U* is that on the bottom, below the bed, where little of the stress comes to; Shields and Rouse number are those at the
-top of the bed, in the mean and at the end; `check` tells them of the stream as typed, before grains take from it.
-Source: Shields 1936; Rouse 1937. Limits: as those of the layers; velocities and stresses are those of the last step, shares are
-measured every 50 steps. While the stream gains or loses speed the bed stress is not the weight of the water along the slope.";
+top of the bed, in the mean and at the end; `check` tells them of the stream as typed, before grains take from it.",
+    symbols: "",
+    limits: "As those of the layers; velocities and stresses are those of the last step, shares are measured every 50 \
+steps. While the stream gains or loses speed the bed stress is not the weight of the water along the slope.",
+    reference: "Shields 1936; Rouse 1937",
+};
 
 /// Reads the water.
 #[derive(Clone, Debug)]
@@ -91,8 +97,8 @@ fn sheared(stream: &Coupled, stresses: &[f64], k: usize) -> [f64; 2] {
 }
 
 impl Watch for Watched {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

@@ -1,15 +1,22 @@
 //! Single grains.
 
 use super::{Axes, LETTERS, Sample, Sheet, Watch};
+use crate::explain::About;
 use crate::view::{View, Wants};
 use std::collections::HashMap;
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.track",
+    formula: "\
 Where single grains are: position [m], velocity [m/s], spin [rad/s], a row of the table for each look and grain. Grains
 are numbered from 0 in the order of the names of their groups, then as they are listed; those of streams come last. With
 `group` they are counted from the first one of that group; the table has the numbers among all.
 Positions go on across periodic ends. A grain that is not there (yet, or any more) has no row. If only one grain is asked
-for, the same numbers go into the history.";
+for, the same numbers go into the history.",
+    symbols: "",
+    limits: "A table of many grains at many looks is large.",
+    reference: "by definition",
+};
 
 /// Follows grains.
 #[derive(Clone, Debug)]
@@ -39,8 +46,8 @@ impl Track {
 }
 
 impl Watch for Track {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

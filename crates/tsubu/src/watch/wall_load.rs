@@ -1,19 +1,25 @@
 //! Force and torque on a wall.
 
 use super::{Axes, LETTERS, Sample, Watch};
+use crate::explain::About;
 use crate::view::{View, WallLoad, Wants};
 use glam::DVec3;
 
-pub(super) const ABOUT: &str = "\
+pub(super) const ABOUT: About = About {
+    key: "watch.NAME.wall-load",
+    formula: "\
 What the grains do to a wall, from the forces of the last step.
 force x, z        sum of the contact forces on it                                           [N]
 torque y          their torque; in space all three entries                                  [N.m]
 force x, z        with `face`: on that face of a box alone, and no torque                   [N]
 pressure          force along `direction` over `area`, if these are given                   [Pa]
 The torque is about the origin of the wall's pose: the centre of mass of a free body, the centre of rotation of a turning
-wall, else the origin of the scene moved along with the wall.
-Limits: the pressure is a mean over the area that is given, whatever part of it grains touch; a direction stays as it is
-when the wall turns. Momentary values of stiff contacts are rough: take means.";
+wall, else the origin of the scene moved along with the wall.",
+    symbols: "",
+    limits: "The pressure is a mean over the area that is given, whatever part of it grains touch; a direction stays as \
+it is when the wall turns. Momentary values of stiff contacts are rough: take means.",
+    reference: "by definition",
+};
 
 /// Reads a wall's load.
 #[derive(Clone, Debug)]
@@ -47,8 +53,8 @@ fn on_face(view: &View, wall: usize, inward: DVec3) -> DVec3 {
 }
 
 impl Watch for Load {
-    fn about(&self) -> &'static str {
-        ABOUT
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
 
     fn wants(&self) -> Wants {

@@ -1,19 +1,26 @@
 //! Buoyancy.
 
 use super::{Kind, Parcel, Part};
-use crate::contact::part::About;
+use crate::explain::About;
 use glam::DVec3;
 use multiversion::multiversion;
 use tsubu_scene::plan;
 
-static ABOUT: About = About {
-    name: "buoyancy",
-    models: "What the stress in the water does to the place that a grain takes: the weight of the water that was there.",
-    formula: "F = - rho V g; `normal`: without the part of g along x",
+pub(super) const VERTICAL: About = About {
+    key: "water.buoyancy.vertical",
+    formula: "F = - rho V g",
     symbols: "rho density of the water [kg/m^3], V volume of the grain under water [m^3], g gravity [m/s^2]",
     limits: "Hydrostatic pressure and the shear stress of a steady uniform stream. A grain's weight never includes its added mass: \
 read with it, as Osada et al. print it, a grain would be lighter by C rho V g.",
     reference: "Osada, Shimizu and Wakai (2004), equations 10 and 11, with (sigma - rho) V g for (m - rho V) g",
+};
+
+pub(super) const NORMAL: About = About {
+    key: "water.buoyancy.normal",
+    formula: "F = - rho V (g - g_x), g_x the part of g along x",
+    symbols: "rho density of the water [kg/m^3], V volume of the grain under water [m^3], g gravity [m/s^2]",
+    limits: "Pressure alone, as below a surface parallel to x: what the shear stress of the stream adds along x is left out.",
+    reference: "Hydrostatics",
 };
 
 /// Buoyancy.
@@ -21,21 +28,22 @@ read with it, as Osada et al. print it, a grain would be lighter by C rho V g.",
 pub(super) struct Buoyancy {
     /// Force on a volume of water [N/m^3].
     lift: DVec3,
+    about: &'static About,
 }
 
 impl Buoyancy {
     pub fn new(plan: &plan::Water, gravity: DVec3) -> Self {
-        let carried = match plan.buoyancy {
-            plan::Buoyancy::Vertical => gravity,
-            plan::Buoyancy::Normal => DVec3 { x: 0.0, ..gravity },
+        let (carried, about) = match plan.buoyancy {
+            plan::Buoyancy::Vertical => (gravity, &VERTICAL),
+            plan::Buoyancy::Normal => (DVec3 { x: 0.0, ..gravity }, &NORMAL),
         };
-        Self { lift: -plan.density * carried }
+        Self { lift: -plan.density * carried, about }
     }
 }
 
 impl Part for Buoyancy {
     fn about(&self) -> &'static About {
-        &ABOUT
+        self.about
     }
 
     fn kind(&self) -> Kind {

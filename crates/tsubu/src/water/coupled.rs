@@ -28,9 +28,22 @@ pub use level::Top;
 
 use super::Layers;
 use super::stream::{CONSTANT, PER_DECADE};
+use crate::explain::About;
 use glam::DVec3;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
+
+pub(super) const ABOUT: About = About {
+    key: "water.flow.coupled",
+    formula: "rho e h dU/dt = rho e h a + t(upper face) - t(lower face) - R/A, for a layer of thickness h\n\
+t = rho max(nu, l^2 |dU/dz|) dU/dz\n\
+l = 0.40 s sqrt(1 - s/S), s = integral of (1 - (1-e)/0.61) dZ from above the highest layer that grains fill by half, S is s at the top",
+    symbols: "U velocity along x [m/s], e share of a layer that grains leave to the water [-], a drive [m/s^2], t stress [Pa], R what the \
+water does to the grains of the layer along x [N], A plan area [m^2], l mixing length [m], rho density [kg/m^3], nu viscosity [m^2/s]",
+    limits: "The same all along x: no waves. Shares are measured every 50 steps. Without grains it is the log law.",
+    reference: "Prandtl's mixing length, shortened by grains as in Li and Sawamoto (1995), ended in the bed as in Maurin et al. (2015); \
+bottom as Nikuradse (1933)",
+};
 
 /// Solid fraction at which nothing mixes any more.
 const PACKED: f64 = 0.61;

@@ -1,22 +1,48 @@
 //! Drag.
 
 use super::{Kind, Parcel, Part, hindrance};
-use crate::contact::part::About;
+use crate::explain::About;
 use multiversion::multiversion;
 use std::f64::consts::PI;
 use tsubu_scene::plan;
 
-static ABOUT: About = About {
-    name: "drag",
-    models: "Resistance of the water to a sphere that moves through it steadily.",
-    formula: "F = C rho/2 (pi/4) d^2 |U - u| (U - u), Re = |U - u| d/nu; \
-constant: C; stokes-newton: C + 24/Re; schiller-naumann: 24/Re (1 + 0.15 Re^0.687), 0.44 above Re = 1000; \
-abraham: (0.63 + 4.8/sqrt(Re))^2; with neighbours times what `hindrance` says; gidaspow: Ergun's bed, Wen and Yu's suspension",
-    symbols: "U velocity of the water [m/s], u of the grain [m/s], d diameter [m], rho density [kg/m^3], nu viscosity [m^2/s]",
-    limits: "A sphere alone, far from walls, below the drag crisis (Re < 2e5); without the history force. A grain that is partly \
-above the surface has the share of its volume that is below.",
-    reference: "Osada, Shimizu and Wakai (2004), equations 10 and 11; Schiller and Naumann (1935); Dalla Valle (1948); Abraham (1970); \
-Di Felice (1994); Richardson and Zaki (1954); Gidaspow (1994)",
+const SYMBOLS: &str = "U velocity of the water [m/s], u of the grain [m/s], d diameter [m], rho density [kg/m^3], nu viscosity [m^2/s], Re [-]";
+const ALONE: &str = "A sphere alone, far from walls, below the drag crisis (Re < 2e5); without the history force. A grain that is \
+partly above the surface has the share of its volume that is below.";
+
+/// A drag law of a sphere by its coefficient.
+const fn by_coefficient(key: &'static str, formula: &'static str, reference: &'static str) -> About {
+    About { key, formula, symbols: SYMBOLS, limits: ALONE, reference }
+}
+
+pub(super) const CONSTANT: About = by_coefficient(
+    "water.drag.constant",
+    "F = C rho/2 (pi/4) d^2 |U - u| (U - u), C = coefficient",
+    "Newton 1687; C = 0.4 to 0.5 for a sphere at Re from 1000 to 2e5",
+);
+pub(super) const STOKES_NEWTON: About = by_coefficient(
+    "water.drag.stokes-newton",
+    "F = C rho/2 (pi/4) d^2 |U - u| (U - u), C = coefficient + 24/Re, Re = |U - u| d/nu",
+    "Osada, Shimizu and Wakai (2004), equations 10 and 11; Stokes (1851)",
+);
+pub(super) const SCHILLER_NAUMANN: About = by_coefficient(
+    "water.drag.schiller-naumann",
+    "F = C rho/2 (pi/4) d^2 |U - u| (U - u), C = 24/Re (1 + 0.15 Re^0.687) up to Re = |U - u| d/nu = 1000, 0.44 above",
+    "Schiller and Naumann (1935)",
+);
+pub(super) const ABRAHAM: About = by_coefficient(
+    "water.drag.abraham",
+    "F = C rho/2 (pi/4) d^2 |U - u| (U - u), C = (0.63 + 4.8/sqrt(Re))^2, Re = |U - u| d/nu",
+    "Dalla Valle (1948); Abraham (1970)",
+);
+pub(super) const GIDASPOW: About = About {
+    key: "water.drag.gidaspow",
+    formula: "e < 0.8: F = V/e (150 mu (1 - e)/(e d^2) + 1.75 rho |U - u|/d) (U - u)\n\
+else:    F = (3/4) C V rho |U - u|/d e^-2.65 (U - u), C of Schiller and Naumann at Re = e |U - u| d/nu",
+    symbols: "e share of the volume that grains leave to the water [-], V volume of the grain [m^3], U velocity of the \
+water [m/s], u of the grain [m/s], d diameter [m], rho density [kg/m^3], mu = rho nu viscosity [Pa.s]",
+    limits: "Needs a flow with layers, which know e. The force jumps where e passes 0.8. All of it is beside hydrostatic buoyancy.",
+    reference: "Gidaspow (1994); Ergun (1952); Wen and Yu (1966)",
 };
 
 /// Re above which Schiller and Naumann's sphere has 0.44.
@@ -39,7 +65,14 @@ impl Drag {
 
 impl Part for Drag {
     fn about(&self) -> &'static About {
-        &ABOUT
+        match self.law {
+            // Without drag there is no such part.
+            plan::Drag::None {} | plan::Drag::Constant { .. } => &CONSTANT,
+            plan::Drag::StokesNewton { .. } => &STOKES_NEWTON,
+            plan::Drag::SchillerNaumann {} => &SCHILLER_NAUMANN,
+            plan::Drag::Abraham {} => &ABRAHAM,
+            plan::Drag::Gidaspow {} => &GIDASPOW,
+        }
     }
 
     fn kind(&self) -> Kind {

@@ -9,15 +9,14 @@
 //! interval, up to x = 2. Its integral is 8/pi^2 intervals, the Lagrangian time, which with the variance is all that dispersion
 //! over longer times depends on (Taylor 1921).
 
-use crate::contact::part::About;
+use crate::explain::About;
 use crate::random::{Purpose, unit, words};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use tsubu_scene::plan;
 
 /// Text on it.
-pub static ABOUT: About = About {
-    name: "fluctuation",
-    models: "Turbulence as a grain on its way sees it: a velocity of the water that wanders about the mean, drawn for each grain.",
+pub(super) const ABOUT: About = About {
+    key: "water.fluctuation",
     formula: "U' = min(strength U*, |U|) g, g normal, correlated over the Lagrangian time T, with variances 1 in each direction or, as \
 a `stream` has them, 1.67, 0.84 and 0.51 along, across and up; \
 independent draws every pi^2/8 T, between them a cos(pi s/2) + b sin(pi s/2)",

@@ -4,8 +4,26 @@
 //! hydrostatic buoyancy: what drives the water through the crowd is not counted again in the pressure.
 
 use super::Parcel;
+use crate::explain::About;
 use multiversion::multiversion;
 use tsubu_scene::plan::Hindrance;
+
+pub(super) const DI_FELICE: About = About {
+    key: "water.hindrance.di-felice",
+    formula: "drag of a grain alone at Re = e |U - u| d/nu, times e^(2 - b), b = 3.7 - 0.65 exp(-(1.5 - log10 Re)^2/2)",
+    symbols: "e share of the volume that grains leave to the water [-], U velocity of the water [m/s], u of the grain [m/s], \
+d diameter [m], nu viscosity [m^2/s]",
+    limits: "Needs a flow with layers, which know e. All of the force is beside hydrostatic buoyancy.",
+    reference: "Di Felice (1994)",
+};
+
+pub(super) const RICHARDSON_ZAKI: About = About {
+    key: "water.hindrance.richardson-zaki",
+    formula: "drag of a grain alone, times e^-exponent",
+    symbols: "e share of the volume that grains leave to the water [-], exponent [-]",
+    limits: "Needs a flow with layers, which know e. The exponent depends on Re; 3.1 is that of large grains.",
+    reference: "Richardson and Zaki (1954)",
+};
 
 /// Before the drag of a grain alone: Di Felice's speed is the superficial one, e |U - u|.
 pub(super) fn before(kind: &Hindrance, p: &mut Parcel) {

@@ -1,14 +1,13 @@
 //! Lift by spin.
 
 use super::{Kind, Parcel, Part};
-use crate::contact::part::About;
+use crate::explain::About;
 use multiversion::multiversion;
 use std::f64::consts::PI;
 use tsubu_scene::plan;
 
-static MAGNUS: About = About {
-    name: "magnus",
-    models: "Lift on a sphere that spins while it moves through the water: backspin lifts.",
+pub(super) const MAGNUS: About = About {
+    key: "water.lift.magnus",
     formula: "F = pi rho r^3 (w - Omega) x (u - U)",
     symbols: "w spin of the grain [rad/s], Omega of the water, half its vorticity [rad/s], u velocity of the grain [m/s], U of the \
 water [m/s], r radius [m], rho density [kg/m^3]",
@@ -17,9 +16,8 @@ water [m/s], r radius [m], rho density [kg/m^3]",
     reference: "Rubinow and Keller (1961)",
 };
 
-static OESTERLE_DINH: About = About {
-    name: "magnus-oesterle-dinh",
-    models: "Lift by spin beyond slow flow: with ever faster flow a lift coefficient of 0.45, whatever the spin.",
+pub(super) const OESTERLE_DINH: About = About {
+    key: "water.lift.magnus-oesterle-dinh",
     formula: "F = K F_magnus; K = E + 0.45 (1 - E)/q, E = exp(-0.05684 Re_w^0.4 Re^0.3), q = Re_w/Re; \
 Re_w = |w - Omega| d^2/nu, Re = |U - u| d/nu",
     symbols: "w spin of the grain [rad/s], Omega of the water, half its vorticity [rad/s], u velocity of the grain [m/s], U of the \

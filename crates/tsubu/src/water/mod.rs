@@ -22,13 +22,14 @@ mod torque;
 
 pub(crate) use coupled::EVERY;
 pub use coupled::{Coupled, Top, Turnover};
-pub use fluctuation::{ABOUT as ABOUT_FLUCTUATION, Fluctuation, Gust};
+pub use fluctuation::{Fluctuation, Gust};
 pub use layers::Layers;
 pub(crate) use parcel::Given;
 pub use parcel::{Flows, Parcel};
 pub use part::{Kind, Part};
 pub use stream::Stream;
 
+use crate::explain::About;
 use crate::state::sphere;
 use buoyancy::Buoyancy;
 use drag::Drag;
@@ -37,6 +38,31 @@ use magnus::Magnus;
 use saffman::Saffman;
 use torque::Torque;
 use tsubu_scene::plan;
+
+/// What the forces of the water and its flows are.
+pub const ABOUT: &[&About] = &[
+    &buoyancy::VERTICAL,
+    &buoyancy::NORMAL,
+    &stream::STILL,
+    &stream::LOG_LAW,
+    &stream::TABLE,
+    &coupled::ABOUT,
+    &stream::COLUMN,
+    &hindrance::DI_FELICE,
+    &hindrance::RICHARDSON_ZAKI,
+    &drag::CONSTANT,
+    &drag::STOKES_NEWTON,
+    &drag::SCHILLER_NAUMANN,
+    &drag::GIDASPOW,
+    &drag::ABRAHAM,
+    &torque::STOKES,
+    &torque::FINITE_REYNOLDS,
+    &saffman::SAFFMAN,
+    &saffman::SAFFMAN_MEI,
+    &magnus::MAGNUS,
+    &magnus::OESTERLE_DINH,
+    &fluctuation::ABOUT,
+];
 
 /// The water of a scene.
 #[derive(Debug)]

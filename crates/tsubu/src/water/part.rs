@@ -1,7 +1,7 @@
 //! A part: one force of the water.
 
 use super::Parcel;
-use crate::contact::part::About;
+use crate::explain::About;
 
 /// What becomes of the work of a force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

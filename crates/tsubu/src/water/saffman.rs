@@ -1,13 +1,12 @@
 //! Lift by shear.
 
 use super::{Kind, Parcel, Part};
-use crate::contact::part::About;
+use crate::explain::About;
 use multiversion::multiversion;
 use tsubu_scene::plan;
 
-static SAFFMAN: About = About {
-    name: "saffman",
-    models: "Lift on a sphere that lags behind (or leads) a stream with shear: towards the faster water where it lags.",
+pub(super) const SAFFMAN: About = About {
+    key: "water.lift.saffman",
     formula: "F = 1.615 rho sqrt(nu) d^2 sqrt(|W|) (U - u) x W/|W|",
     symbols: "U velocity of the water [m/s], u of the grain [m/s], W vorticity of the water [1/s] (dU/dz about y), d diameter [m], \
 rho density [kg/m^3], nu viscosity [m^2/s]",
@@ -16,9 +15,8 @@ sand in a river is far outside: there it is too strong, see `saffman-mei`.",
     reference: "Saffman (1965), with the corrected factor of Saffman (1968)",
 };
 
-static SAFFMAN_MEI: About = About {
-    name: "saffman-mei",
-    models: "Lift by shear beyond slow flow.",
+pub(super) const SAFFMAN_MEI: About = About {
+    key: "water.lift.saffman-mei",
     formula: "F = K F_saffman; K = exp(-Re/10) + 0.3314 sqrt(b) (1 - exp(-Re/10)) up to Re = 40, 0.0524 sqrt(b Re) above; \
 b = |W| d/(2 |U - u|), Re = |U - u| d/nu",
     symbols: "U velocity of the water [m/s], u of the grain [m/s], W vorticity of the water [1/s], d diameter [m], nu viscosity [m^2/s]",

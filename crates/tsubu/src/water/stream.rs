@@ -3,6 +3,7 @@
 use super::coupled::{Coupled, Setting, Top};
 use super::logarithm::ln;
 use super::{Layers, Parcel};
+use crate::explain::About;
 use multiversion::multiversion;
 use std::f64::consts::LN_10;
 use tsubu_frame::State;
@@ -12,6 +13,39 @@ use tsubu_scene::plan::{Flow, Lid, StreamStart, Water};
 /// Slope and constant of the log law, U = U* (8.5 + 5.75 log10(Z/k)).
 pub(super) const CONSTANT: f64 = 8.5;
 pub(super) const PER_DECADE: f64 = 5.75;
+
+pub(super) const STILL: About = About {
+    key: "water.flow.still",
+    formula: "U = 0",
+    symbols: "U velocity of the water [m/s]",
+    limits: "Grains do not move the water.",
+    reference: "by definition",
+};
+
+pub(super) const LOG_LAW: About = About {
+    key: "water.flow.log-law",
+    formula: "U = U* (8.5 + 5.75 log10(Z/k)), 0 where that is negative; Z = z - zero-level",
+    symbols: "U velocity along x [m/s], U* shear velocity [m/s], k equivalent roughness [m], z height [m]",
+    limits: "A steady, uniform, hydraulically rough stream. Grains take nothing from it; `coupled` is slowed by them.",
+    reference: "Nikuradse (1933); Osada, Shimizu and Wakai (2004), equation 9",
+};
+
+pub(super) const TABLE: About = About {
+    key: "water.flow.table",
+    formula: "U(z): straight lines between the given points, constant outside",
+    symbols: "U velocity along x [m/s], z height [m]",
+    limits: "Grains take nothing from it.",
+    reference: "by definition",
+};
+
+pub(super) const COLUMN: About = About {
+    key: "water.flow.column",
+    formula: "W = velocity/e",
+    symbols: "W velocity upwards [m/s], `velocity` the superficial one, discharge over plan area [m/s], e share of a layer that \
+grains leave to the water [-]",
+    limits: "Even over the plan area: no channels, no bubbles smaller than a layer.",
+    reference: "continuity",
+};
 
 /// A flow: along x, or upwards.
 #[derive(Clone, Debug)]

@@ -1,14 +1,13 @@
 //! Torque on spin.
 
 use super::{Kind, Parcel, Part};
-use crate::contact::part::About;
+use crate::explain::About;
 use multiversion::multiversion;
 use std::f64::consts::PI;
 use tsubu_scene::plan;
 
-static STOKES: About = About {
-    name: "stokes",
-    models: "Resistance of the water to a sphere that turns slowly in it.",
+pub(super) const STOKES: About = About {
+    key: "water.torque.stokes",
     formula: "T = 8 pi mu r^3 (Omega - w)",
     symbols: "Omega spin of the water, half its vorticity [rad/s], w of the grain [rad/s], r radius [m], mu = rho nu [Pa.s]",
     limits: "Re = |Omega - w| d^2/nu below about 10; a sphere alone, far from walls. A leaping grain of sand has thousands: there \
@@ -16,9 +15,8 @@ it is several times too weak.",
     reference: "Stokes (1845); Lamb, Hydrodynamics, section 334",
 };
 
-static FINITE_REYNOLDS: About = About {
-    name: "finite-reynolds",
-    models: "Resistance of the water to a sphere that turns in it, slowly or fast.",
+pub(super) const FINITE_REYNOLDS: About = About {
+    key: "water.torque.finite-reynolds",
     formula: "T = C rho/2 r^5 |Omega - w| (Omega - w), C the larger of 64 pi/Re and 12.9/sqrt(Re) + 128.4/Re, \
 Re = |Omega - w| d^2/nu",
     symbols: "Omega spin of the water, half its vorticity [rad/s], w of the grain [rad/s], r radius, d diameter [m], \

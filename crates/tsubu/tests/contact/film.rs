@@ -77,5 +77,5 @@ fn the_verdict_knows_the_film() {
     let law = wet(&stack::hertz(), false);
     assert_eq!(law.law.reach(&pair), REACH);
     let about = law.law.parts().last().unwrap().about();
-    assert!(about.name == "lubrication" && about.symbols.contains('['));
+    assert!(about.key == "contact.film.lubrication" && about.symbols.contains('['));
 }

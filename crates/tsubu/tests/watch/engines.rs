@@ -168,15 +168,6 @@ fn a_run_writes_what_was_asked_for_when_it_was() {
     assert!(index.contains("\"kind\": \"profile\"") && index.contains("gate passed mass [kg]"));
 }
 
-#[test]
-fn the_book_has_the_text_of_every_watch() {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/theory/watches.md");
-    let page = fs::read_to_string(page).unwrap();
-    for (name, about) in tsubu::watch::ABOUT {
-        assert!(page.contains(&format!("## `{name}`")) && page.contains(about), "{name}: copy its ABOUT into the page");
-    }
-}
-
 /// Watches read and never write: the state at the end is that of a run without them.
 #[test]
 fn nobody_feels_that_they_are_watched() {

@@ -26,7 +26,17 @@ pub mod wall_collision;
 use super::direction::{Direction, Vector};
 use super::fixed::{Restitution, Scale};
 use super::grid::Grid;
+use crate::explain::About;
 use tsubu_scene::plan::{Collision, ObliqueGravity};
+
+pub(crate) const ABOUT: About = About {
+    key: "method.lattice",
+    formula: "v += -g dt (direction . z);  S += v dt;  at S >= one cell the ball moves one cell if it is free, else by lottery",
+    symbols: "v speed along one of six directions [m/s], S stored distance [m], g gravity [m/s^2], dt time step [s]",
+    limits: "Equal balls in boxes that move up and down; no friction, no spin. Whole numbers: the books close without \
+rounding. `lattice.mode` says how near it is to what was published.",
+    reference: "Komatsuzaki, Sato, Iwata and Morishita 2003",
+};
 
 /// The named choices of the rules.
 #[expect(clippy::struct_excessive_bools, reason = "each is a rule that the scene switches on or off by its name")]

@@ -4,8 +4,17 @@
 use super::collide::{REST, SLOTS};
 use super::grains::Grains;
 use super::numbers::{NOBODY, Numbers};
+use crate::explain::About;
 use crate::lattice::direction::Direction;
 use crate::random::{Purpose, unit, words};
+
+pub(crate) const ABOUT: About = About {
+    key: "method.after-baxter-behringer",
+    formula: "as `after-peng-herrmann`, each grain with one of three axes; a turn is accepted by Metropolis with the energies of lying like the neighbours and along the way",
+    symbols: "energies over temperature [-]",
+    limits: "Orientation does not change where a grain fits.",
+    reference: "after Baxter and Behringer 1990",
+};
 
 /// What lying alike is worth.
 #[derive(Clone, Copy, Debug, PartialEq)]

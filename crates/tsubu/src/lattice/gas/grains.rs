@@ -7,8 +7,17 @@ use super::collide::{REST, Rules, SLOTS, collide};
 use super::numbers::{Crew, EMPTY, NOBODY, Numbers, go_on};
 use super::sites::Sites;
 use super::step::MIRRORED;
+use crate::explain::About;
 use crate::lattice::direction::{Direction, Vector};
 use crate::random::{Purpose, words};
+
+pub(crate) const ABOUT: About = About {
+    key: "method.after-peng-herrmann",
+    formula: "FHP-II; in a step gravity turns a particle by 60 degrees downward with a probability; those of a collision stay with the probability `dissipation`; a wall sends back with `roughness`",
+    symbols: "probabilities [-]",
+    limits: "Speeds are 0 or 1: no temperature but by directions.",
+    reference: "after Peng and Herrmann 1994, 1995",
+};
 
 /// What the grains do beside flying and colliding.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,3 +20,14 @@ pub mod planes;
 pub mod sites;
 pub mod step;
 pub mod sweep;
+
+use crate::explain::About;
+
+pub(crate) const ABOUT: About = About {
+    key: "method.fhp",
+    formula: "particles of unit speed on the six bonds of a site, at most one each; they fly one bond a step, then collide so that number and momentum stay",
+    symbols: "density per site [-], speed 1 bond a step",
+    limits: "A fluid at low Mach number; the viscosity is set by `fhp` rules I, II or III and the density. Not Galilean \
+invariant at high speeds.",
+    reference: "Frisch, Hasslacher and Pomeau 1986; Frisch, d'Humieres, Hasslacher, Lallemand, Pomeau, Rivet 1987",
+};

@@ -4,9 +4,18 @@
 //! below it. Few grains fly at a time, so they are a list. They move from the lowest up, each once a step.
 
 use super::sites::Sites;
+use crate::explain::About;
 use crate::lattice::direction::Direction;
 use crate::random::{Purpose, unit, words};
 use std::collections::VecDeque;
+
+pub(crate) const ABOUT: About = About {
+    key: "method.after-karolyi-kertesz",
+    formula: "a flying grain is turned downward with probability `gravity`; one that hits stays low with `dissipation`; one that slides stops, and one that is hit holds, with the `friction` of its kind",
+    symbols: "probabilities [-]",
+    limits: "At most one grain at rest a site; slopes come out of probabilities, not out of a coefficient of friction.",
+    reference: "after Karolyi and Kertesz 1998",
+};
 
 /// What happens how often.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,0 +1,208 @@
+//! `tsubu explain`: what a law, a force of the water, a watch, a wall, a method or a claim is.
+
+use crate::failure::Failure;
+use crate::output::{self, Stream};
+use crate::table;
+use clap::Args;
+use std::fmt::Write as _;
+use tsubu::explain::{self, Entry, Kind};
+use tsubu_verify::{CASES, Case};
+
+/// How far text runs.
+const WIDTH: usize = 96;
+/// Lines of a formula that are longer are cut between words.
+const LONGEST: usize = 124;
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  tsubu explain                      everything there is, by kind
+  tsubu explain hertz                formula, symbols with units, limits, source, keys
+  tsubu explain tangential.spring    one of several that are called so
+  tsubu explain haff                 a verification case, whose claims `tsubu verify haff` checks")]
+pub struct Options {
+    /// What is to be explained; nothing lists all names
+    #[arg(value_name = "NAME")]
+    name: Option<String>,
+    /// Print a generated page of the book instead
+    #[arg(long, hide = true, conflicts_with = "name", value_name = "PAGE")]
+    page: Option<String>,
+}
+
+pub fn run(options: &Options) -> Result<(), Failure> {
+    if let Some(name) = &options.page {
+        return output::print(&page(name)?);
+    }
+    let Some(name) = &options.name else { return output::print(&list()) };
+    let entries = explain::entries();
+    let (mut texts, mut seen) = (Vec::new(), Vec::new());
+    for entry in entries.iter().filter(|entry| entry.is_called(name)) {
+        texts.push(thing(entry));
+        seen.push(&entry.choice.path);
+    }
+    let cases: Vec<&Case> = CASES.iter().filter(|case| case.name == name || case.study == name).collect();
+    if let [case] = cases[..] {
+        texts.push(single(case));
+    } else if !cases.is_empty() {
+        texts.push(study(name, &cases));
+    }
+    if texts.is_empty() { Err(unknown(name, &entries)) } else { output::print(&texts.join("\n")) }
+}
+
+/// All names, by kind.
+fn list() -> String {
+    let mut text = String::new();
+    for kind in Kind::ALL {
+        let mut home = String::new();
+        let _ = writeln!(text, "{}", Stream::Data.bold_cyan(kind.title()));
+        for entry in kind.entries() {
+            if entry.choice.home() != home {
+                entry.choice.home().clone_into(&mut home);
+                let _ = writeln!(text, "  {home}");
+            }
+            let _ = writeln!(text, "    {:<28} {}", entry.choice.name(), entry.choice.sentence());
+        }
+        text.push('\n');
+    }
+    let _ = writeln!(text, "{}", Stream::Data.bold_cyan("Claims: verification cases"));
+    for case in CASES {
+        let _ = writeln!(text, "    {:<28} {}", case.name, case.about);
+    }
+    text + "\n`tsubu explain NAME` tells formula, symbols with units, limits, source and keys.\n"
+}
+
+/// A thing of a scene.
+fn thing(entry: &Entry) -> String {
+    let mut text =
+        format!("{}\n{}.\n", Stream::Data.bold_cyan(&entry.choice.typed()), wrapped(&entry.choice.sentence(), 0));
+    if let Some(about) = entry.about {
+        text.push('\n');
+        for line in about.formula.lines() {
+            // Columns of a watch stay where they are.
+            let line = if line.chars().count() > LONGEST { wrapped(line, 6) } else { line.to_owned() };
+            let _ = writeln!(text, "  {line}");
+        }
+        text.push('\n');
+        for (heading, section) in about.sections().skip(1) {
+            let _ = writeln!(text, "{heading:<8} {}", wrapped(section, 9));
+        }
+    }
+    let widest = entry.choice.keys.iter().map(|key| key.name.len()).max().unwrap_or_default();
+    let indent = widest + 4;
+    for (index, key) in entry.choice.key_texts().enumerate() {
+        let gap = if index == 0 { "\nkeys\n" } else { "" };
+        let value = format!("{}; default: {}", key.value, key.default);
+        let value = if key.default == "required" { format!("{}; required", key.value) } else { value };
+        let _ = writeln!(text, "{gap}  {:<widest$}  {}", key.name, wrapped(key.about, indent));
+        let _ = writeln!(text, "{}{}", " ".repeat(indent), wrapped(&value, indent));
+    }
+    text
+}
+
+/// A verification case.
+fn single(case: &Case) -> String {
+    format!(
+        "{}\n{}.\n\n{}",
+        Stream::Data.bold_cyan(case.name),
+        wrapped(case.about, 0),
+        facts(case.study, case.name, case.long)
+    )
+}
+
+/// The cases of a study.
+fn study(name: &str, cases: &[&Case]) -> String {
+    let rows: Vec<Vec<String>> = cases.iter().map(|case| vec![case.name.to_owned(), case.about.to_owned()]).collect();
+    let long = cases.iter().any(|case| case.long);
+    format!("{}\n{}\n{}", Stream::Data.bold_cyan(name), table::aligned(&rows), facts(name, name, long))
+}
+
+fn facts(study: &str, name: &str, long: bool) -> String {
+    let time = if long { "minutes and more" } else { "seconds" };
+    let mut text = String::new();
+    for (heading, section) in [
+        ("study", study.to_owned()),
+        ("claims", format!("`tsubu verify {name}` runs it and prints each with value, accepted range and source")),
+        ("takes", time.to_owned()),
+    ] {
+        let _ = writeln!(text, "{heading:<8} {}", wrapped(&section, 9));
+    }
+    text
+}
+
+fn unknown(name: &str, entries: &[Entry]) -> Failure {
+    let known: Vec<&str> = entries
+        .iter()
+        .flat_map(|entry| [entry.choice.name(), &entry.choice.path])
+        .chain(CASES.iter().flat_map(|case| [case.name, case.study]))
+        .collect();
+    let failure = Failure::wrong(format!("there is nothing called `{name}`"));
+    match tsubu_scene::nearest(name, known) {
+        Some(meant) => failure.hint(format!("did you mean `{meant}`? `tsubu explain` lists all names")),
+        None => failure.hint("`tsubu explain` lists all names"),
+    }
+}
+
+/// A generated page of the book.
+fn page(name: &str) -> Result<String, Failure> {
+    Ok(match name {
+        "contact" => explain::page(Kind::Contact),
+        "water" => explain::page(Kind::Water),
+        "watches" => explain::page(Kind::Watch),
+        "walls" => explain::page(Kind::Wall),
+        "methods" => explain::page(Kind::Method),
+        "claims" => claims(),
+        _ => return Err(Failure::wrong(format!("the book has no generated page `{name}`"))),
+    })
+}
+
+/// The page of the verification cases.
+fn claims() -> String {
+    let mut page = String::from(
+        "# Verification cases\n\n<!-- Generated by `cargo xtask gen` from the cases; do not edit. -->\n\n\
+         `tsubu verify NAME` runs a case, or all cases of a study, and prints each claim with value, accepted range and source.\n\
+         Long cases take minutes and more; `tsubu verify` alone leaves them out.\n",
+    );
+    let mut studies: Vec<&str> = CASES.iter().map(|case| case.study).collect();
+    studies.sort_unstable();
+    studies.dedup();
+    for study in studies {
+        let _ = write!(page, "\n## `{study}`\n\n| case | what it checks | |\n|---|---|---|\n");
+        for case in CASES.iter().filter(|case| case.study == study) {
+            let _ = writeln!(page, "| `{}` | {} | {} |", case.name, case.about, if case.long { "long" } else { "" });
+        }
+    }
+    page
+}
+
+/// Text in lines of a readable length; those after the first begin with `indent` blanks.
+fn wrapped(text: &str, indent: usize) -> String {
+    let (mut wrapped, mut length) = (String::new(), indent);
+    for word in text.split_whitespace() {
+        let size = word.chars().count();
+        if length > indent && length + 1 + size > WIDTH {
+            wrapped.push('\n');
+            wrapped.extend(std::iter::repeat_n(' ', indent));
+            length = indent;
+        } else if length > indent {
+            wrapped.push(' ');
+            length += 1;
+        }
+        wrapped += word;
+        length += size;
+    }
+    wrapped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::wrapped;
+
+    #[test]
+    fn text_is_cut_between_words() {
+        let text = "word ".repeat(40);
+        let lines: Vec<String> = wrapped(&text, 4).lines().map(str::to_owned).collect();
+        assert!(lines.iter().all(|line| line.chars().count() <= super::WIDTH), "{lines:?}");
+        assert!(lines.len() == 3 && lines[1].starts_with("    word"), "{lines:?}");
+        assert_eq!(wrapped("one", 9), "one");
+    }
+}
