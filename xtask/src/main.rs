@@ -3,6 +3,8 @@
 #[cfg(test)]
 mod architecture;
 mod bench;
+mod blocks;
+mod book;
 mod check;
 mod generate;
 mod guard;
@@ -20,7 +22,8 @@ cargo xtask CHORE
   check [--no-test]   what must pass before a change goes in: format, lints, documentation, generated pages, a short
                       run of every scene, all tests, a minute of the guards
   test                all tests; with Python 3, also those that read written frames back with VTK
-  gen [--check]       write the generated pages, or only say which are out of date
+  gen [--check]       write the generated pages and tables, or only say which are out of date
+  book                build the book, where there is an mdbook
   smoke               run every scene for a moment
   fuzz [--seed N] [--seconds S] [--cases N] [--only KIND] [--case N]
                       draw scenes, files and command lines, and hold tsubu against them; --help says more
@@ -43,6 +46,7 @@ fn main() -> ExitCode {
         ["test"] => test::test(),
         ["gen"] => generate::write(),
         ["gen", "--check"] => generate::check(),
+        ["book"] => book::book(),
         ["smoke"] => smoke::smoke(),
         ["fuzz", rest @ ..] => guard::guard("fuzz", rest),
         ["variants", rest @ ..] => variants::chore(rest),

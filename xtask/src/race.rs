@@ -170,7 +170,7 @@ fn write(path: &Path, text: &str) -> Result<(), String> {
 }
 
 /// The middle of some numbers, of which there is at least one.
-fn median(mut numbers: Vec<f64>) -> f64 {
+pub fn median(mut numbers: Vec<f64>) -> f64 {
     numbers.sort_by(f64::total_cmp);
     let half = numbers.len() / 2;
     if numbers.len() % 2 == 1 { numbers[half] } else { 0.5 * (numbers[half - 1] + numbers[half]) }

@@ -1,12 +1,15 @@
 use crate::support::Desk;
 use std::path::Path;
 
-/// The commands that the README's table of what works names, in order.
+/// A page of the project.
+fn page(name: &str) -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name)).unwrap()
+}
+
+/// The commands that the book's table of what works names, in order.
 fn named_commands() -> Vec<String> {
-    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md");
-    let text = std::fs::read_to_string(readme).unwrap();
-    let table = text.split("## What works today").nth(1).unwrap().split("\n## ").next().unwrap();
-    let rows = table.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| what "));
+    let text = page("docs/src/what-works.md");
+    let rows = text.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| what "));
     rows.map(|row| {
         let shown = row.trim_end_matches(" |").rsplit("| ").next().unwrap();
         shown.trim_matches('`').strip_prefix("tsubu ").unwrap_or_else(|| panic!("no command in `{row}`")).to_owned()
@@ -14,10 +17,27 @@ fn named_commands() -> Vec<String> {
     .collect()
 }
 
+/// What the README names is a row of the table, so it works; and the README is read in minutes.
+#[test]
+fn the_readme_names_what_works_and_is_short() {
+    let readme = page("README.md");
+    assert!(readme.lines().count() <= 120, "the README has {} lines", readme.lines().count());
+    let section = readme.split("## What works today").nth(1).unwrap().split("\n## ").next().unwrap();
+    let bullets = section.split("\n- ").skip(1);
+    let shown: Vec<&str> =
+        bullets.map(|bullet| bullet.split("`tsubu ").nth(1).unwrap().split('`').next().unwrap()).collect();
+    assert_eq!(shown.len(), 8);
+    let known = named_commands();
+    for command in shown {
+        let listed = known.iter().any(|row| row == command) || command == "verify --list";
+        assert!(listed, "`tsubu {command}` is not in docs/src/what-works.md");
+    }
+}
+
 /// Every row of the table is true: its command ends well. Runs are cut short; verification cases are tested by name, and
 /// run in full elsewhere.
 #[test]
-fn every_row_of_the_readme_works() {
+fn every_row_of_what_works_does() {
     let desk = Desk::empty();
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let known = desk.done("verify --list").stdout;
@@ -28,7 +48,7 @@ fn every_row_of_the_readme_works() {
         let folder = format!("row{index}");
         if let Some(names) = command.strip_prefix("verify ") {
             for name in names.split_whitespace() {
-                assert!(known.contains(name), "the README names `{name}`, which `tsubu verify --list` does not know");
+                assert!(known.contains(name), "the table names `{name}`, which `tsubu verify --list` does not know");
             }
         } else if command.starts_with("run ") || command.starts_with("compare ") {
             desk.done(&format!("{command} -q -o {folder} --set 'duration=0.05 s' --set claim=[]"));

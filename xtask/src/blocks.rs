@@ -1,0 +1,184 @@
+//! Tables in pages written by hand: what stands between `<!-- generated: NAME -->` and `<!-- end -->`.
+
+use crate::shell::root;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Pages with such tables, with their new text.
+pub fn pages() -> Result<Vec<(String, String)>, String> {
+    let mut pages = vec![filled("benches/README.md", "race", &race()?)?];
+    for (study, file) in claim_files()? {
+        pages.push(filled(&format!("studies/{study}/README.md"), "claims", &claims(&file)?)?);
+    }
+    Ok(pages)
+}
+
+/// A page with another table in it.
+fn filled(page: &str, name: &str, table: &str) -> Result<(String, String), String> {
+    let text = fs::read_to_string(root().join(page)).map_err(|error| format!("cannot read {page}: {error}"))?;
+    put(&text, name, table).map(|text| (page.to_owned(), text)).ok_or_else(|| format!("{page} has no table `{name}`"))
+}
+
+fn put(text: &str, name: &str, table: &str) -> Option<String> {
+    let begin = format!("<!-- generated: {name} -->");
+    let (before, rest) = text.split_once(&begin)?;
+    let (_, after) = rest.split_once("<!-- end -->")?;
+    Some(format!("{before}{begin}\n\n{table}\n<!-- end -->{after}"))
+}
+
+/// The latest race: the last in the order of names, which begin with the day.
+fn race() -> Result<String, String> {
+    let folder = root().join("benches/results");
+    let mut files: Vec<PathBuf> = list(&folder)?;
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
+    let latest = files.last().ok_or("there is no race in benches/results")?;
+    let text = fs::read_to_string(latest).map_err(|error| format!("cannot read {}: {error}", latest.display()))?;
+    let race: Value = serde_json::from_str(&text).map_err(|error| format!("{}: {error}", latest.display()))?;
+    let stem = latest.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    Ok(race_table(&race, &stem))
+}
+
+fn race_table(race: &Value, name: &str) -> String {
+    let about = |what: &str| race["about"][what].as_str().unwrap_or("not told").to_owned();
+    let mut table = format!(
+        "[{name}](results/{name}.md): {} (family, model {}), {} cores, {}; tsubu {}; LAMMPS {}; medians of {} runs in turn.\n\n",
+        about("processor"),
+        about("family, model"),
+        about("cores"),
+        about("rustc").split(" (").next().unwrap_or_default(),
+        about("tsubu"),
+        about("LAMMPS"),
+        about("runs"),
+    );
+    table += "| workload | grains | code | one core | two cores | tsubu over it: one core | two cores |\n|---|---|---|---|---|---|---|\n";
+    for workload in race["workloads"].as_array().into_iter().flatten() {
+        let mut rates: BTreeMap<(String, u64), Vec<f64>> = BTreeMap::new();
+        for run in workload["runs"].as_array().into_iter().flatten() {
+            let rate = run["million particle-steps per second"].as_f64();
+            let (Some(code), Some(cores), Some(rate)) = (run["code"].as_str(), run["cores"].as_u64(), rate) else {
+                continue;
+            };
+            rates.entry((code.to_owned(), cores)).or_default().push(rate);
+        }
+        let median =
+            |code: &str, cores| rates.get(&(code.to_owned(), cores)).cloned().map_or(f64::NAN, crate::race::median);
+        let mut codes: Vec<&str> = rates.keys().map(|(code, _)| code.as_str()).collect();
+        codes.dedup();
+        codes.sort_by_key(|code| *code != "tsubu");
+        for code in codes {
+            let over = |cores| match code {
+                "tsubu" => String::new(),
+                _ => format!("{:.2}", median("tsubu", cores) / median(code, cores)),
+            };
+            let _ = writeln!(
+                table,
+                "| {} | {} | {code} | {:.1} | {:.1} | {} | {} |",
+                workload["about"].as_str().unwrap_or_default(),
+                workload["grains"],
+                median(code, 1),
+                median(code, 2),
+                over(1),
+                over(2),
+            );
+        }
+    }
+    table + "\nMillion particle-steps a second.\n"
+}
+
+/// The folders of studies with the claims that are kept there.
+fn claim_files() -> Result<Vec<(String, PathBuf)>, String> {
+    let studies = list(&root().join("studies"))?;
+    let kept = studies.into_iter().map(|folder| {
+        let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        (name, folder.join("results/long.csv"))
+    });
+    Ok(kept.filter(|(_, file)| file.exists()).collect())
+}
+
+/// Claims case by case: how many hold, and each that fails.
+fn claims(file: &Path) -> Result<String, String> {
+    let text = fs::read_to_string(file).map_err(|error| format!("cannot read {}: {error}", file.display()))?;
+    claim_table(&text).ok_or_else(|| format!("{} is no table of claims", file.display()))
+}
+
+fn claim_table(text: &str) -> Option<String> {
+    let mut lines = text.lines();
+    if lines.next()? != "case,claim,value,low,high,verdict" {
+        return None;
+    }
+    let mut cases: Vec<(&str, usize, Vec<String>)> = Vec::new();
+    for line in lines {
+        let cells: Vec<&str> = line.split(',').collect();
+        let [case, claim, value, low, high, verdict] = cells[..] else { return None };
+        if cases.last().is_none_or(|(last, ..)| *last != case) {
+            cases.push((case, 0, Vec::new()));
+        }
+        let (_, number, failed) = cases.last_mut()?;
+        *number += 1;
+        if verdict != "pass" {
+            let range = match (low, high) {
+                ("", high) => format!("at most {high}"),
+                (low, "") => format!("at least {low}"),
+                (low, high) => format!("{low} to {high}"),
+            };
+            failed.push(format!("{claim}: {value} ({range})"));
+        }
+    }
+    let mut table = String::from("| case | claims | hold | FAIL: value (accepted range) |\n|---|---|---|---|\n");
+    for (case, number, failed) in cases {
+        let _ = writeln!(table, "| `{case}` | {number} | {} | {} |", number - failed.len(), failed.join("<br>"));
+    }
+    Some(table)
+}
+
+fn list(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let entries = fs::read_dir(folder).map_err(|error| format!("cannot read {}: {error}", folder.display()))?;
+    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    Ok(paths)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn what_stands_between_the_marks_is_replaced() {
+        let text = "a\n<!-- generated: t -->\nold\n<!-- end -->\nb\n";
+        let once = put(text, "t", "new\n").expect("a table");
+        assert_eq!(once, "a\n<!-- generated: t -->\n\nnew\n\n<!-- end -->\nb\n");
+        assert_eq!(put(&once, "t", "new\n"), Some(once.clone()), "again the same");
+        assert_eq!(put(text, "u", "new\n"), None);
+    }
+
+    #[test]
+    fn a_race_is_told_by_medians() {
+        let run = |code: &str, cores: u32, rate: f64| json!({ "code": code, "cores": cores, "million particle-steps per second": rate });
+        let runs = [
+            run("tsubu", 1, 9.0),
+            run("tsubu", 1, 10.0),
+            run("tsubu", 1, 50.0),
+            run("L", 1, 4.0),
+            run("tsubu", 2, 18.0),
+            run("L", 2, 9.0),
+        ];
+        let race = json!({ "about": { "runs": "3" }, "workloads": [{ "about": "bed", "grains": 7, "runs": runs }] });
+        let table = race_table(&race, "day");
+        assert!(
+            table.contains("| bed | 7 | tsubu | 10.0 | 18.0 |  |  |\n| bed | 7 | L | 4.0 | 9.0 | 2.50 | 2.00 |"),
+            "{table}"
+        );
+    }
+
+    #[test]
+    fn claims_that_fail_are_told() {
+        let text = "case,claim,value,low,high,verdict\na,x,1,0,2,pass\na,y,3,,2,FAIL\nb,z,1,1,,pass\n";
+        let table = claim_table(text).expect("claims");
+        assert!(table.ends_with("| `a` | 2 | 1 | y: 3 (at most 2) |\n| `b` | 1 | 1 |  |\n"), "{table}");
+        assert_eq!(claim_table("time,x\n1,2\n"), None);
+    }
+}
