@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use tsubu::engine::OpenError;
 use tsubu::run::RunError;
 use tsubu::study::cases::CasesError;
-use tsubu::study::compare::CompareError;
+use tsubu::study::compare::{CompareError, Refused};
 use tsubu_frame::{CheckpointError, FileError, checkpoint};
 use tsubu_report::ReportError;
 use tsubu_scene::{Complaints, Scene};
@@ -117,7 +117,7 @@ impl Failure {
     }
 
     /// What went wrong in a run into `folder`.
-    pub fn of_run(error: &RunError, folder: &Path) -> Self {
+    fn of_run(error: &RunError, folder: &Path) -> Self {
         match error {
             RunError::Open(error) => error.into(),
             RunError::File(error) => Self::of_file(error, folder),
@@ -167,31 +167,45 @@ impl Failure {
         }
     }
 
-    /// What went wrong in a response or a sweep into `folder`; a case is named with its own trouble.
-    pub fn of_cases(error: &CasesError, folder: &Path) -> Self {
+    /// What went wrong in a response or a sweep of a scene into `folder`; a case is named with its own trouble.
+    pub fn of_cases(error: &CasesError, scene: &Scene, folder: &Path) -> Self {
         match error {
             CasesError::Scene(message) => Self::wrong(message.as_str()),
-            CasesError::Run { case, error } => Self::of_run(error, folder).about("case", case),
+            CasesError::Run { case, error } => Self::of_scene(error, scene, folder).about("case", case),
             CasesError::File(error) => Self::of_file(error, folder),
         }
     }
 
     /// The same for a comparison.
-    pub fn of_compare(error: &CompareError, folder: &Path) -> Self {
+    pub fn of_compare(error: &CompareError, scene: &Scene, folder: &Path) -> Self {
         match error {
             CompareError::Scene(complaints) => complaints.into(),
-            CompareError::Nobody(_) => Self::wrong(error.to_string()),
-            CompareError::Run { method, error } => Self::of_run(error, &folder.join(method)).about("method", method),
+            CompareError::Nobody(refused) => {
+                let reasons = |refused: &Refused| {
+                    let because = refused.because.iter().map(|(key, why)| (key.as_str(), why.as_str()));
+                    scene.refused(&refused.method, because).render(Stream::Error.colour())
+                };
+                let all: Vec<String> = refused.iter().map(reasons).collect();
+                let message =
+                    Message::Ready(format!("{}\n\nnone of these methods can run the scene", all.join("\n\n")));
+                Self { code: WRONG, message: Some(message), hints: Vec::new() }
+            }
+            CompareError::Run { method, error } => {
+                Self::of_scene(error, scene, &folder.join(method)).about("method", method)
+            }
             CompareError::File(error) => Self::of_file(error, folder),
         }
     }
 
     fn about(mut self, kind: &str, name: &str) -> Self {
-        if let Some(Message::Plain(text)) = &mut self.message
-            && !name.is_empty()
-            && !text.starts_with(kind)
-        {
-            *text = format!("{kind} `{name}`: {text}");
+        match &mut self.message {
+            Some(Message::Plain(text)) if !name.is_empty() && !text.starts_with(kind) => {
+                *text = format!("{kind} `{name}`: {text}");
+            }
+            Some(Message::Ready(text)) if !name.is_empty() && !text.contains(&format!("{kind} `{name}`")) => {
+                self.hints.push(format!("so it is in the {kind} `{name}`"));
+            }
+            _ => {}
         }
         self
     }

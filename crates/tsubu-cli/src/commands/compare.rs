@@ -48,7 +48,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     };
     let done = pool.install(|| alone(|| compare(&scene, &variants, &folder, options.folder.existing(), &watcher)));
     progress.end();
-    let compared = done.map_err(|error| Failure::of_compare(&error, &folder))?;
+    let compared = done.map_err(|error| Failure::of_compare(&error, &scene, &folder))?;
     if compared.done.iter().any(|(_, summary)| summary.status == Status::Interrupted) {
         let message = format!("interrupted; what was computed so far is in {}", folder.display());
         return Err(

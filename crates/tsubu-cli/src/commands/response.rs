@@ -45,7 +45,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     let overwrite = options.folder.overwrite;
     let done = pool.install(|| tsubu::study::response::response(&scene, &folder, overwrite, &watcher));
     progress.end();
-    let summary = done.map_err(|error| Failure::of_cases(&error, &folder))?;
+    let summary = done.map_err(|error| Failure::of_cases(&error, &scene, &folder))?;
     if summary.status == Status::Interrupted {
         let message = format!("interrupted; the finished frequencies are in {}", folder.display());
         return Err(Failure::interrupted(message).hint(format!("go on with `{}`", command_to_resume())));

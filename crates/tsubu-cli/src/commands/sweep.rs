@@ -48,7 +48,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     let overwrite = options.folder.overwrite;
     let done = pool.install(|| tsubu::study::sweep::sweep(&scene, &folder, overwrite, &watcher));
     progress.end();
-    let summaries = done.map_err(|error| Failure::of_cases(&error, &folder))?;
+    let summaries = done.map_err(|error| Failure::of_cases(&error, &scene, &folder))?;
     if interrupt.asked() {
         let message = format!("interrupted; finished cases and checkpoints are in {}", folder.display());
         return Err(Failure::interrupted(message).hint(format!("go on with `{}`", command_to_resume())));

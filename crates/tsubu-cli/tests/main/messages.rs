@@ -222,6 +222,27 @@ fn a_refusal_shows_where_it_stands() {
     }
 }
 
+/// Studies told what a method refuses without saying where it stands.
+#[test]
+fn refusals_of_studies_are_shown_where_they_stand() {
+    let text = SCENE.replace("title =", "removal.below.behind.point = [0, -1]\nmethod = \"lattice\"\ntitle =");
+    let desk = Desk::with(&text);
+    for line in [
+        "sweep balls.toml",
+        "response balls.toml",
+        "compare balls.toml --methods lattice,litwiniszyn",
+        "compare balls.toml --methods all --set water.density=1000 --set dem.time-step=1 --set duration=10",
+    ] {
+        let ended = desk.run(line);
+        assert_eq!(ended.code, Some(2), "{line}: {}", ended.stderr);
+        assert!(ended.stderr.contains("--> balls.toml:2:"), "{line}: {}", ended.stderr);
+        assert!(ended.stderr.contains("removal.below.behind.point = [0, -1]"), "{line}: {}", ended.stderr);
+    }
+    let ended = desk.run("sweep balls.toml");
+    assert!(ended.stderr.contains("in the case `"), "{}", ended.stderr);
+    assert_eq!(desk.files(), ["balls.toml"]);
+}
+
 /// `check` went on for minutes without a word: a contact of almost no mass takes so many steps that grains never come to rest.
 #[test]
 fn check_ends_though_grains_do_not_settle() {
