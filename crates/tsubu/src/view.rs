@@ -1,6 +1,6 @@
 //! What an engine shows to those who look on: grains, contacts, loads on walls.
 
-use crate::find::grid::Ends;
+use crate::neighbours::grid::PeriodicBounds;
 use crate::water::Water;
 use glam::DVec3;
 use std::borrow::Cow;
@@ -68,7 +68,7 @@ pub struct View<'a> {
     /// Simulated time [s].
     pub time: f64,
     /// Periodic axes.
-    pub ends: Ends,
+    pub periodic: PeriodicBounds,
     /// The grains, in an order of the engine's own.
     pub grains: Columns<'a>,
     /// Touching pairs; empty unless wanted. Those who want places alone may be shown forces too, and then also pairs that
@@ -116,7 +116,7 @@ pub struct Contact {
     pub position: DVec3,
     /// From the centre of the first grain to that of the second, or of the image of it that is touched; for a wall to the
     /// point of contact [m].
-    pub between: DVec3,
+    pub branch: DVec3,
     /// Force on the first grain [N].
     pub force: DVec3,
     /// Unit normal from the first to the second body.
@@ -160,7 +160,7 @@ impl View<'_> {
 
     /// A point put between the periodic ends.
     pub fn put(&self, mut p: DVec3) -> DVec3 {
-        for (axis, end) in self.ends.iter().enumerate() {
+        for (axis, end) in self.periodic.iter().enumerate() {
             if let Some([low, high]) = end {
                 p[axis] -= ((p[axis] - low) / (high - low)).floor() * (high - low);
             }

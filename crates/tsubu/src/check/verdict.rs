@@ -5,7 +5,7 @@ use super::{bodies, cost, idle, memory, mesh, shortest_period, speed_scale, wate
 use crate::bench::Bench;
 use crate::contact::{Pair, Table};
 use crate::engine::{self, Engine, Fault, OpenError, Verdict as Noted};
-use crate::find::candidates::WORTH_THREADS;
+use crate::neighbours::lists::WORTH_THREADS;
 use crate::partner::Hosts;
 use crate::study::unsettled;
 use std::fmt;

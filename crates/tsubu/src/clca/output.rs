@@ -58,7 +58,7 @@ impl ClCaEngine {
                 second,
                 wall,
                 position: centre + 0.5 * between,
-                between,
+                branch: between,
                 force: DVec3::ZERO,
                 normal,
                 overlap: f64::from(pair.points) * self.stage.spacing,

@@ -52,14 +52,14 @@ pub struct Chunk {
     pub roll: [Column; 3],
     /// Relative spin along the normal [rad/s].
     pub twist: Column,
-    /// Reduced radius R* = 1/(1/R1 + 1/R2) [m].
-    pub radius: Column,
-    /// Reduced mass m* = 1/(1/m1 + 1/m2) [kg].
-    pub mass: Column,
+    /// Effective radius R* = 1/(1/R1 + 1/R2) [m].
+    pub effective_radius: Column,
+    /// Effective mass m* = 1/(1/m1 + 1/m2) [kg].
+    pub effective_mass: Column,
 
-    /// Constant: reduced modulus E* [Pa].
-    pub young: Column,
-    /// Constant: reduced shear modulus G* [Pa].
+    /// Constant: effective modulus E* [Pa].
+    pub effective_modulus: Column,
+    /// Constant: effective shear modulus G* [Pa].
     pub shear_modulus: Column,
     /// Constant: number of the damping part.
     pub damping: Column,
@@ -79,12 +79,12 @@ pub struct Chunk {
     /// Contact history, one column a slot; parts know where theirs begins.
     pub history: Vec<Column>,
 
-    /// Between parts: radius of the contact disc [m]; zero where the bodies do not hold each other.
-    pub disc: Column,
+    /// Between parts: radius of the contact area [m]; zero where the bodies do not hold each other.
+    pub contact_radius: Column,
     /// Between parts: elastic stiffness f/d [N/m], the secant of the elastic force.
-    pub secant: Column,
+    pub secant_stiffness: Column,
     /// Between parts: tangential stiffness at this overlap [N/m].
-    pub shear: Column,
+    pub tangential_stiffness: Column,
     /// Between parts: local viscous coefficient of the normal damping [N.s/m], for tangential dashpots.
     pub dashpot: Column,
     /// Between parts: what cohesion adds to the normal force before friction multiplies it [N].
@@ -121,9 +121,9 @@ impl Chunk {
             slip: VECTOR,
             roll: VECTOR,
             twist: ZERO,
-            radius: ZERO,
-            mass: ZERO,
-            young: ZERO,
+            effective_radius: ZERO,
+            effective_mass: ZERO,
+            effective_modulus: ZERO,
             shear_modulus: ZERO,
             damping: ZERO,
             shear_damping: ZERO,
@@ -133,9 +133,9 @@ impl Chunk {
             surface_energy: ZERO,
             cohesion: ZERO,
             history: vec![ZERO; history],
-            disc: ZERO,
-            secant: ZERO,
-            shear: ZERO,
+            contact_radius: ZERO,
+            secant_stiffness: ZERO,
+            tangential_stiffness: ZERO,
             dashpot: ZERO,
             pull_off: ZERO,
             load: ZERO,
@@ -168,7 +168,7 @@ impl Chunk {
     /// Writes the constants of a pair of materials into the rows `range`.
     pub fn set_constants(&mut self, range: std::ops::Range<usize>, c: &Constants) {
         for (column, value) in [
-            (&mut self.young, c.young),
+            (&mut self.effective_modulus, c.effective_modulus),
             (&mut self.shear_modulus, c.shear_modulus),
             (&mut self.damping, c.damping),
             (&mut self.shear_damping, c.shear_damping),

@@ -22,5 +22,5 @@ pub(super) const fn part(smoothing_speed: f64) -> Plain {
 fn rows(chunk: &mut Chunk, dt: f64, slow: f64) {
     // The disc has the radius sqrt(R* d); the overlap of undeformed spheres is sqrt(2) times as wide.
     let width = 2.0 * std::f64::consts::SQRT_2;
-    resist(chunk, slow, dt, |c, i| c.rolling[i] * (width * c.disc[i]) * c.load[i]);
+    resist(chunk, slow, dt, |c, i| c.rolling[i] * (width * c.contact_radius[i]) * c.load[i]);
 }

@@ -27,7 +27,7 @@ fn rows(chunk: &mut Chunk, dt: f64, slow: f64) {
         let limit = chunk.friction[i] * chunk.load[i];
         // Friction may stop a slip within a step and never turn it: taken literally at long steps it would chatter, and chatter
         // makes energy. The factor 2 leaves room for the several contacts of a grain. Gone as dt -> 0.
-        let turning = 2.0 * limit * dt / chunk.mass[i];
+        let turning = 2.0 * limit * dt / chunk.effective_mass[i];
         let factor = limit / most(most(squared.sqrt(), slow), most(turning, TINY));
         Chunk::set(&mut chunk.tangential_force, i, slip * -factor);
         chunk.lost_sliding[i] = factor * squared;

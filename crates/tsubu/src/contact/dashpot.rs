@@ -72,7 +72,7 @@ impl Part for Told {
 
 #[multiversion(targets = "simd")]
 fn rows(chunk: &mut Chunk, dashpot: Dashpot, attraction: bool) {
-    damp(chunk, attraction, |c, i| dashpot.coefficient(c.mass[i]));
+    damp(chunk, attraction, |c, i| dashpot.coefficient(c.effective_mass[i]));
 }
 
 /// Adds a dashpot of the local coefficient `local` [N.s/m] to the normal force. Where `attraction` is not allowed the
@@ -81,7 +81,7 @@ fn rows(chunk: &mut Chunk, dashpot: Dashpot, attraction: bool) {
 pub(super) fn damp(chunk: &mut Chunk, attraction: bool, local: impl Fn(&Chunk, usize) -> f64) {
     let ceiling = if attraction { f64::NEG_INFINITY } else { 0.0 };
     for i in 0..chunk.rows() {
-        let dashpot = if chunk.disc[i] > 0.0 { local(chunk, i) } else { 0.0 };
+        let dashpot = if chunk.contact_radius[i] > 0.0 { local(chunk, i) } else { 0.0 };
         let elastic = chunk.normal_force[i];
         let total = most(elastic + dashpot * chunk.closing[i], least(elastic, ceiling));
         chunk.dashpot[i] = dashpot;

@@ -17,7 +17,7 @@ pub(super) const ABOUT: About = About {
 #[inline(always)]
 pub(super) fn pull(chunk: &mut Chunk, held: f64, force: impl Fn(&Chunk, usize) -> f64) {
     for i in 0..chunk.rows() {
-        let force = if chunk.disc[i] > 0.0 { force(chunk, i) } else { 0.0 };
+        let force = if chunk.contact_radius[i] > 0.0 { force(chunk, i) } else { 0.0 };
         chunk.normal_force[i] -= force;
         chunk.stored[i] -= force * chunk.overlap[i];
         chunk.pull_off[i] = held * force;
@@ -30,5 +30,5 @@ pub(super) const fn part() -> Plain {
 
 #[multiversion(targets = "simd")]
 fn rows(chunk: &mut Chunk) {
-    pull(chunk, 2.0, |c, i| 4.0 * PI * c.surface_energy[i] * c.radius[i]);
+    pull(chunk, 2.0, |c, i| 4.0 * PI * c.surface_energy[i] * c.effective_radius[i]);
 }

@@ -55,8 +55,8 @@ impl Part for Epsd {
 #[multiversion(targets = "simd")]
 fn epsd(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, ratio: f64, damping: f64) {
     roll(chunk, held, dt, |c, i| {
-        let arm = c.rolling[i] * c.radius[i];
-        let stiffness = ratio * c.secant[i] * (arm * arm);
+        let arm = c.rolling[i] * c.effective_radius[i];
+        let stiffness = ratio * c.secant_stiffness[i] * (arm * arm);
         let inertia = 3.5 * slider::inertia(c, i);
         let dashpot = 2.0 * damping * (inertia * stiffness).sqrt();
         Strength { stiffness, dashpot, cap: arm * c.load[i], growth: 1.0 }
@@ -66,7 +66,7 @@ fn epsd(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, ratio: f64, damping:
 #[multiversion(targets = "simd")]
 fn epsd2(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64) {
     roll(chunk, held, dt, |c, i| {
-        let stiffness = c.shear[i] * (c.radius[i] * c.radius[i]);
-        Strength { stiffness, dashpot: 0.0, cap: c.rolling[i] * c.radius[i] * c.load[i], growth: 1.0 }
+        let stiffness = c.tangential_stiffness[i] * (c.effective_radius[i] * c.effective_radius[i]);
+        Strength { stiffness, dashpot: 0.0, cap: c.rolling[i] * c.effective_radius[i] * c.load[i], growth: 1.0 }
     });
 }

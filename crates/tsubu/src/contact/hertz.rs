@@ -16,8 +16,8 @@ pub(super) const ABOUT: About = About {
 
 /// Secant stiffness f/d [N/m] of a contact disc of radius `disc` [m]; with sqrt(R*) for the disc, k [N/m^1.5].
 #[inline(always)]
-pub(super) fn secant(young: f64, disc: f64) -> f64 {
-    4.0 / 3.0 * young * disc
+pub(super) fn secant(effective_modulus: f64, disc: f64) -> f64 {
+    4.0 / 3.0 * effective_modulus * disc
 }
 
 #[derive(Debug)]
@@ -37,7 +37,7 @@ impl Part for Hertz {
     }
 
     fn judge(&self, pair: &mut Pair) {
-        pair.stiffness = secant(pair.constants.young, pair.radius.sqrt());
+        pair.stiffness = secant(pair.constants.effective_modulus, pair.radius.sqrt());
     }
 
     fn apply(&self, chunk: &mut Chunk, _at: usize, _dt: f64) {
@@ -49,11 +49,11 @@ impl Part for Hertz {
 fn rows(chunk: &mut Chunk) {
     for i in 0..chunk.rows() {
         let overlap = most(chunk.overlap[i], 0.0);
-        let disc = (chunk.radius[i] * overlap).sqrt();
-        let secant = secant(chunk.young[i], disc);
+        let disc = (chunk.effective_radius[i] * overlap).sqrt();
+        let secant = secant(chunk.effective_modulus[i], disc);
         let force = secant * overlap;
-        chunk.disc[i] = disc;
-        chunk.secant[i] = secant;
+        chunk.contact_radius[i] = disc;
+        chunk.secant_stiffness[i] = secant;
         chunk.normal_force[i] = force;
         chunk.stored[i] = 0.4 * force * overlap;
     }

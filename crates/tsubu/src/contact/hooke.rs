@@ -46,8 +46,8 @@ fn rows(chunk: &mut Chunk, stiffness: f64) {
     for i in 0..chunk.rows() {
         let overlap = most(chunk.overlap[i], 0.0);
         let force = stiffness * overlap;
-        chunk.disc[i] = (chunk.radius[i] * overlap).sqrt();
-        chunk.secant[i] = stiffness;
+        chunk.contact_radius[i] = (chunk.effective_radius[i] * overlap).sqrt();
+        chunk.secant_stiffness[i] = stiffness;
         chunk.normal_force[i] = force;
         chunk.stored[i] = 0.5 * force * overlap;
     }

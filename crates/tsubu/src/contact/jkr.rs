@@ -32,8 +32,8 @@ const SNAP: f64 = 4.8 * 1.587_401_051_968_199_4 - PARTED;
 
 /// a0 [m].
 #[inline(always)]
-fn scale(surface_energy: f64, radius: f64, young: f64) -> f64 {
-    cube_root(PI * surface_energy * (radius * radius) / (4.0 * young))
+fn scale(surface_energy: f64, radius: f64, effective_modulus: f64) -> f64 {
+    cube_root(PI * surface_energy * (radius * radius) / (4.0 * effective_modulus))
 }
 
 /// The larger x with x^4 - 4 x = `depth`, for depths from -1.45 up: Newton's steps, from a start 3 % off at most.
@@ -65,7 +65,7 @@ impl Part for Jkr {
 
     fn reach(&self, pair: &Pair) -> f64 {
         let c = &pair.constants;
-        let a0 = scale(c.surface_energy, pair.radius, c.young);
+        let a0 = scale(c.surface_energy, pair.radius, c.effective_modulus);
         if c.surface_energy > 0.0 { LIMIT * a0 * a0 / pair.radius } else { 0.0 }
     }
 
@@ -81,8 +81,9 @@ impl Part for Jkr {
 #[multiversion(targets = "simd")]
 fn rows(chunk: &mut Chunk, [held, energy]: &mut [Column; 2], dt: f64) {
     for i in 0..chunk.rows() {
-        let (radius, young, surface_energy) = (chunk.radius[i], chunk.young[i], chunk.surface_energy[i]);
-        let a0 = scale(surface_energy, radius, young);
+        let (radius, effective_modulus, surface_energy) =
+            (chunk.effective_radius[i], chunk.effective_modulus[i], chunk.surface_energy[i]);
+        let a0 = scale(surface_energy, radius, effective_modulus);
         let pull = PI * surface_energy * radius;
         let length = a0 * a0 / radius;
         let depth = chunk.overlap[i] / length;
@@ -99,8 +100,8 @@ fn rows(chunk: &mut Chunk, [held, energy]: &mut [Column; 2], dt: f64) {
         // Without surface energy, and where nothing holds, the row stays as Hertz left it, to the bit.
         chunk.normal_force[i] = if holds { force } else { chunk.normal_force[i] };
         chunk.stored[i] = if holds { stored } else { chunk.stored[i] };
-        chunk.disc[i] = if holds { disc } else { chunk.disc[i] };
-        chunk.secant[i] = if holds { secant(young, disc) } else { chunk.secant[i] };
+        chunk.contact_radius[i] = if holds { disc } else { chunk.contact_radius[i] };
+        chunk.secant_stiffness[i] = if holds { secant(effective_modulus, disc) } else { chunk.secant_stiffness[i] };
         chunk.pull_off[i] = if holds { 6.0 * pull } else { 0.0 };
         let snap = if held_before > 0.0 { 0.0 } else { SNAP * pull * length };
         chunk.lost_normal[i] += if holds { snap } else { energy_before } / dt;

@@ -65,9 +65,9 @@ impl Part for Lubrication {
             let gap = -chunk.overlap[i];
             let half = 0.5 * closing * dt;
             // The film is there in a part of the step, at least. Laws of adhesion hold on beyond the overlap: there the faces still touch.
-            let apart = gap + half.abs() > 0.0 && !(gap > 0.0 && chunk.disc[i] > 0.0);
+            let apart = gap + half.abs() > 0.0 && !(gap > 0.0 && chunk.contact_radius[i] > 0.0);
             let acts = gap < self.reach && (apart || self.in_contact);
-            let dashpot = if acts { self.strength(chunk.radius[i]) * self.mean(gap, half) } else { 0.0 };
+            let dashpot = if acts { self.strength(chunk.effective_radius[i]) * self.mean(gap, half) } else { 0.0 };
             let force = dashpot * closing;
             let damping = if self.beside_damping { chunk.damping_force[i] } else { 0.0 };
             chunk.damping_force[i] = damping + force;

@@ -49,7 +49,7 @@ impl Part for Mindlin {
 
     fn prepare(&self, constants: &mut Constants) {
         // Equal damping ratios: the dashpots stand as the roots of the two tangent stiffnesses, 8 G* a and 2 E* a.
-        let equal = 2.0 * (constants.shear_modulus / constants.young).sqrt();
+        let equal = 2.0 * (constants.shear_modulus / constants.effective_modulus).sqrt();
         constants.shear_damping = self.damping.unwrap_or(equal);
     }
 
@@ -69,7 +69,7 @@ impl Part for Mindlin {
 #[multiversion(targets = "simd")]
 fn rows(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, growth: f64) {
     tangential(chunk, held, dt, |c, i| Strength {
-        stiffness: 8.0 * c.shear_modulus[i] * c.disc[i],
+        stiffness: 8.0 * c.shear_modulus[i] * c.contact_radius[i],
         dashpot: c.dashpot[i] * c.shear_damping[i],
         cap: c.friction[i] * c.load[i],
         growth,
@@ -87,12 +87,12 @@ pub(super) fn tangential(
     let times = [dt, 1.0 / dt];
     for i in 0..chunk.rows() {
         let mut s = strength(chunk, i);
-        s.dashpot = bearable(s.dashpot, chunk.mass[i], dt);
+        s.dashpot = bearable(s.dashpot, chunk.effective_mass[i], dt);
         let (normal, slip) = (Chunk::vector(&chunk.normal, i), Chunk::vector(&chunk.slip, i));
         let slid = slide((DVec3::new(x[i], y[i], z[i]), c[i]), normal, slip, s, times);
         (x[i], y[i], z[i], c[i]) = (slid.spring.x, slid.spring.y, slid.spring.z, slid.compliance);
         Chunk::set(&mut chunk.tangential_force, i, slid.total);
-        chunk.shear[i] = s.stiffness;
+        chunk.tangential_stiffness[i] = s.stiffness;
         chunk.stored[i] += slid.stored;
         chunk.lost_sliding[i] = slid.lost;
     }

@@ -20,5 +20,5 @@ pub(super) const fn part(smoothing_speed: f64) -> Plain {
 
 #[multiversion(targets = "simd")]
 fn rows(chunk: &mut Chunk, dt: f64, slow: f64) {
-    resist(chunk, slow, dt, |c, i| c.rolling[i] * c.radius[i] * c.load[i]);
+    resist(chunk, slow, dt, |c, i| c.rolling[i] * c.effective_radius[i] * c.load[i]);
 }

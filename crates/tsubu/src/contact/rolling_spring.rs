@@ -47,7 +47,7 @@ impl Part for RollingSpring {
 fn rows(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, stiffness: f64, damping: f64) {
     // As a torque on the angle of rolling: with v = -R* w x n and M = -R* n x F, F = -k x is M = -k R*^2 times the angle.
     roll(chunk, held, dt, |c, i| {
-        let arm = c.radius[i];
+        let arm = c.effective_radius[i];
         Strength {
             stiffness: stiffness * (arm * arm),
             dashpot: damping * (arm * arm),

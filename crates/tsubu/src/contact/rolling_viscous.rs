@@ -23,7 +23,7 @@ pub(super) const fn part(coefficient: f64) -> Plain {
 fn rows(chunk: &mut Chunk, dt: f64, coefficient: f64) {
     for i in 0..chunk.rows() {
         let roll = Chunk::vector(&chunk.roll, i);
-        let arm = chunk.radius[i];
+        let arm = chunk.effective_radius[i];
         let told = coefficient * chunk.rolling[i] * arm * chunk.load[i] * arm;
         let factor = least(told, inertia(chunk, i) / (2.0 * dt));
         let torque = Chunk::vector(&chunk.torque, i) - roll * factor;

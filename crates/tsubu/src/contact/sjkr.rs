@@ -21,7 +21,7 @@ pub(super) const fn part() -> Plain {
 fn rows(chunk: &mut Chunk) {
     for i in 0..chunk.rows() {
         // R* d is the square of the disc's radius, and zero where nothing touches.
-        let force = 2.0 * PI * chunk.cohesion[i] * (chunk.disc[i] * chunk.disc[i]);
+        let force = 2.0 * PI * chunk.cohesion[i] * (chunk.contact_radius[i] * chunk.contact_radius[i]);
         chunk.normal_force[i] -= force;
         chunk.stored[i] -= 0.5 * force * chunk.overlap[i];
         chunk.pull_off[i] = force;

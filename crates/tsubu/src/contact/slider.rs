@@ -115,7 +115,7 @@ pub(super) fn resist(chunk: &mut Chunk, slow: f64, dt: f64, limit: impl Fn(&Chun
         let limit = limit(chunk, i);
         let roll = Chunk::vector(&chunk.roll, i);
         let squared = roll.length_squared();
-        let slow = most(slow / chunk.radius[i], turning(chunk, i, limit, dt));
+        let slow = most(slow / chunk.effective_radius[i], turning(chunk, i, limit, dt));
         let factor = limit / most(most(squared.sqrt(), slow), TINY);
         let torque = Chunk::vector(&chunk.torque, i) - roll * factor;
         Chunk::set(&mut chunk.torque, i, torque);
@@ -133,5 +133,5 @@ pub(super) fn turning(chunk: &Chunk, i: usize, limit: f64, dt: f64) -> f64 {
 /// Least inertia against relative turning, 2/5 m* R*^2 [kg.m^2].
 #[inline(always)]
 pub(super) fn inertia(chunk: &Chunk, i: usize) -> f64 {
-    0.4 * chunk.mass[i] * (chunk.radius[i] * chunk.radius[i])
+    0.4 * chunk.effective_mass[i] * (chunk.effective_radius[i] * chunk.effective_radius[i])
 }

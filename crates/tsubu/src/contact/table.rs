@@ -8,7 +8,7 @@ use tsubu_scene::plan::{Contact, Material, MaterialPair, Plan};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Constants {
     /// Reduced modulus E*: 1/E* = (1-s1^2)/E1 + (1-s2^2)/E2 [Pa].
-    pub young: f64,
+    pub effective_modulus: f64,
     /// Reduced shear modulus G*: 1/G* = (2-s1)/G1 + (2-s2)/G2 [Pa].
     pub shear_modulus: f64,
     /// Coefficient of restitution [-].
@@ -182,7 +182,7 @@ fn combine(m: &Material, n: &Material, found: Option<&MaterialPair>) -> Constant
     let shear = |m: &Material| m.young_modulus / (2.0 * (1.0 + m.poisson_ratio) * (2.0 - m.poisson_ratio));
     let reduced = |x: f64, y: f64| 1.0 / (1.0 / x + 1.0 / y);
     Constants {
-        young: reduced(plane_modulus(m), plane_modulus(n)),
+        effective_modulus: reduced(plane_modulus(m), plane_modulus(n)),
         shear_modulus: reduced(shear(m), shear(n)),
         restitution: mix(found.and_then(|p| p.restitution), m.restitution, n.restitution),
         friction: mix(found.and_then(|p| p.friction), m.friction, n.friction),

@@ -22,7 +22,7 @@ pub(super) const fn part(smoothing_spin: f64) -> Plain {
 /// Largest torque of a row [N.m].
 #[inline(always)]
 pub(super) fn limit(chunk: &Chunk, i: usize) -> f64 {
-    2.0 / 3.0 * chunk.twisting[i] * chunk.disc[i] * chunk.load[i]
+    2.0 / 3.0 * chunk.twisting[i] * chunk.contact_radius[i] * chunk.load[i]
 }
 
 #[multiversion(targets = "simd")]

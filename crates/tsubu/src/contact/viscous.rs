@@ -121,9 +121,11 @@ impl Part for Viscous {
 fn rows(chunk: &mut Chunk, form: Form, hertz: bool, attraction: bool, v: f64) {
     // Everything is told in terms of the contact disc, which laws of adhesion keep open where the overlap has ended: under
     // Hertz, sqrt(d) is a / sqrt(R*), and the quarter's d^(1/4) stands in the secant stiffness k sqrt(d).
-    let row = |c: &Chunk, i: usize| [c.damping[i], c.mass[i], c.secant[i], v];
-    let full = |c: &Chunk, i: usize| [c.damping[i], c.mass[i], secant(c.young[i], c.radius[i].sqrt()), v];
-    let root = |c: &Chunk, i: usize| c.disc[i] / c.radius[i].sqrt();
+    let row = |c: &Chunk, i: usize| [c.damping[i], c.effective_mass[i], c.secant_stiffness[i], v];
+    let full = |c: &Chunk, i: usize| {
+        [c.damping[i], c.effective_mass[i], secant(c.effective_modulus[i], c.effective_radius[i].sqrt()), v]
+    };
+    let root = |c: &Chunk, i: usize| c.contact_radius[i] / c.effective_radius[i].sqrt();
     match (form, hertz) {
         (Form::Sqrt, true) => damp(chunk, attraction, |c, i| hertz_sqrt(full(c, i)) * root(c, i)),
         (Form::Linear, true) => damp(chunk, attraction, |c, i| hertz_linear(full(c, i))),

@@ -23,7 +23,7 @@ impl DemEngine {
         let planes = self.walls.iter().enumerate().filter_map(|(number, wall)| {
             let (point, normal) = wall.lone_plane()?;
             let (middle, half) = seen.round()?;
-            Some((number, Outline::of_plane(point, normal, middle, half, self.in_space)))
+            Some((number, Outline::of_plane(point, normal, middle, half, self.limits.in_space)))
         });
         let mut drawn = Drawn::default();
         for (number, outline) in &outlines {
@@ -37,7 +37,7 @@ impl DemEngine {
         frame.integer(Kind::Surface, "face", "-", drawn.face);
         frame.integer(Kind::Surface, "wall", "-", drawn.wall);
         frame.integer(Kind::Surface, "endless", "-", drawn.endless);
-        let ends = self.search.ends;
+        let ends = self.neighbours.search.periodic;
         if ends.iter().any(Option::is_some) {
             let each = |f: fn([f64; 2]) -> f64| ends.map(|end| end.map_or(0.0, f));
             frame.vector(Kind::Global, "periodic low", "m", vec![each(|[low, _]| low)]);

@@ -1,83 +1,91 @@
 //! The DEM engine: its state, how it is built from a plan, and how it answers.
 
-use super::integrate::Report;
-use super::keep::Kept;
+use super::books::{Books, Reactions};
+use super::contact_forces::{ContactForces, ContactLaws};
+use super::immersion::Immersion;
+use super::integrate::TimeIntegration;
 use super::orientation::Orientation;
 use super::place;
 use super::room;
 use super::sources::Sources;
-use super::step::Flows;
-use super::touch::{Sums, Touch};
-use super::wet::Wet;
 use crate::check;
 use crate::contact::Table;
 use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
-use crate::find::candidates::{BLOCK, shares};
-use crate::find::{Candidates, Search};
 use crate::ledger::{Ledger, Stocks};
+use crate::neighbours::lists::{BLOCK, shares};
+use crate::neighbours::{NeighbourLists, Search};
 use crate::partner::Hosts;
 use crate::state::Grains;
 use crate::threads::awake;
 use crate::view::{View, WallLoad, Wants};
 use crate::wall::{Mover, Wall};
-use crate::water::{self, Water};
+use crate::water::Water;
 use glam::DVec3;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, State};
-use tsubu_scene::plan::{Integrator, Particles, Plan};
+use tsubu_scene::plan::{Particles, Plan};
 
 /// Grains under a contact law.
-#[expect(clippy::struct_excessive_bools, reason = "four independent yes or no; a type each would say less")]
 #[derive(Debug)]
 pub struct DemEngine {
-    // State.
     pub(super) grains: Grains,
-    pub(super) step: u64,
-    /// Grains moved in every step so far, summed.
-    pub(super) grain_steps: u64,
     pub(super) walls: Vec<Wall>,
-    pub(super) last_flows: Flows,
-    pub(super) candidates: Candidates,
-    pub(super) touch: Touch,
-    pub(super) sums: Sums,
-    pub(super) sources: Sources,
-    pub(super) wet: Option<Wet>,
+    pub(super) clock: Clock,
+    pub(super) neighbours: NeighbourLists,
+    pub(super) laws: ContactLaws,
+    pub(super) contacts: ContactForces,
+    pub(super) immersion: Option<Immersion>,
+    pub(super) integration: TimeIntegration,
     pub(super) orientation: Orientation,
-    // What the plan says.
-    pub(super) table: Table,
-    /// Gap at which bodies may still hold each other [m], of each law.
-    pub(super) reaches: Vec<f64>,
-    pub(super) search: Search,
-    pub(super) gravity: DVec3,
-    pub(super) integrator: Integrator,
-    pub(super) dt: f64,
-    pub(super) rotation: bool,
-    pub(super) in_space: bool,
-    pub(super) smallest_diameter: f64,
-    pub(super) largest_diameter: f64,
-    pub(super) largest_overlap: f64,
-    pub(super) total_mass: f64,
-    /// While grains settle the walls stand, whoever moves them.
-    pub(super) walls_held: bool,
+    pub(super) sources: Sources,
+    pub(super) reactions: Reactions,
+    pub(super) books: Books,
+    pub(super) limits: Limits,
+    /// While grains settle the walls and the water stand, whoever moves them.
+    pub(super) settling: bool,
     pub(super) notes: Vec<Note>,
-    /// Whether the grains have begun the next step already; never between two calls of `advance`.
-    pub(super) begun: bool,
-    // Scratch.
-    pub(super) reports: Vec<Report>,
-    pub(super) kept: Kept,
-    pub(super) wall_loads: Vec<WallLoad>,
-    pub(super) host_forces: Vec<f64>,
-    /// Contact force on grains that forces do not move [N], and the power that driven ones give [W].
-    pub(super) fixed: (DVec3, f64),
-    /// Energy of contacts that a search has found gone [J].
-    pub(super) released: f64,
-    /// What the water does at this moment.
-    pub(super) water_flows: water::Flows,
+}
+
+/// Where the run is in time.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Clock {
+    /// Time step [s].
+    pub dt: f64,
+    pub step: u64,
+    /// Grains moved in every step so far, summed.
+    pub grain_steps: u64,
+    /// Whether the grains have done the first half of the next step already; never between two calls of `advance`.
+    pub half_step_done: bool,
+}
+
+impl Clock {
+    /// Simulated time [s]: steps times time step, so that it never drifts.
+    pub fn time(&self) -> f64 {
+        self.step as f64 * self.dt
+    }
+
+    /// Counts a step of so many grains.
+    pub fn tick(&mut self, grains: usize) {
+        self.step += 1;
+        self.grain_steps += grains as u64;
+    }
+}
+
+/// What the grains of a run may be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// Of all grains, those that are yet to come included [m].
+    pub smallest_diameter: f64,
+    /// The same.
+    pub largest_diameter: f64,
+    /// Over the diameter; beyond it the run ends [-].
+    pub largest_overlap: f64,
+    /// Whether grains move in three dimensions.
+    pub in_space: bool,
 }
 
 impl DemEngine {
     /// Builds the engine at time 0; grains that the scene wants settled have settled.
-    #[expect(clippy::too_many_lines, reason = "a third of them names the fields of the plan, one each")]
     pub fn new(plan: &Plan, hosts: &Hosts) -> Result<Self, OpenError> {
         // Every field is named: a new one does not compile until it is decided here.
         let Plan {
@@ -140,42 +148,32 @@ impl DemEngine {
                 reaches[law] = reaches[law].max(table.laws()[law].reach(&pair));
             }
         }
-        let reach = reaches.iter().copied().fold(0.0, f64::max);
-        let wall_loads = vec![WallLoad::default(); walls.len()];
+        let laws = ContactLaws { table, reaches, rotation: contact.rotation };
+        let search = Search { skin, reach: laws.reach(), periodic: room::periodic_bounds(plan) };
+        let reactions = Reactions { wall_loads: vec![WallLoad::default(); walls.len()], ..Reactions::default() };
         let largest_present = particles.values().map(Particles::largest_diameter).fold(largest, f64::max);
         let mut engine = Self {
-            step: 0,
-            grain_steps: 0,
             walls,
-            last_flows: Flows::default(),
-            candidates: Candidates::default(),
-            touch: Touch::default(),
-            sums: Sums::default(),
-            sources,
-            wet: water.as_ref().map(|water| Wet::new(Water::new(water, gravity).seeded(*seed, *dimension == 3))),
+            clock: Clock { dt, ..Clock::default() },
+            neighbours: NeighbourLists::new(search),
+            laws,
+            contacts: ContactForces::default(),
+            immersion: water
+                .as_ref()
+                .map(|water| Immersion::new(Water::new(water, gravity).seeded(*seed, *dimension == 3))),
+            integration: TimeIntegration::new(dem.integrator, gravity, contact.rotation),
             orientation: Orientation::new(dem.orientation),
-            dt,
-            table,
-            reaches,
-            search: Search { skin, reach, ends: room::ends(plan) },
-            gravity,
-            integrator: dem.integrator,
-            rotation: contact.rotation,
-            in_space: *dimension == 3,
-            smallest_diameter: smallest,
-            largest_diameter: largest_present,
-            largest_overlap: dem.largest_overlap,
-            total_mass: grains.moved_mass(),
-            walls_held: false,
+            sources,
+            reactions,
+            books: Books { moved_mass: grains.moved_mass(), ..Books::default() },
+            limits: Limits {
+                smallest_diameter: smallest,
+                largest_diameter: largest_present,
+                largest_overlap: dem.largest_overlap,
+                in_space: *dimension == 3,
+            },
+            settling: false,
             notes: Vec::new(),
-            begun: false,
-            reports: Vec::new(),
-            kept: Kept::default(),
-            wall_loads,
-            host_forces: Vec::new(),
-            fixed: Default::default(),
-            released: 0.0,
-            water_flows: water::Flows::default(),
             grains,
         };
         engine.start();
@@ -189,11 +187,11 @@ impl DemEngine {
 
     /// Gives the first step what it needs.
     fn start(&mut self) {
-        self.drive(0.0);
-        self.immerse();
-        self.make_room();
-        self.find();
-        self.stand();
+        self.move_driven(0.0);
+        self.init_added_mass();
+        self.init_porosity();
+        self.rebuild_neighbours();
+        self.evaluate_at_rest();
     }
 }
 
@@ -220,11 +218,11 @@ impl Engine for DemEngine {
     }
 
     fn time_step(&self) -> f64 {
-        self.dt
+        self.clock.dt
     }
 
     fn steps(&self) -> u64 {
-        self.step
+        self.clock.step
     }
 
     fn grains(&self) -> usize {
@@ -243,8 +241,8 @@ impl Engine for DemEngine {
 
     fn grain_stocks(&self) -> Stocks {
         let walls: f64 = self.walls.iter().map(|w| w.energy().0 + w.energy().1).sum();
-        let stream = self.wet.as_ref().map_or(0.0, Wet::stream_energy);
-        Stocks { elastic: self.sums.stored, walls, stream, ..self.grains.stocks(self.gravity) }
+        let stream = self.immersion.as_ref().map_or(0.0, Immersion::stream_energy);
+        Stocks { elastic: self.contacts.sums.stored, walls, stream, ..self.grains.stocks(self.integration.gravity) }
     }
 
     fn momentum(&self) -> [f64; 3] {
@@ -256,11 +254,11 @@ impl Engine for DemEngine {
     }
 
     fn grain_steps(&self) -> u64 {
-        self.grain_steps
+        self.clock.grain_steps
     }
 
     fn contacts(&self) -> usize {
-        self.sums.contacts
+        self.contacts.sums.contacts
     }
 
     fn frame(&self, _hosts: &Hosts) -> Frame {

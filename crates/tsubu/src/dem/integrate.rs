@@ -1,20 +1,30 @@
 //! Time integration of grains, split around the evaluation of forces. Both halves go block by block, on many threads where
 //! that is worth it.
 
-use super::sweep::{Row, Way, sweep};
-use super::touch::Block;
-use crate::find::Candidates;
-use crate::find::candidates::{BLOCK, List, shares};
-use crate::find::drift::Drift;
+use super::contact_forces::BlockContacts;
+use super::sweep::{BlockRange, Direction, sweep};
+use crate::neighbours::NeighbourLists;
+use crate::neighbours::drift::Drift;
+use crate::neighbours::lists::{BLOCK, BlockList, shares};
 use crate::state::Grains;
 use glam::DVec3;
 use multiversion::multiversion;
 use tsubu_scene::plan::Integrator;
 
+/// Time integration of the grains.
+#[derive(Debug)]
+pub(super) struct TimeIntegration {
+    scheme: Integrator,
+    /// Acceleration by gravity [m/s^2].
+    pub gravity: DVec3,
+    rotation: bool,
+    reports: Vec<Report>,
+}
+
 /// What a block reports from a half step; joined in the order of blocks.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Report {
-    /// Correction of the power lost in contacts [W], see [`after`].
+    /// Correction of the power lost in contacts [W], see [`second_half`].
     pub correction: f64,
     /// Contact force on grains that forces do not move [N].
     pub fixed_force: DVec3,
@@ -41,14 +51,14 @@ struct Slice<'a> {
     inertia: &'a [f64],
     reference: &'a [DVec3],
     // One a block.
-    lists: &'a [List],
+    lists: &'a [BlockList],
     drifts: &'a mut [Drift],
     reports: &'a mut [Report],
 }
 
 impl<'a> Slice<'a> {
-    fn new(grains: &'a mut Grains, candidates: &'a mut Candidates, reports: &'a mut Vec<Report>) -> Self {
-        reports.resize(candidates.lists.len(), Report::default());
+    fn new(grains: &'a mut Grains, neighbours: &'a mut NeighbourLists, reports: &'a mut Vec<Report>) -> Self {
+        reports.resize(neighbours.lists.len(), Report::default());
         Self {
             position: &mut grains.position,
             velocity: &mut grains.velocity,
@@ -57,16 +67,16 @@ impl<'a> Slice<'a> {
             spin_rate: &mut grains.spin_rate,
             inverse_mass: &grains.inverse_mass,
             inertia: &grains.inertia,
-            reference: &candidates.reference,
-            lists: &candidates.lists,
-            drifts: &mut candidates.drifts.of,
+            reference: &neighbours.reference,
+            lists: &neighbours.lists,
+            drifts: &mut neighbours.drifts.of,
             reports,
         }
     }
 }
 
-impl Row for Slice<'_> {
-    fn lists(&self) -> &[List] {
+impl BlockRange for Slice<'_> {
+    fn lists(&self) -> &[BlockList] {
         self.lists
     }
 
@@ -113,39 +123,58 @@ impl Row for Slice<'_> {
     }
 }
 
-/// Before the forces: brings positions to the end of the step, and velocities there too, predicted with the old
-/// acceleration, so that forces that depend on velocity see positions and velocities of one time level.
-pub(super) fn before(grains: &mut Grains, candidates: &mut Candidates, reports: &mut Vec<Report>, motion: &Motion) {
-    let shares = shares(grains.len());
-    sweep(Slice::new(grains, candidates, reports), Way::There, shares, &|mut s: Slice| go(&mut s, motion));
-}
-
-/// After the forces: sums what blocks hold for every grain, finds the new accelerations and completes the velocities. With
-/// `go_on` every block begins the next step at once, as [`before`] would: its columns are in the cache.
-pub(super) fn after(
-    grains: &mut Grains,
-    blocks: &[Block],
-    candidates: &mut Candidates,
-    reports: &mut Vec<Report>,
-    motion: &Motion,
-    go_on: bool,
-) -> Report {
-    let shares = shares(grains.len());
-    sweep(Slice::new(grains, candidates, reports), Way::Back, shares, &|mut s: Slice| {
-        s.reports[0] = complete(&mut s, blocks, motion);
-        if go_on {
-            go(&mut s, motion);
-        }
-    });
-    let mut total = Report::default();
-    for report in reports.iter() {
-        total.add(report);
+impl TimeIntegration {
+    pub fn new(scheme: Integrator, gravity: DVec3, rotation: bool) -> Self {
+        Self { scheme, gravity, rotation, reports: Vec::new() }
     }
-    total
+
+    /// How long velocities go with the old acceleration until the second half step puts the new one in its place [s].
+    pub fn predicted_for(&self, dt: f64) -> f64 {
+        if self.scheme == Integrator::VelocityVerlet { 0.5 * dt } else { 0.0 }
+    }
+
+    /// Before the forces: brings positions to the end of the step, and velocities there too, predicted with the old
+    /// acceleration, so that forces that depend on velocity see positions and velocities of one time level.
+    pub fn first_half(&mut self, grains: &mut Grains, neighbours: &mut NeighbourLists, dt: f64) {
+        let (motion, shares) = (self.motion(dt), shares(grains.len()));
+        let blocks = Slice::new(grains, neighbours, &mut self.reports);
+        sweep(blocks, Direction::Forward, shares, &|mut s: Slice| first_half(&mut s, &motion));
+    }
+
+    /// After the forces: sums what blocks hold for every grain, finds the new accelerations and completes the velocities of
+    /// a step `dt` (0: leaves them). With `go_on` every block does the first half of the next step at once: its columns are in
+    /// the cache.
+    pub fn second_half(
+        &mut self,
+        grains: &mut Grains,
+        contacts: &[BlockContacts],
+        neighbours: &mut NeighbourLists,
+        dt: f64,
+        go_on: bool,
+    ) -> Report {
+        let (motion, shares) = (self.motion(dt), shares(grains.len()));
+        let blocks = Slice::new(grains, neighbours, &mut self.reports);
+        sweep(blocks, Direction::Backward, shares, &|mut s: Slice| {
+            s.reports[0] = second_half(&mut s, contacts, &motion);
+            if go_on {
+                first_half(&mut s, &motion);
+            }
+        });
+        let mut total = Report::default();
+        for report in &self.reports {
+            total.add(report);
+        }
+        total
+    }
+
+    fn motion(&self, dt: f64) -> Motion {
+        let scheme = if dt > 0.0 { self.scheme } else { Integrator::SymplecticEuler };
+        Motion { scheme, gravity: self.gravity, rotation: self.rotation, dt, predicted_for: self.predicted_for(dt) }
+    }
 }
 
 /// First half of a step of one block.
-fn go(s: &mut Slice, motion: &Motion) {
+fn first_half(s: &mut Slice, motion: &Motion) {
     let drift = &mut s.drifts[0];
     drift.offset += drift.velocity * motion.dt;
     let offset = drift.offset;
@@ -160,7 +189,7 @@ fn go(s: &mut Slice, motion: &Motion) {
 fn drift_on(s: &mut Slice, offset: DVec3, motion: &Motion) -> (DVec3, f64) {
     // What the velocity gets before and after the drift.
     let dt = motion.dt;
-    let (first, second) = match motion.integrator {
+    let (first, second) = match motion.scheme {
         Integrator::VelocityVerlet => (0.5 * dt, 0.5 * dt),
         Integrator::SymplecticEuler => (dt, 0.0),
         Integrator::ForwardEuler => (0.0, dt),
@@ -189,21 +218,21 @@ fn drift_on(s: &mut Slice, offset: DVec3, motion: &Motion) -> (DVec3, f64) {
 /// The report's correction is what the losses, which were computed with the predicted velocities, must be corrected by.
 /// The path that Verlet's positions trace has the velocity (x(t+dt) - x(t-dt)) / 2 dt - (dt^2/6) da/dt, which to this
 /// order is one third of the predicted and two thirds of the completed velocity; the energy that a force takes along the
-/// path is force times that. Without the correction the books of an impact at 20 steps per contact miss 0.4 % of its
-/// energy, with it 0.02 %.
+/// path is force times that. Without the correction the energy residual of an impact at 20 steps per contact is
+/// 0.4 % of its energy, with it 0.02 %.
 #[multiversion(targets = "simd")]
-fn complete(s: &mut Slice, blocks: &[Block], motion: &Motion) -> Report {
-    let share = motion.predicts();
-    let List { first, incoming, .. } = &s.lists[0];
+fn second_half(s: &mut Slice, contacts: &[BlockContacts], motion: &Motion) -> Report {
+    let share = motion.predicted_for;
+    let BlockList { first, incoming, .. } = &s.lists[0];
     let mut report = Report::default();
-    let own = &blocks[first / BLOCK].loads;
+    let own = &contacts[first / BLOCK].loads;
     let mut next = 0;
     for (i, load) in own.iter().take(s.position.len()).enumerate() {
         let mut load = *load;
         while let Some(other) = incoming.get(next)
             && other.own as usize == i
         {
-            load.add(&blocks[other.block as usize].loads[other.place as usize]);
+            load.add(&contacts[other.block as usize].loads[other.local as usize]);
             next += 1;
         }
         if s.inverse_mass[i] == 0.0 {
@@ -215,7 +244,7 @@ fn complete(s: &mut Slice, blocks: &[Block], motion: &Motion) -> Report {
         let change = (acceleration - s.acceleration[i]) * share;
         s.acceleration[i] = acceleration;
         s.velocity[i] += change;
-        report.correction += load.lossy.as_dvec3().dot(change);
+        report.correction += load.dissipative.as_dvec3().dot(change);
         if motion.rotation {
             let rate = load.torque * (1.0 / s.inertia[i]);
             let change = (rate - s.spin_rate[i]) * share;
@@ -228,18 +257,13 @@ fn complete(s: &mut Slice, blocks: &[Block], motion: &Motion) -> Report {
     report
 }
 
-/// How grains are moved.
+/// How grains are moved in a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Motion {
-    pub integrator: Integrator,
-    pub gravity: DVec3,
-    pub rotation: bool,
-    pub dt: f64,
-}
-
-impl Motion {
-    /// How long velocities go with the old acceleration until [`after`] puts the new one in its place [s].
-    pub fn predicts(&self) -> f64 {
-        if self.integrator == Integrator::VelocityVerlet { 0.5 * self.dt } else { 0.0 }
-    }
+struct Motion {
+    scheme: Integrator,
+    gravity: DVec3,
+    rotation: bool,
+    dt: f64,
+    /// See [`TimeIntegration::predicted_for`].
+    predicted_for: f64,
 }

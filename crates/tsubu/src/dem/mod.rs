@@ -1,27 +1,28 @@
 //! The discrete element method.
 
+mod books;
+mod contact_batch;
+mod contact_forces;
+mod contact_history;
 mod drawn;
 pub mod engine;
 mod fill;
 mod gates;
+mod history_transfer;
+mod immersion;
 mod integrate;
-mod keep;
-mod memory;
+mod narrow_phase;
 mod orientation;
 mod output;
+mod overlaps;
 mod place;
 mod room;
-mod rows;
 mod settle;
-mod sieve;
 pub mod sizes;
 mod sources;
 mod start;
 mod step;
 mod sweep;
-mod touch;
-mod touches;
-mod wet;
 
 use crate::explain::About;
 pub use engine::DemEngine;

@@ -42,8 +42,8 @@ impl Orientation {
 
 impl DemEngine {
     /// Turns every grain by its spin in the middle of the step, between the two half steps.
-    pub(super) fn turn(&mut self) {
-        if !self.orientation.wanted || self.walls_held {
+    pub(super) fn rotate(&mut self) {
+        if !self.orientation.wanted || self.settling {
             return;
         }
         let grains = &self.grains;
@@ -53,9 +53,9 @@ impl DemEngine {
             turned.resize(ids, DQuat::IDENTITY);
         }
         for ((id, spin), rate) in grains.id.iter().zip(&grains.spin).zip(&grains.spin_rate) {
-            let spin: DVec3 = *spin - *rate * (0.5 * self.dt);
+            let spin: DVec3 = *spin - *rate * (0.5 * self.clock.dt);
             let q = &mut turned[*id as usize];
-            *q = (DQuat::from_scaled_axis(spin * self.dt) * *q).normalize();
+            *q = (DQuat::from_scaled_axis(spin * self.clock.dt) * *q).normalize();
         }
     }
 }

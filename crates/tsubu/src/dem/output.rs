@@ -1,12 +1,13 @@
 //! What the engine shows and what it saves.
 
+use super::books::Powers;
+use super::contact_forces::ContactLosses;
 use super::engine::DemEngine;
-use super::keep::{Kept, Name};
-use crate::engine::Engine;
+use super::history_transfer::{ContactId, HistorySnapshot};
 use crate::partner::Hosts;
 use crate::state::Grains;
 use crate::view::{Columns, Contact, Contacts, View, Wants};
-use crate::water::Flows;
+use crate::water::WaterPowers;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use tsubu_frame::state::MissingSection;
@@ -18,7 +19,7 @@ impl DemEngine {
         let order = self.grains.by_id();
         let vectors = |column: &[DVec3]| order.iter().map(|&i| column[i].to_array()).collect::<Vec<_>>();
         let scalars = |column: &[f64]| order.iter().map(|&i| column[i]).collect::<Vec<_>>();
-        let mut frame = Frame { time: self.time(), step: self.step, columns: Vec::new() };
+        let mut frame = Frame { time: self.clock.time(), step: self.clock.step, columns: Vec::new() };
         let whole = |column: &[u32]| order.iter().map(|&i| i64::from(column[i])).collect::<Vec<_>>();
         frame.integer(Kind::Grain, "id", "-", whole(&self.grains.id));
         frame.integer(Kind::Grain, "group", "-", whole(&self.grains.group));
@@ -34,7 +35,7 @@ impl DemEngine {
             frame.quaternion(Kind::Grain, "orientation", turned.iter().map(|q| [q.w, q.x, q.y, q.z]).collect());
         }
         frame.vector(Kind::Grain, "contact force", "N", vectors(&force));
-        if self.wet.is_some() {
+        if self.immersion.is_some() {
             frame.vector(Kind::Grain, "water force", "N", vectors(&self.water_forces(&force)));
         }
         let id = |i: usize| i64::from(self.grains.id[i]);
@@ -53,8 +54,8 @@ impl DemEngine {
     /// What contacts do to every grain [N]. In water the acceleration does not tell, so the contacts are summed.
     fn contact_forces(&self, contacts: &[Contact]) -> Vec<DVec3> {
         let g = &self.grains;
-        if self.wet.is_none() {
-            let pull = |i: usize| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { self.gravity };
+        if self.immersion.is_none() {
+            let pull = |i: usize| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { self.integration.gravity };
             return (0..g.len()).map(|i| g.mass[i] * (g.acceleration[i] - pull(i))).collect();
         }
         let mut force = vec![DVec3::ZERO; g.len()];
@@ -73,7 +74,7 @@ impl DemEngine {
         let g = &self.grains;
         let rest = |i: usize| {
             let all = (g.mass[i] + g.added_mass(i)) * g.acceleration[i];
-            all - g.mass[i] * self.gravity - contact[i]
+            all - g.mass[i] * self.integration.gravity - contact[i]
         };
         (0..g.len()).map(|i| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { rest(i) }).collect()
     }
@@ -94,49 +95,51 @@ impl DemEngine {
         };
         let mut contacts = match wants.contacts {
             Contacts::Nothing => Vec::new(),
-            Contacts::Places => self.touches(),
+            Contacts::Places => self.overlaps(),
             Contacts::Forces => self.contact_list(),
         };
         contacts.retain(|c| c.overlap > 0.0 || c.force != DVec3::ZERO);
-        let walls = if wants.walls { self.wall_loads.clone() } else { Vec::new() };
-        let water = self.wet.as_ref().map(|wet| &wet.water);
-        View { time: self.time(), ends: self.search.ends, grains, contacts, walls, water }
+        let walls = if wants.walls { self.reactions.wall_loads.clone() } else { Vec::new() };
+        let water = self.immersion.as_ref().map(|immersion| &immersion.water);
+        View { time: self.clock.time(), periodic: self.neighbours.search.periodic, grains, contacts, walls, water }
     }
 
     /// Everything that the next step depends on.
     pub(super) fn write_state(&self, state: &mut State) {
         self.grains.save("grains", state);
-        let counts = [self.step, self.grain_steps, self.sums.contacts as u64, self.grains.len() as u64];
+        let counts =
+            [self.clock.step, self.clock.grain_steps, self.contacts.sums.contacts as u64, self.grains.len() as u64];
         state.put_integer("dem.step", counts.map(|n| n as i64).to_vec());
-        state.put_real("dem.moved-mass", vec![self.total_mass]);
+        state.put_real("dem.moved-mass", vec![self.books.moved_mass]);
         self.orientation.save(state);
         state.put_integer("dem.streams", self.sources.counts());
-        let mut reals = self.last_flows.powers.to_vec();
-        reals.extend(self.last_flows.wall_force.to_array());
-        reals.push(self.sums.stored);
-        let water = self.last_flows.water;
-        reals.extend([water.stream, water.spun, water.pressure, water.carried, water.gust, water.lost, water.held]);
+        let Powers { lost, walls, wall_force, water } = self.books.last;
+        let mut reals = vec![lost.normal, lost.sliding, lost.rolling, walls];
+        reals.extend(wall_force.to_array());
+        reals.push(self.contacts.sums.stored);
+        reals.extend([water.stream, water.spin_work, water.pressure, water.carried, water.fluctuation, water.lost]);
+        reals.push(water.held);
         reals.extend(water.force.to_array());
         state.put_real("dem.flows", reals);
         let flat = |v: &[DVec3]| v.iter().flat_map(DVec3::to_array).collect::<Vec<_>>();
-        state.put_real("dem.reference", flat(&self.candidates.reference));
-        let places = self.candidates.wall_reference.iter().flat_map(crate::wall::Pose::place);
+        state.put_real("dem.reference", flat(&self.neighbours.reference));
+        let places = self.neighbours.wall_reference.iter().flat_map(crate::wall::Pose::place);
         state.put_real("dem.wall-reference", places.collect::<Vec<_>>());
-        let drifts = self.candidates.drifts.of.iter();
+        let drifts = self.neighbours.drifts.of.iter();
         let drifts = drifts.flat_map(|d| d.offset.to_array().into_iter().chain(d.velocity.to_array()));
         state.put_real("dem.drifts", drifts.collect::<Vec<_>>());
-        if let Some(wet) = &self.wet {
-            wet.water.stream.save(state);
+        if let Some(immersion) = &self.immersion {
+            immersion.water.stream.save(state);
         }
         for wall in &self.walls {
             wall.save(state);
         }
-        let mut kept = Kept::default();
-        self.keep(&mut kept);
-        let names = kept.parts.iter().flat_map(|part| &part.names);
-        let names = names.flat_map(|k| [k.first, k.second, u32::from(k.wall), k.patch].map(i64::from));
-        state.put_integer("dem.contacts", names.collect::<Vec<_>>());
-        state.put_real("dem.history", kept.parts.into_iter().flat_map(|part| part.history).collect::<Vec<_>>());
+        let mut history = HistorySnapshot::default();
+        self.contacts.record_history(&self.force_input(), &mut history);
+        let contacts = history.blocks.iter().flat_map(|block| &block.contacts);
+        let contacts = contacts.flat_map(|k| [k.first, k.second, u32::from(k.wall), k.patch].map(i64::from));
+        state.put_integer("dem.contacts", contacts.collect::<Vec<_>>());
+        state.put_real("dem.history", history.blocks.into_iter().flat_map(|block| block.history).collect::<Vec<_>>());
     }
 
     /// Takes back what [`DemEngine::write_state`] wrote.
@@ -152,8 +155,9 @@ impl DemEngine {
         }
         // Added up anew, in the order that grains have now, it would be another number in its last digits.
         let &[mass] = state.real("dem.moved-mass")? else { return Err(missing("dem.moved-mass")) };
-        self.total_mass = mass;
-        (self.step, self.grain_steps, self.sums.contacts) = (step as u64, grain_steps as u64, contacts as usize);
+        self.books.moved_mass = mass;
+        (self.clock.step, self.clock.grain_steps) = (step as u64, grain_steps as u64);
+        self.contacts.sums.contacts = contacts as usize;
         self.place_gates();
         self.orientation.load(state)?;
         self.sources.set_counts(state.integer("dem.streams")?);
@@ -161,55 +165,60 @@ impl DemEngine {
         if flows.len() != 18 {
             return Err(missing("dem.flows"));
         }
-        self.last_flows.powers.copy_from_slice(&flows[..4]);
-        self.last_flows.wall_force = DVec3::from_slice(&flows[4..7]);
-        self.sums.stored = flows[7];
-        let [stream, spun, pressure, carried, gust, lost, held] = [8, 9, 10, 11, 12, 13, 14].map(|k| flows[k]);
+        let losses = ContactLosses { normal: flows[0], sliding: flows[1], rolling: flows[2] };
+        self.contacts.sums.stored = flows[7];
+        let [stream, spin_work, pressure, carried, fluctuation, lost, held] =
+            [8, 9, 10, 11, 12, 13, 14].map(|k| flows[k]);
         let force = DVec3::from_slice(&flows[15..]);
-        self.last_flows.water = Flows { pressure, carried, stream, spun, gust, lost, held, force };
+        self.books.last = Powers {
+            lost: losses,
+            walls: flows[3],
+            wall_force: DVec3::from_slice(&flows[4..7]),
+            water: WaterPowers { pressure, carried, stream, spin_work, fluctuation, lost, held, force },
+        };
         let reference = state.real("dem.reference")?;
         let places = state.real("dem.wall-reference")?;
         if reference.len() != 3 * self.grains.len() || places.len() != 7 * self.walls.len() {
             return Err(missing("dem.reference"));
         }
-        self.candidates.reference = reference.chunks_exact(3).map(DVec3::from_slice).collect();
+        self.neighbours.reference = reference.chunks_exact(3).map(DVec3::from_slice).collect();
         for (wall, place) in self.walls.iter_mut().zip(places.as_chunks::<7>().0) {
             wall.load(state)?;
             // The lists are made with the walls where they stood then; the next step puts them where they belong.
             wall.pose.set_place(*place);
         }
-        self.candidates.wall_reference = self.walls.iter().map(|w| w.pose).collect();
-        self.candidates.list(&self.grains, &self.walls, &self.search);
+        self.neighbours.wall_reference = self.walls.iter().map(|w| w.pose).collect();
+        self.neighbours.build(&self.grains, &self.walls);
         let drifts = state.real("dem.drifts")?.as_chunks::<6>().0;
-        for (drift, d) in self.candidates.drifts.of.iter_mut().zip(drifts) {
+        for (drift, d) in self.neighbours.drifts.of.iter_mut().zip(drifts) {
             drift.offset = DVec3::from_slice(&d[..3]);
             drift.velocity = DVec3::from_slice(&d[3..]);
         }
-        self.fit();
-        if let Some(wet) = &mut self.wet {
-            wet.water.stream.load(state)?;
+        self.resize_contacts();
+        if let Some(immersion) = &mut self.immersion {
+            immersion.water.stream.load(state)?;
         }
         let hosts = Hosts::default();
-        let time = self.time();
+        let time = self.clock.time();
         for wall in self.walls.iter_mut().filter(|w| w.host().is_none()) {
             wall.follow(time, &hosts);
         }
-        let width = self.widest();
-        let names = state.integer("dem.contacts")?.as_chunks::<4>().0;
+        let width = self.laws.history_width();
+        let ids = state.integer("dem.contacts")?.as_chunks::<4>().0;
         let history = state.real("dem.history")?;
-        if history.len() != names.len() * width {
+        if history.len() != ids.len() * width {
             return Err(missing("dem.history"));
         }
         let of: BTreeMap<u32, u32> = self.grains.id.iter().copied().zip(self.grains.material.iter().copied()).collect();
-        let name = |n: &[i64; 4]| {
+        let contact = |n: &[i64; 4]| {
             let (first, second, wall) = (n[0] as u32, n[1] as u32, n[2] != 0);
             let other =
                 if wall { self.walls.get(second as usize).map(|w| w.material) } else { of.get(&second).copied() };
             let pair = of.get(&first).zip(other.as_ref());
-            let law = pair.map_or(0, |(a, b)| self.table.law(self.table.index(*a, *b)) as u32);
-            Name { first, second, wall, patch: n[3] as u32, law }
+            let law = pair.map_or(0, |(a, b)| self.laws.table.law(self.laws.table.index(*a, *b)) as u32);
+            ContactId { first, second, wall, patch: n[3] as u32, law }
         };
-        self.restore(Kept::of(names.iter().map(name).collect(), history.to_vec()));
+        self.restore_history(HistorySnapshot::of(ids.iter().map(contact).collect(), history.to_vec()));
         Ok(())
     }
 }

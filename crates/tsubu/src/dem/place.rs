@@ -1,7 +1,7 @@
 //! Where grains begin.
 
 use super::fill::Occupied;
-use super::room::{Clearance, Room, ends, images};
+use super::room::{Clearance, Room, images, periodic_bounds};
 use super::sizes;
 use crate::contact::Table;
 use crate::motion::value_and_rate;
@@ -177,7 +177,7 @@ impl Placing<'_> {
         let Room { centre, size } = room;
         let space = self.plan.dimension == 3;
         let floor = if stack { self.floor } else { 0.0 };
-        // Rows are as wide as the widest grain.
+        // ContactBatch are as wide as the widest grain.
         let d = group.largest_diameter();
         // How far a grain may be shaken from its place, and how many places fit when the outermost are shaken towards a
         // wall.
@@ -251,7 +251,7 @@ impl Placing<'_> {
         for i in 0..first {
             occupied.put(self.grains.position[i], self.grains.radius[i]);
         }
-        let ends = ends(self.plan);
+        let ends = periodic_bounds(self.plan);
         let mut clearance =
             Clearance::new(self.walls, &room, self.plan.dimension, DVec3::from_array(self.plan.gravity));
         ids.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));

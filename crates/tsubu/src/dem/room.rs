@@ -1,6 +1,6 @@
 //! Room for grains: a box of space, the walls in it, and the ends where the world repeats.
 
-use crate::find::grid::Ends;
+use crate::neighbours::grid::PeriodicBounds;
 use crate::random::{Purpose, unit, words};
 use crate::wall::{Touch, Wall};
 use glam::DVec3;
@@ -28,7 +28,7 @@ impl Room {
         let w = words(plan.seed, purpose, id, 2 * step);
         let v = words(plan.seed, purpose, id, 2 * step + 1);
         let draw = [unit(w[0], w[1]), unit(w[2], w[3]), unit(v[0], v[1])];
-        let ends = ends(plan);
+        let ends = periodic_bounds(plan);
         let mut p = self.centre + DVec3::new(0.0, 0.0, 0.5 * self.size.z);
         for axis in 0..3 {
             if axis == 1 && plan.dimension == 2 {
@@ -52,12 +52,12 @@ impl Room {
 }
 
 /// Periodic axes of a plan.
-pub(super) fn ends(plan: &Plan) -> Ends {
+pub(super) fn periodic_bounds(plan: &Plan) -> PeriodicBounds {
     [plan.periodic.x, plan.periodic.y, plan.periodic.z]
 }
 
 /// A point and its images within `margin` outside the periodic ends.
-pub(super) fn images(ends: &Ends, p: DVec3, margin: f64) -> impl Iterator<Item = DVec3> {
+pub(super) fn images(ends: &PeriodicBounds, p: DVec3, margin: f64) -> impl Iterator<Item = DVec3> {
     let mut images = vec![p];
     for (axis, end) in ends.iter().enumerate() {
         let Some([low, high]) = *end else { continue };

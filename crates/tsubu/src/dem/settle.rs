@@ -22,7 +22,7 @@ impl DemEngine {
         for wall in &mut self.walls {
             (wall.pose.velocity, wall.pose.spin) = (DVec3::ZERO, DVec3::ZERO);
         }
-        self.walls_held = true;
+        self.settling = true;
         // Driven grains stand as walls do; they get their velocity back when the run begins.
         for (velocity, inverse_mass) in self.grains.velocity.iter_mut().zip(&self.grains.inverse_mass) {
             if *inverse_mass == 0.0 {
@@ -30,34 +30,35 @@ impl DemEngine {
             }
         }
         let (mut hosts, mut ledger) = (Hosts::default(), Ledger::default());
-        let block = (1e-2 / self.dt).ceil() as u64;
-        let fall = self.total_mass * self.gravity.length() * self.smallest_diameter;
+        let block = (1e-2 / self.clock.dt).ceil() as u64;
+        let fall = self.books.moved_mass * self.integration.gravity.length() * self.limits.smallest_diameter;
         let mut result = Ok(());
         let (mut left, mut at_rest) = (0.0, false);
-        while self.time() < time && self.step < MOST_STEPS && result.is_ok() && !at_rest {
-            let steps = block.min(MOST_STEPS - self.step);
+        while self.clock.time() < time && self.clock.step < MOST_STEPS && result.is_ok() && !at_rest {
+            let steps = block.min(MOST_STEPS - self.clock.step);
             result = self.advance(steps, &mut hosts, &mut ledger);
             let stocks = self.grain_stocks();
             left = stocks.kinetic + stocks.rotational;
             // Shortly after they are let go all grains are slow.
             at_rest = left <= AT_REST * fall && steps == block;
         }
-        if result.is_ok() && !at_rest && (left > IN_MOTION * fall || self.time() < time) {
+        if result.is_ok() && !at_rest && (left > IN_MOTION * fall || self.clock.time() < time) {
             result = Err(self.unsettled(left / fall));
         }
         for (wall, pose) in self.walls.iter_mut().zip(poses) {
             wall.pose = pose;
         }
-        self.walls_held = false;
-        (self.step, self.grain_steps) = (0, 0);
+        self.settling = false;
+        (self.clock.step, self.clock.grain_steps) = (0, 0);
         self.grains.velocity.fill(DVec3::ZERO);
         self.grains.spin.fill(DVec3::ZERO);
         result
     }
+
     fn unsettled(&self, share: f64) -> Fault {
         let speeds = self.grains.velocity.iter().map(|velocity| velocity.length());
         let (fastest, speed) = speeds.enumerate().fold((0, 0.0), |most, one| if one.1 > most.1 { one } else { most });
         let grain = self.grains.id.get(fastest).map_or(0, |id| *id as usize);
-        Fault::Unsettled { step: self.step, time: self.time(), grain, speed, share }
+        Fault::Unsettled { step: self.clock.step, time: self.clock.time(), grain, speed, share }
     }
 }

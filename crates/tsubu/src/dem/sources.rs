@@ -3,7 +3,7 @@
 use super::engine::DemEngine;
 use super::fill::Occupied;
 use super::place::{direction, still};
-use super::room::{Clearance, Room, Side, ends, images, sides};
+use super::room::{Clearance, Room, Side, images, periodic_bounds, sides};
 use super::sizes;
 use crate::contact::Table;
 use crate::engine::Engine;
@@ -128,15 +128,15 @@ impl Sources {
 
 impl DemEngine {
     /// Moves the driven groups to where they are at `time`.
-    pub(super) fn drive(&mut self, time: f64) {
-        if self.walls_held {
+    pub(super) fn move_driven(&mut self, time: f64) {
+        if self.settling {
             return;
         }
         for driven in &self.sources.driven {
             let (now, rate) = value_and_rate(&driven.signal, time);
-            let (before, rate_before) = value_and_rate(&driven.signal, time - self.dt);
+            let (before, rate_before) = value_and_rate(&driven.signal, time - self.clock.dt);
             // The drift of the step has taken them along with the velocity they had; at time 0 there was none.
-            let missing = if self.step > 0 { now - before - rate_before * self.dt } else { 0.0 };
+            let missing = if self.clock.step > 0 { now - before - rate_before * self.clock.dt } else { 0.0 };
             for i in 0..self.grains.len() {
                 if self.grains.group[i] == driven.number {
                     self.grains.position[i] += driven.direction * missing;
@@ -147,14 +147,14 @@ impl DemEngine {
     }
 
     /// Whether it is time after step `step` to look at what should come or go.
-    pub(super) fn looks(&self, step: u64) -> bool {
+    pub(super) fn insertion_due(&self, step: u64) -> bool {
         let nothing = self.sources.streams.is_empty() && self.sources.removal.is_empty();
-        !nothing && !self.walls_held && step.is_multiple_of(EVERY)
+        !nothing && !self.settling && step.is_multiple_of(EVERY)
     }
 
     /// Lets grains come and go between two steps. What is posted is the difference of all that is held: motion, height, and
     /// the energy of the contacts of grains that go.
-    pub(super) fn come_and_go(&mut self, ledger: &mut Ledger) {
+    pub(super) fn insert_and_remove(&mut self, ledger: &mut Ledger) {
         let grains = &self.grains;
         let mut order: Vec<u32> = Vec::with_capacity(grains.len());
         for i in 0..grains.len() {
@@ -170,19 +170,19 @@ impl DemEngine {
         if !some_go && arrivals.is_empty() {
             return;
         }
-        let kept = self.kept();
+        let history = self.snapshot_history();
         let before = self.books();
         self.grains.permute(&order);
         for grain in arrivals {
             self.grains.push(grain);
         }
-        self.total_mass = self.grains.moved_mass();
-        self.immerse();
-        self.find_with(kept);
+        self.books.moved_mass = self.grains.moved_mass();
+        self.init_added_mass();
+        self.rebuild_neighbours_with(history);
         // What the springs of those contacts held is in the difference below.
-        self.released = 0.0;
+        self.contacts.released = 0.0;
         if some_go {
-            self.stand();
+            self.evaluate_at_rest();
         }
         let after = self.books();
         ledger.post(Account::Exchange, after.0 - before.0);
@@ -198,8 +198,8 @@ impl DemEngine {
     /// The grains that come now.
     fn arrivals(&mut self) -> Vec<crate::state::Grain> {
         let mut arrivals = Vec::new();
-        let time = self.step as f64 * self.dt;
-        let (dimension, ends) = (self.sources.plan.dimension, ends(&self.sources.plan));
+        let time = self.clock.step as f64 * self.clock.dt;
+        let (dimension, ends) = (self.sources.plan.dimension, periodic_bounds(&self.sources.plan));
         for stream in &mut self.sources.streams {
             let Start::Stream { region, rate, velocity, speed, from } = &stream.group.start else { continue };
             let due = ((time - from) * rate).max(0.0).floor() as usize;
@@ -209,8 +209,8 @@ impl DemEngine {
             }
             let (low, high) = (DVec3::from_array(region.low), DVec3::from_array(region.high));
             let room = Room::of(region);
-            let mut clearance = Clearance::on(stream.sides.clone(), &self.walls, self.gravity);
-            let largest = self.largest_diameter * 0.5;
+            let mut clearance = Clearance::on(stream.sides.clone(), &self.walls, self.integration.gravity);
+            let largest = self.limits.largest_diameter * 0.5;
             let mut occupied = Occupied::new(largest);
             let margin = DVec3::splat(2.0 * largest);
             for (p, r) in self.grains.position.iter().zip(&self.grains.radius) {
@@ -225,7 +225,7 @@ impl DemEngine {
                 let diameter = sizes::diameter(&stream.group, self.sources.plan.seed, id);
                 let radius = 0.5 * diameter;
                 let place = (0..ATTEMPTS).find_map(|attempt| {
-                    let step = self.step * ATTEMPTS + attempt;
+                    let step = self.clock.step * ATTEMPTS + attempt;
                     let p = room.anywhere(&self.sources.plan, radius, Purpose::Stream, id, step);
                     (occupied.free(p, radius) && clearance.free(p, radius)).then_some(p)
                 });
@@ -236,7 +236,7 @@ impl DemEngine {
                 let mut grain = still(&stream.group, stream.number, stream.material, p, diameter, id as usize);
                 let w = words(self.sources.plan.seed, Purpose::Stream, id, 1);
                 grain.velocity = DVec3::from_array(*velocity) + direction(dimension, w) * *speed;
-                grain.acceleration = self.gravity;
+                grain.acceleration = self.integration.gravity;
                 arrivals.push(grain);
                 stream.placed += 1;
             }

@@ -50,7 +50,7 @@ impl DemEngine {
     /// Judges the moment before the first step: what cannot go well is refused, what is hardly meant so is noted.
     pub(super) fn judge_start(&mut self, plan: &Plan) -> Result<(), Refusal> {
         let groups = self.groups(plan);
-        let mut notes = self.overlaps(plan, &groups);
+        let mut notes = self.overlapping_grains(plan, &groups);
         notes.extend(self.strays(&groups));
         notes.extend(out_of_reach(plan));
         let refused: Vec<Note> = notes.iter().filter(|note| note.verdict == Verdict::Refused).cloned().collect();
@@ -72,11 +72,11 @@ impl DemEngine {
     }
 
     /// Grains that begin in walls or in other grains.
-    fn overlaps(&self, plan: &Plan, groups: &[Group]) -> Vec<Note> {
+    fn overlapping_grains(&self, plan: &Plan, groups: &[Group]) -> Vec<Note> {
         let limit = plan.dem.largest_overlap;
         let of = |grain: usize| (&groups[self.grains.group[grain] as usize], self.grains.id[grain]);
         let mut deep: Vec<(f64, Contact)> = Vec::new();
-        for contact in self.touches() {
+        for contact in self.overlaps() {
             let ratio = self.overlap_ratio(&contact);
             if ratio > if contact.wall { of(contact.first).0.slack().min(limit) } else { limit } {
                 deep.push((ratio, contact));
@@ -118,7 +118,7 @@ impl DemEngine {
                 .map(|i| (self.grains.id[i], self.grains.position[i]))
                 .collect();
             let all: Vec<DVec3> = places.iter().map(|place| place.1).collect();
-            let clearance = Clearance::of_places(&self.walls, &all, self.gravity);
+            let clearance = Clearance::of_places(&self.walls, &all, self.integration.gravity);
             let mut found: BTreeMap<&str, (usize, u32)> = BTreeMap::new();
             for (id, place) in &places {
                 if let Some(wall) = clearance.strays(*place) {

@@ -1,221 +1,176 @@
 //! The step.
 
+use super::contact_forces::{ContactForces, ForceInput, contact_list};
 use super::engine::DemEngine;
-use super::integrate::{self, Motion};
-use super::keep::Kept;
-use super::touch::Scene;
-use super::wet::Wet;
-use crate::engine::{Engine, Fault};
+use super::history_transfer::HistorySnapshot;
+use super::overlaps::overlaps;
+use crate::engine::Fault;
 use crate::ledger::{Account, Ledger};
 use crate::partner::Hosts;
 use crate::view::Contact;
 use crate::wall::{Mover, Wall};
 use glam::DVec3;
-use tsubu_scene::plan::Integrator;
 
 impl DemEngine {
-    /// Moves everything by one time step. With `go_on` the grains have begun the next step when it ends: the first half of
-    /// that step is done together with the second half of this one.
+    /// Moves everything by one time step. With `go_on` the grains have done the first half of the next step when it ends: it is
+    /// done together with the second half of this one.
     pub(super) fn step(&mut self, hosts: &mut Hosts, ledger: &mut Ledger, go_on: bool) -> Result<(), Fault> {
         // Grains come and go, and gates open, between steps; a step before that is done to its end.
-        let (looks, opens) = (self.looks(self.step + 1), self.opens(self.step + 1));
-        let go_on = go_on && !looks && !opens;
-        if !std::mem::replace(&mut self.begun, go_on) {
-            let motion = self.motion(self.dt);
-            integrate::before(&mut self.grains, &mut self.candidates, &mut self.reports, &motion);
+        let next = self.clock.step + 1;
+        let (insertion_due, gate_due) = (self.insertion_due(next), self.gate_due(next));
+        let go_on = go_on && !insertion_due && !gate_due;
+        if !std::mem::replace(&mut self.clock.half_step_done, go_on) {
+            self.integration.first_half(&mut self.grains, &mut self.neighbours, self.clock.dt);
         }
-        self.step += 1;
-        self.grain_steps += self.grains.len() as u64;
-        self.turn();
-        let time = self.time();
-        hosts.before(self.dt);
+        self.clock.tick(self.grains.len());
+        let (time, dt) = (self.clock.time(), self.clock.dt);
+        self.rotate();
+        hosts.before(dt);
         self.move_walls(time, hosts);
-        self.drive(time);
-        self.sink(ledger);
-        if self.candidates.stale(&self.grains, &self.walls, self.search.skin) {
+        self.move_driven(time);
+        self.update_added_mass(ledger);
+        if self.neighbours.stale(&self.grains, &self.walls) {
             self.check_finite()?;
-            self.find();
+            self.rebuild_neighbours();
         }
-        self.touch_all();
+        self.evaluate_forces();
         self.check_overlap()?;
         // Before positions may go on to the next step: the stream looks where the grains are now.
-        self.flow_on(ledger);
-        self.finish(self.dt, go_on);
-        self.reactions(hosts, ledger);
-        hosts.after(time, self.dt, &self.host_forces, ledger);
-        self.close_books(ledger);
-        if looks {
-            self.come_and_go(ledger);
+        self.advance_stream(ledger);
+        self.second_half_step(dt, go_on);
+        self.apply_reactions(hosts, ledger);
+        hosts.after(time, dt, &self.reactions.on_hosts, ledger);
+        self.post_powers(ledger);
+        if insertion_due {
+            self.insert_and_remove(ledger);
         }
-        if opens {
+        if gate_due {
             self.open_gates(ledger);
         }
         Ok(())
     }
 
-    pub(super) fn move_walls(&mut self, time: f64, hosts: &Hosts) {
-        if self.walls_held {
+    fn move_walls(&mut self, time: f64, hosts: &Hosts) {
+        if self.settling {
             return;
         }
         for wall in &mut self.walls {
-            wall.before(self.dt);
+            wall.before(self.clock.dt);
             wall.follow(time, hosts);
         }
     }
 
-    /// Sorts the grains and makes the candidate list again; contact history follows its pair.
-    pub(super) fn find(&mut self) {
-        let kept = self.kept();
-        self.find_with(kept);
+    /// Sorts the grains and makes the neighbour lists again; contact history follows its pair.
+    pub(super) fn rebuild_neighbours(&mut self) {
+        let history = self.snapshot_history();
+        self.rebuild_neighbours_with(history);
     }
 
-    /// The same with contacts that were remembered before grains came or went.
-    pub(super) fn find_with(&mut self, kept: Kept) {
-        self.candidates.sort(&mut self.grains, &self.search);
-        self.candidates.search(&self.grains, &self.walls, &self.search);
-        self.fit();
-        self.released += self.restore(kept);
+    /// The same with the contact history from before grains came or went.
+    pub(super) fn rebuild_neighbours_with(&mut self, history: HistorySnapshot) {
+        self.neighbours.sort_grains(&mut self.grains);
+        self.neighbours.rebuild(&self.grains, &self.walls);
+        self.resize_contacts();
+        let released = self.restore_history(history);
+        self.contacts.released += released;
     }
 
-    /// Prepares the touch phase for new candidates.
-    pub(super) fn fit(&mut self) {
-        let mut touch = std::mem::take(&mut self.touch);
-        touch.fit(&self.scene());
-        for (list, block) in self.candidates.lists.iter_mut().zip(&touch.blocks) {
-            list.expect(block.sums.contacts);
+    /// Prepares the contacts for new neighbour lists.
+    pub(super) fn resize_contacts(&mut self) {
+        let (contacts, input) = self.contacts_and_input();
+        contacts.resize(&input);
+        self.neighbours.estimate_work(self.contacts.blocks.iter().map(|block| block.sums.contacts));
+    }
+
+    pub(super) fn snapshot_history(&mut self) -> HistorySnapshot {
+        let (contacts, input) = self.contacts_and_input();
+        contacts.snapshot_history(&input)
+    }
+
+    pub(super) fn restore_history(&mut self, history: HistorySnapshot) -> f64 {
+        let (contacts, input) = self.contacts_and_input();
+        contacts.restore_history(&input, history)
+    }
+
+    /// Forces of contacts and of the water at this time level.
+    fn evaluate_forces(&mut self) {
+        let (contacts, input) = self.contacts_and_input();
+        let dt = input.dt;
+        contacts.evaluate(&input);
+        contacts.sums.lost.sliding += std::mem::take(&mut contacts.released) / dt;
+        if let Some(immersion) = &mut self.immersion {
+            immersion.sum_powers(&self.contacts.blocks);
         }
-        self.touch = touch;
     }
 
-    pub(super) fn touch_all(&mut self) {
-        let mut touch = std::mem::take(&mut self.touch);
-        let mut sums = touch.forces(&self.scene());
-        self.touch = touch;
-        sums.lost[1] += std::mem::take(&mut self.released) / self.dt;
-        self.sums = sums;
-        self.soak();
-    }
-
-    /// Forces, stocks and powers of a moment that no step has led to: at time 0, and after grains or walls have gone.
-    pub(super) fn stand(&mut self) {
+    /// Forces, energies and powers of a moment that no step has led to: at time 0, and after grains or walls have gone.
+    pub(super) fn evaluate_at_rest(&mut self) {
         // Without time, bodies that adhere take hold of each other and springs stay as they are. Powers have no meaning then:
-        // what snapping together sets free has gone before the books open.
-        let mut touch = std::mem::take(&mut self.touch);
-        let stored = touch.forces(&Scene { dt: 0.0, bath: None, ..self.scene() }).stored;
-        self.touch = touch;
-        let kept = self.kept();
-        self.touch_all();
-        self.restore(kept);
-        self.sums.stored = stored;
-        self.still_stream();
-        self.finish(0.0, false);
-        self.sum_wall_loads();
-        for (wall, load) in self.walls.iter_mut().zip(&self.wall_loads) {
+        // what snapping together sets free has gone before the ledger opens.
+        let (contacts, input) = self.contacts_and_input();
+        contacts.evaluate(&ForceInput { dt: 0.0, water: None, ..input });
+        let stored = contacts.sums.stored;
+        let history = self.snapshot_history();
+        self.evaluate_forces();
+        self.restore_history(history);
+        self.contacts.sums.stored = stored;
+        self.evaluate_stream_at_rest();
+        self.second_half_step(0.0, false);
+        self.reactions.sum_wall_loads(&self.contacts);
+        for (wall, load) in self.walls.iter_mut().zip(&self.reactions.wall_loads) {
             wall.start(load.force, load.torque);
         }
-        self.last_flows = self.flows();
+        self.books.last = self.powers();
     }
 
-    /// What the touch phase reads.
-    fn scene(&self) -> Scene<'_> {
-        let Self { grains, walls, candidates, table, reaches, search, rotation, dt, .. } = self;
-        let (reach, rotation, dt, bath) = (search.reach, *rotation, *dt, self.bath());
-        Scene { grains, walls, candidates, table, reaches, reach, rotation, dt, bath }
+    /// The contacts, and what their forces are computed from.
+    fn contacts_and_input(&mut self) -> (&mut ContactForces, ForceInput<'_>) {
+        let Self { grains, walls, neighbours, laws, contacts, immersion, integration, clock, settling, .. } = self;
+        let water = immersion.as_ref().map(|immersion| immersion.at(clock.time(), integration.gravity, *settling));
+        (contacts, ForceInput { grains, walls, neighbours, laws, dt: clock.dt, water })
+    }
+
+    /// The same to look at.
+    pub(super) fn force_input(&self) -> ForceInput<'_> {
+        let Self { grains, walls, neighbours, laws, clock, .. } = self;
+        ForceInput { grains, walls, neighbours, laws, dt: clock.dt, water: None }
     }
 
     /// The contacts of this moment.
     pub(super) fn contact_list(&self) -> Vec<Contact> {
-        self.touch.contacts(&self.scene())
+        contact_list(&self.contacts, &self.force_input())
     }
 
     /// The same without forces, for those who look at every step.
-    pub(super) fn touches(&self) -> Vec<Contact> {
-        super::touches::touches(&self.scene())
+    pub(super) fn overlaps(&self) -> Vec<Contact> {
+        overlaps(&self.force_input())
     }
 
-    /// Accelerations from contact forces and gravity; completes the velocities for a step `dt` (0: leaves them).
-    pub(super) fn finish(&mut self, dt: f64, go_on: bool) {
-        let motion = self.motion(dt);
-        let report = integrate::after(
-            &mut self.grains,
-            &self.touch.blocks,
-            &mut self.candidates,
-            &mut self.reports,
-            &motion,
-            go_on,
-        );
-        self.sums.correct(report.correction);
-        self.fixed = (report.fixed_force, report.driven_power);
-    }
-
-    pub(super) fn motion(&self, dt: f64) -> Motion {
-        let integrator = if dt > 0.0 { self.integrator } else { Integrator::SymplecticEuler };
-        Motion { integrator, gravity: self.gravity, rotation: self.rotation, dt }
+    /// Accelerations from forces and gravity; completes the velocities of a step `dt` (0: leaves them).
+    fn second_half_step(&mut self, dt: f64, go_on: bool) {
+        let Self { grains, neighbours, contacts, integration, .. } = self;
+        let report = integration.second_half(grains, &contacts.blocks, neighbours, dt, go_on);
+        contacts.sums.lost.correct(report.correction);
+        (self.reactions.on_fixed, self.reactions.driven_power) = (report.fixed_force, report.driven_power);
     }
 
     /// What grains did to the walls goes to those who move them.
-    fn reactions(&mut self, hosts: &Hosts, ledger: &mut Ledger) {
-        self.sum_wall_loads();
-        self.host_forces.clear();
-        self.host_forces.resize(hosts.list.len(), 0.0);
-        if self.walls_held {
+    fn apply_reactions(&mut self, hosts: &Hosts, ledger: &mut Ledger) {
+        let Self { walls, contacts, reactions, clock, .. } = self;
+        reactions.sum_wall_loads(contacts);
+        reactions.on_hosts.clear();
+        reactions.on_hosts.resize(hosts.list.len(), 0.0);
+        if self.settling {
             return;
         }
-        for (wall, load) in self.walls.iter_mut().zip(&self.wall_loads) {
+        for (wall, load) in walls.iter_mut().zip(&reactions.wall_loads) {
             if let Some((index, direction)) = wall.host() {
-                self.host_forces[index] += load.force.dot(direction);
+                reactions.on_hosts[index] += load.force.dot(direction);
             }
-            let exchange = wall.after(load.force, load.torque, self.dt);
+            let exchange = wall.after(load.force, load.torque, clock.dt);
             ledger.post(Account::ForceWork, exchange.work);
             ledger.post(Account::HostDamping, exchange.lost);
         }
-    }
-
-    pub(super) fn sum_wall_loads(&mut self) {
-        for (k, load) in self.wall_loads.iter_mut().enumerate() {
-            *load = self.touch.wall_load(k);
-        }
-    }
-
-    /// Posts the work and the losses of the step by the trapezoidal rule.
-    fn close_books(&mut self, ledger: &mut Ledger) {
-        let now = self.flows();
-        let half = 0.5 * self.dt;
-        let accounts = [Account::NormalDamping, Account::Sliding, Account::Rolling, Account::WallWork];
-        for (account, (old, new)) in accounts.into_iter().zip(self.last_flows.powers.into_iter().zip(now.powers)) {
-            ledger.post(account, half * (old + new));
-        }
-        let (old, new) = (self.last_flows.water, now.water);
-        ledger.post(Account::Buoyancy, half * (old.pressure + new.pressure));
-        ledger.post(Account::StreamWork, half * (old.spun + new.spun));
-        ledger.post(Account::WallWork, -half * (old.held + new.held));
-        if self.wet.as_ref().is_some_and(Wet::has_stream) {
-            // What the stream gives stays in the system. The pressure takes from it what it gives to grains along it.
-            ledger.post(Account::Buoyancy, -half * (old.carried + new.carried));
-            ledger.post(Account::StreamFriction, -half * (old.gust + new.gust));
-        } else {
-            ledger.post(Account::StreamWork, half * (old.stream + new.stream));
-        }
-        ledger.post(Account::Drag, half * (old.lost + new.lost));
-        for axis in 0..3 {
-            ledger.water_impulse[axis] += half * (old.force + new.force)[axis];
-            ledger.wall_impulse[axis] += half * (self.last_flows.wall_force + now.wall_force)[axis];
-            ledger.gravity_impulse[axis] += self.dt * self.total_mass * self.gravity[axis];
-        }
-        self.last_flows = now;
-    }
-
-    /// Powers and wall force of this time level.
-    pub(super) fn flows(&self) -> Flows {
-        let mut flows = Flows { water: self.water_flows, ..Flows::default() };
-        flows.powers[..3].copy_from_slice(&self.sums.lost);
-        for (wall, load) in self.walls.iter().zip(&self.wall_loads) {
-            flows.wall_force -= load.force;
-            flows.powers[3] -= wall.prescribed_power(load.force, load.torque);
-        }
-        flows.wall_force -= self.fixed.0;
-        flows.powers[3] += self.fixed.1;
-        flows
     }
 
     fn check_finite(&self) -> Result<(), Fault> {
@@ -223,8 +178,8 @@ impl DemEngine {
         for (what, column) in [("position", &self.grains.position), ("velocity", &self.grains.velocity)] {
             if let Some(i) = bad(column) {
                 return Err(Fault::NotFinite {
-                    step: self.step,
-                    time: self.time(),
+                    step: self.clock.step,
+                    time: self.clock.time(),
                     grain: self.grains.id[i] as usize,
                     what,
                 });
@@ -234,34 +189,26 @@ impl DemEngine {
     }
 
     fn check_overlap(&self) -> Result<(), Fault> {
-        if self.sums.deepest <= self.largest_overlap * self.smallest_diameter {
+        let limit = self.limits.largest_overlap;
+        if self.contacts.sums.deepest <= limit * self.limits.smallest_diameter {
             return Ok(());
         }
         let ratios = self.contact_list().into_iter().map(|contact| (self.overlap_ratio(&contact), contact));
         let Some((ratio, contact)) = ratios.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Ok(()) };
-        if ratio <= self.largest_overlap {
+        if ratio <= limit {
             return Ok(());
         }
         let held = |i: usize| self.grains.inverse_mass[i] == 0.0;
         let driven = |wall: &Wall| matches!(wall.mover, Mover::Motion(..)) || wall.turning.is_some();
         let second = contact.second;
         Err(Fault::Overlap {
-            step: self.step,
-            time: self.time(),
+            step: self.clock.step,
+            time: self.clock.time(),
             grain: self.grains.id[contact.first] as usize,
             other: self.named(&contact),
             ratio,
-            limit: self.largest_overlap,
+            limit,
             crushed: held(contact.first) || if contact.wall { driven(&self.walls[second]) } else { held(second) },
         })
     }
-}
-
-/// Powers (normal damping, sliding, rolling, work of walls and driven grains) [W] and force of walls and fixed grains on
-/// the others [N] at a time level.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Flows {
-    pub powers: [f64; 4],
-    pub wall_force: DVec3,
-    pub water: crate::water::Flows,
 }

@@ -4,19 +4,19 @@
 //! so that what it has written stays in its own cache; and the second sweep goes back, so that it begins with what the first has
 //! left in the cache. A thread that is done early takes blocks of others, from where they would come to last.
 
-use crate::find::candidates::List;
+use crate::neighbours::lists::BlockList;
 use crate::threads::both;
 
-/// What a sweep goes over: one thing or several for every list of candidates.
-pub(super) trait Row: Send + Sized {
+/// What a sweep goes over: one thing or several for every neighbour list.
+pub(super) trait BlockRange: Send + Sized {
     /// The lists of its blocks.
-    fn lists(&self) -> &[List];
+    fn lists(&self) -> &[BlockList];
     /// The first `blocks`, and the others.
     fn cut(self, blocks: usize) -> (Self, Self);
 }
 
-impl<T: Send> Row for (&mut [T], &[List]) {
-    fn lists(&self) -> &[List] {
+impl<T: Send> BlockRange for (&mut [T], &[BlockList]) {
+    fn lists(&self) -> &[BlockList] {
         self.1
     }
 
@@ -28,35 +28,35 @@ impl<T: Send> Row for (&mut [T], &[List]) {
 
 /// Which way a thread goes through its share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
-    There,
-    Back,
+pub(super) enum Direction {
+    Forward,
+    Backward,
 }
 
-/// Runs `work` on every block of a row, in as many shares as there are threads; with one share on this thread alone.
-pub(super) fn sweep<R: Row>(row: R, way: Way, shares: usize, work: &(impl Fn(R) + Sync)) {
+/// Runs `work` on every block of a range, in as many shares as there are threads; with one share on this thread alone.
+pub(super) fn sweep<R: BlockRange>(range: R, direction: Direction, shares: usize, work: &(impl Fn(R) + Sync)) {
     if shares <= 1 {
-        return walk(row, way, false, work);
+        return walk(range, direction, false, work);
     }
-    share(row, way, shares, work);
+    share(range, direction, shares, work);
 }
 
-/// Cuts a row in shares of equal work.
-fn share<R: Row>(row: R, way: Way, shares: usize, work: &(impl Fn(R) + Sync)) {
-    if shares == 1 || row.lists().len() <= 1 {
-        return walk(row, way, true, work);
+/// Cuts a range in shares of equal work.
+fn share<R: BlockRange>(range: R, direction: Direction, shares: usize, work: &(impl Fn(R) + Sync)) {
+    if shares == 1 || range.lists().len() <= 1 {
+        return walk(range, direction, true, work);
     }
     let left = shares / 2;
-    let blocks = first_blocks(row.lists(), left, shares);
-    let (first, others) = row.cut(blocks);
-    both(|| share(first, way, left, work), || share(others, way, shares - left, work));
+    let blocks = first_blocks(range.lists(), left, shares);
+    let (first, others) = range.cut(blocks);
+    both(|| share(first, direction, left, work), || share(others, direction, shares - left, work));
 }
 
 /// How many blocks are `left` of `shares` equal shares of the work; a block belongs where most of it does.
-fn first_blocks(lists: &[List], left: usize, shares: usize) -> usize {
+fn first_blocks(lists: &[BlockList], left: usize, shares: usize) -> usize {
     let all: usize = lists.iter().map(|list| list.work).sum();
     let mut before = 0;
-    let belongs = |list: &&List| {
+    let belongs = |list: &&BlockList| {
         let middle = before + list.work / 2;
         before += list.work;
         middle * shares < all * left
@@ -64,18 +64,18 @@ fn first_blocks(lists: &[List], left: usize, shares: usize) -> usize {
     lists.iter().take_while(belongs).count()
 }
 
-/// Goes through a row block by block; where it is `lent`, other threads may take a part of what is left.
-fn walk<R: Row>(row: R, way: Way, lent: bool, work: &(impl Fn(R) + Sync)) {
-    let blocks = row.lists().len();
+/// Goes through a range block by block; where it is `lent`, other threads may take a part of what is left.
+fn walk<R: BlockRange>(range: R, direction: Direction, lent: bool, work: &(impl Fn(R) + Sync)) {
+    let blocks = range.lists().len();
     if blocks <= 1 {
         if blocks == 1 {
-            work(row);
+            work(range);
         }
         return;
     }
-    let (low, high) = row.cut(blocks / 2);
-    let (next, later) = if way == Way::There { (low, high) } else { (high, low) };
-    let (next, later) = (|| walk(next, way, lent, work), || walk(later, way, lent, work));
+    let (low, high) = range.cut(blocks / 2);
+    let (next, later) = if direction == Direction::Forward { (low, high) } else { (high, low) };
+    let (next, later) = (|| walk(next, direction, lent, work), || walk(later, direction, lent, work));
     if lent {
         both(next, later);
     } else {
@@ -91,15 +91,15 @@ mod tests {
     use proptest::prelude::*;
     use std::sync::Mutex;
 
-    fn lists(works: &[usize]) -> Vec<List> {
-        works.iter().enumerate().map(|(first, &work)| List { first, work, ..List::default() }).collect()
+    fn lists(works: &[usize]) -> Vec<BlockList> {
+        works.iter().enumerate().map(|(first, &work)| BlockList { first, work, ..BlockList::default() }).collect()
     }
 
     /// The blocks in the order in which they come.
-    fn order(lists: &[List], way: Way, shares: usize) -> Vec<usize> {
+    fn order(lists: &[BlockList], direction: Direction, shares: usize) -> Vec<usize> {
         let seen = Mutex::new(Vec::new());
         let mut things = vec![(); lists.len()];
-        sweep((&mut things[..], lists), way, shares, &|(_, lists): (&mut [()], &[List])| {
+        sweep((&mut things[..], lists), direction, shares, &|(_, lists): (&mut [()], &[BlockList])| {
             seen.lock().expect("nobody panics").push(lists[0].first);
         });
         seen.into_inner().expect("nobody panics")
@@ -109,14 +109,14 @@ mod tests {
     fn goes_there_and_back() {
         let lists = lists(&[7; 11]);
         let there: Vec<usize> = (0..11).collect();
-        assert_eq!(order(&lists, Way::There, 1), there);
-        assert_eq!(order(&lists, Way::Back, 1), there.into_iter().rev().collect::<Vec<_>>());
+        assert_eq!(order(&lists, Direction::Forward, 1), there);
+        assert_eq!(order(&lists, Direction::Backward, 1), there.into_iter().rev().collect::<Vec<_>>());
     }
 
     proptest! {
         #[test]
         fn every_block_comes_once_whatever_the_shares(works in vec(0usize..50, 0..30), shares in 1usize..9) {
-            let mut seen = order(&lists(&works), Way::Back, shares);
+            let mut seen = order(&lists(&works), Direction::Backward, shares);
             seen.sort_unstable();
             prop_assert_eq!(seen, (0..works.len()).collect::<Vec<_>>());
         }

@@ -167,7 +167,7 @@ pub fn region(plan: &Plan, walls: &[Wall], margin: f64) -> Option<Region> {
     if height.is_nan() || height <= 0.0 {
         return None;
     }
-    // Ends: planes along an axis, boxes included, that grains are in front of and that stay where they are.
+    // PeriodicBounds: planes along an axis, boxes included, that grains are in front of and that stay where they are.
     let (mut ends_low, mut ends_high) = ([f64::NEG_INFINITY; 2], [f64::INFINITY; 2]);
     for wall in walls {
         let Surface::HalfSpaces { planes, .. } = &wall.surface else { continue };

@@ -12,7 +12,7 @@ pub(super) fn section(triangles: &[[DVec3; 3]]) -> Vec<[DVec3; 2]> {
     lines
 }
 
-/// Ends in the order of x, then z, so that both triangles at an edge in the plane give the same line.
+/// PeriodicBounds in the order of x, then z, so that both triangles at an edge in the plane give the same line.
 fn cut(triangle: &[DVec3; 3]) -> Option<[DVec3; 2]> {
     let mut ends = Vec::new();
     for k in 0..3 {

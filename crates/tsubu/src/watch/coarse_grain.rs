@@ -86,7 +86,7 @@ impl CoarseGrain {
         let (points, cells) = (&self.points, &mut self.cells);
         let mut smear = |change: &dyn Fn(&mut Cell, usize, f64)| {
             for &i in &own {
-                points.near(points.project(g.position[i]), DVec3::ZERO, reach, &view.ends, |k, x| {
+                points.near(points.project(g.position[i]), DVec3::ZERO, reach, &view.periodic, |k, x| {
                     change(&mut cells[k], i, kernel.value(x.length_squared()) / across);
                 });
             }
@@ -110,9 +110,9 @@ impl CoarseGrain {
             let (first, to_point) = (g.position[c.first], c.position - g.position[c.first]);
             let held = |i: usize| !view.free(i);
             match (held(c.first), c.wall || held(c.second)) {
-                (false, false) => self.branch(view, first, c.between, c.force, false),
+                (false, false) => self.branch(view, first, c.branch, c.force, false),
                 (false, true) => self.branch(view, first, to_point, c.force, true),
-                (true, false) => self.branch(view, first + c.between, to_point - c.between, -c.force, true),
+                (true, false) => self.branch(view, first + c.branch, to_point - c.branch, -c.force, true),
                 (true, true) => {}
             }
         }
@@ -125,7 +125,7 @@ impl CoarseGrain {
         }
         let (p, along) = (self.points.project(from), self.points.project(b));
         let (kernel, across, cells) = (self.kernel, self.across, &mut self.cells);
-        self.points.near(p, along, kernel.reach(), &view.ends, |k, x| {
+        self.points.near(p, along, kernel.reach(), &view.periodic, |k, x| {
             let mean = kernel.line(x, along) / across;
             (0..3).for_each(|a| cells[k].contact[a] += force[a] * mean * b);
             if boundary {

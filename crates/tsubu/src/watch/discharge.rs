@@ -67,7 +67,7 @@ impl Discharge {
     /// The period along the normal, if the world repeats itself along it.
     fn period(&self, view: &View) -> Option<f64> {
         let axis = (0..3).find(|&a| self.normal[a].abs() > 1.0 - 1e-12)?;
-        view.ends[axis].map(|[low, high]| high - low)
+        view.periodic[axis].map(|[low, high]| high - low)
     }
 
     fn look(&self, view: &View, i: usize, period: Option<f64>) -> Seen {

@@ -1,6 +1,6 @@
 //! The points at which fields are given, and which of them something near reaches.
 
-use crate::find::grid::Ends;
+use crate::neighbours::grid::PeriodicBounds;
 use glam::DVec3;
 use tsubu_scene::plan::{Axis, Region};
 
@@ -49,7 +49,7 @@ impl Points {
 
     /// Calls `visit(point, x)` for every point within `reach` [m] (along each axis) of the stretch from `p` to `p + b`,
     /// with the vector `x` from `p`, or from an image of it across periodic ends, to the point.
-    pub fn near(&self, p: DVec3, b: DVec3, reach: f64, ends: &Ends, mut visit: impl FnMut(usize, DVec3)) {
+    pub fn near(&self, p: DVec3, b: DVec3, reach: f64, ends: &PeriodicBounds, mut visit: impl FnMut(usize, DVec3)) {
         let ranges: [Vec<(usize, f64)>; 3] = std::array::from_fn(|a| self.along(a, p[a], b[a], reach, ends[a]));
         let [nx, ny, _] = self.count;
         for &(k, z) in &ranges[2] {

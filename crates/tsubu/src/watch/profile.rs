@@ -115,7 +115,7 @@ impl Profile {
                 }
             };
             image(p[a]);
-            if let Some([low, high]) = view.ends[a] {
+            if let Some([low, high]) = view.periodic[a] {
                 image(p[a] - (high - low));
                 image(p[a] + (high - low));
             }

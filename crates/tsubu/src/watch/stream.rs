@@ -76,14 +76,16 @@ impl Watched {
     }
 
     fn rows(water: &Water, layers: &Layers) -> Vec<Vec<f64>> {
-        let row = |k: usize, velocity: f64| vec![layers.middle(k), velocity, layers.open[k]];
+        let row = |k: usize, velocity: f64| vec![layers.middle(k), velocity, layers.porosity[k]];
         match &water.stream {
             Stream::Coupled(coupled) => {
                 let stresses = coupled.stresses();
                 let whole = |k: usize| [row(k, coupled.velocity[k]), sheared(coupled, &stresses, k).to_vec()].concat();
                 (0..layers.len()).map(whole).collect()
             }
-            Stream::Column { velocity, .. } => (0..layers.len()).map(|k| row(k, velocity / layers.open[k])).collect(),
+            Stream::Column { velocity, .. } => {
+                (0..layers.len()).map(|k| row(k, velocity / layers.porosity[k])).collect()
+            }
             Stream::Still | Stream::LogLaw { .. } | Stream::Table { .. } => Vec::new(),
         }
     }
@@ -132,7 +134,7 @@ impl Watch for Watched {
         };
         let mut sample = Sample::default();
         if let Some(layers) = water.stream.layers() {
-            let depth: f64 = layers.open.iter().map(|open| open * layers.thickness).sum();
+            let depth: f64 = layers.porosity.iter().map(|open| open * layers.thickness).sum();
             sample.rows = Self::rows(water, layers);
             let through: f64 = sample.rows.iter().map(|row| row[1] * row[2] * layers.thickness).sum();
             let discharge = match &water.stream {

@@ -162,13 +162,13 @@ impl Coupled {
     /// stands. Begun within a bed it would be torn down by the grains at once.
     fn begin(&mut self) {
         let (n, h) = (self.layers.len(), self.layers.thickness);
-        let bed = self.layers.open.iter().rposition(|open| *open < FILLED).map_or(0, |k| k + 1);
+        let bed = self.layers.porosity.iter().rposition(|open| *open < FILLED).map_or(0, |k| k + 1);
         let law = |k: usize| {
             let z = (k as f64 + 0.5 - bed as f64) * h;
             if k < bed { 0.0 } else { ((z / self.rough).ln() / karman()).max(0.0) }
         };
         let shape: Vec<f64> = (0..n).map(law).collect();
-        let through: f64 = shape.iter().zip(&self.layers.open).map(|(u, e)| u * e * h).sum();
+        let through: f64 = shape.iter().zip(&self.layers.porosity).map(|(u, e)| u * e * h).sum();
         let scale = match self.top.discharge() {
             Some(discharge) if through > 0.0 => discharge / through,
             _ => (self.drive.max(0.0) * (n - bed) as f64 * h).sqrt(),
@@ -182,8 +182,8 @@ impl Coupled {
     }
 
     /// Makes room for grains before anything moves.
-    pub fn make_room(&mut self, position: &[DVec3], radius: &[f64]) {
-        self.layers.open = self.layers.measure(position, radius);
+    pub fn init_porosity(&mut self, position: &[DVec3], radius: &[f64]) {
+        self.layers.porosity = self.layers.measure(position, radius);
         self.volume = self.layers.volume();
         if self.velocity.iter().any(|u| *u != 0.0) {
             self.begin();
@@ -227,7 +227,7 @@ impl Coupled {
 
     /// The first layer over the highest one that leaves less than this share to the water.
     fn above(&self, share: f64) -> usize {
-        self.layers.open.iter().rposition(|open| *open < share).map_or(0, |k| k + 1)
+        self.layers.porosity.iter().rposition(|open| *open < share).map_or(0, |k| k + 1)
     }
 
     /// The first layer over the bed, which ends with the highest layer that grains fill by three tenths, half of what a packing has.
@@ -342,11 +342,11 @@ impl Coupled {
         let h = self.layers.thickness;
         let bed = self.above(DENSE);
         let mixing = |open: f64| (1.0 - (1.0 - open) / PACKED).max(0.0) * h;
-        let depth: f64 = self.layers.open[bed..].iter().map(|open| mixing(*open)).sum();
+        let depth: f64 = self.layers.porosity[bed..].iter().map(|open| mixing(*open)).sum();
         let mut below = 0.0;
         let mut last = 0.0;
         for k in 0..n {
-            let here = if k < bed { 0.0 } else { mixing(self.layers.open[k]) };
+            let here = if k < bed { 0.0 } else { mixing(self.layers.porosity[k]) };
             let length = karman() * (below + 0.5 * here);
             if k > 0 {
                 let surface = 1.0 - below / depth;
@@ -379,7 +379,7 @@ impl Coupled {
     pub(super) fn save(&self, state: &mut State) {
         let mut values = self.velocity.clone();
         values.extend(&self.ahead);
-        values.extend(&self.layers.open);
+        values.extend(&self.layers.porosity);
         values.extend(&self.taken);
         values.extend(&self.turbulent);
         values.extend(self.impulses);
@@ -395,7 +395,7 @@ impl Coupled {
         }
         let (layers, rest) = values.split_at(5 * n);
         let columns =
-            [&mut self.velocity, &mut self.ahead, &mut self.layers.open, &mut self.taken, &mut self.turbulent];
+            [&mut self.velocity, &mut self.ahead, &mut self.layers.porosity, &mut self.taken, &mut self.turbulent];
         for (column, values) in columns.into_iter().zip(layers.chunks_exact(n)) {
             column.copy_from_slice(values);
         }

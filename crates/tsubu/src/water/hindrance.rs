@@ -29,7 +29,7 @@ pub(super) const RICHARDSON_ZAKI: About = About {
 pub(super) fn before(kind: &Hindrance, p: &mut Parcel) {
     if matches!(kind, Hindrance::DiFelice {}) {
         for i in 0..p.rows() {
-            p.speed[i] *= p.open[i];
+            p.speed[i] *= p.porosity[i];
         }
     }
 }
@@ -40,7 +40,7 @@ pub(super) fn after(kind: &Hindrance, p: &mut Parcel, viscosity: f64) {
         Hindrance::None {} => {}
         Hindrance::DiFelice {} => {
             for i in 0..p.rows() {
-                let e = p.open[i];
+                let e = p.porosity[i];
                 // Creeping flow has no logarithm; b is 3.7 to four digits from there on.
                 let reynolds = (p.speed[i] * 2.0 * p.radius[i] / viscosity).max(1e-6);
                 let b = 3.7 - 0.65 * (-0.5 * (1.5 - reynolds.log10()).powi(2)).exp();
@@ -52,7 +52,7 @@ pub(super) fn after(kind: &Hindrance, p: &mut Parcel, viscosity: f64) {
         }
         Hindrance::RichardsonZaki { exponent } => {
             for i in 0..p.rows() {
-                let factor = p.open[i].powf(-exponent);
+                let factor = p.porosity[i].powf(-exponent);
                 scale(p, i, factor);
             }
         }
@@ -70,7 +70,7 @@ fn scale(p: &mut Parcel, i: usize, factor: f64) {
 #[multiversion(targets = "simd")]
 pub(super) fn gidaspow(p: &mut Parcel, density: f64, viscosity: f64) {
     for i in 0..p.rows() {
-        let (d, e, speed) = (2.0 * p.radius[i], p.open[i], p.speed[i]);
+        let (d, e, speed) = (2.0 * p.radius[i], p.porosity[i], p.speed[i]);
         let factor = if e < 0.8 {
             let mu = density * viscosity;
             p.volume[i] / e * (150.0 * mu * (1.0 - e) / (e * d * d) + 1.75 * density * speed / d)

@@ -18,23 +18,23 @@ pub struct Layers {
     /// Plan area [m^2].
     pub area: f64,
     /// Share of every layer that is water [-].
-    pub open: Vec<f64>,
+    pub porosity: Vec<f64>,
 }
 
 impl Layers {
     /// Layers without grains.
     pub fn new(bottom: f64, top: f64, count: usize, area: f64) -> Self {
-        Self { bottom, thickness: (top - bottom) / count as f64, area, open: vec![1.0; count] }
+        Self { bottom, thickness: (top - bottom) / count as f64, area, porosity: vec![1.0; count] }
     }
 
     /// Number of layers.
     pub fn len(&self) -> usize {
-        self.open.len()
+        self.porosity.len()
     }
 
     /// Whether there are none; never so in a plan.
     pub fn is_empty(&self) -> bool {
-        self.open.is_empty()
+        self.porosity.is_empty()
     }
 
     /// Height of the middle of layer `k` [m].
@@ -49,7 +49,7 @@ impl Layers {
 
     /// Volume of water in layer `k` over the plan area [m].
     pub fn water(&self, k: usize) -> f64 {
-        self.open[k] * self.thickness
+        self.porosity[k] * self.thickness
     }
 
     /// Volume of water in all of them over the plan area [m].

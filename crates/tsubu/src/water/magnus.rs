@@ -50,7 +50,7 @@ impl Part for Magnus {
         Kind::Relative
     }
 
-    fn turns(&self) -> bool {
+    fn rotates(&self) -> bool {
         true
     }
 

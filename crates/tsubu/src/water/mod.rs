@@ -24,8 +24,8 @@ pub(crate) use coupled::EVERY;
 pub use coupled::{Coupled, Top, Turnover};
 pub use fluctuation::{Fluctuation, Gust};
 pub use layers::Layers;
-pub(crate) use parcel::Given;
-pub use parcel::{Flows, Parcel};
+pub(crate) use parcel::LayerReaction;
+pub use parcel::{Parcel, WaterPowers};
 pub use part::{Kind, Part};
 pub use stream::Stream;
 
@@ -83,7 +83,7 @@ pub struct Water {
     crowd: bool,
     parts: Vec<Box<dyn Part>>,
     /// Whether a part reads spins or writes a torque.
-    turns: bool,
+    rotates: bool,
 }
 
 impl Water {
@@ -115,7 +115,7 @@ impl Water {
                 || plan.drag == (plan::Drag::Gidaspow {})
                 || matches!(stream, Stream::Column { .. }),
             stream,
-            turns: parts.iter().any(|part| part.turns()),
+            rotates: parts.iter().any(|part| part.rotates()),
             parts,
         }
     }
@@ -158,7 +158,7 @@ impl Water {
         parcel.slip();
         for part in self.parts.iter().filter(|part| part.kind() == Kind::Relative) {
             part.apply(&mut parcel);
-            parcel.post(Kind::Relative, &mut Flows::default());
+            parcel.post(Kind::Relative, &mut WaterPowers::default());
         }
         parcel.total(0).length()
     }
@@ -190,22 +190,22 @@ impl Water {
         parcel.turn();
         for part in self.parts.iter().filter(|part| part.kind() == Kind::Turning) {
             part.apply(&mut parcel);
-            parcel.post(Kind::Turning, &mut Flows::default());
+            parcel.post(Kind::Turning, &mut WaterPowers::default());
         }
         parcel.total_torque(0).length()
     }
 
     /// Whether it may turn grains.
-    pub fn turns(&self) -> bool {
-        self.turns
+    pub fn rotates(&self) -> bool {
+        self.rotates
     }
 
     /// Fastest water that grains of this diameter [m] meet: at the surface, or ten diameters above the bed [m/s].
     pub fn fastest(&self, diameter: f64) -> f64 {
         // A normal number is rarely beyond two.
         let strength = |fluctuation: Fluctuation| fluctuation.strength * fluctuation.shares[0];
-        let gust = self.fluctuation.map_or(0.0, strength) * self.stream.most_turbulent();
-        self.stream.fastest(self.surface(), diameter) + 2.0 * gust
+        let fluctuation = self.fluctuation.map_or(0.0, strength) * self.stream.most_turbulent();
+        self.stream.fastest(self.surface(), diameter) + 2.0 * fluctuation
     }
 
     /// Whether what moves along with a grain depends on where the grain is.
@@ -213,30 +213,30 @@ impl Water {
         self.surface().is_finite()
     }
 
-    /// Forces and torques on the grains of a parcel, whose place, motion and size are filled in; adds their flows to `flows`.
-    /// In water that is held still (while grains settle before time 0) nothing flows.
-    pub fn act(&self, parcel: &mut Parcel, flows: &mut Flows, held: bool) {
+    /// Forces and torques on the grains of a parcel, whose place, motion and size are filled in; adds their powers to `powers`.
+    /// In water that is held still (while grains settle before time 0) nothing powers.
+    pub fn act(&self, parcel: &mut Parcel, powers: &mut WaterPowers, held: bool) {
         parcel.begin(self.surface());
-        if self.turns {
+        if self.rotates {
             parcel.begin_turning();
         }
         if let Some(layers) = self.stream.layers() {
             layers.find(parcel);
         }
         if !held {
-            self.stream.fill(parcel, self.crowd, self.turns);
+            self.stream.fill(parcel, self.crowd, self.rotates);
             if let Some(fluctuation) = &self.fluctuation {
                 self.stream.fill_turbulence(parcel);
                 parcel.fluctuate(fluctuation.strength, fluctuation.shares);
             }
         }
         parcel.slip();
-        if self.turns {
+        if self.rotates {
             parcel.turn();
         }
         for part in &self.parts {
             part.apply(parcel);
-            parcel.post(part.kind(), flows);
+            parcel.post(part.kind(), powers);
         }
     }
 }

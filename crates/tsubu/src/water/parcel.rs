@@ -24,8 +24,8 @@ pub struct Parcel {
     /// Spin [rad/s].
     pub spin: [Column; 3],
 
-    /// Fluctuation of the water, where there is one: in units of its root-mean-square [-], and once it flows in m/s.
-    pub gust: [Column; 3],
+    /// Fluctuation of the water, where there is one: in units of its root-mean-square [-], and once it powers in m/s.
+    pub fluctuation: [Column; 3],
     /// Shear velocity of the turbulence around the grain [m/s]; where there is a fluctuation.
     pub turbulence: Column,
 
@@ -38,7 +38,7 @@ pub struct Parcel {
     /// What the layer above counts for, of 1 [-].
     pub share: Column,
     /// Share of the volume that the grains around leave to the water [-].
-    pub open: Column,
+    pub porosity: Column,
     /// Velocity of the water at the centre, as it would be without the grain [m/s].
     pub flow: [Column; 3],
     /// Velocity of the water relative to the grain [m/s].
@@ -64,11 +64,11 @@ pub struct Parcel {
 
 /// What a layer gives to the grains between its middle and the next one [N]: all, and of that the next layer's part. Rows with
 /// even numbers, and those with odd ones: neighbours are in the same layers, and one sum would have to wait for the last.
-pub(crate) type Given = [[f64; 2]; 2];
+pub(crate) type LayerReaction = [[f64; 2]; 2];
 
 /// What the water does to grains, summed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Flows {
+pub struct WaterPowers {
     /// Power of the pressure on the grains [W].
     pub pressure: f64,
     /// Power of the pressure with the velocity of the water: what a stream that is part of the system loses by it [W].
@@ -76,10 +76,10 @@ pub struct Flows {
     /// Power of the stream: forces times its velocity [W].
     pub stream: f64,
     /// Power of its spin: torques times it [W]. No stream is charged with it: what turns grains is below what layers know.
-    pub spun: f64,
+    pub spin_work: f64,
     /// Power of the fluctuation in a stream that is part of the system: forces times it [W]. Turbulence has it from what the
     /// stream loses in its stress.
-    pub gust: f64,
+    pub fluctuation: f64,
     /// Power lost: forces and torques times the motion of the water relative to the grains [W].
     pub lost: f64,
     /// Power that goes to those who hold or drive grains which forces do not move [W].
@@ -88,14 +88,14 @@ pub struct Flows {
     pub force: DVec3,
 }
 
-impl Flows {
-    /// Adds other flows.
+impl WaterPowers {
+    /// Adds other powers.
     pub fn add(&mut self, other: &Self) {
         self.pressure += other.pressure;
         self.carried += other.carried;
         self.stream += other.stream;
-        self.spun += other.spun;
-        self.gust += other.gust;
+        self.spin_work += other.spin_work;
+        self.fluctuation += other.fluctuation;
         self.lost += other.lost;
         self.held += other.held;
         self.force += other.force;
@@ -104,10 +104,10 @@ impl Flows {
     /// Adds what the water does to grains that forces do not move: what it loses by them, and what their holders get.
     pub(crate) fn add_fixed(&mut self, other: &Self) {
         self.carried += other.carried;
-        self.spun += other.spun;
-        self.gust += other.gust;
+        self.spin_work += other.spin_work;
+        self.fluctuation += other.fluctuation;
         self.lost += other.lost;
-        self.held += other.pressure + other.stream + other.spun - other.lost;
+        self.held += other.pressure + other.stream + other.spin_work - other.lost;
     }
 }
 
@@ -119,13 +119,13 @@ impl Default for Parcel {
             radius: ZERO,
             velocity: VECTOR,
             spin: VECTOR,
-            gust: VECTOR,
+            fluctuation: VECTOR,
             turbulence: ZERO,
             wet: ZERO,
             volume: ZERO,
             layer: [0; ROWS],
             share: ZERO,
-            open: ZERO,
+            porosity: ZERO,
             flow: VECTOR,
             slip: VECTOR,
             speed: ZERO,
@@ -156,7 +156,7 @@ impl Parcel {
     }
 
     /// Adds the forces along x [N] to what layers give, with the shares that the layers are read with.
-    pub(crate) fn give(&self, column: &mut [Given]) {
+    pub(crate) fn react(&self, column: &mut [LayerReaction]) {
         for i in 0..self.rows() {
             let (force, given) = (self.total[0][i], &mut column[self.layer[i] as usize][i % 2]);
             given[0] += force;
@@ -186,7 +186,7 @@ impl Parcel {
     pub(super) fn fluctuate(&mut self, strength: f64, shares: [f64; 3]) {
         for i in 0..self.rows() {
             let rms = (strength * self.turbulence[i]).min(self.flow[0][i].abs());
-            for ((flow, gust), share) in self.flow.iter_mut().zip(&mut self.gust).zip(shares) {
+            for ((flow, gust), share) in self.flow.iter_mut().zip(&mut self.fluctuation).zip(shares) {
                 gust[i] *= share * rms;
                 flow[i] += gust[i];
             }
@@ -194,8 +194,8 @@ impl Parcel {
     }
 
     /// Power of the fluctuation: all forces times it [W].
-    pub(crate) fn gust_power(&self) -> f64 {
-        let row = |i: usize| (0..3).map(|k| self.total[k][i] * self.gust[k][i]).sum::<f64>();
+    pub(crate) fn fluctuation_power(&self) -> f64 {
+        let row = |i: usize| (0..3).map(|k| self.total[k][i] * self.fluctuation[k][i]).sum::<f64>();
         (0..self.rows()).map(row).sum()
     }
 
@@ -217,8 +217,8 @@ impl Parcel {
         relative(self.rows(), &self.flow_spin, &self.spin, &mut self.turn, &mut self.turning);
     }
 
-    /// Adds the force or torque of a part to the total, and its work to the flows.
-    pub(super) fn post(&mut self, kind: Kind, flows: &mut Flows) {
+    /// Adds the force or torque of a part to the total, and its work to the powers.
+    pub(super) fn post(&mut self, kind: Kind, powers: &mut WaterPowers) {
         let n = self.rows();
         let [x, y, z, with_grain, with_flow] = match kind {
             Kind::Pressure | Kind::Relative => post(n, &self.force, &mut self.total, [&self.velocity, &self.flow]),
@@ -226,17 +226,17 @@ impl Parcel {
         };
         match kind {
             Kind::Pressure => {
-                flows.pressure += with_grain;
-                flows.carried += with_flow;
+                powers.pressure += with_grain;
+                powers.carried += with_flow;
             }
             Kind::Relative | Kind::Turning => {
-                let stream = if kind == Kind::Turning { &mut flows.spun } else { &mut flows.stream };
+                let stream = if kind == Kind::Turning { &mut powers.spin_work } else { &mut powers.stream };
                 *stream += with_flow;
-                flows.lost += with_flow - with_grain;
+                powers.lost += with_flow - with_grain;
             }
         }
         if kind != Kind::Turning {
-            flows.force += DVec3::new(x, y, z);
+            powers.force += DVec3::new(x, y, z);
         }
     }
 }
@@ -249,7 +249,7 @@ fn begin(p: &mut Parcel, surface: f64) {
         p.wet[i] = sphere::below((surface - p.height[i]) / r);
         p.volume[i] = p.wet[i] * sphere::volume(r);
     }
-    p.open[..n].fill(1.0);
+    p.porosity[..n].fill(1.0);
     for k in 0..3 {
         p.flow[k][..n].fill(0.0);
         p.total[k][..n].fill(0.0);

@@ -27,7 +27,7 @@ pub trait Part: Send + Sync + std::fmt::Debug {
     fn kind(&self) -> Kind;
 
     /// Whether it reads spins, of the grains or of the water, or writes a torque.
-    fn turns(&self) -> bool {
+    fn rotates(&self) -> bool {
         self.kind() == Kind::Turning
     }
 

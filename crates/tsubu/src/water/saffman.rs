@@ -53,7 +53,7 @@ impl Part for Saffman {
         Kind::Relative
     }
 
-    fn turns(&self) -> bool {
+    fn rotates(&self) -> bool {
         true
     }
 

@@ -121,24 +121,24 @@ impl Stream {
     }
 
     /// Velocities at the grains of a parcel; if it is a `crowd` the share that grains leave to the water there, and if it
-    /// `turns` the spins of the water: a stream along x that grows with z turns about y, from z to x.
-    pub(super) fn fill(&self, parcel: &mut Parcel, crowd: bool, turns: bool) {
+    /// `rotates` the spins of the water: a stream along x that grows with z turns about y, from z to x.
+    pub(super) fn fill(&self, parcel: &mut Parcel, crowd: bool, rotates: bool) {
         let n = parcel.rows();
         if let Some(layers) = self.layers().filter(|_| crowd) {
             for i in 0..n {
-                parcel.open[i] = parcel.read(&layers.open, i);
+                parcel.porosity[i] = parcel.read(&layers.porosity, i);
             }
         }
         match self {
             Self::Still => {}
             Self::Column { velocity, .. } => {
                 for i in 0..n {
-                    parcel.flow[2][i] = velocity / parcel.open[i];
+                    parcel.flow[2][i] = velocity / parcel.porosity[i];
                 }
             }
             Self::LogLaw { shear_velocity, roughness, zero_level } => {
                 log_laws(parcel, *shear_velocity, 1.0 / roughness, *zero_level);
-                for i in (0..n).filter(|_| turns) {
+                for i in (0..n).filter(|_| rotates) {
                     let moves = parcel.flow[0][i] > 0.0;
                     let shear = shear_velocity * PER_DECADE / (LN_10 * (parcel.height[i] - zero_level));
                     parcel.flow_spin[1][i] = if moves { 0.5 * shear } else { 0.0 };
@@ -148,7 +148,7 @@ impl Stream {
                 for i in 0..n {
                     let (flow, shear) = between(height, velocity, parcel.height[i]);
                     parcel.flow[0][i] = flow;
-                    if turns {
+                    if rotates {
                         parcel.flow_spin[1][i] = 0.5 * shear;
                     }
                 }
@@ -158,7 +158,7 @@ impl Stream {
                 for i in 0..n {
                     parcel.flow[0][i] = parcel.read(ahead, i);
                 }
-                for i in (0..n).filter(|_| turns) {
+                for i in (0..n).filter(|_| rotates) {
                     let k = parcel.layer[i] as usize;
                     parcel.flow_spin[1][i] = 0.5 * (ahead[k + 1] - ahead[k]) / coupled.layers.thickness;
                 }
@@ -192,7 +192,7 @@ impl Stream {
         match self {
             Self::Still => 0.0,
             Self::Column { layers, velocity } => {
-                let least = layers.open.iter().copied().fold(1.0, f64::min);
+                let least = layers.porosity.iter().copied().fold(1.0, f64::min);
                 velocity.abs() / least
             }
             Self::Coupled(coupled) => coupled.velocity.iter().fold(0.0, |most, v| v.abs().max(most)),
@@ -208,7 +208,7 @@ impl Stream {
     pub(crate) fn save(&self, state: &mut State) {
         match self {
             Self::Coupled(coupled) => coupled.save(state),
-            Self::Column { layers, .. } => state.put_real("water.stream", layers.open.clone()),
+            Self::Column { layers, .. } => state.put_real("water.stream", layers.porosity.clone()),
             Self::Still | Self::LogLaw { .. } | Self::Table { .. } => {}
         }
     }
@@ -218,11 +218,11 @@ impl Stream {
         match self {
             Self::Coupled(coupled) => coupled.load(state),
             Self::Column { layers, .. } => {
-                let open = state.real("water.stream")?;
-                if open.len() != layers.len() {
+                let porosity = state.real("water.stream")?;
+                if porosity.len() != layers.len() {
                     return Err(MissingSection { name: "water.stream".to_owned(), kind: "real" });
                 }
-                layers.open.copy_from_slice(open);
+                layers.porosity.copy_from_slice(porosity);
                 Ok(())
             }
             Self::Still | Self::LogLaw { .. } | Self::Table { .. } => Ok(()),

@@ -12,7 +12,7 @@ const GAMMA: f64 = 0.05;
 
 fn sticky(cohesion: Cohesion, surface_energy: f64) -> Subject {
     let cohesion_constant = if matches!(cohesion, Cohesion::Sjkr {}) { 5e4 } else { 0.005 };
-    let constants = Constants { young: YOUNG, surface_energy, cohesion: cohesion_constant, ..constants() };
+    let constants = Constants { effective_modulus: YOUNG, surface_energy, cohesion: cohesion_constant, ..constants() };
     Subject::new(&Contact { cohesion, ..stack::hertz() }, constants)
 }
 
@@ -38,7 +38,7 @@ fn pass(subject: &Subject, chunk: &mut Chunk, from: f64, to: f64, steps: u32) ->
     (1..=steps)
         .map(|k| {
             chunk.overlap[0] = from + (to - from) * f64::from(k) / f64::from(steps);
-            (chunk.radius[0], chunk.mass[0], chunk.normal[0][0]) = (RADIUS, 1e-4, 1.0);
+            (chunk.effective_radius[0], chunk.effective_mass[0], chunk.normal[0][0]) = (RADIUS, 1e-4, 1.0);
             subject.apply(chunk, dt);
             lost += chunk.lost_normal[0] * dt;
             [chunk.overlap[0], chunk.normal_force[0], chunk.stored[0], lost]
@@ -91,7 +91,7 @@ fn jkr_follows_its_curve_and_parts_at_its_limit() {
         let told = jkr(low).0;
         assert!((force - told).abs() < 1e-9 * pull_off + 1e-9 * told.abs(), "{overlap:e}: {force:e} {told:e}");
     }
-    assert!((chunk.disc[0] / apart - 1.0).abs() < 0.05);
+    assert!((chunk.contact_radius[0] / apart - 1.0).abs() < 0.05);
 
     // Stored energy is the work of the force along the way, and nothing of it is left at the limit.
     let mut worst = 0.0_f64;
@@ -110,7 +110,7 @@ fn jkr_follows_its_curve_and_parts_at_its_limit() {
     // Beyond the limit the bodies have parted, and stay so until they touch again.
     let after = pass(&subject, &mut chunk, 1.001 * limit, 1.001 * limit, 1)[0];
     assert_eq!(after[1], 0.0, "still holds");
-    assert!(chunk.disc[0] == 0.0 && chunk.pull_off[0] == 0.0);
+    assert!(chunk.contact_radius[0] == 0.0 && chunk.pull_off[0] == 0.0);
     assert!(pass(&subject, &mut chunk, 0.999 * limit, -1e-12, 10).iter().all(|row| row[1] == 0.0), "holds again");
     assert!(pass(&subject, &mut chunk, 1e-9, 1e-9, 1)[0][1] < 0.0);
 }
@@ -152,10 +152,11 @@ fn jkr_loses_the_area_of_its_loop() {
 fn damping_does_not_add_to_a_pull() {
     let damping = Damping::Quarter {};
     let pulled = Contact { cohesion: Cohesion::Dmt {}, damping, ..stack::hertz() };
-    let subject = Subject::new(&pulled, Constants { young: YOUNG, surface_energy: GAMMA, ..constants() });
+    let subject = Subject::new(&pulled, Constants { effective_modulus: YOUNG, surface_energy: GAMMA, ..constants() });
     let mut chunk = subject.chunk(3);
     for i in 0..3 {
-        (chunk.radius[i], chunk.mass[i], chunk.normal[0][i], chunk.overlap[i]) = (RADIUS, 1e-4, 1.0, 1e-9);
+        (chunk.effective_radius[i], chunk.effective_mass[i], chunk.normal[0][i], chunk.overlap[i]) =
+            (RADIUS, 1e-4, 1.0, 1e-9);
         chunk.closing[i] = [-1.0, 0.0, 1.0][i];
     }
     subject.apply(&mut chunk, 1e-6);
@@ -180,7 +181,8 @@ fn friction_sees_the_pull_off_force() {
         let tangential = Tangential::Coulomb { smoothing_speed: 1e-3 };
         subject = Subject::new(&Contact { tangential, ..subject.contact }, subject.constants);
         let mut chunk = subject.chunk(1);
-        (chunk.radius[0], chunk.mass[0], chunk.normal[0][0], chunk.slip[1][0]) = (RADIUS, 1e-4, 1.0, 1.0);
+        (chunk.effective_radius[0], chunk.effective_mass[0], chunk.normal[0][0], chunk.slip[1][0]) =
+            (RADIUS, 1e-4, 1.0, 1.0);
         // The overlap without external force, by halving.
         let (mut low, mut high) = (1e-7, 1e-4);
         for _ in 0..100 {

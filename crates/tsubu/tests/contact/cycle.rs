@@ -40,7 +40,7 @@ fn cycle(subject: &Subject, steps: u32) -> [Balance; 8] {
             chunk.slip[1][i] = 0.2 * swing;
             chunk.roll[1][i] = swing / 1.5e-3;
             chunk.twist[i] = 3.0 * swing / 1.5e-3;
-            (chunk.radius[i], chunk.mass[i]) = (1.5e-3, 1e-4);
+            (chunk.effective_radius[i], chunk.effective_mass[i]) = (1.5e-3, 1e-4);
         }
         subject.apply(&mut chunk, dt);
         for (i, b) in balance.iter_mut().enumerate() {
@@ -134,7 +134,7 @@ fn pressing_a_sheared_contact_makes_energy_in_the_secant_form_only() {
         let contact = Contact { tangential: stack::mindlin(form), ..stack::hertz() };
         let (subject, mut work) = (stack::subject(&contact), 0.0);
         let mut chunk = subject.chunk(1);
-        (chunk.normal[0][0], chunk.radius[0], chunk.mass[0]) = (1.0, 1.5e-3, 1e-4);
+        (chunk.normal[0][0], chunk.effective_radius[0], chunk.effective_mass[0]) = (1.0, 1.5e-3, 1e-4);
         let steps = 1000;
         // Four strokes: shear at a depth of 1 um, press to 16 um, shear back, let go to 1 um.
         for stroke in 0..4 {

@@ -20,7 +20,7 @@ fn film(in_contact: bool) -> Film {
 fn row(subject: &Subject, gap: f64, closing: f64) -> Box<Chunk> {
     let mut chunk = subject.chunk(1);
     (chunk.overlap[0], chunk.closing[0], chunk.normal[0][0]) = (-gap, closing, 1.0);
-    (chunk.radius[0], chunk.mass[0]) = (RADIUS, MASS);
+    (chunk.effective_radius[0], chunk.effective_mass[0]) = (RADIUS, MASS);
     let mut numbers = Numbers::new(7);
     let any = |numbers: &mut Numbers| numbers.vector(1.0) * glam::DVec3::new(0.0, 1.0, 1.0);
     let (slip, roll) = (any(&mut numbers), 1e3 * any(&mut numbers));

@@ -15,7 +15,7 @@ fn state(numbers: &mut Numbers) -> ([f64; 3], [DVec3; 3]) {
 
 fn set(chunk: &mut Chunk, i: usize, [overlap, closing, twist]: [f64; 3], [normal, slip, roll]: [DVec3; 3]) {
     (chunk.overlap[i], chunk.closing[i], chunk.twist[i]) = (overlap, closing, twist);
-    (chunk.radius[i], chunk.mass[i]) = (1.5e-3, 1e-4);
+    (chunk.effective_radius[i], chunk.effective_mass[i]) = (1.5e-3, 1e-4);
     Chunk::set(&mut chunk.normal, i, normal);
     Chunk::set(&mut chunk.slip, i, slip);
     Chunk::set(&mut chunk.roll, i, roll);

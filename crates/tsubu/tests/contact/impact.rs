@@ -17,7 +17,7 @@ fn meet(subject: &Subject, first: Ball, second: Ball, speed: f64) -> (f64, f64, 
     }
     let mut two = Two::new(subject, [first, second]);
     two.fill();
-    let pair = subject.pair(two.chunk.radius[0], two.chunk.mass[0]);
+    let pair = subject.pair(two.chunk.effective_radius[0], two.chunk.effective_mass[0]);
     two.meet(pair.contact_time(speed) / 4000.0, 100_000);
     let [a, b] = two.balls;
     ((a.velocity.z - b.velocity.z) / speed, two.strongest, two.deepest, two.touched)
@@ -116,12 +116,13 @@ fn the_verdict_hears_what_the_rows_do() {
             let mut chunk = subject.chunk(100);
             for i in 0..100 {
                 let size = f64::from(i as u32 + 1);
-                (chunk.radius[i], chunk.mass[i], chunk.normal[0][i]) = (1e-4 * size, 1e-7 * size * size * size, 1.0);
+                (chunk.effective_radius[i], chunk.effective_mass[i], chunk.normal[0][i]) =
+                    (1e-4 * size, 1e-7 * size * size * size, 1.0);
                 chunk.overlap[i] = 1e-7 * size * size;
             }
             subject.apply(&mut chunk, 1e-7);
             for i in 0..100 {
-                let (pair, d) = (subject.pair(chunk.radius[i], chunk.mass[i]), chunk.overlap[i]);
+                let (pair, d) = (subject.pair(chunk.effective_radius[i], chunk.effective_mass[i]), chunk.overlap[i]);
                 let force = pair.stiffness * d.powf(pair.constants.exponent);
                 let dashpot = pair.damping * d.powf(pair.damping_exponent);
                 assert!((chunk.normal_force[i] / force - 1.0).abs() < 1e-13, "{force}");
@@ -160,7 +161,7 @@ fn damping_coefficients_of_the_literature() {
 fn stiffness_of_the_damper_paper() {
     let (e, s, r, m) = (0.5e9_f64, 0.3_f64, 3e-3_f64, 0.2e-3);
     let contact = Contact { damping: Damping::Sqrt { reference_speed: 1.0 }, attraction: true, ..stack::hertz() };
-    let subject = Subject::new(&contact, Constants { young: e / (2.0 * (1.0 - s * s)), ..constants() });
+    let subject = Subject::new(&contact, Constants { effective_modulus: e / (2.0 * (1.0 - s * s)), ..constants() });
     // At the wall and between balls: k, c, largest overlap [um], contact time [1e-4 s].
     let cases = [(r, m, 2.00631e7, 203.8, 43.47, 1.280), (r / 2.0, m / 2.0, 1.41868e7, 125.4, 37.85, 1.114)];
     for (radius, mass, stiffness, damping, overlap, time) in cases {
@@ -190,14 +191,14 @@ fn elastic_impacts_of_chung_and_ooi() {
     for (young, poisson, density, radius, speed, wall, force, overlap, time) in cases {
         let plane: f64 = young * 1e9 / (1.0 - poisson * poisson);
         let young = if wall { plane } else { 0.5 * plane };
-        let subject = Subject::new(&stack::hertz(), Constants { young, ..constants() });
+        let subject = Subject::new(&stack::hertz(), Constants { effective_modulus: young, ..constants() });
         let ball = Ball::new(radius, density, DVec3::ZERO);
         let (back, strongest, deepest, touched) = meet(&subject, ball, if wall { Ball::plane() } else { ball }, speed);
         assert!((back - 1.0).abs() < 1e-5, "{back}");
         let near = |found: f64, told: f64| (found / told - 1.0).abs() < 1e-3;
         assert!(near(strongest, force) && near(deepest, overlap * 1e-6) && near(touched, time * 1e-6), "{force}");
         // The control: a wall a thousand times as stiff is not a rigid one (V-03: 11 365.3 N and 7 229.8 N).
-        let yielding = Subject::new(&stack::hertz(), Constants { young: young / 1.01, ..constants() });
+        let yielding = Subject::new(&stack::hertz(), Constants { effective_modulus: young / 1.01, ..constants() });
         let (_, weaker, ..) = meet(&yielding, ball, if wall { Ball::plane() } else { ball }, speed);
         assert!(!near(weaker, force));
     }

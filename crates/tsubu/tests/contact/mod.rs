@@ -64,7 +64,7 @@ impl Subject {
 /// Soft grains of every kind of friction and stickiness.
 pub fn constants() -> Constants {
     Constants {
-        young: 0.27e9,
+        effective_modulus: 0.27e9,
         shear_modulus: 0.06e9,
         restitution: 0.75,
         friction: 0.5,

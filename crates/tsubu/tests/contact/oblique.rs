@@ -13,7 +13,7 @@ fn oblique(subject: &Subject, ball: Ball, along: f64, down: f64) -> (f64, f64) {
     let ball = Ball { position: DVec3::new(0.0, 0.0, ball.radius), velocity, ..ball };
     let mut two = Two::new(subject, [ball, Ball::plane()]);
     two.fill();
-    let pair = subject.pair(two.chunk.radius[0], two.chunk.mass[0]);
+    let pair = subject.pair(two.chunk.effective_radius[0], two.chunk.effective_mass[0]);
     two.meet(pair.contact_time(down) / 4000.0, 100_000);
     (two.balls[0].velocity.x, two.balls[0].spin.y)
 }
@@ -24,7 +24,7 @@ fn oblique(subject: &Subject, ball: Ball, along: f64, down: f64) -> (f64, f64) {
 fn oxide_spheres_of_chung_and_ooi() {
     let (young, poisson, radius, speed, e, friction) = (380e9, 0.23, 2.5e-3, 3.9_f64, 0.98, 0.092);
     let constants = Constants {
-        young: young / (1.0 - poisson * poisson),
+        effective_modulus: young / (1.0 - poisson * poisson),
         shear_modulus: young / (2.0 * (1.0 + poisson) * (2.0 - poisson)),
         restitution: e,
         friction,
@@ -80,11 +80,12 @@ fn the_tangential_dashpot_is_as_told() {
         let contact = Contact { damping: Damping::Quarter {}, tangential, ..stack::hertz() };
         let subject = Subject::new(&contact, constants());
         let mut chunk = subject.chunk(1);
-        (chunk.normal[0][0], chunk.radius[0], chunk.mass[0], chunk.overlap[0]) = (1.0, 1e-3, 1e-5, 1e-5);
+        (chunk.normal[0][0], chunk.effective_radius[0], chunk.effective_mass[0], chunk.overlap[0]) =
+            (1.0, 1e-3, 1e-5, 1e-5);
         (chunk.slip[1][0], chunk.closing[0]) = (1e-3, 0.1);
         subject.apply(&mut chunk, 1e-12);
-        let dashpot = -(chunk.tangential_force[1][0] + chunk.shear[0] * 1e-15) / 1e-3;
-        let equal = (chunk.shear[0] / (1.5 * chunk.secant[0])).sqrt();
+        let dashpot = -(chunk.tangential_force[1][0] + chunk.tangential_stiffness[0] * 1e-15) / 1e-3;
+        let equal = (chunk.tangential_stiffness[0] / (1.5 * chunk.secant_stiffness[0])).sqrt();
         let expected = told.unwrap_or(equal) * chunk.dashpot[0];
         assert!((dashpot / expected - 1.0).abs() < 1e-6, "{dashpot} {expected}");
     }
@@ -115,7 +116,8 @@ fn cohesion_widens_the_cone() {
     let tangential = Tangential::Spring { ratio: 0.5, damping: 0.0, cohesion: 0.3 };
     let subject = Subject::new(&Contact { tangential, ..stack::hooke(1e5) }, constants());
     let mut chunk = subject.chunk(1);
-    (chunk.normal[0][0], chunk.radius[0], chunk.mass[0], chunk.overlap[0]) = (1.0, 1e-3, 1e-5, 1e-5);
+    (chunk.normal[0][0], chunk.effective_radius[0], chunk.effective_mass[0], chunk.overlap[0]) =
+        (1.0, 1e-3, 1e-5, 1e-5);
     chunk.slip[1][0] = 1.0;
     for _ in 0..1000 {
         subject.apply(&mut chunk, 1e-7);

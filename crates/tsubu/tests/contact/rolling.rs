@@ -23,7 +23,7 @@ fn roll(mut act: impl FnMut(&mut Chunk), subject: &Subject, spin: f64, drive: f6
     let (weight, inertia) = (9.81 * mass, 1.4 * mass * RADIUS * RADIUS);
     let mut chunk = subject.chunk(1);
     let stiffness = subject.pair(RADIUS, mass).stiffness;
-    (chunk.radius[0], chunk.mass[0], chunk.normal[2][0]) = (RADIUS, mass, -1.0);
+    (chunk.effective_radius[0], chunk.effective_mass[0], chunk.normal[2][0]) = (RADIUS, mass, -1.0);
     chunk.overlap[0] = (weight / stiffness).powf(2.0 / 3.0);
     let (mut spin, mut angle) = (spin, 0.0);
     (0..steps)
@@ -112,7 +112,8 @@ fn spin_falls_steadily() {
 /// One row of a contact between equal spheres of radius r.
 fn row(subject: &Subject, overlap: f64) -> Box<Chunk> {
     let mut chunk = subject.chunk(1);
-    (chunk.radius[0], chunk.mass[0], chunk.normal[0][0], chunk.overlap[0]) = (0.5 * RADIUS, 1e-4, 1.0, overlap);
+    (chunk.effective_radius[0], chunk.effective_mass[0], chunk.normal[0][0], chunk.overlap[0]) =
+        (0.5 * RADIUS, 1e-4, 1.0, overlap);
     chunk
 }
 
@@ -133,7 +134,7 @@ fn contact_width_loses_f_n_per_angle() {
     let told = 0.1 * width * chunk.normal_force[0];
     assert!((lost / angle / told - 1.0).abs() < 1e-12, "{} {told}", lost / angle);
     // The control: half the width of the disc of contact of Hertz, sqrt(R* d), on both sides.
-    assert!((lost / angle / (0.1 * 2.0 * chunk.disc[0] * chunk.normal_force[0]) - 1.0).abs() > 0.1);
+    assert!((lost / angle / (0.1 * 2.0 * chunk.contact_radius[0] * chunk.normal_force[0]) - 1.0).abs() > 0.1);
 }
 
 /// LAMMPS's `rolling sds` (from its documentation), with its normal from the second to the first body: v = R (w_i - w_j) x n

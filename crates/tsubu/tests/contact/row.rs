@@ -18,8 +18,8 @@ fn fill(chunk: &mut Chunk, numbers: &mut Numbers, speed: f64) {
         } else {
             overlap
         };
-        chunk.radius[i] = radius;
-        chunk.mass[i] = 1e4 * radius.powi(3) * numbers.between(0.5, 2.0);
+        chunk.effective_radius[i] = radius;
+        chunk.effective_mass[i] = 1e4 * radius.powi(3) * numbers.between(0.5, 2.0);
         let normal = numbers.vector(1.0).normalize();
         let flat = |v: glam::DVec3| v - normal * v.dot(normal);
         Chunk::set(&mut chunk.normal, i, normal);
@@ -59,17 +59,17 @@ fn faults(subject: &Subject, chunk: &Chunk, i: usize, held: f64, dt: f64) -> Str
     let spring = if let Tangential::Spring { cohesion, .. } = contact.tangential { cohesion } else { 0.0 };
     let cone = subject.constants.friction * (force + pull).max(0.0) + spring;
     ask(tangential.length() <= cone * (1.0 + 1e-12), "outside the cone; ");
-    let disc = chunk.disc[i];
+    let disc = chunk.contact_radius[i];
     let load = (force + pull).max(0.0);
     let normal = Chunk::vector(&chunk.normal, i);
     let (twisting, rolling) = (torque.dot(normal).abs(), (torque - normal * torque.dot(normal)).length());
     ask(twisting <= 0.2 * disc * load + 1e-9 * torque.length(), "twists too hard; ");
     // What has no spring may stop a motion within the step, and not turn it.
-    let inertia = 0.4 * chunk.mass[i] * chunk.radius[i] * chunk.radius[i];
+    let inertia = 0.4 * chunk.effective_mass[i] * chunk.effective_radius[i] * chunk.effective_radius[i];
     let slip = Chunk::vector(&chunk.slip, i).length();
     let gentle = |force: f64, mass: f64, speed: f64| force * dt <= 0.5 * mass * speed * (1.0 + 1e-9) + 1e-300;
     if matches!(contact.tangential, Tangential::Coulomb { .. }) {
-        ask(gentle(tangential.length(), chunk.mass[i], slip), "turns the slip; ");
+        ask(gentle(tangential.length(), chunk.effective_mass[i], slip), "turns the slip; ");
     }
     let springless = [Rolling::Constant { smoothing_speed: 1e-3 }, Rolling::ContactWidth { smoothing_speed: 1e-3 }];
     if springless.contains(&contact.rolling) || matches!(contact.rolling, Rolling::Viscous { .. }) {
@@ -82,7 +82,7 @@ fn faults(subject: &Subject, chunk: &Chunk, i: usize, held: f64, dt: f64) -> Str
     let arm = match contact.rolling {
         Rolling::ContactWidth { .. } => 8f64.sqrt() * disc,
         Rolling::Viscous { .. } => f64::INFINITY,
-        _ => chunk.radius[i],
+        _ => chunk.effective_radius[i],
     };
     ask(load == 0.0 || rolling <= 0.1 * arm * load + 1e-9 * torque.length(), "resists rolling too hard; ");
     ask(tangential.dot(normal).abs() <= 1e-9 * tangential.length(), "friction along the normal; ");

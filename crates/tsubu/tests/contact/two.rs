@@ -59,8 +59,8 @@ impl<'a> Two<'a> {
         let (closing, spin) = (relative.dot(normal), a.spin - b.spin);
         let c = &mut self.chunk;
         (c.overlap[0], c.closing[0], c.twist[0]) = (overlap, closing, spin.dot(normal));
-        c.radius[0] = 1.0 / (1.0 / a.radius + 1.0 / b.radius);
-        c.mass[0] = 1.0 / (1.0 / a.mass + 1.0 / b.mass);
+        c.effective_radius[0] = 1.0 / (1.0 / a.radius + 1.0 / b.radius);
+        c.effective_mass[0] = 1.0 / (1.0 / a.mass + 1.0 / b.mass);
         Chunk::set(&mut c.normal, 0, normal);
         Chunk::set(&mut c.slip, 0, relative - normal * closing);
         Chunk::set(&mut c.roll, 0, spin - normal * spin.dot(normal));
@@ -70,7 +70,8 @@ impl<'a> Two<'a> {
     /// Force and torque on both bodies, by the row.
     fn act(&mut self, dt: f64) {
         let arms = self.fill();
-        let reach = self.subject.law.reach(&self.subject.pair(self.chunk.radius[0], self.chunk.mass[0]));
+        let reach =
+            self.subject.law.reach(&self.subject.pair(self.chunk.effective_radius[0], self.chunk.effective_mass[0]));
         if self.chunk.overlap[0] <= -reach {
             self.chunk.history.iter_mut().for_each(|column| column[0] = 0.0);
             self.action = [[DVec3::ZERO; 2]; 2];

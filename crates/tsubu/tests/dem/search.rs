@@ -3,8 +3,8 @@
 use glam::DVec3;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-use tsubu::find::grid::HERE;
-use tsubu::find::{Candidates, Search};
+use tsubu::neighbours::grid::PRIMARY_IMAGE;
+use tsubu::neighbours::{NeighbourLists, Search};
 use tsubu::partner::Hosts;
 use tsubu::random::philox;
 use tsubu::state::Grains;
@@ -34,14 +34,14 @@ fn strewn(count: usize, small: f64, large: f64, frozen: bool, seed: u64) -> Grai
 }
 
 /// How often the lists have each pair: ids, the lower first, and the periods that the second is away.
-fn listed(candidates: &Candidates, grains: &Grains) -> BTreeMap<(u32, u32, [i32; 3]), usize> {
+fn listed(lists: &NeighbourLists, grains: &Grains) -> BTreeMap<(u32, u32, [i32; 3]), usize> {
     let mut pairs = BTreeMap::new();
-    for list in &candidates.lists {
+    for list in &lists.lists {
         for pair in &list.pairs {
-            let place = pair.place as usize;
-            let image = if place < list.own { HERE } else { list.halo[place - list.own].image };
+            let local = pair.second as usize;
+            let image = if local < list.own { PRIMARY_IMAGE } else { list.halo[local - list.own].image };
             let periods = [image % 3, image / 3 % 3, image / 9].map(|k| k as i32 - 1);
-            let (i, j) = (grains.id[list.first + pair.own as usize], grains.id[list.at[place] as usize]);
+            let (i, j) = (grains.id[list.first + pair.first as usize], grains.id[list.grain_at[local] as usize]);
             let key = if i < j { (i, j, periods) } else { (j, i, periods.map(|k| -k)) };
             *pairs.entry(key).or_default() += 1;
         }
@@ -52,7 +52,7 @@ fn listed(candidates: &Candidates, grains: &Grains) -> BTreeMap<(u32, u32, [i32;
 /// All pairs whose gap is below the skin and of which one can move, by looking at every image of every pair.
 fn all(grains: &Grains, search: &Search) -> Vec<(u32, u32, [i32; 3])> {
     let mut pairs = Vec::new();
-    let turns = |axis: usize| if search.ends[axis].is_some() { -1..=1 } else { 0..=0 };
+    let turns = |axis: usize| if search.periodic[axis].is_some() { -1..=1 } else { 0..=0 };
     for i in 0..grains.len() {
         for j in (0..grains.len()).filter(|&j| grains.id[i] < grains.id[j]) {
             if grains.inverse_mass[i] + grains.inverse_mass[j] == 0.0 {
@@ -81,10 +81,10 @@ fn stale(shape: Shape, axis: DVec3, angle: f64) -> bool {
     let hosts = Hosts::default();
     let mut walls = vec![Wall::new("turned", &plan, 3, &hosts, DVec3::ZERO)];
     let search = Search { skin, ..Search::default() };
-    let mut candidates = Candidates::default();
-    candidates.search(&grains, &walls, &search);
+    let mut lists = NeighbourLists::new(search);
+    lists.rebuild(&grains, &walls);
     walls[0].follow(1.0, &hosts);
-    candidates.stale(&grains, &walls, skin)
+    lists.stale(&grains, &walls)
 }
 
 /// A drum without ends that turns about its axis, or a floor about its normal, moves no surface. Rounding tilts both by 1e-16, and
@@ -118,12 +118,12 @@ proptest! {
     ) {
         // A grain may be near its own image, which is no pair, but not near an image two periods away.
         let large = (small * ratio).min(0.45);
-        let search = Search { skin, ends: periodic.map(|p| p.then_some([0.0, 1.0])), ..Search::default() };
+        let search = Search { skin, periodic: periodic.map(|p| p.then_some([0.0, 1.0])), ..Search::default() };
         let mut grains = strewn(count, small, large, frozen, seed);
-        let mut candidates = Candidates::default();
-        candidates.sort(&mut grains, &search);
-        candidates.search(&grains, &[], &search);
-        let listed = listed(&candidates, &grains);
+        let mut lists = NeighbourLists::new(search);
+        lists.sort_grains(&mut grains);
+        lists.rebuild(&grains, &[]);
+        let listed = listed(&lists, &grains);
         prop_assert!(listed.values().all(|&times| times == 1), "a pair is listed twice");
         let all = all(&grains, &search);
         prop_assert!(listed.keys().eq(&all), "{} pairs listed, {} near", listed.len(), all.len());

@@ -46,7 +46,16 @@ fn pairs(balls: &[Ball]) -> Vec<Contact> {
             between.x -= between.x.round();
             let force = DVec3::new(shaken(k) - 0.5, 0.0, shaken(k + 20) - 0.7);
             let position = balls[first].at + 0.4 * between;
-            Contact { first, second, wall: false, position, between, force, normal: between.normalize(), overlap: 0.0 }
+            Contact {
+                first,
+                second,
+                wall: false,
+                position,
+                branch: between,
+                force,
+                normal: between.normalize(),
+                overlap: 0.0,
+            }
         })
         .collect();
     contacts.push(on_wall(balls, 5, DVec3::new(0.05, 0.0, -0.09), DVec3::new(0.3, 0.0, 0.8)));
@@ -60,7 +69,7 @@ fn love_weber(balls: &[Ball], contacts: &[Contact]) -> [[f64; 3]; 3] {
         let to_point = c.position - balls[c.first].at;
         let held = !c.wall && !balls[c.second].free;
         // In the pair 6-7 the second is frozen.
-        let branch = if c.wall || held { to_point } else { c.between };
+        let branch = if c.wall || held { to_point } else { c.branch };
         for (a, row) in sum.iter_mut().enumerate() {
             for (b, entry) in row.iter_mut().enumerate() {
                 *entry += c.force[a] * branch[b];
@@ -102,8 +111,8 @@ fn the_integral_of_the_stress_is_that_of_love_and_weber() {
         assert!(miss < 1e-12, "{letters}: {miss:e}");
         // The control: a branch across the periodic end that goes through the world instead.
         let mut wrong = contacts.clone();
-        wrong[1].between = balls[3].at - balls[2].at;
-        let across = (wrong[1].between - contacts[1].between).length();
+        wrong[1].branch = balls[3].at - balls[2].at;
+        let across = (wrong[1].branch - contacts[1].branch).length();
         assert!(across > 0.5, "no contact across the end");
         let miss = stress_misses(&balls, &wrong, &contacts, field, letters);
         assert!(miss > 1e-3, "{letters}: {miss:e}");

@@ -3,16 +3,16 @@
 use super::{Ball, ball, column, near, on_wall, once, scalar, touching, view, watch};
 use glam::DVec3;
 
-type Ends = [Option<[f64; 2]>; 3];
+type PeriodicBounds = [Option<[f64; 2]>; 3];
 
 /// Square lattice, four by four, the world repeating itself both ways.
-fn square() -> (Vec<Ball>, Ends) {
+fn square() -> (Vec<Ball>, PeriodicBounds) {
     let ends = [Some([0.0, 4.0]), None, Some([0.0, 4.0])];
     ((0..16_usize).map(|k| ball((k % 4) as f64 + 0.5, 0.0, (k / 4) as f64 + 0.5, 0.5)).collect(), ends)
 }
 
 /// Triangular lattice, the same.
-fn triangular() -> (Vec<Ball>, Ends) {
+fn triangular() -> (Vec<Ball>, PeriodicBounds) {
     let row = 0.75_f64.sqrt();
     let at = |k: usize| {
         let (i, j) = (k % 4, k / 4);
@@ -76,7 +76,7 @@ fn walls_and_held_grains_count_as_asked() {
 
 #[test]
 fn lattices_are_isotropic_and_a_column_is_not() {
-    let fabric = |balls: &[Ball], ends: Ends| {
+    let fabric = |balls: &[Ball], ends: PeriodicBounds| {
         let mut fabric = watch(2, "fabric = {}");
         let sample = once(&mut *fabric, &view(balls, touching(balls, ends, 1.0), ends));
         ["fabric xx", "fabric xz", "fabric zz", "deviator"].map(|name| scalar(&*fabric, &sample, name))

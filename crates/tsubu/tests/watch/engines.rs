@@ -40,9 +40,9 @@ fn a_contact_across_the_end_knows_the_image() {
     let shown = engine.view(Wants::ALL);
     let pair = shown.contacts.iter().find(|c| !c.wall).unwrap();
     let (a, b) = (shown.grains.position[pair.first], shown.grains.position[pair.second]);
-    assert!(near(pair.between.length(), 0.0096_f64.hypot(0.002_795), 1e-12), "{:?}", pair.between);
+    assert!(near(pair.branch.length(), 0.0096_f64.hypot(0.002_795), 1e-12), "{:?}", pair.branch);
     assert!((b - a).length() > 0.09, "the control: not the way through the world");
-    assert!(pair.force.dot(pair.between) < 0.0, "they press each other apart");
+    assert!(pair.force.dot(pair.branch) < 0.0, "they press each other apart");
     assert!(near((shown.grains.radius[pair.first] - 0.5 * pair.overlap).abs(), (pair.position - a).length(), 1e-12));
     let held: Vec<bool> = (0..shown.len()).map(|i| !shown.free(i)).collect();
     assert_eq!((held, &*shown.grains.group), (vec![false, false, true], &[0, 0, 1][..]));
@@ -59,7 +59,7 @@ fn places_alone_are_the_same_places() {
         assert_eq!(all.iter().map(name).collect::<Vec<_>>(), places.iter().map(name).collect::<Vec<_>>());
         for (a, b) in all.iter().zip(&places) {
             assert!(near(a.overlap, b.overlap, 1e-9) && (a.normal - b.normal).length() < 1e-12);
-            assert!((a.position - b.position).length() < 1e-12 && (a.between - b.between).length() < 1e-12);
+            assert!((a.position - b.position).length() < 1e-12 && (a.branch - b.branch).length() < 1e-12);
             assert_eq!(b.force, DVec3::ZERO);
         }
         all.len()
@@ -87,7 +87,7 @@ fn a_floor_feels_weight_and_torque() {
     let contact = shown.contacts.iter().find(|c| c.wall).unwrap();
     assert!(
         near(contact.force.z, weight, 1e-6)
-            && near(contact.between.z, contact.position.z - shown.grains.position[contact.first].z, 1e-9)
+            && near(contact.branch.z, contact.position.z - shown.grains.position[contact.first].z, 1e-9)
     );
 }
 

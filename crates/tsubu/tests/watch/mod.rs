@@ -49,7 +49,7 @@ pub fn view(balls: &[Ball], contacts: Vec<Contact>, ends: [Option<[f64; 2]>; 3])
         group: balls.iter().map(|b| b.group).collect(),
         id: (0..balls.len() as u32).collect(),
     };
-    View { time: 0.0, ends, grains, contacts, walls: Vec::new(), water: None }
+    View { time: 0.0, periodic: ends, grains, contacts, walls: Vec::new(), water: None }
 }
 
 /// Every pair that touches, also across periodic ends, pressed together with `force` [N].
@@ -68,7 +68,16 @@ pub fn touching(balls: &[Ball], ends: [Option<[f64; 2]>; 3], force: f64) -> Vec<
                 let normal = between.normalize();
                 let position = a.at + normal * (a.radius - 0.5 * overlap);
                 let force = -force * normal;
-                contacts.push(Contact { first: i, second: j, wall: false, position, between, force, normal, overlap });
+                contacts.push(Contact {
+                    first: i,
+                    second: j,
+                    wall: false,
+                    position,
+                    branch: between,
+                    force,
+                    normal,
+                    overlap,
+                });
             }
         }
     }
@@ -78,7 +87,7 @@ pub fn touching(balls: &[Ball], ends: [Option<[f64; 2]>; 3], force: f64) -> Vec<
 /// A contact with a wall, whose point is `arm` from the centre.
 pub fn on_wall(balls: &[Ball], first: usize, arm: DVec3, force: DVec3) -> Contact {
     let (normal, position) = (arm.normalize(), balls[first].at + arm);
-    Contact { first, second: 0, wall: true, position, between: arm, force, normal, overlap: 0.0 }
+    Contact { first, second: 0, wall: true, position, branch: arm, force, normal, overlap: 0.0 }
 }
 
 /// A scene with one watch `w`; `more` goes in front of it.

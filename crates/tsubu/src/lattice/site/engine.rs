@@ -251,7 +251,16 @@ impl SiteEngine {
                     .add(&WallLoad { force, torque: (position - self.scene.walls[second].pose.origin()).cross(force) });
             }
             let normal = between.normalize_or(DVec3::NEG_Z);
-            contacts.push(Contact { first, second, wall, position, between, force: -force, normal, overlap: 0.0 });
+            contacts.push(Contact {
+                first,
+                second,
+                wall,
+                position,
+                branch: between,
+                force: -force,
+                normal,
+                overlap: 0.0,
+            });
         }
         (contacts, loads)
     }
@@ -396,7 +405,7 @@ impl Engine for SiteEngine {
         };
         let needs = wants.walls || wants.contacts > Contacts::Nothing;
         let (contacts, walls) = if needs { self.forces(&bodies) } else { (Vec::new(), Vec::new()) };
-        View { time: self.time(), ends: self.scene.ground.ends(), grains, contacts, walls, water: None }
+        View { time: self.time(), periodic: self.scene.ground.ends(), grains, contacts, walls, water: None }
     }
 
     fn save(&self, state: &mut State) {

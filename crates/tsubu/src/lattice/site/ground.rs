@@ -94,7 +94,7 @@ impl Ground {
         Some(Self { sites, spacing, columns, rows, periodic, origin })
     }
 
-    /// Ends of the world along the axes that repeat themselves [m].
+    /// PeriodicBounds of the world along the axes that repeat themselves [m].
     pub fn ends(&self) -> [Option<[f64; 2]>; 3] {
         let (wide, high) = self.sites.pitch();
         let low = self.origin - self.spacing * DVec3::new(0.5 * wide, 0.0, 0.25);

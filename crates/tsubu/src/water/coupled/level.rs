@@ -50,7 +50,7 @@ impl Coupled {
         let mut momentum: Vec<f64> = (0..self.layers.len()).map(|k| self.mass(k) * self.velocity[k]).collect();
         let held: Vec<f64> = (0..self.layers.len()).map(|k| self.layers.water(k)).collect();
         match self.top {
-            Top::Lid { .. } => self.layers.open = self.layers.measure(position, radius),
+            Top::Lid { .. } => self.layers.porosity = self.layers.measure(position, radius),
             Top::Free { supply } => {
                 let missing = supply.map_or(0.0, |(discharge, reach)| (discharge - self.discharge()) / reach);
                 self.volume += seconds * missing;
@@ -88,7 +88,7 @@ impl Coupled {
 /// it never fills more than its own height, so the level comes up (or down) to where it belongs and not beyond.
 fn find_level(layers: &mut Layers, volume: f64, position: &[DVec3], radius: &[f64]) {
     for _ in 0..200 {
-        layers.open = layers.measure(position, radius);
+        layers.porosity = layers.measure(position, radius);
         let missing = volume - layers.volume();
         if missing.abs() <= ROUND_OFF * volume {
             return;

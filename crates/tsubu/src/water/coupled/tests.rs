@@ -150,12 +150,12 @@ fn turbulence_follows_the_stress() {
 fn a_deep_bed_mixes_no_more_than_a_shallow_one() {
     let stress_above = |bed: usize, filled: f64| {
         let mut stream = stream(40, false);
-        stream.layers.open[..bed].fill(1.0 - filled);
+        stream.layers.porosity[..bed].fill(1.0 - filled);
         for k in 0..40 {
             stream.velocity[k] = 0.01 * k as f64;
         }
         // The water over the bed is as deep, so that its surface is as near.
-        stream.layers.open.truncate(bed + 20);
+        stream.layers.porosity.truncate(bed + 20);
         stream.velocity.truncate(bed + 20);
         stream.stiffness();
         stream.stiff[bed + 2]

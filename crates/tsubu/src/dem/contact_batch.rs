@@ -1,104 +1,104 @@
-//! From touching pairs to rows of a chunk, and from the results of the law to forces and torques.
+//! A batch of contacts: from touching pairs to rows of a chunk, and from the results of the law to forces and torques.
 
-use super::sieve::{Hit, Spheres};
+use super::narrow_phase::{Spheres, TouchingPair};
 use crate::contact::Table;
 use crate::contact::chunk::{Chunk, Column, ROWS, ZERO};
-use crate::find::candidates::List;
+use crate::neighbours::lists::BlockList;
 use crate::state::Grains;
 use glam::DVec3;
 use multiversion::multiversion;
 
-/// One chunk at work: what the law sees, and what it need not see.
+/// One chunk at work: what the law sees, and what it need not see (bodies, branch vectors, lever arms, forces and torques).
 #[derive(Clone, Debug)]
-pub(super) struct Rows {
+pub(super) struct ContactBatch {
     pub chunk: Chunk,
-    /// Place of the first body.
+    /// Local index of the first body.
     pub first: [u32; ROWS],
-    /// Place of the second body.
+    /// Local index of the second body, or number of the wall.
     pub second: [u32; ROWS],
-    /// Centre of the second body from that of the first [m]; the geometry pass reads it.
-    pub between: [Column; 3],
+    /// Branch vector: centre of the second body from that of the first [m]; the geometry pass reads it.
+    pub branch: [Column; 3],
     /// Radii [m].
     pub radius: [Column; 2],
     /// Sum of inverse masses [1/kg].
     pub inverse_mass: Column,
     /// Relative velocity of the centres [m/s].
-    pub relative: [Column; 3],
+    pub relative_velocity: [Column; 3],
     /// Spins [rad/s].
     pub spin: [[Column; 3]; 2],
     /// Lever arms [m].
-    pub arm: [Column; 2],
+    pub lever_arm: [Column; 2],
     /// Result: force on the first body [N].
     pub force: [Column; 3],
     /// Result: the part of it that takes energy away [N].
-    pub lossy: [Column; 3],
+    pub dissipative: [Column; 3],
     /// Result: torque on both bodies [N.m].
-    pub turn: [[Column; 3]; 2],
-    /// Which pair of materials all rows of the chunk have been filled with.
-    filled: Option<u32>,
+    pub torque: [[Column; 3]; 2],
+    /// Which pair of materials all rows of the chunk are filled with.
+    filled_with: Option<u32>,
     /// Pair of materials of each row.
-    pub material: [u32; ROWS],
+    pub material_pair: [u32; ROWS],
 }
 
-impl Rows {
+impl ContactBatch {
     pub fn new(history: usize) -> Self {
         const V: [Column; 3] = [ZERO; 3];
         Self {
             chunk: Chunk::new(history),
             first: [0; ROWS],
             second: [0; ROWS],
-            between: V,
+            branch: V,
             radius: [ZERO; 2],
             inverse_mass: ZERO,
-            relative: V,
+            relative_velocity: V,
             spin: [V; 2],
-            arm: [ZERO; 2],
+            lever_arm: [ZERO; 2],
             force: V,
-            lossy: V,
-            turn: [V; 2],
-            filled: None,
-            material: [0; ROWS],
+            dissipative: V,
+            torque: [V; 2],
+            filled_with: None,
+            material_pair: [0; ROWS],
         }
     }
 
     /// Takes pairs of touching grains: what the geometry pass reads.
     pub fn gather(
         &mut self,
-        hits: &[Hit],
+        touching: &[TouchingPair],
         grains: &Grains,
-        list: &List,
+        list: &BlockList,
         spheres: &Spheres,
         table: &Table,
         rotation: bool,
     ) {
-        gather(self, hits, grains, list, spheres, table, rotation);
+        gather(self, touching, grains, list, spheres, table, rotation);
     }
 
     /// Fills the constants of the materials; nothing to do where all rows are of the pair that is already there.
     pub fn constants(&mut self, table: &Table) {
         let n = self.chunk.rows();
-        let Some(&first) = self.material[..n].first() else { return };
-        if self.material[..n].iter().all(|&m| m == first) {
-            if self.filled != Some(first) {
+        let Some(&first) = self.material_pair[..n].first() else { return };
+        if self.material_pair[..n].iter().all(|&m| m == first) {
+            if self.filled_with != Some(first) {
                 self.chunk.set_constants(0..ROWS, table.constants(first));
-                self.filled = Some(first);
+                self.filled_with = Some(first);
             }
             return;
         }
-        self.filled = None;
+        self.filled_with = None;
         for i in 0..n {
-            self.chunk.set_constants(i..i + 1, table.constants(self.material[i]));
+            self.chunk.set_constants(i..i + 1, table.constants(self.material_pair[i]));
         }
     }
 
-    /// Geometry of two spheres, from `between`, `radius`, `relative` and `spin` into the columns of the chunk.
-    pub fn spheres(&mut self, rotation: bool) {
-        spheres(self);
-        self.motion(rotation);
+    /// Geometry of two spheres, from `branch`, `radius`, `relative_velocity` and `spin` into the columns of the chunk.
+    pub fn sphere_geometry(&mut self, rotation: bool) {
+        sphere_geometry(self);
+        self.relative_motion(rotation);
     }
 
-    /// Relative motion at the point of contact, from normals, arms, `relative` and `spin`.
-    pub fn motion(&mut self, rotation: bool) {
+    /// Relative motion at the point of contact, from normals, lever arms, `relative_velocity` and `spin`.
+    pub fn relative_motion(&mut self, rotation: bool) {
         if rotation {
             surface_velocity(self);
         }
@@ -106,12 +106,12 @@ impl Rows {
     }
 
     /// Relative spin, split into rolling and twisting.
-    pub fn rolling(&mut self) {
+    pub fn relative_spin(&mut self) {
         split_spin(self);
     }
 
     /// Force on the first body and torques on both, of every row.
-    pub fn actions(&mut self, rotation: bool) {
+    pub fn forces_and_torques(&mut self, rotation: bool) {
         forces(self);
         if rotation {
             torques(self);
@@ -119,50 +119,50 @@ impl Rows {
     }
 
     /// Point of contact of row `i`, from the centre of the first body [m].
-    pub fn point(&self, i: usize) -> DVec3 {
-        Chunk::vector(&self.chunk.normal, i) * self.arm[0][i]
+    pub fn contact_point(&self, i: usize) -> DVec3 {
+        Chunk::vector(&self.chunk.normal, i) * self.lever_arm[0][i]
     }
 }
 
 #[multiversion(targets = "simd")]
 fn gather(
-    rows: &mut Rows,
-    hits: &[Hit],
+    batch: &mut ContactBatch,
+    touching: &[TouchingPair],
     grains: &Grains,
-    list: &List,
+    list: &BlockList,
     spheres: &Spheres,
     table: &Table,
     rotation: bool,
 ) {
-    rows.chunk.len = hits.len().min(ROWS);
-    for (r, hit) in hits.iter().enumerate().take(ROWS) {
-        let place = list.pairs[hit.candidate as usize].place;
-        rows.first[r] = hit.own;
-        rows.second[r] = place;
-        let (a, b) = (spheres.at(hit.own), spheres.at(place));
+    batch.chunk.len = touching.len().min(ROWS);
+    for (r, pair) in touching.iter().enumerate().take(ROWS) {
+        let second = list.pairs[pair.pair as usize].second;
+        batch.first[r] = pair.first;
+        batch.second[r] = second;
+        let (a, b) = (spheres.at(pair.first), spheres.at(second));
         for k in 0..3 {
-            rows.between[k][r] = b[k] - a[k];
+            batch.branch[k][r] = b[k] - a[k];
         }
-        rows.radius[0][r] = a[3];
-        rows.radius[1][r] = b[3];
-        let (i, j) = (list.first + hit.own as usize, list.at[place as usize] as usize);
+        batch.radius[0][r] = a[3];
+        batch.radius[1][r] = b[3];
+        let (i, j) = (list.first + pair.first as usize, list.grain_at[second as usize] as usize);
         let relative = grains.velocity[i] - grains.velocity[j];
-        Chunk::set(&mut rows.relative, r, relative);
-        rows.inverse_mass[r] = grains.inverse_mass[i] + grains.inverse_mass[j];
-        rows.material[r] = table.index(grains.material[i], grains.material[j]);
+        Chunk::set(&mut batch.relative_velocity, r, relative);
+        batch.inverse_mass[r] = grains.inverse_mass[i] + grains.inverse_mass[j];
+        batch.material_pair[r] = table.index(grains.material[i], grains.material[j]);
         if rotation {
-            Chunk::set(&mut rows.spin[0], r, grains.spin[i]);
-            Chunk::set(&mut rows.spin[1], r, grains.spin[j]);
+            Chunk::set(&mut batch.spin[0], r, grains.spin[i]);
+            Chunk::set(&mut batch.spin[1], r, grains.spin[j]);
         }
     }
 }
 
 #[multiversion(targets = "simd")]
-fn spheres(rows: &mut Rows) {
-    let n = rows.chunk.rows();
-    let c = &mut rows.chunk;
-    let [bx, by, bz] = &rows.between;
-    let [r1, r2] = &rows.radius;
+fn sphere_geometry(batch: &mut ContactBatch) {
+    let n = batch.chunk.rows();
+    let c = &mut batch.chunk;
+    let [bx, by, bz] = &batch.branch;
+    let [r1, r2] = &batch.radius;
     let [nx, ny, nz] = &mut c.normal;
     for i in 0..n {
         let squared = bx[i] * bx[i] + by[i] * by[i] + bz[i] * bz[i];
@@ -175,21 +175,21 @@ fn spheres(rows: &mut Rows) {
         let sum = r1[i] + r2[i];
         let overlap = sum - distance;
         c.overlap[i] = overlap;
-        c.radius[i] = r1[i] * r2[i] / sum;
-        c.mass[i] = 1.0 / rows.inverse_mass[i];
-        rows.arm[0][i] = r1[i] - 0.5 * overlap;
-        rows.arm[1][i] = r2[i] - 0.5 * overlap;
+        c.effective_radius[i] = r1[i] * r2[i] / sum;
+        c.effective_mass[i] = 1.0 / batch.inverse_mass[i];
+        batch.lever_arm[0][i] = r1[i] - 0.5 * overlap;
+        batch.lever_arm[1][i] = r2[i] - 0.5 * overlap;
     }
 }
 
 /// Adds what spin gives to the relative velocity at the point of contact: (w1 a1 + w2 a2) x n.
 #[multiversion(targets = "simd")]
-fn surface_velocity(rows: &mut Rows) {
-    let n = rows.chunk.rows();
-    let [nx, ny, nz] = &rows.chunk.normal;
-    let [[px, py, pz], [qx, qy, qz]] = &rows.spin;
-    let [vx, vy, vz] = &mut rows.relative;
-    let [a, b] = &rows.arm;
+fn surface_velocity(batch: &mut ContactBatch) {
+    let n = batch.chunk.rows();
+    let [nx, ny, nz] = &batch.chunk.normal;
+    let [[px, py, pz], [qx, qy, qz]] = &batch.spin;
+    let [vx, vy, vz] = &mut batch.relative_velocity;
+    let [a, b] = &batch.lever_arm;
     for i in 0..n {
         let wx = px[i] * a[i] + qx[i] * b[i];
         let wy = py[i] * a[i] + qy[i] * b[i];
@@ -201,11 +201,11 @@ fn surface_velocity(rows: &mut Rows) {
 }
 
 #[multiversion(targets = "simd")]
-fn split_velocity(rows: &mut Rows) {
-    let n = rows.chunk.rows();
-    let c = &mut rows.chunk;
+fn split_velocity(batch: &mut ContactBatch) {
+    let n = batch.chunk.rows();
+    let c = &mut batch.chunk;
     let [nx, ny, nz] = &c.normal;
-    let [vx, vy, vz] = &rows.relative;
+    let [vx, vy, vz] = &batch.relative_velocity;
     let [sx, sy, sz] = &mut c.slip;
     for i in 0..n {
         let closing = vx[i] * nx[i] + vy[i] * ny[i] + vz[i] * nz[i];
@@ -217,10 +217,10 @@ fn split_velocity(rows: &mut Rows) {
 }
 
 #[multiversion(targets = "simd")]
-fn split_spin(rows: &mut Rows) {
-    let n = rows.chunk.rows();
-    let c = &mut rows.chunk;
-    let [[px, py, pz], [qx, qy, qz]] = &rows.spin;
+fn split_spin(batch: &mut ContactBatch) {
+    let n = batch.chunk.rows();
+    let c = &mut batch.chunk;
+    let [[px, py, pz], [qx, qy, qz]] = &batch.spin;
     let [nx, ny, nz] = &c.normal;
     let [rx, ry, rz] = &mut c.roll;
     for i in 0..n {
@@ -234,36 +234,36 @@ fn split_spin(rows: &mut Rows) {
 }
 
 #[multiversion(targets = "simd")]
-fn forces(rows: &mut Rows) {
-    let c = &rows.chunk;
+fn forces(batch: &mut ContactBatch) {
+    let c = &batch.chunk;
     let n = c.rows();
     for k in 0..3 {
         let (normal, tangential) = (&c.normal[k], &c.tangential_force[k]);
-        let (force, lossy) = (&mut rows.force[k], &mut rows.lossy[k]);
+        let (force, dissipative) = (&mut batch.force[k], &mut batch.dissipative[k]);
         for i in 0..n {
             force[i] = tangential[i] - normal[i] * c.normal_force[i];
-            lossy[i] = tangential[i] - normal[i] * c.damping_force[i];
+            dissipative[i] = tangential[i] - normal[i] * c.damping_force[i];
         }
     }
 }
 
 /// n x f_t at each arm, and the torques that the law has given.
 #[multiversion(targets = "simd")]
-fn torques(rows: &mut Rows) {
-    let c = &rows.chunk;
+fn torques(batch: &mut ContactBatch) {
+    let c = &batch.chunk;
     let n = c.rows();
-    let [a, b] = &rows.arm;
+    let [a, b] = &batch.lever_arm;
     for k in 0..3 {
         let (u, v) = ((k + 1) % 3, (k + 2) % 3);
         let (nu, nv) = (&c.normal[u], &c.normal[v]);
         let (tu, tv) = (&c.tangential_force[u], &c.tangential_force[v]);
         let torque = &c.torque[k];
-        let [first, second] = &mut rows.turn;
+        let [first, second] = &mut batch.torque;
         let (first, second) = (&mut first[k], &mut second[k]);
         for i in 0..n {
-            let turn = nu[i] * tv[i] - nv[i] * tu[i];
-            first[i] = turn * a[i] + torque[i];
-            second[i] = turn * b[i] - torque[i];
+            let moment = nu[i] * tv[i] - nv[i] * tu[i];
+            first[i] = moment * a[i] + torque[i];
+            second[i] = moment * b[i] - torque[i];
         }
     }
 }

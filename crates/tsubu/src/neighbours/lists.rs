@@ -1,4 +1,4 @@
-//! Pairs that are near enough to touch before the list is made again.
+//! Neighbour lists: pairs that are near enough to touch before the lists are rebuilt (Verlet lists, with a skin).
 //!
 //! Grains are kept sorted in space and cut into blocks of [`BLOCK`]. Every block has its own list: pairs whose first grain
 //! is in the block, in the order of that grain, with the second grain anywhere. Blocks depend on the grains alone, never
@@ -9,7 +9,7 @@
 //! ones near it and for large ones farther away, never the other way round.
 
 use super::drift::Drifts;
-use super::grid::{Ends, Grid, HERE, Image, Met, Numbering, shift};
+use super::grid::{Grid, Image, Nearby, Numbering, PRIMARY_IMAGE, PeriodicBounds, shift};
 use crate::state::Grains;
 use crate::threads;
 use crate::wall::{Pose, Wall};
@@ -36,10 +36,10 @@ const ONE_LEVEL: f64 = 2.5;
 /// Two grains that may touch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pair {
-    /// First grain, counted from the first of the block.
-    pub own: u32,
-    /// Place of the second grain: own grains first, then the halo.
-    pub place: u32,
+    /// Local index of the first grain, an own one.
+    pub first: u32,
+    /// Local index of the second grain: own grains first, then the halo.
+    pub second: u32,
 }
 
 /// A wall element near a grain.
@@ -60,13 +60,13 @@ pub struct Incoming {
     pub own: u32,
     /// The other block.
     pub block: u32,
-    /// Place in the other block.
-    pub place: u32,
+    /// Its local index in the other block.
+    pub local: u32,
 }
 
-/// The candidates of one block.
+/// The neighbour list of one block.
 #[derive(Clone, Debug, Default)]
-pub struct List {
+pub struct BlockList {
     /// Index of its first grain.
     pub first: usize,
     /// Number of its grains.
@@ -77,8 +77,8 @@ pub struct List {
     pub pairs: Vec<Pair>,
     /// What appears in `pairs` besides own grains: grains of other blocks, and images across a periodic end; rising.
     pub halo: Vec<Image>,
-    /// Index of the grain at each place.
-    pub at: Vec<u32>,
+    /// Index of the grain with each local index.
+    pub grain_at: Vec<u32>,
     /// Wall elements near own grains, sorted.
     pub walls: Vec<WallCandidate>,
     /// What other blocks hold for own grains, by grain and then in the order of the blocks.
@@ -90,23 +90,25 @@ pub struct List {
 /// Memory of one thread that makes lists.
 #[derive(Debug, Default)]
 struct Finder {
-    met: Met,
+    nearby: Nearby,
     /// Second grains of all pairs of the block.
     seconds: Vec<Image>,
-    /// Place of every grain in the halo of the block; [`NOWHERE`] between blocks.
-    places: Vec<u32>,
+    /// Local index of every grain in the halo of the block; [`NOT_IN_HALO`] between blocks.
+    local_of: Vec<u32>,
     /// Wall elements near a grain.
     elements: Vec<u32>,
 }
 
-/// The place of what is not in the halo.
-const NOWHERE: u32 = u32::MAX;
+/// The local index of what is not in the halo.
+const NOT_IN_HALO: u32 = u32::MAX;
 
-/// Candidate lists of all blocks, and where everything was when they were made.
+/// The neighbour lists of all blocks, and where everything was when they were made.
 #[derive(Debug, Default)]
-pub struct Candidates {
+pub struct NeighbourLists {
+    /// How the lists are made.
+    pub search: Search,
     /// One list a block.
-    pub lists: Vec<List>,
+    pub lists: Vec<BlockList>,
     /// Positions at the time of the search.
     pub reference: Vec<DVec3>,
     /// Poses of the walls at the time of the search.
@@ -122,27 +124,40 @@ pub struct Candidates {
     finders: Vec<Mutex<Finder>>,
 }
 
-/// How the search is made.
+/// How neighbour lists are made.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Search {
-    /// Gap below which a pair is a candidate, less the law's reach [m].
+    /// Verlet skin: gap below which a pair is in the list, less the law's reach [m].
     pub skin: f64,
     /// Gap at which bodies may still hold each other [m].
     pub reach: f64,
     /// Periodic axes.
-    pub ends: Ends,
+    pub periodic: PeriodicBounds,
 }
 
-impl Candidates {
-    /// Whether the list may miss a touching pair.
-    pub fn stale(&self, grains: &Grains, walls: &[Wall], skin: f64) -> bool {
+impl NeighbourLists {
+    /// Empty lists.
+    pub fn new(search: Search) -> Self {
+        Self { search, ..Self::default() }
+    }
+
+    /// Whether the lists may miss a touching pair.
+    pub fn stale(&self, grains: &Grains, walls: &[Wall]) -> bool {
         self.reference.len() != grains.len()
-            || self.drifts.stale(skin, self.drifts.walls_moved(walls, &self.wall_reference))
+            || self.drifts.stale(self.search.skin, self.drifts.walls_moved(walls, &self.wall_reference))
+    }
+
+    /// Estimates how much work a step is in each block, from how many contacts each has.
+    pub fn estimate_work(&mut self, contacts: impl Iterator<Item = usize>) {
+        for (list, contacts) in self.lists.iter_mut().zip(contacts) {
+            list.estimate_work(contacts);
+        }
     }
 
     /// Puts grains back between the periodic ends and sorts them by cell. Without effect on a small run.
-    pub fn sort(&mut self, grains: &mut Grains, search: &Search) {
-        for (axis, end) in search.ends.iter().enumerate() {
+    pub fn sort_grains(&mut self, grains: &mut Grains) {
+        let search = self.search;
+        for (axis, end) in search.periodic.iter().enumerate() {
             let Some([low, high]) = *end else { continue };
             for i in 0..grains.len() {
                 let x = grains.position[i][axis];
@@ -159,30 +174,31 @@ impl Candidates {
         let mean = grains.radius.iter().sum::<f64>() / grains.len() as f64;
         self.order.numbering = Numbering::Lumps;
         let size = 2.0 * mean + search.skin;
-        self.order.fill(&grains.position, &grains.radius, 0..grains.len() as u32, size, &search.ends);
+        self.order.fill(&grains.position, &grains.radius, 0..grains.len() as u32, size, &search.periodic);
         grains.permute(self.order.order());
     }
 
     /// Makes the lists for the present positions.
-    pub fn search(&mut self, grains: &Grains, walls: &[Wall], search: &Search) {
+    pub fn rebuild(&mut self, grains: &Grains, walls: &[Wall]) {
         self.reference.clone_from(&grains.position);
         self.wall_reference.clear();
         self.wall_reference.extend(walls.iter().map(|w| w.pose));
-        self.list(grains, walls, search);
+        self.build(grains, walls);
     }
 
     /// Makes the lists as they were made at the remembered positions: after a resume nothing may differ. `walls` stand
     /// where they stood then.
-    pub fn list(&mut self, grains: &Grains, walls: &[Wall], search: &Search) {
+    pub fn build(&mut self, grains: &Grains, walls: &[Wall]) {
+        let search = self.search;
         let n = grains.len();
         if self.shifts.is_empty() {
-            self.shifts = (0..27).map(|image| shift(&search.ends, image)).collect();
+            self.shifts = (0..27).map(|image| shift(&search.periodic, image)).collect();
         }
-        let small = n <= SMALL && search.ends.iter().all(Option::is_none);
+        let small = n <= SMALL && search.periodic.iter().all(Option::is_none);
         if !small {
-            self.fill_levels(grains, search);
+            self.fill_levels(grains);
         }
-        self.lists.resize_with(n.div_ceil(BLOCK), List::default);
+        self.lists.resize_with(n.div_ceil(BLOCK), BlockList::default);
         for (block, list) in self.lists.iter_mut().enumerate() {
             list.first = block * BLOCK;
             list.own = BLOCK.min(n - list.first);
@@ -195,27 +211,27 @@ impl Candidates {
             let mut finder = self.finders[mine].lock().unwrap_or_else(PoisonError::into_inner);
             let finder = &mut *finder;
             finder.seconds.clear();
-            finder.places.resize(n, NOWHERE);
+            finder.local_of.resize(n, NOT_IN_HALO);
             list.clear();
             for own in 0..list.own {
                 let i = list.first + own;
                 if small {
-                    self.later(finder, grains, search, i);
+                    self.neighbours_of_few(finder, grains, i);
                 } else {
-                    self.neighbours(finder, grains, search, i);
+                    self.neighbours(finder, grains, i);
                 }
                 list.start.push(finder.seconds.len() as u32);
                 let reach = grains.radius[i] + search.skin + search.reach;
                 let moves = grains.inverse_mass[i] > 0.0;
                 list.near_walls(walls, own as u32, self.reference[i], reach, moves, &mut finder.elements);
             }
-            list.place(finder);
+            list.number_locally(finder);
         });
         for block in 0..lists.len() {
             for h in 0..lists[block].halo.len() {
                 let grain = lists[block].halo[h].grain as usize;
-                let place = (lists[block].own + h) as u32;
-                let incoming = Incoming { own: (grain % BLOCK) as u32, block: block as u32, place };
+                let local = (lists[block].own + h) as u32;
+                let incoming = Incoming { own: (grain % BLOCK) as u32, block: block as u32, local };
                 lists[grain / BLOCK].incoming.push(incoming);
             }
         }
@@ -224,11 +240,12 @@ impl Candidates {
             list.incoming.sort_by_key(|i| i.own);
         }
         self.lists = lists;
-        self.drifts.reset(&self.lists, &self.reference, grains, walls, search.skin, &search.ends);
+        self.drifts.reset(&self.lists, &self.reference, grains, walls, search.skin, &search.periodic);
     }
 
     /// Sorts grains into one grid for each factor of two in size.
-    fn fill_levels(&mut self, grains: &Grains, search: &Search) {
+    fn fill_levels(&mut self, grains: &Grains) {
+        let search = self.search;
         let ends = grains.radius.iter().fold((f64::INFINITY, 0.0f64), |(l, h), &r| (l.min(r), h.max(r)));
         self.level_of.clear();
         if ends.1 < ONE_LEVEL * ends.0 {
@@ -248,45 +265,45 @@ impl Candidates {
         for (level, grid) in self.levels.iter_mut().enumerate() {
             let members = (0..grains.len() as u32).filter(|&i| usize::from(self.level_of[i as usize]) == level);
             let size = 2.0 * self.largest[level] + search.skin + search.reach;
-            grid.fill(&self.reference, &grains.radius, members, size, &search.ends);
+            grid.fill(&self.reference, &grains.radius, members, size, &search.periodic);
         }
     }
 
     /// Finds the grains that are paired with grain `i` in its list: those of its size in half of the directions, since the
     /// other half finds it, and larger ones in all.
     #[inline]
-    fn neighbours(&self, finder: &mut Finder, grains: &Grains, search: &Search, i: usize) {
+    fn neighbours(&self, finder: &mut Finder, grains: &Grains, i: usize) {
         let level = usize::from(self.level_of[i]);
-        let reach = grains.radius[i] + search.skin + search.reach;
+        let reach = grains.radius[i] + self.search.skin + self.search.reach;
         let moves = grains.inverse_mass[i] > 0.0;
         for (higher, grid) in self.levels.iter().enumerate().skip(level) {
-            finder.met.clear();
+            finder.nearby.clear();
             if higher > level {
-                grid.near(self.reference[i], reach, &self.shifts, &mut finder.met);
+                grid.near(self.reference[i], reach, &self.shifts, &mut finder.nearby);
             } else {
-                grid.ahead(i as u32, self.reference[i], reach, &self.shifts, &mut finder.met);
+                grid.ahead(i as u32, self.reference[i], reach, &self.shifts, &mut finder.nearby);
             }
             // Two grains that nothing moves need not be watched, nor a grain and its own image.
             let watched = |m: &&Image| (moves || grains.inverse_mass[m.grain as usize] > 0.0) && m.grain as usize != i;
-            finder.seconds.extend(finder.met.found().iter().filter(watched));
+            finder.seconds.extend(finder.nearby.found().iter().filter(watched));
         }
     }
 
     /// The same for few grains, without a grid.
-    fn later(&self, finder: &mut Finder, grains: &Grains, search: &Search, i: usize) {
+    fn neighbours_of_few(&self, finder: &mut Finder, grains: &Grains, i: usize) {
         for j in i + 1..grains.len() {
-            let limit = grains.radius[i] + grains.radius[j] + search.skin + search.reach;
+            let limit = grains.radius[i] + grains.radius[j] + self.search.skin + self.search.reach;
             let near = self.reference[i].distance_squared(self.reference[j]) < limit * limit;
             if near && grains.inverse_mass[i] + grains.inverse_mass[j] > 0.0 {
-                finder.seconds.push(Image { grain: j as u32, image: HERE });
+                finder.seconds.push(Image { grain: j as u32, image: PRIMARY_IMAGE });
             }
         }
     }
 }
 
-impl List {
+impl BlockList {
     /// Estimates the work from what is near and how many `contacts` there are, as measured with beds at rest.
-    pub fn expect(&mut self, contacts: usize) {
+    fn estimate_work(&mut self, contacts: usize) {
         self.work = self.own / 2 + self.pairs.len() / 4 + self.walls.len() + contacts;
     }
 
@@ -317,38 +334,38 @@ impl List {
         }
     }
 
-    /// Gives every second grain its place in the block.
-    fn place(&mut self, finder: &mut Finder) {
-        let Finder { seconds, places, .. } = finder;
+    /// Gives every second grain its local index.
+    fn number_locally(&mut self, finder: &mut Finder) {
+        let Finder { seconds, local_of, .. } = finder;
         let inside = self.first as u32..(self.first + self.own) as u32;
-        let own = |c: &Image| c.image == HERE && inside.contains(&c.grain);
+        let own = |c: &Image| c.image == PRIMARY_IMAGE && inside.contains(&c.grain);
         for second in seconds.iter().filter(|c| !own(c)) {
-            // What is met across a periodic end is rare, and may be met as several images.
-            if second.image != HERE {
+            // What is nearby across a periodic end is rare, and may be nearby as several images.
+            if second.image != PRIMARY_IMAGE {
                 self.halo.push(*second);
-            } else if places[second.grain as usize] == NOWHERE {
+            } else if local_of[second.grain as usize] == NOT_IN_HALO {
                 self.halo.push(*second);
-                places[second.grain as usize] = 0;
+                local_of[second.grain as usize] = 0;
             }
         }
         self.halo.sort_unstable();
         self.halo.dedup();
-        for (place, h) in (self.own as u32..).zip(&self.halo).filter(|(_, h)| h.image == HERE) {
-            places[h.grain as usize] = place;
+        for (local, h) in (self.own as u32..).zip(&self.halo).filter(|(_, h)| h.image == PRIMARY_IMAGE) {
+            local_of[h.grain as usize] = local;
         }
-        self.at.clear();
-        self.at.extend(inside.clone().chain(self.halo.iter().map(|h| h.grain)));
-        let place = |c: &Image| match c {
+        self.grain_at.clear();
+        self.grain_at.extend(inside.clone().chain(self.halo.iter().map(|h| h.grain)));
+        let local = |c: &Image| match c {
             c if own(c) => c.grain - inside.start,
-            c if c.image == HERE => places[c.grain as usize],
+            c if c.image == PRIMARY_IMAGE => local_of[c.grain as usize],
             c => self.own as u32 + self.halo.partition_point(|h| h < c) as u32,
         };
         for (grain, ends) in (0..).zip(self.start.windows(2)) {
             let seconds = &seconds[ends[0] as usize..ends[1] as usize];
-            self.pairs.extend(seconds.iter().map(|second| Pair { own: grain, place: place(second) }));
+            self.pairs.extend(seconds.iter().map(|second| Pair { first: grain, second: local(second) }));
         }
         for h in &self.halo {
-            places[h.grain as usize] = NOWHERE;
+            local_of[h.grain as usize] = NOT_IN_HALO;
         }
     }
 }

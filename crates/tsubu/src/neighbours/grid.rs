@@ -2,20 +2,20 @@
 
 use glam::DVec3;
 
-/// Ends of the periodic axes: `None` where the world goes on.
-pub type Ends = [Option<[f64; 2]>; 3];
+/// PeriodicBounds of the periodic axes: `None` where the world goes on.
+pub type PeriodicBounds = [Option<[f64; 2]>; 3];
 
 /// Cells of a super-cell along each axis. Cells are numbered super-cell by super-cell, so that grains sorted by cell lie
 /// in lumps rather than in rows: a lump of grains has few neighbours outside.
 const LUMP: usize = 4;
 
 /// The image of a grain that is not across a periodic end.
-pub const HERE: u32 = 13;
+pub const PRIMARY_IMAGE: u32 = 13;
 
 /// Shift of an image: image = 9 (z + 1) + 3 (y + 1) + (x + 1) with x, y, z in -1, 0, 1 counting periods.
-pub fn shift(ends: &Ends, image: u32) -> DVec3 {
+pub fn shift(periodic: &PeriodicBounds, image: u32) -> DVec3 {
     let times = [image % 3, image / 3 % 3, image / 9].map(|k| f64::from(k) - 1.0);
-    let period = ends.map(|e| e.map_or(0.0, |[low, high]| high - low));
+    let period = periodic.map(|e| e.map_or(0.0, |[low, high]| high - low));
     DVec3::new(times[0] * period[0], times[1] * period[1], times[2] * period[2])
 }
 
@@ -38,18 +38,18 @@ pub struct Image {
     pub image: u32,
 }
 
-/// Cells along an axis, from and to, and the image they are met in: 0, 1, 2 for a period back, none, a period on.
+/// Cells along an axis, from and to, and the image they are found in: 0, 1, 2 for a period back, none, a period on.
 type Run = ([usize; 2], u32);
 
 /// Grains found near a point. There is more room than grains: what is looked at is written down before it is known whether
 /// it stays, for a branch that goes either way costs more.
 #[derive(Clone, Debug, Default)]
-pub struct Met {
+pub struct Nearby {
     room: Vec<Image>,
     count: usize,
 }
 
-impl Met {
+impl Nearby {
     /// Forgets all.
     pub fn clear(&mut self) {
         self.count = 0;
@@ -61,7 +61,7 @@ impl Met {
     }
 
     #[inline]
-    fn meet(&mut self, spheres: &[[f64; 4]], members: &[u32], image: u32, (p, reach): (DVec3, f64)) {
+    fn collect(&mut self, spheres: &[[f64; 4]], members: &[u32], image: u32, (p, reach): (DVec3, f64)) {
         if self.room.len() < self.count + members.len() {
             self.room.resize(2 * (self.count + members.len()), Image::default());
         }
@@ -109,14 +109,14 @@ impl Grid {
         radii: &[f64],
         members: impl Iterator<Item = u32> + Clone,
         size: f64,
-        ends: &Ends,
+        periodic: &PeriodicBounds,
     ) {
         let (mut low, mut high, mut count) = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0usize);
         for i in members.clone() {
             let p = positions[i as usize];
             (low, high, count) = (low.min(p), high.max(p), count + 1);
         }
-        self.shape(low.to_array(), high.to_array(), count, size, ends);
+        self.shape(low.to_array(), high.to_array(), count, size, periodic);
         let [nx, ny, nz] = match self.numbering {
             Numbering::Rows => self.extent,
             Numbering::Lumps => self.extent.map(|n| n.div_ceil(LUMP) * LUMP),
@@ -127,7 +127,7 @@ impl Grid {
         self.start.resize(cells + 1, 0);
         self.cell_of.clear();
         for i in members.clone() {
-            let cell = self.number(self.place(positions[i as usize]));
+            let cell = self.cell_index(self.cell_at(positions[i as usize]));
             self.cell_of.push(cell as u32);
             self.start[cell + 1] += 1;
         }
@@ -146,17 +146,17 @@ impl Grid {
         }
     }
 
-    fn shape(&mut self, low: [f64; 3], high: [f64; 3], count: usize, size: f64, ends: &Ends) {
+    fn shape(&mut self, low: [f64; 3], high: [f64; 3], count: usize, size: f64, periodic: &PeriodicBounds) {
         let limit = (4 * count).max(64);
         let mut size = size;
         loop {
             for axis in 0..3 {
-                let (from, length) = match ends[axis] {
+                let (from, length) = match periodic[axis] {
                     Some([low, high]) => (low, high - low),
                     None => (low[axis], high[axis] - low[axis]),
                 };
                 let cells = (length / size).floor().max(0.0);
-                self.wraps[axis] = ends[axis].is_some();
+                self.wraps[axis] = periodic[axis].is_some();
                 // A periodic axis is cut into whole cells; elsewhere the last cell may reach beyond the last grain.
                 let whole = if self.wraps[axis] { cells.max(1.0) } else { cells + 1.0 };
                 self.extent[axis] = whole as usize;
@@ -176,17 +176,17 @@ impl Grid {
     }
 
     /// Finds every member whose surface is nearer to a point than `reach` [m], which must not be above the cells' size less
-    /// the member's radius. An image is met where `shifts` puts it.
+    /// the member's radius. An image is found where `shifts` puts it.
     #[inline]
-    pub fn near(&self, p: DVec3, reach: f64, shifts: &[DVec3], met: &mut Met) {
+    pub fn near(&self, p: DVec3, reach: f64, shifts: &[DVec3], nearby: &mut Nearby) {
         if self.members.is_empty() {
             return;
         }
-        let [x, y, z] = self.place(p);
+        let [x, y, z] = self.cell_at(p);
         let (rows, planes) = (self.around(1, y), self.around(2, z));
         for plane in planes {
             for row in rows {
-                self.meet(self.around(0, x), row, plane, (p, reach), shifts, met);
+                self.collect(self.around(0, x), row, plane, (p, reach), shifts, nearby);
             }
         }
     }
@@ -194,42 +194,42 @@ impl Grid {
     /// The same for a member, in half of the directions: of two members that are near one another one finds the other. It
     /// may find its own image.
     #[inline]
-    pub fn ahead(&self, member: u32, p: DVec3, reach: f64, shifts: &[DVec3], met: &mut Met) {
-        let [x, y, z] = self.place(p);
+    pub fn ahead(&self, member: u32, p: DVec3, reach: f64, shifts: &[DVec3], nearby: &mut Nearby) {
+        let [x, y, z] = self.cell_at(p);
         // Members of a cell keep their order.
-        let cell = self.number([x, y, z]);
+        let cell = self.cell_index([x, y, z]);
         let mates = self.start[cell] as usize..self.start[cell + 1] as usize;
         let later = mates.start + self.members[mates.clone()].partition_point(|&m| m <= member);
-        met.meet(&self.spheres[later..mates.end], &self.members[later..mates.end], HERE, (p, reach));
+        nearby.collect(&self.spheres[later..mates.end], &self.members[later..mates.end], PRIMARY_IMAGE, (p, reach));
         let across = self.around(0, x);
-        self.meet([self.after(0, x)], ([y, y + 1], 1), ([z, z + 1], 1), (p, reach), shifts, met);
-        self.meet(across, self.after(1, y), ([z, z + 1], 1), (p, reach), shifts, met);
+        self.collect([self.after(0, x)], ([y, y + 1], 1), ([z, z + 1], 1), (p, reach), shifts, nearby);
+        self.collect(across, self.after(1, y), ([z, z + 1], 1), (p, reach), shifts, nearby);
         let plane = self.after(2, z);
         for row in self.around(1, y) {
-            self.meet(across, row, plane, (p, reach), shifts, met);
+            self.collect(across, row, plane, (p, reach), shifts, nearby);
         }
     }
 
     /// Meets the members of rows of cells along x: `rows` and `planes` say which, each with the image along its axis.
     #[inline]
-    fn meet<const N: usize>(
+    fn collect<const N: usize>(
         &self,
         cells: [Run; N],
         (rows, iy): Run,
         (planes, iz): Run,
         (p, reach): (DVec3, f64),
         shifts: &[DVec3],
-        met: &mut Met,
+        nearby: &mut Nearby,
     ) {
         for z in planes[0]..planes[1] {
             for y in rows[0]..rows[1] {
                 for (xs, ix) in cells.into_iter().filter(|(xs, _)| xs[0] < xs[1]) {
                     let image = 9 * iz + 3 * iy + ix;
-                    let p = if image == HERE { p } else { p - shifts[image as usize] };
+                    let p = if image == PRIMARY_IMAGE { p } else { p - shifts[image as usize] };
                     // Neighbours along x lie side by side.
-                    let first = self.start[self.number([xs[0], y, z])] as usize;
-                    let last = self.start[self.number([xs[1] - 1, y, z]) + 1] as usize;
-                    met.meet(&self.spheres[first..last], &self.members[first..last], image, (p, reach));
+                    let first = self.start[self.cell_index([xs[0], y, z])] as usize;
+                    let last = self.start[self.cell_index([xs[1] - 1, y, z]) + 1] as usize;
+                    nearby.collect(&self.spheres[first..last], &self.members[first..last], image, (p, reach));
                 }
             }
         }
@@ -253,7 +253,7 @@ impl Grid {
         }
     }
 
-    fn place(&self, p: DVec3) -> [usize; 3] {
+    fn cell_at(&self, p: DVec3) -> [usize; 3] {
         let p = p.to_array();
         std::array::from_fn(|axis| {
             let k = ((p[axis] - self.origin[axis]) * self.density[axis]).max(0.0) as usize;
@@ -262,7 +262,7 @@ impl Grid {
     }
 
     #[inline]
-    fn number(&self, [x, y, z]: [usize; 3]) -> usize {
+    fn cell_index(&self, [x, y, z]: [usize; 3]) -> usize {
         if self.numbering == Numbering::Rows {
             return (z * self.extent[1] + y) * self.extent[0] + x;
         }

@@ -1,4 +1,4 @@
-//! How long a candidate list is good, for grains that move together.
+//! How long a neighbour list is good, for grains that move together.
 //!
 //! What makes a list miss a pair is that two grains have come nearer to *each other* by more than the skin; how far they
 //! have gone together does not matter. So every block has a drift, a displacement that its grains have roughly in common,
@@ -10,8 +10,8 @@
 //! apart than a margin must only have kept that distance. In a chute 26 degrees steep the lists of this kind are made five
 //! times less often than those that count from where each grain was.
 
-use super::candidates::List;
-use super::grid::Ends;
+use super::grid::PeriodicBounds;
+use super::lists::BlockList;
 use crate::state::Grains;
 use crate::wall::{Pose, Wall};
 use glam::DVec3;
@@ -52,12 +52,12 @@ impl Drifts {
     /// Begins anew after a search; mean velocities are kept as the first guess of the drift.
     pub fn reset(
         &mut self,
-        lists: &[List],
+        lists: &[BlockList],
         reference: &[DVec3],
         grains: &Grains,
         walls: &[Wall],
         skin: f64,
-        ends: &Ends,
+        ends: &PeriodicBounds,
     ) {
         let margin = MARGIN * skin;
         let bounds: Vec<Bounds> = lists.iter().map(|list| bounds(list, reference, &grains.radius)).collect();
@@ -119,7 +119,7 @@ impl Drifts {
     }
 }
 
-fn bounds(list: &List, reference: &[DVec3], radius: &[f64]) -> Bounds {
+fn bounds(list: &BlockList, reference: &[DVec3], radius: &[f64]) -> Bounds {
     let own = list.first..list.first + list.own;
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for (p, r) in reference[own.clone()].iter().zip(&radius[own]) {
@@ -130,7 +130,7 @@ fn bounds(list: &List, reference: &[DVec3], radius: &[f64]) -> Bounds {
 }
 
 /// Smallest distance between two boxes, across periodic ends too [m].
-fn gap(a: &Bounds, b: &Bounds, ends: &Ends) -> f64 {
+fn gap(a: &Bounds, b: &Bounds, ends: &PeriodicBounds) -> f64 {
     let mut squared = 0.0;
     for (axis, end) in ends.iter().enumerate() {
         let mut apart = (a.centre[axis] - b.centre[axis]).abs();

@@ -1,6 +1,6 @@
-//! What contacts remember: history, kept for touching pairs alone.
+//! Contact history: what contacts remember, kept for touching pairs alone.
 //!
-//! Every block has the contacts of the last step in the order of its candidates. A step walks candidates and contacts side
+//! Every block has the contacts of the last step in the order of its neighbour list. A step walks pairs and contacts side
 //! by side, takes along what goes on and leaves what has opened; nothing is looked up. What it writes goes into memory that
 //! the thread has at hand from the block before, and changes places with what it has read: so a step fetches and stores
 //! every history once.
@@ -10,7 +10,7 @@ use crate::contact::chunk::Column;
 
 /// Contacts with their histories, in order of their keys.
 #[derive(Clone, Debug)]
-pub(super) struct Contacts<K> {
+pub(super) struct HistoryColumns<K> {
     /// What contact it is.
     pub keys: Vec<K>,
     /// Columns as in a chunk, one number a contact; the first is zero, the history of a fresh contact.
@@ -18,18 +18,18 @@ pub(super) struct Contacts<K> {
 }
 
 /// Most columns of history that a law may have: springs of 4 in tangential and rolling, 2 in twisting and cohesion are 12.
-pub(super) const MOST: usize = 32;
+pub(super) const MAX_COLUMNS: usize = 32;
 
 /// Where the history of a fresh contact lies.
 pub(super) const FRESH: u32 = 0;
 
-impl<K> Default for Contacts<K> {
+impl<K> Default for HistoryColumns<K> {
     fn default() -> Self {
         Self { keys: Vec::new(), columns: Vec::new() }
     }
 }
 
-impl<K> Contacts<K> {
+impl<K> HistoryColumns<K> {
     /// Forgets all; from now on there are `width` numbers a contact.
     pub fn clear(&mut self, width: usize) {
         self.keys.clear();
@@ -57,21 +57,21 @@ impl<K> Contacts<K> {
 
     /// Where the history of contact `c` lies.
     #[inline]
-    pub fn place(c: usize) -> u32 {
+    pub fn slot(c: usize) -> u32 {
         c as u32 + 1
     }
 
     /// History of contact `c`.
-    pub fn of(&self, c: usize) -> impl Iterator<Item = f64> {
+    pub fn history(&self, c: usize) -> impl Iterator<Item = f64> {
         self.columns.iter().map(move |column| column[c + 1])
     }
 
     /// Energy [J] that the histories of the contacts `range` hold.
-    pub fn held(&self, range: std::ops::Range<usize>, law: &Law) -> f64 {
-        let mut history = [0.0; MOST];
+    pub fn stored_energy(&self, range: std::ops::Range<usize>, law: &Law) -> f64 {
+        let mut history = [0.0; MAX_COLUMNS];
         range
             .map(|c| {
-                for (entry, value) in history.iter_mut().zip(self.of(c)) {
+                for (entry, value) in history.iter_mut().zip(self.history(c)) {
                     *entry = value;
                 }
                 law.held(&history[..law.width()])
@@ -79,25 +79,25 @@ impl<K> Contacts<K> {
             .sum()
     }
 
-    /// Copies the histories at `places` into the rows of a chunk. Where contacts go on as they were their places follow
+    /// Copies the histories at `slots` into the rows of a chunk. Where contacts go on as they were their slots follow
     /// one another, and columns are copied whole.
-    pub fn recall(&self, places: &[u32], columns: &mut [Column]) {
-        let Some(&first) = places.first() else { return };
+    pub fn gather(&self, slots: &[u32], columns: &mut [Column]) {
+        let Some(&first) = slots.first() else { return };
         let first = first as usize;
-        let follow = places.windows(2).all(|pair| pair[1] == pair[0] + 1);
+        let follow = slots.windows(2).all(|pair| pair[1] == pair[0] + 1);
         for (to, from) in columns.iter_mut().zip(&self.columns) {
             if follow {
-                to[..places.len()].copy_from_slice(&from[first..first + places.len()]);
+                to[..slots.len()].copy_from_slice(&from[first..first + slots.len()]);
             } else {
-                for (value, &place) in to.iter_mut().zip(places) {
-                    *value = from[place as usize];
+                for (value, &slot) in to.iter_mut().zip(slots) {
+                    *value = from[slot as usize];
                 }
             }
         }
     }
 
     /// Adds the histories of the first `rows` rows of a chunk; their keys come apart.
-    pub fn remember(&mut self, rows: usize, columns: &[Column]) {
+    pub fn append(&mut self, rows: usize, columns: &[Column]) {
         for (to, from) in self.columns.iter_mut().zip(columns) {
             to.extend_from_slice(&from[..rows]);
         }
@@ -114,19 +114,19 @@ pub(super) struct WallKey {
 
 /// The contacts of one block under one law.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Memory {
-    /// Grain-grain contacts by number of the candidate.
-    pub pairs: Contacts<u32>,
+pub(super) struct ContactHistory {
+    /// Grain-grain contacts by number of the pair in the neighbour list.
+    pub pairs: HistoryColumns<u32>,
     /// Grain-wall contacts.
-    pub walls: Contacts<WallKey>,
+    pub walls: HistoryColumns<WallKey>,
 }
 
-impl Memory {
+impl ContactHistory {
     /// Nothing to remember, `width` numbers a contact.
     pub fn new(width: usize) -> Self {
-        let mut memory = Self::default();
-        memory.clear(width);
-        memory
+        let mut history = Self::default();
+        history.clear(width);
+        history
     }
 
     /// Forgets all; from now on there are `width` numbers a contact.

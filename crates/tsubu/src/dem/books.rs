@@ -1,0 +1,95 @@
+//! What a step posts to the ledger, and the reactions of the grains on those who hold and move them.
+
+use super::contact_forces::{ContactForces, ContactLosses};
+use super::engine::DemEngine;
+use super::immersion::Immersion;
+use crate::ledger::{Account, Ledger};
+use crate::view::WallLoad;
+use crate::water::WaterPowers;
+use glam::DVec3;
+
+/// Powers and forces at a time level.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Powers {
+    /// Lost in contacts [W].
+    pub lost: ContactLosses,
+    /// Work of walls and of driven grains [W].
+    pub walls: f64,
+    /// Force of walls and of fixed grains on the others [N].
+    pub wall_force: DVec3,
+    pub water: WaterPowers,
+}
+
+/// What the ledger needs from step to step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Books {
+    /// Of the last time level.
+    pub last: Powers,
+    /// Mass of the grains that forces move [kg].
+    pub moved_mass: f64,
+}
+
+/// What the grains did to those who hold and move them in the last step.
+#[derive(Debug, Default)]
+pub(super) struct Reactions {
+    /// Of each wall.
+    pub wall_loads: Vec<WallLoad>,
+    /// On each host, along its direction [N].
+    pub on_hosts: Vec<f64>,
+    /// Contact force on grains that forces do not move [N].
+    pub on_fixed: DVec3,
+    /// Power that driven grains give [W].
+    pub driven_power: f64,
+}
+
+impl Reactions {
+    /// Sums the loads of all blocks on every wall.
+    pub fn sum_wall_loads(&mut self, contacts: &ContactForces) {
+        for (k, load) in self.wall_loads.iter_mut().enumerate() {
+            *load = contacts.wall_load(k);
+        }
+    }
+}
+
+impl DemEngine {
+    /// Powers of this time level.
+    pub(super) fn powers(&self) -> Powers {
+        let water = self.immersion.as_ref().map_or_else(WaterPowers::default, |immersion| immersion.powers);
+        let mut powers = Powers { lost: self.contacts.sums.lost, water, ..Powers::default() };
+        for (wall, load) in self.walls.iter().zip(&self.reactions.wall_loads) {
+            powers.wall_force -= load.force;
+            powers.walls -= wall.prescribed_power(load.force, load.torque);
+        }
+        powers.wall_force -= self.reactions.on_fixed;
+        powers.walls += self.reactions.driven_power;
+        powers
+    }
+
+    /// Posts the work and the losses of the step by the trapezoidal rule.
+    pub(super) fn post_powers(&mut self, ledger: &mut Ledger) {
+        let (now, last) = (self.powers(), self.books.last);
+        let half = 0.5 * self.clock.dt;
+        let mut post = |account, power: fn(&Powers) -> f64| ledger.post(account, half * (power(&last) + power(&now)));
+        post(Account::NormalDamping, |p| p.lost.normal);
+        post(Account::Sliding, |p| p.lost.sliding);
+        post(Account::Rolling, |p| p.lost.rolling);
+        post(Account::WallWork, |p| p.walls);
+        post(Account::Buoyancy, |p| p.water.pressure);
+        post(Account::StreamWork, |p| p.water.spin_work);
+        post(Account::WallWork, |p| -p.water.held);
+        if self.immersion.as_ref().is_some_and(Immersion::has_stream) {
+            // What the stream gives stays in the system. The pressure takes from it what it gives to grains along it.
+            post(Account::Buoyancy, |p| -p.water.carried);
+            post(Account::StreamFriction, |p| -p.water.fluctuation);
+        } else {
+            post(Account::StreamWork, |p| p.water.stream);
+        }
+        post(Account::Drag, |p| p.water.lost);
+        for axis in 0..3 {
+            ledger.water_impulse[axis] += half * (last.water.force + now.water.force)[axis];
+            ledger.wall_impulse[axis] += half * (last.wall_force + now.wall_force)[axis];
+            ledger.gravity_impulse[axis] += self.clock.dt * self.books.moved_mass * self.integration.gravity[axis];
+        }
+        self.books.last = now;
+    }
+}

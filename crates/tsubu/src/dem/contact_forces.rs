@@ -1,0 +1,307 @@
+//! Contact forces: touching pairs into batches, the law on the batches, forces back to the grains.
+//!
+//! Every block of grains works alone: it walks its neighbour list, puts the touching pairs into batches, and gathers the forces
+//! in its own `loads`: first for its own grains, then for the grains of its halo. Afterwards every grain adds what other
+//! blocks hold for it, in the order of the blocks. Nothing here depends on the number of threads.
+
+mod list;
+mod pairs;
+mod walls;
+
+pub(super) use list::contact_list;
+
+use super::contact_batch::{self, ContactBatch};
+use super::contact_history::{ContactHistory, FRESH, WallKey};
+use super::history_transfer::HistorySnapshot;
+use super::immersion::{BlockImmersion, WaterAtTime};
+use super::narrow_phase::{Spheres, TouchingPairs};
+use super::sweep::{Direction, sweep};
+use crate::contact::chunk::ROWS;
+use crate::contact::{Law, Table};
+use crate::neighbours::NeighbourLists;
+use crate::neighbours::lists::{BlockList, shares};
+use crate::state::Grains;
+use crate::view::WallLoad;
+use crate::wall::{self, Wall};
+use crate::water::Parcel;
+use glam::{DVec3, Vec3};
+use std::sync::{Mutex, PoisonError};
+
+/// The contact laws of a scene, and how far they reach.
+#[derive(Debug)]
+pub(super) struct ContactLaws {
+    pub table: Table,
+    /// Gap at which bodies may still hold each other [m], of each law.
+    pub reaches: Vec<f64>,
+    /// Whether grains rotate.
+    pub rotation: bool,
+}
+
+impl ContactLaws {
+    /// The widest gap at which bodies may still hold each other [m].
+    pub fn reach(&self) -> f64 {
+        self.reaches.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The different laws; in most scenes one.
+    #[inline]
+    pub fn all(&self) -> &[Law] {
+        self.table.laws()
+    }
+
+    /// Columns of history of the law that has most.
+    pub fn history_width(&self) -> usize {
+        self.all().iter().map(Law::width).max().unwrap_or_default()
+    }
+}
+
+/// What contact forces are computed from.
+#[derive(Clone, Copy)]
+pub(super) struct ForceInput<'a> {
+    pub grains: &'a Grains,
+    pub walls: &'a [Wall],
+    pub neighbours: &'a NeighbourLists,
+    pub laws: &'a ContactLaws,
+    /// Time step [s]; with 0 springs and dashpots act, but no tangential spring is stretched.
+    pub dt: f64,
+    pub water: Option<WaterAtTime<'a>>,
+}
+
+/// Power lost in contacts [W].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct ContactLosses {
+    pub normal: f64,
+    pub sliding: f64,
+    pub rolling: f64,
+}
+
+impl ContactLosses {
+    fn each(&mut self) -> [&mut f64; 3] {
+        [&mut self.normal, &mut self.sliding, &mut self.rolling]
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.normal += other.normal;
+        self.sliding += other.sliding;
+        self.rolling += other.rolling;
+    }
+
+    /// Adds a correction [W], to each in proportion.
+    pub fn correct(&mut self, correction: f64) {
+        let total: f64 = self.each().map(|lost| lost.abs()).iter().sum();
+        if total > 0.0 {
+            for lost in self.each() {
+                *lost += correction * lost.abs() / total;
+            }
+        }
+    }
+}
+
+/// Sums over contacts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct ContactSums {
+    /// Stored energy [J].
+    pub stored: f64,
+    pub lost: ContactLosses,
+    /// Touching pairs.
+    pub contacts: usize,
+    /// Deepest overlap [m].
+    pub deepest: f64,
+}
+
+impl ContactSums {
+    fn add(&mut self, other: &Self) {
+        self.stored += other.stored;
+        self.lost.add(&other.lost);
+        self.contacts += other.contacts;
+        self.deepest = self.deepest.max(other.deepest);
+    }
+}
+
+/// What contacts do to a grain: one line of the cache.
+///
+/// Grains are met in any order, by their own block and by others; across two lines each would wait twice. So the part of the
+/// force that only corrects the energies is in single precision.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(align(64))]
+pub(super) struct Load {
+    /// Force [N].
+    pub force: DVec3,
+    /// Torque [N.m].
+    pub torque: DVec3,
+    /// The dissipative part of the force: damping and friction [N].
+    pub dissipative: Vec3,
+}
+
+impl Load {
+    #[inline]
+    pub fn add(&mut self, other: &Self) {
+        self.force += other.force;
+        self.dissipative += other.dissipative;
+        self.torque += other.torque;
+    }
+}
+
+/// The contacts of one block and what they do.
+#[derive(Clone, Debug, Default)]
+pub(super) struct BlockContacts {
+    /// Of each law.
+    pub history: Vec<ContactHistory>,
+    /// Loads on own grains, then on those of the halo.
+    pub loads: Vec<Load>,
+    /// Loads on the walls.
+    pub walls: Vec<WallLoad>,
+    pub sums: ContactSums,
+    pub immersion: BlockImmersion,
+}
+
+/// The contacts of all blocks.
+#[derive(Debug, Default)]
+pub(super) struct ContactForces {
+    pub blocks: Vec<BlockContacts>,
+    pub sums: ContactSums,
+    /// Energy of contacts that a rebuild of the neighbour lists has found gone [J].
+    pub released: f64,
+    /// The snapshot of the last rebuild, kept for its memory.
+    pub(super) snapshot: HistorySnapshot,
+    /// A batch for every thread.
+    scratch: Vec<Mutex<Scratch>>,
+}
+
+/// What one thread works with.
+#[derive(Debug)]
+struct Scratch {
+    /// Of each law: what no part of a law writes stays zero in its chunk.
+    batches: Vec<ContactBatch>,
+    /// What the contacts of the block will remember, of each law.
+    next: Vec<ContactHistory>,
+    /// Contact of the last step that each row goes on from.
+    old: [u32; ROWS],
+    /// Keys of wall rows.
+    keys: Vec<WallKey>,
+    spheres: Spheres,
+    touching_pairs: TouchingPairs,
+    elements: Vec<u32>,
+    touching: Vec<wall::Touch>,
+    went_on: Vec<u32>,
+    parcel: Parcel,
+}
+
+impl Scratch {
+    fn new(laws: &[Law]) -> Self {
+        Self {
+            batches: laws.iter().map(|law| ContactBatch::new(law.width())).collect(),
+            next: laws.iter().map(|law| ContactHistory::new(law.width())).collect(),
+            old: [FRESH; ROWS],
+            keys: Vec::with_capacity(ROWS),
+            spheres: Spheres::default(),
+            touching_pairs: TouchingPairs::default(),
+            elements: Vec::with_capacity(64),
+            touching: Vec::with_capacity(64),
+            went_on: Vec::with_capacity(64),
+            parcel: Parcel::default(),
+        }
+    }
+
+    /// Makes room for what the contacts of the next block will remember.
+    fn forget(&mut self, laws: &[Law]) {
+        for (next, law) in self.next.iter_mut().zip(laws) {
+            next.clear(law.width());
+        }
+    }
+}
+
+impl ContactForces {
+    /// Prepares as many blocks as there are neighbour lists; called when these have been rebuilt.
+    pub fn resize(&mut self, input: &ForceInput) {
+        let laws = input.laws.all();
+        let lists = &input.neighbours.lists;
+        self.blocks.resize_with(lists.len(), BlockContacts::default);
+        // Blocks pass their history on, so each is as large as the largest.
+        let pairs = lists.iter().map(|list| list.pairs.len()).max().unwrap_or_default();
+        for (block, list) in self.blocks.iter_mut().zip(lists) {
+            block.loads.resize(list.own + list.halo.len(), Load::default());
+            block.walls.resize(input.walls.len(), WallLoad::default());
+            if block.history.is_empty() {
+                block.history.extend(laws.iter().map(|law| ContactHistory::new(law.width())));
+            }
+            for (history, _) in block.history.iter_mut().zip(laws).filter(|(_, law)| law.width() > 0) {
+                history.pairs.reserve(pairs);
+            }
+        }
+    }
+
+    /// Evaluates all contacts, and the forces of the water.
+    pub fn evaluate(&mut self, input: &ForceInput) {
+        // An engine may be moved to a pool with more threads than the one it was built in.
+        while self.scratch.len() < rayon::current_num_threads() {
+            self.scratch.push(Mutex::new(Scratch::new(input.laws.all())));
+        }
+        let scratch = &self.scratch;
+        let work = |(blocks, lists): (&mut [BlockContacts], &[BlockList])| {
+            let mine = rayon::current_thread_index().unwrap_or(0);
+            // Nobody else has this thread's scratch, so the lock is free.
+            let mut scratch = scratch[mine].lock().unwrap_or_else(PoisonError::into_inner);
+            blocks[0].evaluate(input, &lists[0], &mut scratch);
+        };
+        let range = (&mut self.blocks[..], &input.neighbours.lists[..]);
+        sweep(range, Direction::Forward, shares(input.grains.len()), &work);
+        self.sums = ContactSums::default();
+        for block in &self.blocks {
+            self.sums.add(&block.sums);
+        }
+    }
+
+    /// What the grains do to wall `k`.
+    pub fn wall_load(&self, k: usize) -> WallLoad {
+        let mut load = WallLoad::default();
+        for block in &self.blocks {
+            load.add(&block.walls[k]);
+        }
+        load
+    }
+}
+
+impl BlockContacts {
+    fn evaluate(&mut self, input: &ForceInput, list: &BlockList, scratch: &mut Scratch) {
+        let Self { history, loads, walls, sums, immersion } = self;
+        let rotation = input.laws.rotation;
+        loads.fill(Load::default());
+        walls.fill(WallLoad::default());
+        *sums = ContactSums::default();
+        pairs::evaluate(input, list, history, scratch, sums, |batch| pairs::scatter(batch, loads, rotation));
+        walls::evaluate(input, list, history, scratch, sums, |batch| walls::scatter(input, list, batch, loads, walls));
+        history.swap_with_slice(&mut scratch.next);
+        scratch.forget(input.laws.all());
+        // The grains are in the cache now.
+        if let Some(water) = &input.water {
+            water.apply_forces(input.grains, list.first, loads, immersion, &mut scratch.parcel);
+        }
+    }
+}
+
+/// Moves `cursor` past the keys that `pass`; returns which they were.
+fn skip<K>(keys: &[K], cursor: &mut usize, pass: impl Fn(&K) -> bool) -> std::ops::Range<usize> {
+    let begin = *cursor;
+    while *cursor < keys.len() && pass(&keys[*cursor]) {
+        *cursor += 1;
+    }
+    begin..*cursor
+}
+
+/// Law `number` on a filled batch, and its sums.
+fn apply_law(input: &ForceInput, number: usize, batch: &mut ContactBatch, sums: &mut ContactSums) {
+    let law = &input.laws.all()[number];
+    batch.constants(&input.laws.table);
+    if law.needs.roll || law.needs.twist {
+        batch.relative_spin();
+    }
+    law.apply(&mut batch.chunk, input.dt);
+    batch.forces_and_torques(input.laws.rotation);
+    let c = &batch.chunk;
+    let n = c.rows();
+    let adheres = input.laws.reaches[number] > 0.0;
+    let contacts = if adheres { c.overlap[..n].iter().filter(|d| **d > 0.0).count() } else { n };
+    let ([stored, normal, sliding, rolling], deepest) = contact_batch::sums(c);
+    sums.add(&ContactSums { stored, lost: ContactLosses { normal, sliding, rolling }, contacts, deepest });
+}

@@ -1,0 +1,40 @@
+//! The list of contacts with their forces, for those who look on.
+
+use super::{ContactForces, ContactSums, ForceInput, Scratch, pairs, walls};
+use crate::contact::chunk::Chunk;
+use crate::dem::contact_batch::ContactBatch;
+use crate::view::Contact;
+
+/// All contacts, evaluated anew at the present positions and velocities without changing what is remembered.
+pub(in crate::dem) fn contact_list(forces: &ContactForces, input: &ForceInput) -> Vec<Contact> {
+    // A step of length zero leaves the tangential springs as they are.
+    let input = ForceInput { dt: 0.0, ..*input };
+    let mut scratch = Scratch::new(input.laws.all());
+    let mut contacts = Vec::new();
+    for (block, list) in forces.blocks.iter().zip(&input.neighbours.lists) {
+        let mut take = |batch: &ContactBatch, wall: bool| {
+            // What is only near, within the reach of a law, is no contact.
+            for r in (0..batch.chunk.rows()).filter(|&r| batch.chunk.contact_radius[r] > 0.0) {
+                let first = list.first + batch.first[r] as usize;
+                let second = batch.second[r] as usize;
+                let second = if wall { second } else { list.grain_at[second] as usize };
+                let contact_point = batch.contact_point(r);
+                contacts.push(Contact {
+                    first,
+                    second,
+                    wall,
+                    position: input.grains.position[first] + contact_point,
+                    branch: if wall { contact_point } else { Chunk::vector(&batch.branch, r) },
+                    force: Chunk::vector(&batch.force, r),
+                    normal: Chunk::vector(&batch.chunk.normal, r),
+                    overlap: batch.chunk.overlap[r],
+                });
+            }
+        };
+        let mut sums = ContactSums::default();
+        pairs::evaluate(&input, list, &block.history, &mut scratch, &mut sums, |batch| take(batch, false));
+        walls::evaluate(&input, list, &block.history, &mut scratch, &mut sums, |batch| take(batch, true));
+        scratch.forget(input.laws.all());
+    }
+    contacts
+}

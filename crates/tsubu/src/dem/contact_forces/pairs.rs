@@ -1,0 +1,78 @@
+//! Grains that touch grains.
+
+use super::{ContactSums, ForceInput, Load, Scratch, apply_law, skip};
+use crate::contact::chunk::{Chunk, ROWS};
+use crate::dem::contact_batch::ContactBatch;
+use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns};
+use crate::neighbours::lists::BlockList;
+
+/// Walks the grain-grain pairs of a block, law by law; `visit` sees every finished batch.
+pub(super) fn evaluate(
+    input: &ForceInput,
+    list: &BlockList,
+    history: &[ContactHistory],
+    scratch: &mut Scratch,
+    sums: &mut ContactSums,
+    mut visit: impl FnMut(&ContactBatch),
+) {
+    let ForceInput { grains, laws, .. } = *input;
+    let Scratch { spheres, touching_pairs, batches, old, next, .. } = scratch;
+    spheres.load(grains, list, &input.neighbours.shifts);
+    touching_pairs.find(list, spheres, laws.reach());
+    if laws.reaches.len() > 1 {
+        touching_pairs.group_by_law(grains, list, spheres, &laws.table, &laws.reaches);
+    }
+    for (number, (law, ((history, next), batch))) in
+        laws.all().iter().zip(history.iter().zip(next).zip(batches)).enumerate()
+    {
+        let width = law.width();
+        let mut cursor = 0;
+        let mut released = 0.0;
+        for touching in touching_pairs.under(number).chunks(ROWS) {
+            batch.gather(touching, grains, list, spheres, &laws.table, laws.rotation);
+            batch.sphere_geometry(laws.rotation);
+            if width > 0 {
+                for (touching, old) in touching.iter().zip(&mut *old) {
+                    let opened = skip(&history.pairs.keys, &mut cursor, |pair| *pair < touching.pair);
+                    if !opened.is_empty() {
+                        released += history.pairs.stored_energy(opened, law);
+                    }
+                    let goes_on = history.pairs.keys.get(cursor) == Some(&touching.pair);
+                    *old = if goes_on { HistoryColumns::<u32>::slot(cursor) } else { FRESH };
+                    cursor += usize::from(goes_on);
+                }
+                history.pairs.gather(&old[..touching.len()], &mut batch.chunk.history);
+            }
+            apply_law(input, number, batch, sums);
+            if width > 0 {
+                next.pairs.keys.extend(touching.iter().map(|touching| touching.pair));
+                next.pairs.append(touching.len(), &batch.chunk.history);
+            }
+            visit(batch);
+        }
+        if width > 0 {
+            released += history.pairs.stored_energy(cursor..history.pairs.keys.len(), law);
+            sums.lost.sliding += released / input.dt;
+        }
+    }
+}
+
+/// Adds the forces of a batch to both grains of every row.
+pub(super) fn scatter(batch: &ContactBatch, loads: &mut [Load], rotation: bool) {
+    for r in 0..batch.chunk.rows() {
+        let force = Chunk::vector(&batch.force, r);
+        let dissipative = Chunk::vector(&batch.dissipative, r).as_vec3();
+        let first = &mut loads[batch.first[r] as usize];
+        first.force += force;
+        first.dissipative += dissipative;
+        if rotation {
+            first.torque += Chunk::vector(&batch.torque[0], r);
+        }
+        let second = &mut loads[batch.second[r] as usize];
+        second.force -= force;
+        second.dissipative -= dissipative;
+        if rotation {
+            second.torque += Chunk::vector(&batch.torque[1], r);
+        }
+    }
+}

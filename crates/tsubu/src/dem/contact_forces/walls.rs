@@ -1,0 +1,190 @@
+//! Grains that touch walls: a wall is a body of infinite radius, under the same laws.
+
+use super::{ContactSums, ForceInput, Load, Scratch, apply_law, skip};
+use crate::contact::chunk::{Chunk, ROWS};
+use crate::dem::contact_batch::ContactBatch;
+use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns, WallKey};
+use crate::neighbours::lists::BlockList;
+use crate::view::WallLoad;
+use crate::wall::{self, Wall};
+
+/// Walks the grain-wall candidates of a block, law by law; `visit` sees every finished batch.
+pub(super) fn evaluate(
+    input: &ForceInput,
+    list: &BlockList,
+    history: &[ContactHistory],
+    scratch: &mut Scratch,
+    sums: &mut ContactSums,
+    mut visit: impl FnMut(&ContactBatch),
+) {
+    for (law, history) in history.iter().enumerate() {
+        evaluate_law(input, law, list, history, scratch, sums, &mut visit);
+    }
+}
+
+/// The same for one law.
+fn evaluate_law(
+    input: &ForceInput,
+    number: usize,
+    list: &BlockList,
+    history: &ContactHistory,
+    scratch: &mut Scratch,
+    sums: &mut ContactSums,
+    visit: &mut impl FnMut(&ContactBatch),
+) {
+    let g = input.grains;
+    let law = &input.laws.all()[number];
+    let several = input.laws.reaches.len() > 1;
+    let remembers = law.width() > 0;
+    let mut cursor = 0;
+    let mut released = 0.0;
+    scratch.batches[number].chunk.len = 0;
+    scratch.keys.clear();
+    // NeighbourLists of one grain on one wall are looked at together: on a mesh some touch only as the edge of another.
+    for near in list.walls.chunk_by(|a, b| (a.own, a.wall) == (b.own, b.wall)) {
+        let (own, k) = (near[0].own, near[0].wall);
+        let i = list.first + own as usize;
+        let wall = &input.walls[k as usize];
+        let material = input.laws.table.index(g.material[i], wall.material);
+        if several && input.laws.table.law(material) != number {
+            continue;
+        }
+        let Scratch { elements, touching, .. } = scratch;
+        elements.clear();
+        elements.extend(near.iter().map(|candidate| candidate.element));
+        wall.touching(elements, g.position[i], g.radius[i] + input.laws.reaches[number], touching);
+        if remembers {
+            let before = WallKey { own, wall: k, patch: 0 };
+            let opened = skip(&history.walls.keys, &mut cursor, |key| *key < before);
+            released += history.walls.stored_energy(opened, law);
+            let old = skip(&history.walls.keys, &mut cursor, |key| (key.own, key.wall) == (own, k));
+            match_up(wall, &history.walls.keys, &old, touching, &mut scratch.went_on);
+            let went_on = &scratch.went_on;
+            let ended = old.filter(|c| !went_on.contains(&slot(*c)));
+            released += ended.map(|c| history.walls.stored_energy(c..c + 1, law)).sum::<f64>();
+        }
+        let mut t = 0;
+        while t < scratch.touching.len() {
+            let wall::Touch { element, nearest, .. } = scratch.touching[t];
+            let overlap = g.radius[i] - nearest.distance;
+            let batch = &mut scratch.batches[number];
+            let r = batch.chunk.len;
+            scratch.keys.push(WallKey { own, wall: k, patch: wall.key(element) });
+            scratch.old[r] = if remembers { scratch.went_on[t] } else { FRESH };
+            t += 1;
+            let normal = -nearest.normal;
+            batch.first[r] = own;
+            batch.second[r] = k;
+            batch.chunk.overlap[r] = overlap;
+            Chunk::set(&mut batch.chunk.normal, r, normal);
+            batch.chunk.effective_radius[r] = g.radius[i];
+            batch.chunk.effective_mass[r] = 1.0 / (g.inverse_mass[i] + wall.inverse_mass);
+            batch.lever_arm[0][r] = g.radius[i] - 0.5 * overlap;
+            batch.lever_arm[1][r] = 0.0;
+            batch.material_pair[r] = material;
+            Chunk::set(
+                &mut batch.relative_velocity,
+                r,
+                g.velocity[i] - wall.velocity_at(g.position[i] + normal * batch.lever_arm[0][r]),
+            );
+            Chunk::set(&mut batch.spin[0], r, g.spin[i]);
+            Chunk::set(&mut batch.spin[1], r, wall.pose.spin);
+            batch.chunk.len = r + 1;
+            if r + 1 == ROWS {
+                finish(input, number, history, scratch, sums, visit);
+            }
+        }
+    }
+    finish(input, number, history, scratch, sums, visit);
+    if remembers {
+        released += history.walls.stored_energy(cursor..history.walls.keys.len(), law);
+        sums.lost.sliding += released / input.dt;
+    }
+}
+
+/// For every place where a grain touches a wall, which of its `old` contacts with that wall goes on there. What has rolled
+/// over a seam goes on with the history from the triangle before.
+fn match_up(
+    wall: &Wall,
+    keys: &[WallKey],
+    old: &std::ops::Range<usize>,
+    touching: &[wall::Touch],
+    went_on: &mut Vec<u32>,
+) {
+    let patch = |t: &wall::Touch| wall.key(t.element);
+    went_on.clear();
+    went_on.extend(touching.iter().map(|t| old.clone().find(|&c| keys[c].patch == patch(t)).map_or(FRESH, slot)));
+    for t in 1..touching.len() {
+        // Two contacts of one patch share a name; the one history goes on once.
+        if went_on[..t].contains(&went_on[t]) {
+            went_on[t] = FRESH;
+        }
+    }
+    for t in 0..touching.len() {
+        if went_on[t] == FRESH {
+            let free = |c: &usize| !went_on.contains(&slot(*c));
+            let before = old.clone().filter(free).find(|&c| wall.adjacent(keys[c].patch, patch(&touching[t])));
+            went_on[t] = before.map_or(FRESH, slot);
+        }
+    }
+}
+
+/// Where the history of contact `c` with a wall lies.
+fn slot(c: usize) -> u32 {
+    HistoryColumns::<WallKey>::slot(c)
+}
+
+fn finish(
+    input: &ForceInput,
+    number: usize,
+    history: &ContactHistory,
+    scratch: &mut Scratch,
+    sums: &mut ContactSums,
+    visit: &mut impl FnMut(&ContactBatch),
+) {
+    let Scratch { batches, next, old, keys, .. } = scratch;
+    let (batch, next) = (&mut batches[number], &mut next[number]);
+    let remembers = input.laws.all()[number].width() > 0;
+    let n = batch.chunk.rows();
+    batch.relative_motion(input.laws.rotation);
+    if remembers {
+        history.walls.gather(&old[..n], &mut batch.chunk.history);
+    }
+    apply_law(input, number, batch, sums);
+    if remembers {
+        next.walls.keys.extend_from_slice(keys);
+        next.walls.append(n, &batch.chunk.history);
+    }
+    visit(batch);
+    keys.clear();
+    batch.chunk.len = 0;
+}
+
+/// Adds the forces of a chunk of wall contacts to the grains and to the walls.
+pub(super) fn scatter(
+    input: &ForceInput,
+    list: &BlockList,
+    batch: &ContactBatch,
+    loads: &mut [Load],
+    walls: &mut [WallLoad],
+) {
+    for r in 0..batch.chunk.rows() {
+        let own = batch.first[r] as usize;
+        let force = Chunk::vector(&batch.force, r);
+        let torque = Chunk::vector(&batch.torque[0], r);
+        let load = &mut loads[own];
+        load.force += force;
+        load.dissipative += Chunk::vector(&batch.dissipative, r).as_vec3();
+        if input.laws.rotation {
+            load.torque += torque;
+        }
+        let k = batch.second[r] as usize;
+        let wall = &input.walls[k];
+        let point = input.grains.position[list.first + own] + batch.contact_point(r);
+        let mut torque = -(point - wall.pose.origin()).cross(force);
+        if input.laws.rotation {
+            torque -= Chunk::vector(&batch.chunk.torque, r);
+        }
+        walls[k].add(&WallLoad { force: -force, torque });
+    }
+}

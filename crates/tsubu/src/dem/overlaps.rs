@@ -1,0 +1,62 @@
+//! Overlaps: who touches whom, without forces.
+//!
+//! A watch that waits for the first and the last moment of a contact looks at every step. The list of contacts with their
+//! forces needs every law and a copy of what contacts remember; the places need neither.
+
+use super::contact_forces::ForceInput;
+use super::narrow_phase::{Spheres, TouchingPairs};
+use crate::view::Contact;
+use glam::DVec3;
+
+/// All pairs that overlap, of grains and of grains with walls, in the order of the list of contacts.
+pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
+    let (mut spheres, mut pairs) = (Spheres::default(), TouchingPairs::default());
+    let mut touches = Vec::new();
+    let mut elements = Vec::new();
+    let mut contacts = Vec::new();
+    let g = input.grains;
+    for list in &input.neighbours.lists {
+        spheres.load(g, list, &input.neighbours.shifts);
+        pairs.find(list, &spheres, 0.0);
+        for touching in pairs.under(0) {
+            let second = list.pairs[touching.pair as usize].second;
+            let ([ax, ay, az, a], [bx, by, bz, b]) = (spheres.at(touching.first), spheres.at(second));
+            let branch = DVec3::new(bx - ax, by - ay, bz - az);
+            let overlap = a + b - branch.length();
+            let normal = branch.normalize_or_zero();
+            let first = list.first + touching.first as usize;
+            contacts.push(Contact {
+                first,
+                second: list.grain_at[second as usize] as usize,
+                wall: false,
+                position: g.position[first] + normal * (a - 0.5 * overlap),
+                branch,
+                force: DVec3::ZERO,
+                normal,
+                overlap,
+            });
+        }
+        for near in list.walls.chunk_by(|a, b| (a.own, a.wall) == (b.own, b.wall)) {
+            let first = list.first + near[0].own as usize;
+            let (centre, radius) = (g.position[first], g.radius[first]);
+            elements.clear();
+            elements.extend(near.iter().map(|near| near.element));
+            input.walls[near[0].wall as usize].touching(&elements, centre, radius, &mut touches);
+            contacts.extend(touches.iter().map(|touch| {
+                let (normal, overlap) = (-touch.nearest.normal, radius - touch.nearest.distance);
+                let branch = normal * (radius - 0.5 * overlap);
+                Contact {
+                    first,
+                    second: near[0].wall as usize,
+                    wall: true,
+                    position: centre + branch,
+                    branch,
+                    force: DVec3::ZERO,
+                    normal,
+                    overlap,
+                }
+            }));
+        }
+    }
+    contacts
+}

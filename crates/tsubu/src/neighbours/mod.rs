@@ -1,0 +1,7 @@
+//! Who is near whom: cells, neighbour lists, how long they live.
+
+pub mod drift;
+pub mod grid;
+pub mod lists;
+
+pub use lists::{NeighbourLists, Search};
