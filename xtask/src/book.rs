@@ -106,4 +106,107 @@ mod tests {
         let left_out: Vec<_> = pages.iter().filter(|page| !told.contains(*page)).collect();
         assert!(left_out.is_empty(), "not in docs/src/SUMMARY.md: {left_out:?}");
     }
+
+    /// All code of the crates, file by file.
+    fn sources() -> Vec<(PathBuf, String)> {
+        fn inner(folder: &Path, sources: &mut Vec<(PathBuf, String)>) {
+            for entry in fs::read_dir(folder).expect("a folder").flatten() {
+                let path = entry.path();
+                if path.is_dir() {
+                    inner(&path, sources);
+                } else if path.extension().is_some_and(|extension| extension == "rs") {
+                    let text = fs::read_to_string(&path).expect("a source");
+                    sources.push((path, text));
+                }
+            }
+        }
+        let mut sources = Vec::new();
+        for entry in fs::read_dir(root().join("crates")).expect("the crates").flatten() {
+            inner(&entry.path().join("src"), &mut sources);
+        }
+        sources
+    }
+
+    /// Whether a text declares a name: as a type, a function, a module, a constant or a field.
+    fn declares(text: &str, name: &str) -> bool {
+        let ends = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+        let item = |word: &str| {
+            let start = format!("{word} {name}");
+            text.match_indices(&start).any(|(at, _)| ends(&text[at + start.len()..]))
+        };
+        let field = || {
+            let start = format!("{name}:");
+            text.match_indices(&start).any(|(at, _)| {
+                let before = text[..at].chars().next_back();
+                let after = &text[at + start.len()..];
+                !before.is_some_and(|c| c.is_alphanumeric() || c == '_') && !after.starts_with(':')
+            })
+        };
+        ["struct", "enum", "trait", "type", "fn", "mod", "const", "static"].into_iter().any(item) || field()
+    }
+
+    /// Whether the code has a name: `Type`, `function`, `Type::member`.
+    fn is_code(sources: &[(PathBuf, String)], name: &str) -> bool {
+        let Some((owner, member)) = name.rsplit_once("::") else {
+            return sources.iter().any(|(_, text)| declares(text, name));
+        };
+        let owner = owner.rsplit("::").next().unwrap_or(owner);
+        // Columns are made by a macro, in a file that is called as they are.
+        let is_called =
+            |path: &Path| path.file_stem().is_some_and(|stem| stem == owner || stem == &*owner.to_lowercase());
+        let homes = sources.iter().filter(|(path, text)| declares(text, owner) || is_called(path));
+        let folders: BTreeSet<&Path> = homes.filter_map(|(path, _)| path.parent()).collect();
+        let near = sources.iter().filter(|(path, _)| path.parent().is_some_and(|folder| folders.contains(folder)));
+        near.into_iter().any(|(_, text)| declares(text, member))
+    }
+
+    /// What stands in backticks in a column of the tables of a page.
+    fn column(page: &str, head: &str) -> Vec<String> {
+        let (mut at, mut words) = (None, Vec::new());
+        for line in page.lines() {
+            let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+            if cells.len() < 3 {
+                at = None;
+            } else if let Some(found) = cells.iter().position(|cell| *cell == head) {
+                at = Some(found);
+            } else if let Some(cell) = at.and_then(|at| cells.get(at)) {
+                words.extend(cell.split('`').skip(1).step_by(2).map(str::to_owned));
+            }
+        }
+        words
+    }
+
+    /// The page of symbols named columns that had gone, and nobody who looked for them in the code found them. Names
+    /// with a dot are keys of a scene.
+    #[test]
+    fn what_the_book_calls_code_is_in_the_code() {
+        let sources = sources();
+        let known = tsubu_scene::paths();
+        let is_key = |name: &str| known.iter().any(|path| path == name);
+        for name in ["glossary.md", "theory/symbols.md"] {
+            let page = fs::read_to_string(root().join("docs/src").join(name)).expect("a page");
+            let named = column(&page, "code");
+            assert!(named.len() > 20, "{name}: the column is gone");
+            let lost: Vec<&String> = named
+                .iter()
+                .filter(
+                    |name| if name.contains('.') || is_key(name) { !is_key(name) } else { !is_code(&sources, name) },
+                )
+                .collect();
+            assert!(lost.is_empty(), "{name} names what is not in the code: {lost:?}");
+        }
+    }
+
+    #[test]
+    fn a_name_that_the_code_has_not_is_seen() {
+        let source = |text: &str| vec![(PathBuf::from("a/b.rs"), text.to_owned())];
+        let code = source("pub struct Chunk {\n    pub overlap: Column,\n}\nfn rows() {}\nuse super::overlaps;\n");
+        for name in ["Chunk", "overlap", "rows", "Chunk::overlap", "b::rows"] {
+            assert!(is_code(&code, name), "{name}");
+        }
+        for name in ["Chun", "lap", "row", "super", "Chunk::shear", "Pair::overlap"] {
+            assert!(!is_code(&code, name), "{name}");
+        }
+        assert_eq!(column("| a | code |\n|---|---|\n| `x` | `y`, z `w` |\n\n`v`\n", "code"), ["y", "w"]);
+    }
 }

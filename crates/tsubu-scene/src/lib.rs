@@ -62,7 +62,7 @@ pub mod mesh {
     pub use crate::mesh_check::{Diagnosis, Found, diagnose};
 }
 
-pub use choices::{Choice, KeyText, choices};
+pub use choices::{Choice, KeyText, choices, paths};
 pub use complaint::Complaints;
 pub use going_on::Difference;
 pub use plan::Plan;
