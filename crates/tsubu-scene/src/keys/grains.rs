@@ -84,7 +84,13 @@ static START: &[Variant] = &[
     Variant {
         name: "settled",
         about: "Dropped into the box in loose random rows and left to come to rest before time 0",
-        keys: &[Key::new("time", Kind::Quantity(&TIME), "Longest settling time").default("'1 s'").at_least(0.0)],
+        keys: &[Key::new(
+            "time",
+            Kind::Quantity(&TIME),
+            "Longest settling time; a bed that still moves then ends the run",
+        )
+        .default("'1 s'")
+        .at_least(0.0)],
     },
     Variant {
         name: "rows",
