@@ -10,9 +10,7 @@ use std::path::{Path, PathBuf};
 /// Pages with such tables, with their new text.
 pub fn pages() -> Result<Vec<(String, String)>, String> {
     let mut pages = vec![filled("benches/README.md", "race", &race()?)?];
-    for (study, file) in claim_files()? {
-        pages.push(filled(&format!("studies/{study}/README.md"), "claims", &claims(&file)?)?);
-    }
+    pages.extend(studies()?);
     Ok(pages)
 }
 
@@ -88,50 +86,62 @@ fn race_table(race: &Value, name: &str) -> String {
     table + "\nMillion particle-steps a second.\n"
 }
 
-/// The folders of studies with the claims that are kept there.
-fn claim_files() -> Result<Vec<(String, PathBuf)>, String> {
-    let studies = list(&root().join("studies"))?;
-    let kept = studies.into_iter().map(|folder| {
-        let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        (name, folder.join("results/long.csv"))
-    });
-    Ok(kept.filter(|(_, file)| file.exists()).collect())
+/// Pages of studies with their tables of claims. Their marks name the studies: `<!-- generated: claims STUDY ... -->`.
+fn studies() -> Result<Vec<(String, String)>, String> {
+    let kept = crate::claims::read()?;
+    let mut pages = Vec::new();
+    for folder in list(&root().join("studies"))? {
+        let page = format!("studies/{}/README.md", folder.file_name().unwrap_or_default().to_string_lossy());
+        let Ok(text) = fs::read_to_string(root().join(&page)) else { continue };
+        let Some((_, rest)) = text.split_once("<!-- generated: claims ") else { continue };
+        let names = rest.split(" -->").next().unwrap_or_default();
+        pages.push(filled(&page, &format!("claims {names}"), &claim_table(&kept, names))?);
+    }
+    Ok(pages)
 }
 
-/// Claims case by case: how many hold, and each that fails.
-fn claims(file: &Path) -> Result<String, String> {
-    let text = fs::read_to_string(file).map_err(|error| format!("cannot read {}: {error}", file.display()))?;
-    claim_table(&text).ok_or_else(|| format!("{} is no table of claims", file.display()))
-}
-
-fn claim_table(text: &str) -> Option<String> {
-    let mut lines = text.lines();
-    if lines.next()? != "case,claim,value,low,high,verdict" {
-        return None;
-    }
-    let mut cases: Vec<(&str, usize, Vec<String>)> = Vec::new();
-    for line in lines {
-        let cells: Vec<&str> = line.split(',').collect();
-        let [case, claim, value, low, high, verdict] = cells[..] else { return None };
-        if cases.last().is_none_or(|(last, ..)| *last != case) {
-            cases.push((case, 0, Vec::new()));
-        }
-        let (_, number, failed) = cases.last_mut()?;
-        *number += 1;
-        if verdict != "pass" {
-            let range = match (low, high) {
-                ("", high) => format!("at most {high}"),
-                (low, "") => format!("at least {low}"),
-                (low, high) => format!("{low} to {high}"),
-            };
-            failed.push(format!("{claim}: {value} ({range})"));
-        }
-    }
+/// Claims of some studies case by case: how many hold, and each that fails.
+fn claim_table(kept: &[Value], studies: &str) -> String {
     let mut table = String::from("| case | claims | hold | FAIL: value (accepted range) |\n|---|---|---|---|\n");
-    for (case, number, failed) in cases {
-        let _ = writeln!(table, "| `{case}` | {number} | {} | {} |", number - failed.len(), failed.join("<br>"));
+    let text = |claim: &Value, what: &str| claim[what].as_str().unwrap_or_default().to_owned();
+    let wanted = kept.iter().filter(|claim| studies.split(' ').any(|study| claim["study"] == study));
+    let mut cases: Vec<(String, Vec<&Value>)> = Vec::new();
+    for claim in wanted {
+        let case = text(claim, "case");
+        match cases.last_mut() {
+            Some((last, claims)) if *last == case => claims.push(claim),
+            _ => cases.push((case, vec![claim])),
+        }
     }
-    Some(table)
+    for (case, claims) in cases {
+        let failed: Vec<&&Value> = claims.iter().filter(|claim| claim["pass"] == false).collect();
+        let told: Vec<String> =
+            failed.iter().map(|c| format!("{}: {} ({})", text(c, "name"), number(&c["value"]), range(c))).collect();
+        let _ = writeln!(
+            table,
+            "| `{case}` | {} | {} | {} |",
+            claims.len(),
+            claims.len() - failed.len(),
+            told.join("<br>").replace('|', "\\|")
+        );
+    }
+    table
+}
+
+/// With five figures.
+fn number(value: &Value) -> String {
+    let Some(x) = value.as_f64() else { return "none".to_owned() };
+    let short: f64 = format!("{x:.4e}").parse().unwrap_or(x);
+    if short != 0.0 && !(1e-3..1e6).contains(&short.abs()) { format!("{short:e}") } else { short.to_string() }
+}
+
+fn range(claim: &Value) -> String {
+    match (&claim["low"], &claim["high"]) {
+        (Value::Null, Value::Null) => "none".to_owned(),
+        (Value::Null, high) => format!("at most {}", number(high)),
+        (low, Value::Null) => format!("at least {}", number(low)),
+        (low, high) => format!("{} to {}", number(low), number(high)),
+    }
 }
 
 fn list(folder: &Path) -> Result<Vec<PathBuf>, String> {
@@ -176,9 +186,15 @@ mod tests {
 
     #[test]
     fn claims_that_fail_are_told() {
-        let text = "case,claim,value,low,high,verdict\na,x,1,0,2,pass\na,y,3,,2,FAIL\nb,z,1,1,,pass\n";
-        let table = claim_table(text).expect("claims");
-        assert!(table.ends_with("| `a` | 2 | 1 | y: 3 (at most 2) |\n| `b` | 1 | 1 |  |\n"), "{table}");
-        assert_eq!(claim_table("time,x\n1,2\n"), None);
+        let claim = |case: &str, study: &str, value: f64, pass: bool| json!({ "case": case, "study": study, "name": "x", "value": value, "high": 2.0, "pass": pass });
+        let kept = [
+            claim("a", "s", 1.0, true),
+            claim("a", "s", 3.000_04, false),
+            claim("b", "other", 3.0, false),
+            claim("c", "t", 1e-7, true),
+        ];
+        let table = claim_table(&kept, "s t");
+        assert!(table.ends_with("|\n| `a` | 2 | 1 | x: 3 (at most 2) |\n| `c` | 1 | 1 |  |\n"), "{table}");
+        assert_eq!((number(&json!(1e-7)).as_str(), number(&json!(12.345_678)).as_str()), ("1e-7", "12.346"));
     }
 }

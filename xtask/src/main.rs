@@ -6,6 +6,7 @@ mod bench;
 mod blocks;
 mod book;
 mod check;
+mod claims;
 mod generate;
 mod guard;
 mod race;
@@ -24,6 +25,7 @@ cargo xtask CHORE
   test                all tests; with Python 3, also those that read written frames back with VTK
   gen [--check]       write the generated pages and tables, or only say which are out of date
   book                build the book, where there is an mdbook
+  claims [NAME]...    run verification cases (without names all quick ones) and keep what they claim
   smoke               run every scene for a moment
   fuzz [--seed N] [--seconds S] [--cases N] [--only KIND] [--case N]
                       draw scenes, files and command lines, and hold tsubu against them; --help says more
@@ -46,6 +48,7 @@ fn main() -> ExitCode {
         ["test"] => test::test(),
         ["gen"] => generate::write(),
         ["gen", "--check"] => generate::check(),
+        ["claims", names @ ..] => claims::claims(names),
         ["book"] => book::book(),
         ["smoke"] => smoke::smoke(),
         ["fuzz", rest @ ..] => guard::guard("fuzz", rest),

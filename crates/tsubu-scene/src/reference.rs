@@ -19,7 +19,9 @@ are built with products (`N s/m` or `N.s/m`), quotients and powers (`m/s^2`). Te
 **Directions** are `\"x\"`, `\"-z\"` and so on, or a vector of any length.
 
 **Choices** are made by the name of a table: `[contact.normal.hertz]`, or `normal.hertz = {}` inside `[contact]`. Only one of
-the tables of a choice can be given.
+the tables of a choice can be given. What a choice is, with formula, symbols, limits and source, is told by `tsubu explain NAME`, and here:
+[contact laws](explained/contact.md), [water](explained/water.md), [watches](explained/watches.md), [walls](explained/walls.md),
+[methods](explained/methods.md).
 
 **Files** are named from the folder of the scene file. The run folder gets copies of those with grains and meshes, so that its
 `scene.toml` runs again. Grains come from CSV, extended XYZ, LAMMPS data and LAMMPS dump files, all in SI units unless a header says otherwise:

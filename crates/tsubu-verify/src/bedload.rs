@@ -124,7 +124,7 @@ fn transport([slope, water]: [f64; 2], stream: Kind, [from, until]: [f64; 2], sp
 /// V-57: rates within a factor of 2 of published ones.
 pub(super) fn rates(spoiler: f64) -> Result<Vec<Claim>, String> {
     let published = |t: f64| (8.0 * (t - 0.047).powf(1.5), 3.97 * (t - 0.0495).powf(1.5));
-    let source = "between half of Wong and Parker 2006 and twice Meyer-Peter and Mueller 1948 (V-57)";
+    let source = "between half of Wong and Parker 2006 and twice Meyer-Peter and Mueller 1948";
     let gate = |Load { shields, rate, .. }: Load, what: &str| {
         let (high, low) = published(shields);
         let name = format!("{what}, Shields number {shields:.3}: rate over sqrt((s-1) g d^3)");

@@ -66,7 +66,7 @@ fn heights(size: f64, seed: u32, spoiler: f64, followed: impl Fn(&[f64]) -> Vec<
 
 /// The gates, for a large grain and for what must fail them.
 fn rises(what: &str, [start, end]: [f64; 2]) -> [Claim; 2] {
-    let source = "Rosato et al. 1987, Knight et al. 1993: large grains rise and stay on top (V-38)";
+    let source = "Rosato et al. 1987, Knight et al. 1993: large grains rise and stay on top";
     // A grain that goes everywhere alike is at 1 on average; one on top of the bed at nearly 2.
     [
         Claim::judge(format!("{what}: height over the bed's mean at the start"), start, None, Some(0.4), source),
@@ -88,7 +88,7 @@ pub(super) fn brazil_nut(spoiler: f64) -> Result<Vec<Claim>, String> {
         order
     };
     let control = heights(1.0, 1, spoiler, lowest)?;
-    let source = "grains of equal size have no reason to rise (V-38)";
+    let source = "grains of equal size have no reason to rise";
     let name = "shaken bed, the 19 lowest of equal grains: height over the bed's mean after 90 shakes";
     claims.push(within(name, control[1], 1.0, 0.25, source));
     claims.push(refused("the grain no larger than the others", &rises("", control)[1..], 1));

@@ -203,10 +203,10 @@ impl Flow {
     /// The gates, for a flow that is right and for wrong ones.
     fn gates(&self) -> Vec<Claim> {
         let name = |what: &str| format!("chute at {} degrees: {what}", self.degrees);
-        let source = "Silbert et al. 2001: steady flow from 19.5 to 26 degrees (V-36)";
+        let source = "Silbert et al. 2001: steady flow from 19.5 to 26 degrees";
         let top = self.between(self.height() - 1.0, f64::MAX).1;
-        let profile = "Bagnold's profile: mean over surface speed is 3/5; 1/2 for linear, 1 for a plug (V-35)";
-        let bulk = "constant density with depth, but for the layers next to base and surface (V-36)";
+        let profile = "Bagnold's profile: mean over surface speed is 3/5; 1/2 for linear, 1 for a plug";
+        let bulk = "constant density with depth, but for the layers next to base and surface";
         let [least, largest] = self.density();
         vec![
             Claim::judge(name("speed over sqrt(g d)"), self.speed(), Some(0.5), None, source),
@@ -226,7 +226,7 @@ impl Flow {
 
 /// V-36: at rest below, steady flow of constant density with Bagnold's profile above the angle of repose.
 pub(super) fn silbert(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let source = "Silbert et al. 2001: flow from 19.5 to 26 degrees (V-36)";
+    let source = "Silbert et al. 2001: flow from 19.5 to 26 degrees";
     let base = base(spoiler)?;
     let slope = |degrees: f64, layers: f64, start: f64| Slope { degrees, layers, friction: 0.5, base: &base, start };
     let still = slope(17.0, 12.0, 1.0).flow([200.0, 220.0], spoiler)?;
@@ -238,14 +238,14 @@ pub(super) fn silbert(spoiler: f64) -> Result<Vec<Claim>, String> {
         let [lower, upper] = flow.inertial();
         let name =
             format!("chute at {} degrees: inertial number of the upper half of the bulk over the lower", flow.degrees);
-        let source = "mu(I): one slope, one inertial number at every depth (V-35)";
+        let source = "mu(I): one slope, one inertial number at every depth";
         claims.push(within(name, upper / lower, 1.0, 0.1, source));
     }
     let name = "chute: speed at 25 over speed at 22 degrees";
     claims.push(Claim::judge(name, steep.speed() / gentle.speed(), Some(1.2), None, source));
     let thin = slope(25.0, 12.0, 5.0).flow([200.0, 400.0], spoiler)?;
     let thick = slope(25.0, 40.0, 25.0).flow([400.0, 600.0], spoiler)?;
-    let source = "mean speed grows with height to the power 3/2 (V-36); 1 for a plug, 2 for a viscous liquid";
+    let source = "mean speed grows with height to the power 3/2; 1 for a plug, 2 for a viscous liquid";
     for [low, high] in [[&thin, &steep], [&steep, &thick]] {
         let exponent = (high.speed() / low.speed()).ln() / (high.thickness() / low.thickness()).ln();
         let name = format!(

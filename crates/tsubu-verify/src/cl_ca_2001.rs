@@ -19,7 +19,7 @@ use tsubu::view::{Contact, Contacts, Wants};
 use tsubu_frame::{Claim, State};
 use tsubu_scene::Scene;
 
-const SOURCE: &str = "Sakaguchi et al. (2001), figures 9 to 11: pictures (C-6)";
+const SOURCE: &str = "Sakaguchi et al. (2001), figures 9 to 11: pictures";
 
 /// The scene of the collapse by a method, with changes; the wall on the right stays if `opened` is false.
 fn collapsing(method: &str, opened: bool, changes: &[&str]) -> Result<Rig, String> {
@@ -85,7 +85,7 @@ pub(super) fn collapse(spoiler: f64) -> Result<Vec<Claim>, String> {
     let (outside, front, angle) = slope(&rig.vectors("position"), WALL);
     claims.push(between("late: grains beyond the place of the wall", outside, 20.0, 270.0, SOURCE));
     claims.push(between("late: front mm", front, 100.0, 300.0, SOURCE));
-    let lattice = "between nothing and the steepest side of the lattice, 60 degrees (C-x3)";
+    let lattice = "between nothing and the steepest side of the lattice, 60 degrees";
     claims.push(between("late: slope degrees", angle, 20.0, 60.0, lattice));
     let standing = {
         let mut rig = collapsing("cl-ca", false, &[])?;
@@ -154,7 +154,7 @@ pub(super) fn turning(spoiler: f64) -> Result<Vec<Claim>, String> {
     };
     let (stiff, turned) = (run(&[TRIANGLES], false)?, run(&[TRIANGLES], true)?);
     let (hexagons, same) = (run(&[], false)?, run(&[], true)?);
-    let room = "grains that turn find room that others leave open (C-7)";
+    let room = "grains that turn find room that others leave open";
     let closer = |name: &str, turned: f64, stiff: f64| between(name, turned / stiff, 0.5, 0.95, room);
     let pattern = "the lattice makes the slope, not whether grains turn: what comes out is close to what does not turn";
     Ok(vec![
@@ -217,7 +217,7 @@ const CYCLE: [u64; 2] = [20, 200];
 pub(super) fn rise(spoiler: f64) -> Result<Vec<Claim>, String> {
     const SEEDS: u64 = 3;
     const CYCLES: u64 = 200;
-    let source = "the large grain rises, a grain as small as the others does not (C-x1)";
+    let source = "the large grain rises, a grain as small as the others does not";
     let mut claims = Vec::new();
     let mut times = Vec::new();
     for radius in 1..=4 {
@@ -300,7 +300,7 @@ fn rolls(rough: bool) -> Result<[f64; 7], String> {
 
 /// C-x2: down along rough walls, up beside that; along smooth walls next to nothing.
 pub(super) fn convection(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let source = "convection needs rough walls (C-x2)";
+    let source = "convection needs rough walls";
     let rough = rolls(spoiler == 1.0)?;
     let smooth = rolls(false)?;
     let outer = |v: &[f64; 7]| 0.5 * (v[0] + v[6]);
@@ -348,7 +348,7 @@ pub(super) fn pour(spoiler: f64) -> Result<Vec<Claim>, String> {
     let (left, right) = (flank(-1), flank(1));
     let tops: Vec<f64> = surface.values().copied().collect();
     let angles: Vec<f64> = tops.windows(4).map(|t| ((t[3] - t[0]) / (3.0 * width)).atan().abs().to_degrees()).collect();
-    let source = "heaps of hexagons end between the lattice's 30 and 60 degrees (C-x3)";
+    let source = "heaps of hexagons end between the lattice's 30 and 60 degrees";
     let gates = |left: f64, right: f64, angles: &[f64]| {
         let share = |of: &dyn Fn(f64) -> bool| {
             angles.iter().filter(|angle| of(**angle)).count() as f64 / angles.len().max(1) as f64
@@ -386,7 +386,7 @@ pub(super) fn invariants(spoiler: f64) -> Result<Vec<Claim>, String> {
     const STEPS: u64 = 400;
     let plate = super::bench::plan(include_str!("../../../studies/cl-ca-2001/plate.toml"))?;
     let scenes = [("active rule", collapsing("cl-ca", true, &[])?.plan, 0.6), ("passive rule", plate, PUSHED)];
-    let source = "every step (C-6)";
+    let source = "every step";
     let mut claims = Vec::new();
     for (name, plan, begin) in scenes {
         let owned = name == "active rule";
@@ -449,7 +449,7 @@ pub(super) fn plate(spoiler: f64) -> Result<Vec<Claim>, String> {
         // The plate comes down at 50 mm/s from 116 mm and meets the bed at 1.44 s: it has gone 1 mm into it.
         rig.until(PUSHED)?;
         let Network { loads, carry, under } = network(&rig, Contacts::Places);
-        let source = "chain-like, not uniform (C-x4)";
+        let source = "chain-like, not uniform";
         Ok([
             at_least("pairs that share points", loads.len() as f64, 20.0, source),
             at_least("spread of shared points over their mean", scatter(&loads), 0.3, source),

@@ -94,7 +94,7 @@ pub(super) fn pull_off(spoiler: f64) -> Result<Vec<Claim>, String> {
         for (other, plane, reduced) in [("sphere", false, 0.5 * RADIUS), ("plane", true, RADIUS)] {
             let (force, residual) = lift(law, plane, spoiler)?;
             let closed = factor * PI * GAMMA * reduced;
-            let source = "Derjaguin, Muller, Toporov 1975; Johnson, Kendall, Roberts 1971 (V-08)";
+            let source = "Derjaguin, Muller, Toporov 1975; Johnson, Kendall, Roberts 1971";
             claims.push(near(format!("pull-off by {law}, sphere and {other} N"), force, closed, 2e-3, source));
             let name = format!("pull-off by {law}, sphere and {other}: energy residual at the default step");
             claims.push(within(name, residual, 0.0, 1e-3, "conservation of energy"));

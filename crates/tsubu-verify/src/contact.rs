@@ -75,7 +75,7 @@ pub(super) fn restitution(spoiler: f64) -> Result<Vec<Claim>, String> {
                     value,
                     Some(e - 1e-3),
                     Some(e + 1e-3),
-                    "definition; coefficients: Antypov and Elliott 2011, Thornton et al. 2013 (V-05)",
+                    "definition; coefficients: Antypov and Elliott 2011, Thornton et al. 2013",
                 ));
             }
         }

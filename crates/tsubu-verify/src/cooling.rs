@@ -81,7 +81,7 @@ pub(super) fn haff(spoiler: f64) -> Result<Vec<Claim>, String> {
                 rate += cooled / (rig.engine.time() - t) / first.sqrt() / f64::from(seeds);
             }
             let name = format!("cooling gas, {dimension}-D, restitution {restitution}: Haff's time");
-            claims.push(near(name, 1.0 / rate, haff, 0.05, "Haff 1983, closed form (V-30)"));
+            claims.push(near(name, 1.0 / rate, haff, 0.05, "Haff 1983, closed form"));
         }
     }
     Ok(claims)

@@ -53,14 +53,14 @@ fn dem_claims(name: &str, cases: &[CaseResult], source: &str) -> Vec<Claim> {
             ratio,
             Some(limit - 0.01),
             Some(limit + 0.01),
-            "added-mass limit (A-7.1); the paper: lower with more balls",
+            "added-mass limit; the paper: lower with more balls",
         ));
         claims.push(Claim::judge(
             format!("{name}: peak rms with {count} over that of an inelastic lump"),
             rms / lump,
             Some(0.8),
             Some(1.25),
-            "order of magnitude (A-7.1, a calculation of the specification)",
+            "order of magnitude (a calculation of ours)",
         ));
     }
     claims
@@ -106,7 +106,7 @@ pub(super) fn figure_11_extended(spoiler: f64) -> Result<Vec<Claim>, String> {
     let extended = "response.vary.\"lattice.mode\"=[\"extended\"]".to_owned();
     let cases = respond(FIGURE_11, std::slice::from_ref(&extended), spoiler)?;
     let mut claims = Vec::new();
-    let source = "A-7.2: resting impulses bring the shift down";
+    let source = "resting impulses bring the shift down";
     for pair in [0, 10, 30, 50].windows(2) {
         let (before, after) = (peak(&cases, pair[0]), peak(&cases, pair[1]));
         let name = format!("automaton, extended: peak with {} over peak with {}", pair[1], pair[0]);
@@ -128,7 +128,7 @@ pub(super) fn figure_11_extended(spoiler: f64) -> Result<Vec<Claim>, String> {
             peak(&cases, count as usize).0,
             Some(limit - 0.01),
             Some(limit + 0.01),
-            "added-mass limit at small amplitude (A-7.1, A-7.2)",
+            "added-mass limit at small amplitude",
         ));
     }
     Ok(claims)

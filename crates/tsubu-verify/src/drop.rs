@@ -64,7 +64,7 @@ pub(super) fn dem(spoiler: f64) -> Result<Vec<Claim>, String> {
     for k in 1..=4 {
         let (height, time) = closed_form(k, 0.75);
         let (h, t) = found.get(k as usize - 1).copied().unwrap_or((f64::NAN, f64::NAN));
-        let source = "closed form h e^(2k) (V-06); Komatsuzaki 2003, figure 8 (A-F8)";
+        let source = "closed form h e^(2k); Komatsuzaki 2003, figure 8";
         claims.push(Claim::judge(
             format!("drop, DEM: apex {k} m"),
             h,
@@ -85,7 +85,7 @@ pub(super) fn lattice(spoiler: f64) -> Result<Vec<Claim>, String> {
         let (height, time) = closed_form(k, 0.75);
         let (h, t) = found.get(k as usize - 1).copied().unwrap_or((f64::NAN, f64::NAN));
         let cells = (height / 6e-3).floor();
-        let source = "A-7.3; Komatsuzaki 2003, figure 8 (A-F8)";
+        let source = "Komatsuzaki 2003, figure 8";
         let reached = (h / 6e-3 + 1e-9).floor();
         claims.push(Claim::judge(
             format!("drop, automaton: apex {k} cells"),

@@ -66,7 +66,7 @@ fn leaves(froude: f64, spoiler: f64) -> Result<Option<f64>, String> {
 /// number.
 pub(super) fn centrifuging(spoiler: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
-    let source = "closed form w^2 R = g cos(angle) (V-37)";
+    let source = "closed form w^2 R = g cos(angle)";
     for froude in [0.5f64, 0.7, 0.9, 0.98] {
         let found = leaves(froude, spoiler)?.unwrap_or(f64::NAN);
         let name = format!("drum at Froude number {froude}: angle before the top where a grain leaves");
@@ -75,7 +75,7 @@ pub(super) fn centrifuging(spoiler: f64) -> Result<Vec<Claim>, String> {
     for froude in [1.02, 1.2] {
         let stays = f64::from(u8::from(leaves(froude, 2.0 - spoiler)?.is_none()));
         let name = format!("drum at Froude number {froude}: whether a grain stays on the wall");
-        claims.push(within(name, stays, 1.0, 0.0, "closed form w^2 R >= g (V-37)"));
+        claims.push(within(name, stays, 1.0, 0.0, "closed form w^2 R >= g"));
     }
     Ok(claims)
 }

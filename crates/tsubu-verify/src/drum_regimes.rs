@@ -97,7 +97,7 @@ impl Bed {
 
     /// Rolling: a straight surface, nobody flies. Then an S, steep above; then a part of the bed is thrown; then all goes round.
     fn gates(&self, regime: Regime) -> Vec<Claim> {
-        let source = "regimes of Mellmann 2001, from memory (V-37); the bars are ours";
+        let source = "regimes of Mellmann 2001, from memory; the bars are ours";
         let flying =
             |low, high| Claim::judge(self.name("share of the grains that fly"), self.flying, low, high, source);
         let bend = |low, high| {

@@ -95,7 +95,7 @@ pub(super) fn rebounds(spoiler: f64) -> Result<Vec<Claim>, String> {
         let gate = |factor: f64| {
             let name = format!("a film on the way in, steps of {dt} s: speed it takes [m/s]");
             let wanted = factor * 6.0 * PI * 1e-3 * R * R / MOVED * takes();
-            near(name, lost, wanted, 0.01, "6 pi mu R*^2/m (ln(h_0/h_r) + 1), Reynolds 1886 (V-56)")
+            near(name, lost, wanted, 0.01, "6 pi mu R*^2/m (ln(h_0/h_r) + 1), Reynolds 1886")
         };
         claims.push(gate(1.0));
         claims.push(refused("the factor of two equal spheres", &[gate(0.25)], 1));
@@ -106,8 +106,7 @@ pub(super) fn rebounds(spoiler: f64) -> Result<Vec<Claim>, String> {
         Ok::<f64, String>(found.up / SPEED)
     };
     let name = |number: f64| format!("wet restitution, Stokes number {number}");
-    let published =
-        "Joseph, Zenit, Hunt and Rosenwinkel 2001: none up to about 10, the dry one from about 1000 on (V-56)";
+    let published = "Joseph, Zenit, Hunt and Rosenwinkel 2001: none up to about 10, the dry one from about 1000 on";
     claims.push(within(name(8.0), wet(8.0, hard, film)?, 0.0, 1e-9, published));
     for number in [30.0, 100.0] {
         let wanted = DRY - (1.0 + DRY) * takes() / number;

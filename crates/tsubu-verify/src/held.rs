@@ -60,7 +60,7 @@ fn squeezed(ratio: f64, share: f64, spoiler: f64) -> Result<Rig, String> {
 /// it is too heavy.
 pub(super) fn three_spheres(spoiler: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
-    let source = "statics; after the three spheres of Vyas et al. 2025 (V-16)";
+    let source = "statics; after the three spheres of Vyas et al. 2025";
     for ratio in [1.0, 3.0, 10.0, 30.0, 100.0] {
         let (press, stiffness) = pinch(ratio);
         let sag = 0.45 * FRICTION * press / stiffness;
@@ -108,7 +108,7 @@ pub(super) fn no_slip(spoiler: f64) -> Result<Vec<Claim>, String> {
             let value = (seen.velocity[0] - seen.spin * throw.radius) / 0.5;
             let closed = (std::f64::consts::PI * (inverse * ratio).sqrt()).cos();
             let name = format!("linear spring, {name}, k_t/k_n = {ratio:.4}: tangential restitution");
-            claims.push(within(name, value, closed, 2e-3, "closed form (V-15)"));
+            claims.push(within(name, value, closed, 2e-3, "closed form"));
         }
     }
     Ok(claims)

@@ -71,7 +71,7 @@ pub(super) fn loss_factor(spoiler: f64) -> Result<Vec<Claim>, String> {
             peak,
             Some(0.99 * 40.736),
             Some(1.01 * 40.736),
-            "A-2, closed form",
+            "closed form",
         ),
     ])
 }
@@ -93,7 +93,7 @@ pub(super) fn added_mass(_spoiler: f64) -> Result<Vec<Claim>, String> {
         let period = cycles.iter().map(|c| c.period).sum::<f64>() / cycles.len() as f64;
         let ratio = 1.0 / (period * frequency());
         let limit = 1.0 / (1.0 + mass / M).sqrt();
-        let source = "f / f0 = 1 / sqrt(1 + N m / M) (V-65, A-7.1)";
+        let source = "f / f0 = 1 / sqrt(1 + N m / M)";
         claims.push(Claim::judge(
             format!("frequency ratio with {count} balls at rest"),
             ratio,

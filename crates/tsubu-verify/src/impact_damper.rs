@@ -38,7 +38,7 @@ pub(super) fn symmetric(spoiler: f64) -> Result<Vec<Claim>, String> {
         touching = touches;
     }
     let rms = (squares / measure as f64).sqrt();
-    let source = "closed form of two symmetric impacts per cycle, after Masri and Caughey (V-60)";
+    let source = "closed form of two symmetric impacts per cycle, after Masri and Caughey";
     let near = |value: f64, share: f64| (Some(value * (1.0 - share)), Some(value * (1.0 + share)));
     let ((a, b), (c, d)) = (near(4.08361e-3, 0.005), near(2.86894e-3, 0.005));
     Ok(vec![

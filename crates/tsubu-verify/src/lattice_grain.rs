@@ -58,7 +58,7 @@ fn drop_gates(name: &str, found: &[(f64, f64)]) -> Vec<Claim> {
     for k in 1..=8 {
         let (height, time) = found.get(k - 1).copied().unwrap_or((f64::NAN, f64::NAN));
         let closed = fall * (1.0 + 2.0 * (1..k as i32).map(|i| e.powi(i)).sum::<f64>() + e.powi(k as i32));
-        let source = "closed form h e^(2k); Komatsuzaki 2003, figure 8, has four (A-F8)";
+        let source = "closed form h e^(2k); Komatsuzaki 2003, figure 8, has four";
         let share = height / (drop * e.powi(2 * k as i32));
         claims.push(within(format!("{name}: apex {k} over closed form"), share, 1.0, 0.04, source));
         claims.push(within(format!("{name}: time of apex {k} over closed form"), time / closed, 1.0, 0.01, source));

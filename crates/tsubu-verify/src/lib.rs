@@ -28,6 +28,7 @@ mod outlet;
 mod pile_stress;
 mod pile_twin;
 mod random_loads;
+mod recorded;
 mod rheology;
 mod rolling;
 mod sediment_2004;
@@ -40,6 +41,7 @@ mod throw;
 mod voids;
 mod water;
 
+pub use recorded::recorded;
 use tsubu_frame::{Claim, RunFolder};
 
 /// The claims of a case, or why it came to none.

@@ -69,7 +69,7 @@ fn flights(gamma: f64, spoiler: f64) -> Result<Vec<f64>, String> {
 /// Flight time is one period for sqrt(1 + pi^2) <= Gamma <= sqrt(4 + pi^2), shorter below, of two lengths above. The
 /// tolerance is the time that a contact of this stiffness lasts.
 pub(super) fn locking(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let source = "closed form and event-driven integration (V-39)";
+    let source = "closed form and event-driven integration";
     let mut claims = Vec::new();
     for (gamma, expected) in [(3.25, 0.9922), (3.32, 1.0), (3.6, 1.0)] {
         let found = flights(gamma, spoiler)?;

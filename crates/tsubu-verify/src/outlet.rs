@@ -119,7 +119,7 @@ impl Fit {
 
     /// The gates, for the right law and for wrong ones.
     fn claims(&self) -> [Claim; 2] {
-        let source = "Beverloo 1961 in the plane, exponent 3/2 (V-31)";
+        let source = "Beverloo 1961 in the plane, exponent 3/2";
         let name = "slot: width k at which the flow would end, in diameters";
         [
             Claim::judge(name, self.end[0], Some(1.2), Some(2.0), source),
@@ -151,7 +151,7 @@ pub(super) fn beverloo(spoiler: f64) -> Result<Vec<Claim>, String> {
             all.iter().flat_map(|silo| &silo[spans.clone()]).map(|rate| 1.0 / rate).sum::<f64>()
         };
         let later = half(0..SPANS / 2) / half(SPANS / 2..SPANS);
-        let source = "Beverloo 1961: the rate does not know the height (V-31)";
+        let source = "Beverloo 1961: the rate does not know the height";
         claims.push(within(
             format!("slot of {slot} d: rate at half the height over rate before"),
             later,

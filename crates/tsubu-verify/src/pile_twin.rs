@@ -303,7 +303,7 @@ pub(super) fn twin(spoiler: f64) -> Result<Vec<Claim>, String> {
         "poured heap by DEM: dip over the mean load",
         dem.dip,
         0.1,
-        "heaps of sand poured from a point have one (R-5: what the automata were made for)",
+        "heaps of sand poured from a point have one (what the automata were made for)",
     ));
     Ok(claims)
 }

@@ -30,7 +30,7 @@ pub(super) fn q_model(spoiler: f64) -> Result<Vec<Claim>, String> {
     let row = loads(spoiler);
     let total: f64 = row.iter().sum();
     let mean = DEPTH as f64;
-    let source = "Coppersmith, Liu, Majumdar, Narayan, Witten 1996, mean field; independent calculation (V-40)";
+    let source = "Coppersmith, Liu, Majumdar, Narayan, Witten 1996, mean field; independent calculation";
     let name = "random loads: weight carried over weight";
     let mut claims = vec![within(name, total / (mean * WIDTH as f64), 1.0, 1e-12, "conservation of weight")];
     let variance = row.iter().map(|x| (x / mean - 1.0).powi(2)).sum::<f64>() / WIDTH as f64;

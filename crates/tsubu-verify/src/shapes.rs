@@ -99,7 +99,7 @@ pub(super) fn restitution(spoiler: f64) -> Result<Vec<Claim>, String> {
         for (form, law, steps) in forms {
             for e in [0.9, 0.3] {
                 let [value, _] = impact(&folder, entry, law, e, steps, spoiler)?;
-                let source = "definition; coefficients: Antypov and Elliott 2011, Thornton et al. 2013 (V-05)";
+                let source = "definition; coefficients: Antypov and Elliott 2011, Thornton et al. 2013";
                 claims.push(within(format!("restitution {e} by {form}, {shape}"), value, e, 1e-3, source));
             }
         }
@@ -126,7 +126,7 @@ pub(super) fn thornton(spoiler: f64) -> Result<Vec<Claim>, String> {
         // Dashpot 2 gamma sqrt(m dF/dd), with dF/dd = 3/2 k sqrt(d).
         let beta = 2.0 * published(e) * 1.5f64.sqrt() * spoiler;
         let value = calibrate::restitution(beta, 1.5, 0.25, false);
-        let source = "polynomial of Thornton, Cummins, Cleary 2013, good to 3e-4 (V-05)";
+        let source = "polynomial of Thornton, Cummins, Cleary 2013, good to 3e-4";
         claims.push(within(
             format!("restitution {e} with the published coefficient, no attraction"),
             value,
@@ -139,7 +139,7 @@ pub(super) fn thornton(spoiler: f64) -> Result<Vec<Claim>, String> {
         for (law, p, q) in [("linear", 1.0, 0.0), ("Hertz and quarter", 1.5, 0.25)] {
             let beta = calibrate::coefficient(e, p, q, true) * spoiler;
             let value = calibrate::restitution(beta, p, q, false);
-            let source = "independent integration; Schwager and Poeschel 2007 (V-05)";
+            let source = "independent integration; Schwager and Poeschel 2007";
             let name = format!("restitution {e} asked with attraction, {law}, attraction cut");
             claims.push(within(name, value, apparent, 1e-3, source));
         }

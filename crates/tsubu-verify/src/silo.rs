@@ -145,7 +145,7 @@ fn gates(columns: &[Seen], spoiler: f64) -> Vec<Claim> {
     let levels = levels(columns, weight);
     let length = length(&levels, weight);
     let fitted = WIDTH / (2.0 * WALL_FRICTION * length);
-    let source = "Janssen 1895, K fitted (V-32)";
+    let source = "Janssen 1895, K fitted";
     let mut claims = vec![Claim::judge("Janssen: K, fitted", fitted, Some(0.3), Some(1.0), source)];
     for level in &levels {
         let closed = form(weight, level.depth, length * spoiler.powi(2));

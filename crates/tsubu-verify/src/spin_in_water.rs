@@ -41,13 +41,7 @@ pub(super) fn spin(spoiler: f64) -> Result<Vec<Claim>, String> {
     let (slow, passed) = left(SPIN, "torque.stokes = {}", STOKES, spoiler)?;
     let time = passed / (SPIN / slow).ln();
     let gate = |wanted: f64| {
-        near(
-            "2 mm of quartz spins down by Stokes's torque: time scale [s]",
-            time,
-            wanted,
-            1e-3,
-            "sigma r^2/(15 mu) (V-54)",
-        )
+        near("2 mm of quartz spins down by Stokes's torque: time scale [s]", time, wanted, 1e-3, "sigma r^2/(15 mu)")
     };
     // The inertia of a disc is 5/4 of that of a sphere.
     let mut claims = vec![gate(STOKES), refused("the inertia of a disc", &[gate(1.25 * STOKES)], 1)];
@@ -56,7 +50,7 @@ pub(super) fn spin(spoiler: f64) -> Result<Vec<Claim>, String> {
         let (found, passed) = left(SPIN, "torque.finite-reynolds = {}", seconds, spoiler)?;
         let gate = |square: f64| {
             let name = format!("the same from 900 rad/s by the law for all spins, {seconds} s: spin left [rad/s]");
-            near(name, found, decayed(passed, square), 1e-3, "Dennis, Singh and Ingham 1980 (V-54)")
+            near(name, found, decayed(passed, square), 1e-3, "Dennis, Singh and Ingham 1980")
         };
         claims.push(gate(4.0 * R * R));
         claims.push(refused("the radius for the diameter in the Reynolds number", &[gate(R * R)], 1));
@@ -67,7 +61,7 @@ pub(super) fn spin(spoiler: f64) -> Result<Vec<Claim>, String> {
     let (end, _) = left(0.0, stream, 10.0 * STOKES, spoiler)?;
     let shear = 0.1 * 5.75 / LN_10 / 4e-3;
     let gate = |rate: f64| {
-        near("drifting in a log-law stream: spin in the end [rad/s]", end, rate, 1e-3, "half the shear rate (V-54)")
+        near("drifting in a log-law stream: spin in the end [rad/s]", end, rate, 1e-3, "half the shear rate")
     };
     claims.push(gate(0.5 * shear));
     claims.push(refused("the shear rate, not half of it", &[gate(shear)], 1));

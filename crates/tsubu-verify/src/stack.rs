@@ -83,7 +83,7 @@ pub(super) fn stacked(spoiler: f64) -> Result<Vec<Claim>, String> {
         let (z, expected) = (stack.vectors("position"), closed(stack.engine.time()));
         for (name, z, expected) in [("lower", z[0].z - low, expected[0]), ("upper", z[1].z - high, expected[1])] {
             let name = format!("stack, {} ms: displacement of the {name} sphere m", 10 * part);
-            claims.push(within(name, z, expected, 2e-3 * OVERLAP, "closed form: two masses, three springs (V-07)"));
+            claims.push(within(name, z, expected, 2e-3 * OVERLAP, "closed form: two masses, three springs"));
         }
     }
     for (name, law) in [("Hooke", hooke.as_str()), ("Hertz", "")] {
@@ -96,12 +96,12 @@ pub(super) fn stacked(spoiler: f64) -> Result<Vec<Claim>, String> {
             worst = worst.max((stack.engine.grain_stocks().total() - start).abs());
         }
         // Verlet's energy swings by (w dt)^2/8 of the energy that swings, and does not drift.
-        let source = "conservation of energy (V-07)";
+        let source = "conservation of energy";
         let name = format!("stack, {name}: energy error within 40000 default steps over elastic energy");
         claims.push(within(name, worst / held, 0.0, 1e-3, source));
     }
     let held = rig("", 20.0, spoiler)?.engine.grain_stocks().elastic;
-    claims.push(near("stack: elastic energy at the start over Hertz's", held / hertz(), 1.0, 1e-6, "Hertz (V-01)"));
+    claims.push(near("stack: elastic energy at the start over Hertz's", held / hertz(), 1.0, 1e-6, "Hertz"));
     Ok(claims)
 }
 

@@ -81,8 +81,14 @@ pub(super) fn settling(spoiler: f64) -> Result<Vec<Claim>, String> {
             let seconds = if d < 1.5e-3 { 0.6 } else { 3.0 };
             let found = sunk(d, law.name, "", seconds, spoiler)?;
             let name = |what: &str| format!("quartz of {} mm sinks, {}{what} [m/s]", d * 1e3, law.name);
-            claims.push(near(name(""), found, terminal(d, law.coefficient), 1e-3, "C(Re) v^2 = 4/3 (s-1) g d (V-50)"));
-            claims.push(within(name(", table"), found, published, 1.01e-4 + 1e-3 * published, "V-50"));
+            claims.push(near(name(""), found, terminal(d, law.coefficient), 1e-3, "C(Re) v^2 = 4/3 (s-1) g d"));
+            claims.push(within(
+                name(", table"),
+                found,
+                published,
+                1.01e-4 + 1e-3 * published,
+                "terminal speed as published",
+            ));
         }
     }
     let light = sunk(2e-3, LAWS[0].name, "density = 950", 3.0, spoiler)?;
@@ -93,8 +99,7 @@ pub(super) fn settling(spoiler: f64) -> Result<Vec<Claim>, String> {
 /// V-55: (s-1) g/(s + 1/2).
 pub(super) fn released(spoiler: f64) -> Result<Vec<Claim>, String> {
     let begin = |rest: &str| Ok::<f64, String>(sunk(2e-3, "none = {}", rest, 1e-3, spoiler)? / 1e-3);
-    let gate =
-        |name: &str, value: f64| near(name, value, 1.65 * 9.8 / 3.15, 5e-3, "Batchelor 1967: (s-1) g/(s + 1/2) (V-55)");
+    let gate = |name: &str, value: f64| near(name, value, 1.65 * 9.8 / 3.15, 5e-3, "Batchelor 1967: (s-1) g/(s + 1/2)");
     let mut claims = vec![gate("quartz let go in still water [m/s^2]", begin("")?)];
     claims.push(refused("no added mass", &[gate("", begin("added-mass = 0")?)], 1));
     Ok(claims)
@@ -158,8 +163,7 @@ pub(super) fn packed(spoiler: f64) -> Result<Vec<Claim>, String> {
     for u in [2e-3, 8e-3, 15e-3] {
         let (open, loss) = loss(&column(u, spoiler)?);
         let name = |what: &str| format!("packed column, {} mm/s: {what}", u * 1e3);
-        let gate =
-            |u: f64| near(name("loss of pressure over Ergun's"), loss / ergun(open, u), 1.0, 0.03, "Ergun 1952 (V-52)");
+        let gate = |u: f64| near(name("loss of pressure over Ergun's"), loss / ergun(open, u), 1.0, 0.03, "Ergun 1952");
         claims.push(gate(u));
         claims.push(within(name("void fraction"), open, 0.42, 0.05, "loose random packings of spheres"));
         if u > 10e-3 {
@@ -181,7 +185,7 @@ pub(super) fn fluidised(spoiler: f64) -> Result<Vec<Claim>, String> {
     let least = ((b * b + 4.0 * a * 1500.0 * 9.8).sqrt() - b) / (2.0 * a);
     let height = |velocity: f64| Ok::<f64, String>(column(velocity, spoiler)?.engine.centre_of_mass()[2]);
     let (rest, below, above) = (height(1e-3)?, height(0.85 * least)?, height(1.4 * least)?);
-    let source = "Ergun 1952, loss = weight under water (V-53)";
+    let source = "Ergun 1952, loss = weight under water";
     let stays = |height: f64| {
         within(
             "column at 0.85 of the velocity that carries it: height over that at rest",

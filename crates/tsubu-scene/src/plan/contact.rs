@@ -1,4 +1,4 @@
-//! Materials and the contact law.
+//! Materials and the contact law. What the choices are stands in the table of keys and beside their code: `tsubu explain`.
 
 use serde::{Deserialize, Serialize};
 
@@ -76,9 +76,9 @@ pub struct Contact {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Normal {
-    /// k d^(3/2), k from the materials (Hertz).
+    /// `contact.normal.hertz`.
     Hertz {},
-    /// k d, one k for all contacts.
+    /// `contact.normal.hooke`.
     Hooke {
         /// k [N/m].
         stiffness: f64,
@@ -89,26 +89,26 @@ pub enum Normal {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Damping {
-    /// No damping, whatever the restitution.
+    /// `contact.damping.none`.
     None {},
-    /// c d^(1/2) d' (visco-elastic, Kuwabara-Kono): restitution falls slowly with speed.
+    /// `contact.damping.sqrt`.
     Sqrt {
         /// Impact speed at which the restitution is the materials' [m/s].
         reference_speed: f64,
     },
-    /// c d^(1/4) d' (Tsuji 1992): constant restitution with Hertz.
+    /// `contact.damping.quarter`.
     Quarter {},
-    /// c d': constant restitution with Hooke; with Hertz the restitution is met at the reference speed.
+    /// `contact.damping.linear`.
     Linear {
         /// Impact speed at which the restitution is the materials' [m/s].
         reference_speed: f64,
     },
-    /// rate m* d', whatever the restitution (the `mass_velocity` damping of other codes).
+    /// `contact.damping.rate`.
     Rate {
         /// Damping coefficient over reduced mass [1/s].
         rate: f64,
     },
-    /// c d', one c for all contacts, whatever the restitution (Osada 2004).
+    /// `contact.damping.dashpot`.
     Dashpot {
         /// c [N.s/m].
         coefficient: f64,
@@ -119,21 +119,21 @@ pub enum Damping {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Tangential {
-    /// None.
+    /// `contact.tangential.none`.
     None {},
-    /// Sliding friction -mu f_n v_t / max(|v_t|, v_eps): Komatsuzaki 2003, no spring.
+    /// `contact.tangential.coulomb`.
     Coulomb {
         /// v_eps [m/s].
         smoothing_speed: f64,
     },
-    /// Mindlin's spring with history, capped at mu f_n.
+    /// `contact.tangential.mindlin`.
     Mindlin {
         /// How force and slip belong together.
         form: MindlinForm,
         /// Tangential over normal dashpot [-]; `None`: equal damping ratios.
         damping: Option<f64>,
     },
-    /// A linear spring with history and a dashpot, capped at mu f_n + c b (Cundall and Strack 1979; Osada 2004).
+    /// `contact.tangential.spring`.
     Spring {
         /// k_t over the stiffness of `contact.normal.hooke` [-].
         ratio: f64,
@@ -158,35 +158,35 @@ pub enum MindlinForm {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Rolling {
-    /// None.
+    /// `contact.rolling.none`.
     None {},
-    /// Torque mu_r R f_n against the relative rolling, smoothed below a small rolling speed.
+    /// `contact.rolling.constant`.
     Constant {
         /// Rolling speed below which the torque fades [m/s].
         smoothing_speed: f64,
     },
-    /// Torque coefficient times the rolling, without a limit (model B of Ai 2011).
+    /// `contact.rolling.viscous`.
     Viscous {
         /// Torque over (mu_r R f_n) at a rolling speed of 1 m/s [s/m].
         coefficient: f64,
     },
-    /// Elastic-plastic spring-dashpot (EPSD, model C of Ai 2011): k_r = ratio k_n (mu_r R)^2, capped at mu_r R f_n.
+    /// `contact.rolling.epsd`.
     Epsd {
         /// 2.25 in space, 3 in the plane [-].
         ratio: f64,
         /// Damping ratio of the rolling spring [-].
         damping_ratio: f64,
     },
-    /// The same without a dashpot, k_r = k_t R^2 (EPSD2).
+    /// `contact.rolling.epsd2`.
     Epsd2 {},
-    /// Rolling spring-dashpot-slider on the rolling displacement: force k x + c v, capped at mu_r f_n, at arm R (Luding 2008).
+    /// `contact.rolling.spring`.
     Spring {
         /// k [N/m].
         stiffness: f64,
         /// c [N.s/m].
         damping: f64,
     },
-    /// Torque f' b f_n, b the half width of contact (Osada 2004).
+    /// `contact.rolling.contact-width`.
     ContactWidth {
         /// Rolling speed below which the torque fades [m/s].
         smoothing_speed: f64,
@@ -197,14 +197,14 @@ pub enum Rolling {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Twisting {
-    /// None.
+    /// `contact.twisting.none`.
     None {},
-    /// Torque 2/3 mu_t a f_n against the twisting, a the contact radius, fading below a small rate.
+    /// `contact.twisting.sliding`.
     Sliding {
         /// Spin below which the torque fades [rad/s].
         smoothing_spin: f64,
     },
-    /// Spring k_t a^2 / 2 on the angle of twist, capped at 2/3 mu_t a f_n (Marshall 2009).
+    /// `contact.twisting.spring`.
     Spring {},
 }
 
@@ -212,15 +212,15 @@ pub enum Twisting {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Cohesion {
-    /// None.
+    /// `contact.cohesion.none`.
     None {},
-    /// Hertz less 4 pi gamma R* (Derjaguin, Muller, Toporov 1975).
+    /// `contact.cohesion.dmt`.
     Dmt {},
-    /// Johnson, Kendall, Roberts 1971: replaces Hertz; holds on beyond the geometric contact until pull-off.
+    /// `contact.cohesion.jkr`.
     Jkr {},
-    /// Energy density times the area of the overlap lens; depends on stiffness.
+    /// `contact.cohesion.sjkr`.
     Sjkr {},
-    /// The same force in every contact.
+    /// `contact.cohesion.constant`.
     Constant {},
 }
 
@@ -228,9 +228,9 @@ pub enum Cohesion {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Film {
-    /// None.
+    /// `contact.film.none`.
     None {},
-    /// f_n = 6 pi mu R*^2 v/max(h, roughness), h the gap.
+    /// `contact.film.lubrication`.
     Lubrication {
         /// Gap at which it grows no more [m].
         roughness: f64,

@@ -1,4 +1,4 @@
-//! The water that grains are in.
+//! The water that grains are in. What the choices are stands in the table of keys and beside their code: `tsubu explain`.
 
 use serde::{Deserialize, Serialize};
 
@@ -73,9 +73,9 @@ impl Directions {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Buoyancy {
-    /// Pressure and shear stress of a uniform stream, - rho V g.
+    /// `water.buoyancy.vertical`.
     Vertical,
-    /// Pressure alone, normal to the stream.
+    /// `water.buoyancy.normal`.
     Normal,
 }
 
@@ -83,9 +83,9 @@ pub enum Buoyancy {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Flow {
-    /// Not at all.
+    /// `water.flow.still`.
     Still {},
-    /// U = U* (8.5 + 5.75 log10(Z/k)) along x, Z = z - zero level.
+    /// `water.flow.log-law`.
     LogLaw {
         /// U* [m/s].
         shear_velocity: f64,
@@ -94,14 +94,14 @@ pub enum Flow {
         /// Height z where Z = 0 [m].
         zero_level: f64,
     },
-    /// Straight lines between points, along x.
+    /// `water.flow.table`.
     Table {
         /// Heights z [m], rising.
         height: Vec<f64>,
         /// Velocities [m/s].
         velocity: Vec<f64>,
     },
-    /// Layers that give to the grains and take from them.
+    /// `water.flow.coupled`.
     Coupled {
         /// Height z where the water begins [m].
         bottom: f64,
@@ -124,7 +124,7 @@ pub enum Flow {
         /// The stream at time 0.
         start: StreamStart,
     },
-    /// Upwards with `velocity` over the share that grains leave to the water.
+    /// `water.flow.column`.
     Column {
         /// Height z where the column begins [m].
         bottom: f64,
@@ -173,11 +173,11 @@ pub enum StreamStart {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Hindrance {
-    /// Nothing.
+    /// `water.hindrance.none`.
     None {},
-    /// Re with e |U - u|, force times e^(2 - b).
+    /// `water.hindrance.di-felice`.
     DiFelice {},
-    /// Force times e^-exponent.
+    /// `water.hindrance.richardson-zaki`.
     RichardsonZaki {
         /// The exponent [-].
         exponent: f64,
@@ -188,23 +188,23 @@ pub enum Hindrance {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Drag {
-    /// C = 0.
+    /// `water.drag.none`.
     None {},
-    /// C = coefficient.
+    /// `water.drag.constant`.
     Constant {
         /// C [-].
         coefficient: f64,
     },
-    /// C = coefficient + 24/Re.
+    /// `water.drag.stokes-newton`.
     StokesNewton {
         /// C of large Re [-].
         coefficient: f64,
     },
-    /// C = 24/Re (1 + 0.15 Re^0.687) up to Re = 1000, 0.44 above.
+    /// `water.drag.schiller-naumann`.
     SchillerNaumann {},
-    /// Ergun's bed below e = 0.8, Wen and Yu's above.
+    /// `water.drag.gidaspow`.
     Gidaspow {},
-    /// C = (0.63 + 4.8/sqrt(Re))^2.
+    /// `water.drag.abraham`.
     Abraham {},
 }
 
@@ -212,11 +212,11 @@ pub enum Drag {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Torque {
-    /// None.
+    /// `water.torque.none`.
     None {},
-    /// 8 pi mu r^3 (Omega - w).
+    /// `water.torque.stokes`.
     Stokes {},
-    /// The same beyond slow spin (Dennis, Singh and Ingham 1980).
+    /// `water.torque.finite-reynolds`.
     FiniteReynolds {},
 }
 
@@ -224,12 +224,12 @@ pub enum Torque {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Lift {
-    /// By shear, slow (Saffman 1965).
+    /// `water.lift.saffman`.
     Saffman,
-    /// By shear, slow or fast (Mei 1992).
+    /// `water.lift.saffman-mei`.
     SaffmanMei,
-    /// By spin, slow (Rubinow and Keller 1961).
+    /// `water.lift.magnus`.
     Magnus,
-    /// By spin, slow or fast (Oesterle and Dinh 1998).
+    /// `water.lift.magnus-oesterle-dinh`.
     MagnusOesterleDinh,
 }

@@ -44,18 +44,12 @@ fn judge(of: &Measured) -> Vec<Claim> {
         at_least(format!("heap, slope by {more} less that by {less}, degrees"), angle(more) - angle(less), 3.0, source)
     };
     let turns = "the less grains turn, the steeper they lie (Osada 2004, figures 19 and 23)";
-    let lattice = "a lattice has its own slope, steeper than friction 0.3 holds (C-x3)";
+    let lattice = "a lattice has its own slope, steeper than friction 0.3 holds";
     vec![
         steeper("rolling", "dem", turns),
         steeper("locked", "rolling", turns),
         steeper("cl-ca", "locked", lattice),
-        between(
-            "heap, slope by after-caram-hong, degrees",
-            angle("after-caram-hong"),
-            55.0,
-            65.0,
-            "60: the lattice (R-2)",
-        ),
+        between("heap, slope by after-caram-hong, degrees", angle("after-caram-hong"), 55.0, 65.0, "60: the lattice"),
         refused("heap, discs that do not turn for free ones", &[steeper("dem", "locked", turns)], 1),
     ]
 }

@@ -72,7 +72,7 @@ fn measure(seen: &Seen) -> Vec<(&'static str, f64)> {
 }
 
 fn judge(of: &Measured) -> Vec<Claim> {
-    let source = "independent of the height of the bed, unlike a liquid, 0.77 (Sakaguchi et al. 2001, figure 1; R-1 e)";
+    let source = "independent of the height of the bed, unlike a liquid, 0.77 (Sakaguchi et al. 2001, figure 1)";
     let steady = |name: &str, ratio: f64| {
         between(format!("hopper, {name}: rate of the later half over the earlier"), ratio, 0.85, 1.18, source)
     };
@@ -90,7 +90,7 @@ fn judge(of: &Measured) -> Vec<Claim> {
     // The speed of a liquid goes with the root of what is left: so does the time to let out the next share.
     let time = |from: f64, to: f64| f64::sqrt(1.0 - from) - f64::sqrt(1.0 - to);
     claims.push(refused("hopper, a liquid", &[steady("", time(0.1, 0.4) / time(0.4, 0.7))], 1));
-    let narrow = "one grain a site spreads voids too little (R-1: B = 0.144 d, experiments 1 to 3.5 d)";
+    let narrow = "one grain a site spreads voids too little (B = 0.144 d, experiments 1 to 3.5 d)";
     let width = |name: &str| {
         let ratio = of.value(name, WIDTH) / of.value("dem", WIDTH);
         between(format!("hopper, {name}: width of the flow over that of free discs"), ratio, 0.2, 0.9, narrow)

@@ -70,14 +70,14 @@ fn measure(seen: &Seen) -> Vec<(&'static str, f64)> {
 fn judge(of: &Measured) -> Vec<Claim> {
     let rises = |name: &str| {
         let what = format!("shaken, {name}: large over small, gained, of the bed's height");
-        at_least(what, of.value(name, GAIN), 0.08, "large grains rise among small ones (C-x1)")
+        at_least(what, of.value(name, GAIN), 0.08, "large grains rise among small ones")
     };
     let sinks = |name: &str| {
         let what = format!("shaken, {name}: deepest grain below the floor, mm");
-        let source = "no grain leaves the box (C-6); DEM lets discs sink in by a hundredth of their size";
+        let source = "no grain leaves the box; DEM lets discs sink in by a hundredth of their size";
         Claim::judge(what, of.value(name, SUNK), None, Some(0.5), source)
     };
-    let walls = "no roll where walls do not rub (C-x2); a lattice knows no friction";
+    let walls = "no roll where walls do not rub; a lattice knows no friction";
     let still = |name: &str| {
         let what = format!("shaken, {name}: middle over walls, mm per period");
         between(what, of.value(name, ROLL), -0.05, 0.05, walls)
@@ -89,7 +89,7 @@ fn judge(of: &Measured) -> Vec<Claim> {
         "shaken, dem: middle over walls, mm per period",
         of.value("dem", ROLL),
         0.1,
-        "up in the middle and down at walls that rub (C-x2)",
+        "up in the middle and down at walls that rub",
     ));
     claims.push(still("switched"));
     claims.push(refused("shaken, discs that rub for hexagons that do not", &[still("dem")], 1));

@@ -61,8 +61,8 @@ pub(crate) fn figure_9(_spoiler: f64) -> Result<Vec<Claim>, String> {
                 claims.push(Claim::judge(format!("{name}: {what}"), value, Some(low), Some(high), source));
             };
             // The phases come in steps of 1/60.
-            claim("phase of landing", landing, -0.25, 0.071 + 0.017, "no later than an inelastic lump (A-6.4)");
-            claim("phase of lift-off", lift_off, 0.046 - 0.017, 0.25, "floor acceleration below -g (A-6.4)");
+            claim("phase of landing", landing, -0.25, 0.071 + 0.017, "no later than an inelastic lump");
+            claim("phase of lift-off", lift_off, 0.046 - 0.017, 0.25, "floor acceleration below -g");
             claim("share of the period in the air", flight, 0.5, 1.0, "figures 9 and 10: separates in mid-air");
         }
     }

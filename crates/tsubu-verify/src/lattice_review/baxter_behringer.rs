@@ -137,7 +137,13 @@ pub(crate) fn hopper_order(spoiler: f64) -> Result<Vec<Claim>, String> {
             0.03,
             "symmetry",
         ),
-        within("hopper: sites that differ from round grains (R-3.1)", differ as f64, 0.0, 0.0, "R-3.1"),
+        within(
+            "hopper: sites that differ from round grains",
+            differ as f64,
+            0.0,
+            0.0,
+            "grains that are alike on all sides are those after Peng and Herrmann",
+        ),
         Claim::judge("hopper: grains through the throat in a step", with.flow, Some(1.0), None, SOURCE),
         Claim::judge(
             "hopper: speed near the walls of the slope over that in the middle",

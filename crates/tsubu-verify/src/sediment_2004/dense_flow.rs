@@ -126,7 +126,7 @@ pub(in super::super) fn dense_flow(spoiler: f64) -> Result<Vec<Claim>, String> {
     let deep = |value: f64, what: &str| within(format!("dense flow, {what}: depth m"), value, 0.0148, 0.003, source);
     let equal = |value: f64, what: &str, friction: f64| {
         let name = format!("dense flow, {what}: solid fraction over Takahashi's for {friction} degrees");
-        within(name, value / takahashi(15.2, friction), 1.0, 0.25, "Takahashi 1978: 0.324 at 15.2 degrees (V-59)")
+        within(name, value / takahashi(15.2, friction), 1.0, 0.25, "Takahashi 1978: 0.324 at 15.2 degrees")
     };
     let mut claims = vec![
         upper(driven.upper, "log law"),

@@ -53,7 +53,7 @@ pub(in super::super) fn mobile_bed(spoiler: f64) -> Result<Vec<Claim>, String> {
     };
     let moves = |bed: &Bed, what: &str| {
         let name = format!("mobile bed, {what}: share of grains that move");
-        let source = "Shields number above 0.1, twice that at which a bed begins to move (V-57)";
+        let source = "Shields number above 0.1, twice that at which a bed begins to move";
         Claim::judge(name, bed.moving, Some(0.03), None, source)
     };
     let rods = |locked: f64, free: f64| {

@@ -139,7 +139,7 @@ pub(in super::super) fn saltation(spoiler: f64) -> Result<Vec<Claim>, String> {
     claims.push(same("mean hop length", paper.length, stiff.length));
     let gates = [same("", soft.height, stiff.height), same("", soft.length, stiff.length)];
     claims.push(refused("contacts of 1 N/cm, in which the grain sinks between those of the bed", &gates, 2));
-    let source = "Sklar and Dietrich 2004, of measured hops, a factor of 2 (V-58)";
+    let source = "Sklar and Dietrich 2004, of measured hops, a factor of 2";
     let twice = |name: &str, value: f64, wanted: f64| {
         Claim::judge(
             format!("leaping grain, Shields number 0.3: {name}"),

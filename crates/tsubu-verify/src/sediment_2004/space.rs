@@ -55,7 +55,7 @@ pub(in super::super) fn saltation_space(spoiler: f64) -> Result<Vec<Claim>, Stri
         ];
         wanted.map(|(what, value, wanted)| {
             let name = format!("leaping grains in space, Shields number 0.3: mean {what}");
-            let source = "Sklar and Dietrich 2004, of measured hops, a factor of 2 (V-58)";
+            let source = "Sklar and Dietrich 2004, of measured hops, a factor of 2";
             Claim::judge(name, value, Some(0.5 * wanted), Some(2.0 * wanted), source)
         })
     };
