@@ -18,8 +18,8 @@ pub(crate) const ABOUT: About = About {
     key: "method.after-caram-hong",
     formula: "a void swaps with one of the two grains above it, with the left one with probability p; a grain slides while a site below it is empty",
     symbols: "p, rate of the outlet [-]; one row a step",
-    limits: "Slopes rest at 60 degrees, the slope of the lattice. A step is no time of physics but by the speed of free \
-fall that the scene sets.",
+    limits: "Slopes rest at 60 degrees, the slope of the lattice. No inertia, no friction: a step is as long as `time-step` \
+says, by itself the time in which a grain falls from rest to the next row.",
     reference: "after Caram and Hong 1991",
 };
 
