@@ -1,20 +1,20 @@
 //! Room for a grain among grains: random places without overlap.
 
 use glam::DVec3;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 /// Spheres that are there already, in cells of the largest diameter.
 #[derive(Debug, Default)]
 pub(super) struct Occupied {
     size: f64,
     largest: f64,
-    cells: HashMap<[i64; 3], Vec<(DVec3, f64)>>,
+    cells: BTreeMap<[i64; 3], Vec<(DVec3, f64)>>,
 }
 
 impl Occupied {
     /// An empty space for spheres of at most `largest` radius [m].
     pub fn new(largest: f64) -> Self {
-        Self { size: 2.0 * largest, largest, cells: HashMap::new() }
+        Self { size: 2.0 * largest, largest, cells: BTreeMap::new() }
     }
 
     /// Puts a sphere in.

@@ -3,7 +3,7 @@
 use super::tree::Tree;
 use super::triangle::Triangle;
 use glam::DVec3;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 /// Sine of the angle up to which neighbouring triangles are one plane [-].
 const COPLANAR: f64 = 1e-6;
@@ -22,7 +22,7 @@ pub(super) struct Topology {
 /// Moves corners that lie within `tolerance` onto one point and drops triangles that are then no more than a line.
 /// Exporters that transform parts leave differences in the last digits; taken literally they would be cracks.
 pub(super) fn weld(corners: &[[DVec3; 3]], tolerance: f64) -> (Vec<Triangle>, Vec<[u32; 3]>) {
-    let mut welder = Welder { tolerance, points: Vec::new(), cells: HashMap::new() };
+    let mut welder = Welder { tolerance, points: Vec::new(), cells: BTreeMap::new() };
     let mut triangles = Vec::new();
     let mut vertices = Vec::new();
     for corners in corners {
@@ -39,7 +39,7 @@ pub(super) fn weld(corners: &[[DVec3; 3]], tolerance: f64) -> (Vec<Triangle>, Ve
 struct Welder {
     tolerance: f64,
     points: Vec<DVec3>,
-    cells: HashMap<[i64; 3], Vec<u32>>,
+    cells: BTreeMap<[i64; 3], Vec<u32>>,
 }
 
 impl Welder {
@@ -64,7 +64,7 @@ impl Welder {
 
 impl Topology {
     pub fn new(triangles: &[Triangle], vertices: Vec<[u32; 3]>, tree: &Tree, tolerance: f64) -> Self {
-        let mut edges: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
+        let mut edges: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
         for (t, v) in vertices.iter().enumerate() {
             for k in 0..3 {
                 edges.entry(edge(v, k)).or_default().push(t as u32);
@@ -126,7 +126,7 @@ fn continues(triangles: &[Triangle], vertices: &[[u32; 3]], edge: [u32; 2], pair
 fn resting_vertices(
     triangles: &[Triangle],
     vertices: &[[u32; 3]],
-    edges: &HashMap<[u32; 2], Vec<u32>>,
+    edges: &BTreeMap<[u32; 2], Vec<u32>>,
     tree: &Tree,
     tolerance: f64,
 ) -> Vec<(u32, u32, u32)> {

@@ -1,9 +1,9 @@
 //! Single grains.
 
 use super::{Axes, LETTERS, Sample, Sheet, Watch};
-use crate::explain::About;
+use crate::about::About;
 use crate::view::{View, Wants};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.track",
@@ -63,7 +63,7 @@ impl Watch for Track {
     }
 
     fn take(&mut self, view: &View) -> Sample {
-        let index: HashMap<u32, usize> = view.grains.id.iter().enumerate().map(|(i, id)| (*id, i)).collect();
+        let index: BTreeMap<u32, usize> = view.grains.id.iter().enumerate().map(|(i, id)| (*id, i)).collect();
         let there = self.ids.iter().filter_map(|id| Some((*id, *index.get(id)?)));
         let rows: Vec<Vec<f64>> =
             there.map(|(id, i)| [f64::from(id)].into_iter().chain(self.values(view, i)).collect()).collect();
