@@ -3,8 +3,9 @@
 use super::{claims, report};
 use crate::failure::Failure;
 use crate::options::WorkOptions;
-use crate::output::{self, Stream};
+use crate::output;
 use crate::progress::Progress;
+use crate::stream::Stream;
 use crate::{stop, table};
 use clap::Args;
 use std::collections::BTreeMap;
@@ -26,10 +27,10 @@ pub struct Options {
     /// Cases or studies; none means all quick ones
     #[arg(value_name = "NAME")]
     names: Vec<String>,
-    /// List the cases
+    /// List the cases, with the seconds that each may take
     #[arg(long)]
     list: bool,
-    /// Run the long ones too
+    /// Run the long ones too: those with a budget of more than a minute, and those that show a gap
     #[arg(long)]
     all: bool,
     /// Folder for verify.json, figures and report.html
@@ -76,11 +77,10 @@ pub fn run(options: &Options) -> Result<(), Failure> {
 }
 
 fn list(cases: &[&Case]) -> Result<(), Failure> {
-    let mut rows = vec![["case", "study", "", "what it checks"].map(str::to_owned).to_vec()];
-    rows.extend(cases.iter().map(|case| {
-        let long = if case.long { "long" } else { "" };
-        [case.name, case.study, long, case.about].map(str::to_owned).to_vec()
-    }));
+    let mut rows = vec![["case", "study", "budget", "what it checks"].map(str::to_owned).to_vec()];
+    rows.extend(
+        cases.iter().map(|case| [case.name, case.study, &case.budget_text(), case.about].map(str::to_owned).to_vec()),
+    );
     output::print(&table::aligned(&rows))
 }
 

@@ -1,0 +1,95 @@
+//! Every case is a test of its own, made from the list of cases: none can be forgotten, and one that fails hides no other.
+//!
+//! Long cases are ignored unless asked for: `cargo nextest run --release -p tsubu-verify --run-ignored only beverloo`.
+
+use libtest_mimic::{Arguments, Failed, Trial, run};
+use std::fmt::Write;
+use tsubu_frame::Claim;
+use tsubu_verify::{CASES, Case};
+
+/// Cases up to this budget [s] run a second time, with a law that is wrong; the others do so when they are asked to.
+const CHEAP: u32 = 5;
+
+/// Cases against closed forms: a wrong law must show in a third of their claims at least. What is left holds for any constants:
+/// energy, rest, symmetry, and rates on which these constants have no say.
+const CLOSED_FORMS: &[&str] = &[
+    "centrifuging",
+    "chung-ooi-no-slip",
+    "chung-ooi-normal",
+    "chung-ooi-oblique",
+    "chung-ooi-restitution",
+    "chung-ooi-sliding",
+    "chung-ooi-spin",
+    "contact-time",
+    "damped-contact",
+    "damping-published",
+    "drop-dem",
+    "drop-lattice",
+    "fhp-collisions",
+    "gutt-haff",
+    "haff",
+    "incline",
+    "overlap-band",
+    "pull-off",
+    "pushed-row",
+    "q-model",
+    "rebound-on-steel",
+    "restitution",
+    "restitution-shapes",
+    "rolling-models",
+    "settling",
+    "slide-to-roll",
+    "spin-down",
+    "stacked",
+    "starts-to-roll",
+    "tangential-spring",
+    "three-spheres",
+];
+
+/// Cases that no factor reaches and that try nothing wrong of their own: a list that may only become shorter.
+const CANNOT_FAIL: &[&str] = &["added-mass", "figure-9", "ring-down"];
+
+fn main() {
+    let arguments = Arguments::from_args();
+    let mut trials = Vec::new();
+    for case in CASES {
+        let passes = Trial::test(format!("{}::passes", case.name), || passes(case));
+        trials.push(passes.with_ignored_flag(!case.is_quick()));
+        let can_fail = Trial::test(format!("{}::can_fail", case.name), || can_fail(case));
+        trials.push(can_fail.with_ignored_flag(!case.is_quick() || case.budget > CHEAP));
+    }
+    trials.push(Trial::test("lists::name_cases", lists_name_cases));
+    run(&arguments, trials).exit();
+}
+
+/// All its claims hold.
+fn passes(case: &Case) -> Result<(), Failed> {
+    let mut wrong = String::new();
+    for claim in case.claims(None)?.iter().filter(|claim| !claim.pass) {
+        let _ = writeln!(wrong, "{} = {} not in {:?}..{:?}", claim.name, claim.value, claim.low, claim.high);
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
+}
+
+/// It notices that the constants of the law are 5 % too small, or it tries something wrong itself.
+fn can_fail(case: &Case) -> Result<(), Failed> {
+    let claims = (case.run)(0.95)?;
+    let refused = claims.iter().filter(|claim| !claim.pass).count();
+    let wanted = if CLOSED_FORMS.contains(&case.name) { claims.len().div_ceil(3) } else { 1 };
+    let own = |claim: &Claim| claim.name.starts_with("wrong on purpose");
+    let can = refused >= wanted || wanted == 1 && claims.iter().any(own);
+    match (can, CANNOT_FAIL.contains(&case.name)) {
+        (true, false) | (false, true) => Ok(()),
+        (false, false) => Err(format!("a law wrong by 5 % fails {refused} of {} claims", claims.len()).into()),
+        (true, true) => Err("it can fail now: take it from the list `CANNOT_FAIL`".into()),
+    }
+}
+
+/// What the lists name is there and is tested.
+fn lists_name_cases() -> Result<(), Failed> {
+    let known = |name: &str| CASES.iter().any(|case| case.name == name && case.is_quick());
+    match CLOSED_FORMS.iter().chain(CANNOT_FAIL).find(|name| !known(name)) {
+        Some(name) => Err(format!("`{name}` is no quick case").into()),
+        None => Ok(()),
+    }
+}
