@@ -14,7 +14,7 @@ pub fn claims(names: &[&str]) -> Result<(), String> {
     let list = output(&["run", "--package", "tsubu-cli", "--quiet", "--", "verify", "--list"])?;
     let cases = listed(&list);
     let chosen = |case: &&Listed| match names {
-        [] => !case.long,
+        [] => case.quick,
         names => names.contains(&case.name) || names.contains(&case.study),
     };
     let old = read()?;
@@ -47,14 +47,16 @@ pub fn read() -> Result<Vec<Value>, String> {
 struct Listed<'a> {
     name: &'a str,
     study: &'a str,
-    long: bool,
+    quick: bool,
 }
 
-/// The rows of `tsubu verify --list`: case, study, `long` or nothing, what it checks.
+/// The rows of `tsubu verify --list`: case, study, budget, what it checks. Quick is what `tsubu verify` alone runs: a budget of at most
+/// a minute, no gap.
 fn listed(list: &str) -> Vec<Listed<'_>> {
     let rows = list.lines().skip(1).filter_map(|line| {
         let mut words = line.split_whitespace();
-        Some(Listed { name: words.next()?, study: words.next()?, long: words.next() == Some("long") })
+        let (name, study, budget) = (words.next()?, words.next()?, words.next()?.parse::<u32>().ok()?);
+        Some(Listed { name, study, quick: budget <= 60 && words.next()? == "s" })
     });
     rows.collect()
 }
@@ -80,11 +82,10 @@ mod tests {
 
     #[test]
     fn the_list_of_cases_is_read() {
-        let list =
-            "  case   study    what it checks\n  haff   dem            a gas\n  janssen dem   long    long silos\n";
+        let list = "  case   study  budget   what it checks\n  haff   dem   2 s    a gas\n  janssen dem   1800 s    long silos\n  twin dem   5 s, gap    a gap\n";
         let cases = listed(list);
-        assert_eq!(cases.len(), 2);
-        assert_eq!((cases[0].name, cases[0].study, cases[0].long), ("haff", "dem", false));
-        assert!(cases[1].long);
+        assert_eq!(cases.len(), 3);
+        assert_eq!((cases[0].name, cases[0].study, cases[0].quick), ("haff", "dem", true));
+        assert!(!cases[1].quick && !cases[2].quick);
     }
 }

@@ -9,6 +9,8 @@ mod check;
 mod claims;
 mod generate;
 mod guard;
+#[cfg(test)]
+mod imports;
 mod race;
 mod shell;
 mod smoke;

@@ -1,6 +1,6 @@
 //! How a command ends when it does not end well: a message, hints and an exit code.
 
-use crate::output::{self, Stream};
+use crate::stream::Stream;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
@@ -77,8 +77,8 @@ impl Failure {
         Self { code, message: Some(Message::Plain(text)), hints: parts.map(str::to_owned).collect() }
     }
 
-    /// Prints the message and gives the exit code.
-    pub fn report(&self) -> ExitCode {
+    /// The message with its hints, as it is printed.
+    pub fn text(&self) -> String {
         let stream = Stream::Error;
         let mut text = String::new();
         match &self.message {
@@ -93,7 +93,11 @@ impl Failure {
         for hint in &self.hints {
             let _ = writeln!(text, "{}: {hint}", stream.bold_cyan("hint"));
         }
-        output::tell(&text);
+        text
+    }
+
+    /// What the program says to whoever started it.
+    pub fn exit_code(&self) -> ExitCode {
         ExitCode::from(self.code)
     }
 

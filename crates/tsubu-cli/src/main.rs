@@ -10,6 +10,7 @@ mod options;
 mod output;
 mod progress;
 mod stop;
+mod stream;
 mod table;
 
 use clap::{CommandFactory, Parser};
@@ -52,7 +53,7 @@ fn main() -> ExitCode {
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
+        Err(failure) => output::report(&failure),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::bundle::Bundle;
 use crate::draw::Draw;
-use crate::kind::Outcome;
+use crate::outcome::Outcome;
 use crate::reading::{self, Expect};
 use crate::seeds::root;
 use crate::spoil;
@@ -10,7 +10,8 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use tsubu::interrupt::Interrupt;
-use tsubu::run::{Watcher, run};
+use tsubu::interrupt::Watcher;
+use tsubu::run::run;
 use tsubu_frame::state::Section;
 use tsubu_frame::{Existing, State, checkpoint};
 use tsubu_scene::Scene;

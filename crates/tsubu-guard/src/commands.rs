@@ -2,9 +2,9 @@
 
 use crate::bundle::Bundle;
 use crate::draw::Draw;
-use crate::kind::Outcome;
 use crate::limits::{beside, limited};
 use crate::nasty;
+use crate::outcome::Outcome;
 use crate::seeds::root;
 use crate::spots::spots;
 use std::path::Path;

@@ -1,8 +1,9 @@
 //! Watches over workers: who panics, hangs, dies, or finds something wrong.
 
 use crate::corpus;
-use crate::kind::{Kind, Outcome};
+use crate::kind::Kind;
 use crate::limits::limited;
+use crate::outcome::Outcome;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek};

@@ -2,18 +2,10 @@
 
 use crate::bundle::Bundle;
 use crate::draw::Draw;
+use crate::outcome::Outcome;
 use crate::{checkpoints, checks, commands, data, reading, scenes};
 use std::path::Path;
 use std::time::Duration;
-
-/// What came of a case that held.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
-    /// What was given was taken.
-    Accepted,
-    /// What was given was refused, with reasons.
-    Refused,
-}
 
 /// A kind of cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]

@@ -17,6 +17,7 @@ pub mod fuzz;
 pub mod kills;
 pub mod kind;
 pub mod limits;
+pub mod outcome;
 pub mod work;
 
 mod checkpoints;

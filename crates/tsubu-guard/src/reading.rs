@@ -1,7 +1,7 @@
 //! Judges how tsubu reads a scene and its files.
 
 use crate::bundle::Bundle;
-use crate::kind::Outcome;
+use crate::outcome::Outcome;
 use std::fs;
 use std::path::Path;
 use toml::Value;

@@ -1,7 +1,8 @@
 //! The worker: judges case after case and says what came of each, a line a case.
 
 use crate::bundle::Bundle;
-use crate::kind::{Kind, Outcome};
+use crate::kind::Kind;
+use crate::outcome::Outcome;
 use std::io::{self, Write};
 use std::ops::Range;
 use std::panic::{self, AssertUnwindSafe, PanicHookInfo};

@@ -150,7 +150,7 @@ fn last_pictures(source: &mut Source, methods: &[Method]) -> Option<Block> {
         let (first, last) = source.told(frames)?;
         let began = ColourBy::Given("height at the start".into(), "m".into(), moments::heights(&first, &last));
         let balls = Balls::of(&last, &Look { colour: began, ..Look::default() });
-        let label = format!("{}, {}", method_name(&method.name), crate::strip::time_label(last.time, last.time));
+        let label = format!("{}, {}", method_name(&method.name), crate::legend::time_label(last.time, last.time));
         panels.push(Panel { balls, label, arrow: None });
     }
     // In space one colours by depth, in pictures of their own.

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use crate::colour;
 use crate::figure::{Axis, prefix};
+use crate::legend::colour_bar;
 use crate::plot::{AXIS, INK};
-use crate::strip::colour_bar;
 use crate::text::short;
 
 /// More points than this make a file that is too heavy to open.

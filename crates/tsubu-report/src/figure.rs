@@ -2,8 +2,6 @@
 //!
 //! The drawing itself is one module behind this type, so that another plotting library costs one file.
 
-use crate::plot;
-
 /// An axis: what it shows and in which unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
@@ -182,16 +180,6 @@ impl Figure {
         let drawn = |s: &Series| s.points.iter().any(|(x, y)| x.is_finite() && like(*y));
         let bars = self.bars.iter().filter(|bars| !bars.categories.is_empty()).flat_map(|bars| &bars.parts);
         self.series.iter().any(drawn) || bars.flat_map(|(_, values)| values).any(|value| like(*value))
-    }
-
-    /// The figure as an SVG document without a background, to stand in a page of any colour.
-    pub fn to_inline_svg(&self) -> String {
-        plot::svg(self)
-    }
-
-    /// The figure as an SVG file of its own, on white.
-    pub fn to_svg(&self) -> String {
-        on_white(&self.to_inline_svg())
     }
 }
 

@@ -6,11 +6,12 @@ use tsubu_frame::{Table, read_frame, snapshots, summary::read_json};
 
 use crate::balls::{Balls, ColourBy, Look};
 use crate::compare::Refused;
+use crate::legend::time_label;
 use crate::moments;
 use crate::page::{Block, Grid, Tone};
 use crate::plot::INK;
 use crate::source::{Source, folded, method_name};
-use crate::strip::{Panel, strip, time_label};
+use crate::strip::{Panel, strip};
 use crate::text::{escape, short};
 
 /// What stands in a scene's `gallery.json`.

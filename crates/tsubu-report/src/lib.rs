@@ -9,11 +9,13 @@ use tsubu_frame::{FileError, RunFolder};
 
 pub mod animation;
 pub mod balls;
+mod canvas;
 pub mod colour;
 mod compare;
 mod field;
 pub mod figure;
 mod gallery;
+mod legend;
 mod moments;
 pub mod page;
 mod plot;

@@ -5,10 +5,11 @@ use tsubu_frame::{FileError, Frame, Kind, Snapshot, Table, read_frame, snapshots
 
 use crate::animation;
 use crate::balls::{Balls, ColourBy, Look, common};
+use crate::legend::time_label;
 use crate::page::Block;
 use crate::raster;
 use crate::source::{Source, spoken};
-use crate::strip::{Panel, strip, time_label};
+use crate::strip::{Panel, strip};
 use crate::text::short;
 use crate::wall_motion::{box_motion, motion, velocity};
 

@@ -8,7 +8,7 @@ use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::theme::Theme;
 
-use crate::figure::{Axis, Bars, Figure, Series, Style, prefix};
+use crate::figure::{Axis, Bars, Figure, Series, Style, on_white, prefix};
 use crate::text::superscript;
 
 /// Okabe and Ito's colours, told apart by colour-blind readers too; the order puts dark ones first.
@@ -27,7 +27,19 @@ const AROUND: f64 = 70.0;
 /// More points than pixels make a file large and a figure no better.
 const MOST_POINTS: usize = 2400;
 
-pub(crate) fn svg(figure: &Figure) -> String {
+impl Figure {
+    /// The figure as an SVG document without a background, to stand in a page of any colour.
+    pub fn to_inline_svg(&self) -> String {
+        svg(self)
+    }
+
+    /// The figure as an SVG file of its own, on white.
+    pub fn to_svg(&self) -> String {
+        on_white(&self.to_inline_svg())
+    }
+}
+
+fn svg(figure: &Figure) -> String {
     let (plots, layout) = match &figure.bars {
         Some(bars) => draw_bars(figure, bars),
         None => draw_series(figure),

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::balls::Balls;
-use crate::raster::Canvas;
+use crate::canvas::Canvas;
 
 /// Share of what is behind a face that it hides.
 const FACE: f32 = 0.13;

@@ -165,7 +165,7 @@ impl Entry {
             let last = shown.last().map_or(f64::NAN, |k| number(&looks[*k][0], 0));
             for look in shown.iter().map(|k| looks[*k]) {
                 let points = look.iter().map(|row| point((number(row, 1), number(row, column)))).collect();
-                figure = figure.with(Series::line(crate::strip::time_label(number(&look[0], 0), last), points));
+                figure = figure.with(Series::line(crate::legend::time_label(number(&look[0], 0), last), points));
             }
             if looks.len() > TIMES {
                 let points = means(table, column, looks[0].len());

@@ -1,13 +1,13 @@
 //! Files that a scene names, read once.
 
-use crate::complaint::{Complaint, Complaints, Place, Source};
+use crate::complaint::{Complaint, Complaints, Source};
 use crate::grain_file::{self, GrainFile, How};
+use crate::lines;
 use crate::mesh_file;
 use crate::plan::Vector;
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
-use std::str::Utf8Error;
 use std::sync::Arc;
 
 /// The files beside a scene. A sweep resolves its scene many times; every case must see the same bytes even if someone
@@ -163,19 +163,9 @@ fn text(name: &str, bytes: &[u8], sources: &mut Vec<Source>) -> Result<String, C
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok(text.to_string()),
         Err(error) => {
-            let complaint = no_text(bytes, &error, sources.len());
+            let complaint = lines::no_text(bytes, &error, sources.len());
             sources.push(lossy(name, bytes));
             Err(complaint)
         }
     }
-}
-
-/// The complaint about the first byte that is no text, in the source that [`lossy`] makes.
-pub(crate) fn no_text(bytes: &[u8], error: &Utf8Error, source: usize) -> Complaint {
-    let at = error.valid_up_to();
-    let byte = bytes.get(at).copied().unwrap_or_default();
-    // What is before the byte is the same in both texts; the byte has become a character of three.
-    Complaint::new("the file is not UTF-8 text")
-        .at(&Place::new(source, at..at + 3), format!("the byte 0x{byte:02x} is no character"))
-        .hint("save it as UTF-8; was another file meant?")
 }

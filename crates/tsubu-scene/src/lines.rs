@@ -1,6 +1,7 @@
 //! Text files of rows: lines with their numbers, cells with their places.
 
-use crate::complaint::Place;
+use crate::complaint::{Complaint, Place};
+use std::str::Utf8Error;
 
 /// A file of the wrong format is wrong in every line; a few are enough to see it.
 pub(crate) const MOST_COMPLAINTS: usize = 5;
@@ -78,6 +79,16 @@ impl Cell<'_> {
 /// Where a part of a text begins in it.
 fn offset(whole: &str, part: &str) -> usize {
     (part.as_ptr() as usize).saturating_sub(whole.as_ptr() as usize).min(whole.len())
+}
+
+/// The complaint about the first byte that is no text, in a source that shows it as one character.
+pub(crate) fn no_text(bytes: &[u8], error: &Utf8Error, source: usize) -> Complaint {
+    let at = error.valid_up_to();
+    let byte = bytes.get(at).copied().unwrap_or_default();
+    // What is before the byte is the same in both texts; the byte has become a character of three.
+    Complaint::new("the file is not UTF-8 text")
+        .at(&Place::new(source, at..at + 3), format!("the byte 0x{byte:02x} is no character"))
+        .hint("save it as UTF-8; was another file meant?")
 }
 
 #[cfg(test)]

@@ -3,9 +3,8 @@
 //! The text formats are read in double precision, and a wrong line is told by its number.
 
 use crate::complaint::Complaint;
-use crate::files;
 use crate::grain_file::ending;
-use crate::lines::{Cell, Line, MOST_COMPLAINTS, lines};
+use crate::lines::{Cell, Line, MOST_COMPLAINTS, lines, no_text};
 use crate::plan::Vector;
 use crate::suggest;
 
@@ -32,7 +31,7 @@ pub(crate) fn read(name: &str, bytes: &[u8], source: usize) -> Read {
             None => ascii(std::str::from_utf8(bytes).map_err(|_| vec![not_whole(bytes)])?, source)?,
         }
     } else {
-        let text = std::str::from_utf8(bytes).map_err(|error| vec![files::no_text(bytes, &error, source)])?;
+        let text = std::str::from_utf8(bytes).map_err(|error| vec![no_text(bytes, &error, source)])?;
         obj(text, source)?
     };
     if triangles.is_empty() {

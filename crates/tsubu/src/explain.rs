@@ -3,45 +3,10 @@
 //! Each has one text. Its sentence and its keys stand in the table of keys; formula, symbols, limits and source stand
 //! beside the code that does it, as an [`About`]. Here the two come together, for `tsubu explain` and for the book.
 
+use crate::about::About;
 use crate::{clca, contact, dem, lattice, wall, watch, water};
 use std::fmt::Write as _;
 use tsubu_scene::Choice;
-
-/// What a thing is beyond its sentence in the table of keys.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct About {
-    /// Its path in a scene: `contact.normal.hertz`.
-    pub key: &'static str,
-    /// The formula; of a watch what it gives, with units.
-    pub formula: &'static str,
-    /// Symbols with units; empty where the formula has them.
-    pub symbols: &'static str,
-    /// Where it stops being right.
-    pub limits: &'static str,
-    /// Author, year, equation.
-    pub reference: &'static str,
-}
-
-impl About {
-    /// Its sections, as `(heading, text)`; those that say nothing are left out.
-    pub fn sections(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
-        let all =
-            [("formula", self.formula), ("symbols", self.symbols), ("limits", self.limits), ("source", self.reference)];
-        all.into_iter().filter(|(_, text)| !text.is_empty())
-    }
-
-    /// All of it as text.
-    pub fn text(&self) -> String {
-        let mut text = String::new();
-        for (heading, section) in self.sections() {
-            let _ = match heading {
-                "formula" => write!(text, "{section}"),
-                _ => write!(text, "\n{heading}: {section}"),
-            };
-        }
-        text
-    }
-}
 
 /// A kind of things.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,6 +6,14 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+/// Whoever started the work: may stop it, wants to see it move.
+pub struct Watcher<'a> {
+    /// Asked, and a run writes a checkpoint and stops.
+    pub interrupt: &'a Interrupt,
+    /// Called now and then with the share that is done, 0 to 1.
+    pub progress: &'a (dyn Fn(f64) + Sync),
+}
+
 /// Set from outside, for example by Ctrl-C.
 #[derive(Debug, Default)]
 pub struct Interrupt {

@@ -4,6 +4,7 @@
 //! plan's method names; [`engine::Engine::advance`] moves it; [`partner::Hosts`] are the vibrating structures that it meets
 //! once a step; [`ledger::Ledger`] keeps the books.
 
+pub mod about;
 pub mod bench;
 pub mod check;
 pub mod clca;
@@ -20,9 +21,11 @@ pub mod partner;
 pub mod random;
 pub mod run;
 pub(crate) mod scene_files;
+pub(crate) mod sizes;
 pub mod state;
 pub mod study;
 pub mod threads;
+pub mod trial;
 pub mod view;
 pub mod wall;
 pub mod watch;

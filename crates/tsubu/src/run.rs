@@ -4,7 +4,7 @@ mod resume;
 
 use crate::check;
 use crate::engine::{self, Engine, Fault, OpenError};
-use crate::interrupt::Interrupt;
+use crate::interrupt::Watcher;
 use crate::ledger::{Account, Ledger, Stocks};
 use crate::partner::Hosts;
 use crate::scene_files;
@@ -18,14 +18,6 @@ use tsubu_frame::{
     State, Status, Summary, checkpoint,
 };
 use tsubu_scene::{Plan, Scene};
-
-/// Whoever started the run: may stop it, wants to see it move.
-pub struct Watcher<'a> {
-    /// Asked, and the run writes a checkpoint and stops.
-    pub interrupt: &'a Interrupt,
-    /// Called now and then with the share that is done, 0 to 1.
-    pub progress: &'a (dyn Fn(f64) + Sync),
-}
 
 /// Why there is no result.
 #[derive(Debug, thiserror::Error)]

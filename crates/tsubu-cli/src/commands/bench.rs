@@ -8,7 +8,7 @@ use clap::{Args, value_parser};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use tsubu::bench::{Bench, BenchError};
-use tsubu::run::Watcher;
+use tsubu::interrupt::Watcher;
 use tsubu_frame::summary::write_json;
 
 #[derive(Args)]

@@ -3,12 +3,14 @@
 use crate::failure::Failure;
 use crate::machine;
 use crate::options::SceneOptions;
-use crate::output::{self, Stream};
+use crate::output;
+use crate::stream::Stream;
 use clap::Args;
 use std::fmt::Write as _;
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
-use tsubu::check::{Verdict, check};
+use tsubu::check::Verdict;
+use tsubu::trial::check;
 use tsubu_scene::Scene;
 
 /// How long a user waits for a verdict.

@@ -1,6 +1,6 @@
 //! Claims as lines.
 
-use crate::output::Stream;
+use crate::stream::Stream;
 use crate::table;
 use tsubu_frame::Claim;
 

@@ -8,7 +8,7 @@ use crate::progress::Progress;
 use crate::{stop, table};
 use clap::Args;
 use std::path::Path;
-use tsubu::run::Watcher;
+use tsubu::interrupt::Watcher;
 use tsubu::study::compare::compare;
 use tsubu::study::variant::Variant;
 use tsubu::threads::alone;

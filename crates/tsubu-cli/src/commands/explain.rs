@@ -185,7 +185,10 @@ fn claims() -> String {
     studies.sort_unstable();
     studies.dedup();
     for study in studies {
-        let _ = write!(page, "\n## `{study}`\n\n| case | what it checks | claims that hold | budget |\n|---|---|---|---|\n");
+        let _ = write!(
+            page,
+            "\n## `{study}`\n\n| case | what it checks | claims that hold | budget |\n|---|---|---|---|\n"
+        );
         for case in CASES.iter().filter(|case| case.study == study) {
             let kept = recorded(case.name);
             let hold = kept.iter().filter(|claim| claim.pass).count();

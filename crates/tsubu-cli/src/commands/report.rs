@@ -1,7 +1,8 @@
 //! `tsubu report`: figures and one page.
 
 use crate::failure::Failure;
-use crate::output::{self, Stream};
+use crate::output;
+use crate::stream::Stream;
 use clap::Args;
 use std::path::{Path, PathBuf};
 

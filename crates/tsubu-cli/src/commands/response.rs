@@ -9,7 +9,7 @@ use crate::{stop, table};
 use clap::Args;
 use std::path::Path;
 use tsubu::check::human_time;
-use tsubu::run::Watcher;
+use tsubu::interrupt::Watcher;
 use tsubu_frame::{Status, Table};
 
 #[derive(Args)]

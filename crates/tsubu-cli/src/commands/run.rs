@@ -3,13 +3,14 @@
 use super::claims;
 use crate::failure::Failure;
 use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
-use crate::output::{self, Stream};
+use crate::output;
 use crate::progress::Progress;
+use crate::stream::Stream;
 use crate::{machine, stop, table};
 use clap::Args;
 use std::fmt::Write as _;
 use tsubu::check::human_time;
-use tsubu::run::Watcher;
+use tsubu::interrupt::Watcher;
 use tsubu::threads::alone;
 use tsubu_frame::summary::mean_beside;
 use tsubu_frame::{Existing, ResultValue, RunFolder, Status, Summary, unit::for_people};

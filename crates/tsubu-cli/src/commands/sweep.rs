@@ -9,7 +9,7 @@ use crate::{stop, table};
 use clap::Args;
 use std::fmt::Write as _;
 use std::path::Path;
-use tsubu::run::Watcher;
+use tsubu::interrupt::Watcher;
 use tsubu_frame::{Status, Summary, Table, csv::split_unit, unit::for_people};
 
 #[derive(Args)]

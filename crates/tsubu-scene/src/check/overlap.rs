@@ -1,9 +1,20 @@
 //! Pairs of grains that are nearer than they are wide, found in a time that grows with their number.
 
-use super::place::Grain;
 use crate::plan::{Periodic, Vector};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
+
+/// A grain with a given place.
+pub(super) struct Grain<'a> {
+    pub group: &'a str,
+    pub index: usize,
+    /// Its line, if it comes from a file.
+    pub line: Option<u32>,
+    pub diameter: f64,
+    pub position: Vector,
+    /// Frozen or driven: nothing it touches moves it.
+    pub held: bool,
+}
 
 /// A cube of a grid. There is a grid for every power of two of the diameter, so that one boulder among sand does not put
 /// all the sand into one cell.

@@ -1,6 +1,7 @@
 //! Where grains begin: overlaps, and grains outside their box, behind a plane, in a shell or beyond the world.
 
-use super::{Parts, overlap, shell};
+use super::overlap::{self, Grain};
+use super::{Parts, shell};
 use crate::complaint::{Complaint, Place};
 use crate::grain_file::How;
 use crate::plan::{GrainMotion, Host, Shape, Signal, Start, Structure, Vector, Wall};
@@ -11,18 +12,6 @@ const OVERLAP: f64 = 1e-3;
 const OVERLAP_IN_FILES: f64 = 0.05;
 /// One wrong unit makes every grain overlap; a few complaints are enough to see it.
 const MOST_COMPLAINTS: usize = 4;
-
-/// A grain with a given place.
-pub(super) struct Grain<'a> {
-    pub group: &'a str,
-    pub index: usize,
-    /// Its line, if it comes from a file.
-    pub line: Option<u32>,
-    pub diameter: f64,
-    pub position: Vector,
-    /// Frozen or driven: nothing it touches moves it.
-    pub held: bool,
-}
 
 impl Grain<'_> {
     fn place(&self, parts: &Parts<'_>) -> Place {

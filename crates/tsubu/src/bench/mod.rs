@@ -7,9 +7,9 @@
 mod work;
 
 use crate::engine::{self, Engine, OpenError};
+use crate::interrupt::Watcher;
 use crate::ledger::Ledger;
 use crate::partner::Hosts;
-use crate::run::Watcher;
 use crate::threads::alone;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};

@@ -1,6 +1,5 @@
 //! The verdict on a scene before it runs.
 
-mod cost;
 mod fall;
 mod idle;
 pub(crate) mod memory;
@@ -9,12 +8,13 @@ mod rest;
 mod verdict;
 mod water;
 
-pub use verdict::{Line, Verdict, check, human_time, verdict};
-pub use water::{KARMAN, blows_up};
+pub(crate) use verdict::step_key;
+pub use verdict::{Line, Verdict, human_time, verdict};
+pub use water::blows_up;
 
 use crate::contact::Table;
-use crate::dem::sizes;
 use crate::partner::Hosts;
+use crate::sizes;
 use std::f64::consts::PI;
 use tsubu_scene::plan::{GrainMotion, Plan, Shape, Signal, Start, Water};
 

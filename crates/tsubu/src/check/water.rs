@@ -2,7 +2,7 @@
 
 use super::{Verdict, speed_scale};
 use crate::partner::Hosts;
-use crate::water::{Stream, Water};
+use crate::water::{KARMAN, Stream, Water};
 use glam::DVec3;
 use std::f64::consts::PI;
 use tsubu_scene::plan::{self, GrainMotion, Normal, Particles, Plan, Torque};
@@ -11,9 +11,6 @@ use tsubu_scene::plan::{self, GrainMotion, Normal, Particles, Plan, Torque};
 /// With all of it velocity Verlet with predicted velocities is at the end of its stability: of v' = -v/T a step makes a map of
 /// velocity and acceleration whose trace is 1 - 3/2 dt/T and whose determinant is -dt/(2 T), so it shrinks for dt < T.
 pub const OF_RELAXATION: f64 = 0.1;
-
-/// Karman's constant, in the log law's 5.75 = ln(10)/0.40.
-pub const KARMAN: f64 = 0.40;
 
 /// A sphere of a group in the water of a scene.
 struct Sunk<'a> {

@@ -16,7 +16,7 @@ mod place;
 pub mod shape;
 mod strips;
 
-use crate::explain::About;
+use crate::about::About;
 
 pub(crate) const ABOUT: About = About {
     key: "method.cl-ca",

@@ -46,7 +46,7 @@ mod twisting_sliding;
 mod twisting_spring;
 mod viscous;
 
-use crate::explain::About;
+use crate::about::About;
 pub use chunk::Chunk;
 pub use law::Law;
 pub use table::{Pair, Table};

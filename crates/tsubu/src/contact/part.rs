@@ -2,7 +2,7 @@
 
 use super::chunk::Chunk;
 use super::table::{Constants, Pair};
-pub use crate::explain::About;
+pub use crate::about::About;
 
 /// When a part acts within its law; parts are sorted by it, so a scene cannot misorder them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -18,13 +18,12 @@ mod overlaps;
 mod place;
 mod room;
 mod settle;
-pub mod sizes;
 mod sources;
 mod start;
 mod step;
 mod sweep;
 
-use crate::explain::About;
+use crate::about::About;
 pub use engine::DemEngine;
 
 pub(crate) const ABOUT: About = About {

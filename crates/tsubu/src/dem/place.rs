@@ -2,10 +2,10 @@
 
 use super::fill::Occupied;
 use super::room::{Clearance, Room, images, periodic_bounds};
-use super::sizes;
 use crate::contact::Table;
 use crate::motion::value_and_rate;
 use crate::random::{Purpose, unit, words};
+use crate::sizes;
 use crate::state::{Grain, Grains};
 use crate::wall::Wall;
 use glam::DVec3;

@@ -11,7 +11,7 @@
 //! bit a site for "grain" and one for "void".
 
 use super::sheet::{EMPTY, OUT, Sheet, Trail};
-use crate::explain::About;
+use crate::about::About;
 use crate::random::{Purpose, words};
 
 pub(crate) const ABOUT: About = About {

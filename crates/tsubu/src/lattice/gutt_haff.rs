@@ -19,7 +19,7 @@
 
 use super::direction::Direction;
 use super::grid::{EMPTY, Grid, WALL};
-use crate::explain::About;
+use crate::about::About;
 use crate::random::{Purpose, words};
 
 pub(crate) const ABOUT: About = About {

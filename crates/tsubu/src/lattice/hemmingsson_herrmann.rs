@@ -16,7 +16,7 @@
 //! `arching`, the probability with which a grain gives all of T to its outer neighbour below.
 
 use super::sheet::{EMPTY, OUT, Sheet, WALL};
-use crate::explain::About;
+use crate::about::About;
 use crate::random::{Purpose, unit, words};
 
 pub(crate) const ABOUT: About = About {

@@ -14,7 +14,7 @@
 //! it is at the surface and ends there.
 
 use super::sheet::{EMPTY, OUT, Sheet, Trail};
-use crate::explain::About;
+use crate::about::About;
 use crate::random::{Purpose, unit, words};
 
 pub(crate) const ABOUT: About = About {

@@ -26,7 +26,7 @@ pub mod site;
 pub mod stage;
 pub mod start;
 
-use crate::explain::About;
+use crate::about::About;
 
 /// What the methods on lattices are, but CL-CA.
 pub(crate) const ABOUT: &[&About] = &[

@@ -17,7 +17,7 @@
 //! order of grains is of no consequence.
 
 use super::sheet::{EMPTY, OUT, Sheet, Trail};
-use crate::explain::About;
+use crate::about::About;
 use crate::random::{Purpose, unit, words};
 
 pub(crate) const ABOUT: About = About {

@@ -2,9 +2,11 @@
 
 use super::variant::Variant;
 use crate::engine::{self, OpenError};
+use crate::interrupt::Watcher;
 use crate::partner::Hosts;
-use crate::run::{self, RunError, Watcher};
+use crate::run::{self, RunError};
 use crate::scene_files;
+use crate::trial;
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::fmt;
@@ -112,7 +114,7 @@ pub fn scenes(scene: &Scene, variants: &[Variant]) -> Result<(Runners, Vec<Refus
     for variant in variants {
         let method = [format!("method={}", variant.method.name())];
         let scene = scene.changed(method.iter().chain(&variant.changes)).map_err(CompareError::Scene)?;
-        let plan = super::unsettled(scene.plan());
+        let plan = trial::unsettled(scene.plan());
         match engine::open(&plan, &Hosts::new(&plan.hosts)) {
             Ok(engine) => {
                 run::steps(&plan, &*engine)

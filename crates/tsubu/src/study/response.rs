@@ -13,8 +13,8 @@ pub use tasks::{Point, measure};
 
 use super::cases::{Case, CasesError, cases};
 use crate::engine::OpenError;
-use crate::interrupt::Interrupt;
-use crate::run::{RunError, Watcher, scene_hash};
+use crate::interrupt::{Interrupt, Watcher};
+use crate::run::{RunError, scene_hash};
 use crate::scene_files;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

@@ -2,9 +2,11 @@
 
 use super::cases::{Case, CasesError, cases};
 use crate::engine;
+use crate::interrupt::Watcher;
 use crate::partner::Hosts;
-use crate::run::{self, RunError, Watcher};
+use crate::run::{self, RunError};
 use crate::scene_files;
+use crate::trial;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -34,7 +36,7 @@ pub fn sweep(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -
     // A case that its method refuses must say so before the others have run, and leave nothing behind.
     for case in &list {
         let scene = case.scene(scene).map_err(|c| CasesError::Scene(c.to_string()))?;
-        let plan = super::unsettled(scene.plan());
+        let plan = trial::unsettled(scene.plan());
         let open = engine::open(&plan, &Hosts::new(&plan.hosts)).map_err(RunError::from);
         open.and_then(|engine| run::steps(&plan, &*engine))
             .map_err(|error| CasesError::Run { case: case.name.clone(), error })?;

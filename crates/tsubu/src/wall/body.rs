@@ -5,7 +5,7 @@
 //! flow of its share L_k^2 / (2 I_k) of the energy (an exponential map): time-reversible, symplectic, and L, kept in
 //! the world frame, does not change at all (Dullweber, Leimkuhler, McLachlan 1997).
 
-use crate::explain::About;
+use crate::about::About;
 use glam::{DQuat, DVec3};
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;

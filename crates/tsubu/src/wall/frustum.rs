@@ -8,7 +8,7 @@
 
 use super::Pose;
 use super::nearest::{Feature, Nearest};
-use crate::explain::About;
+use crate::about::About;
 use glam::{DVec2, DVec3};
 
 pub(crate) const CYLINDER: About = About {

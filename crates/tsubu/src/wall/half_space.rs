@@ -2,7 +2,7 @@
 
 use super::Pose;
 use super::nearest::{Feature, Nearest};
-use crate::explain::About;
+use crate::about::About;
 use glam::DVec3;
 use tsubu_scene::plan::Shape;
 

@@ -6,7 +6,7 @@ use super::section::{section, strips};
 use super::topology::{Topology, edge, weld};
 use super::tree::Tree;
 use super::triangle::Triangle;
-use crate::explain::About;
+use crate::about::About;
 use glam::DVec3;
 
 pub(crate) const MESH: About = About {

@@ -33,7 +33,7 @@ pub use pose::Pose;
 pub use servo::Servo;
 pub use surface::Surface;
 
-use crate::explain::About;
+use crate::about::About;
 use crate::partner::Hosts;
 use glam::DVec3;
 use tsubu_frame::State;

@@ -1,7 +1,7 @@
 //! Who moves a wall: nobody, a motion given in advance, a host, or the grains themselves.
 
 use super::{Body, Pose, Servo};
-use crate::explain::About;
+use crate::about::About;
 use crate::motion::value_and_rate;
 use crate::partner::Hosts;
 use glam::{DQuat, DVec3};

@@ -4,7 +4,7 @@
 //! implicit, so any c is stable.
 
 use super::mover::Exchange;
-use crate::explain::About;
+use crate::about::About;
 use glam::DVec3;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;

@@ -2,7 +2,7 @@
 
 use super::Pose;
 use super::nearest::Nearest;
-use crate::explain::About;
+use crate::about::About;
 use glam::DVec3;
 
 pub(crate) const SPHERE: About = About {

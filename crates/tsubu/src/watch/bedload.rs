@@ -1,7 +1,7 @@
 //! What grains carry along a bed, and how many start and stop.
 
 use super::{Inside, Sample, Watch, axes, group_number};
-use crate::explain::About;
+use crate::about::About;
 use crate::state::sphere;
 use crate::view::{View, Wants};
 use glam::DVec3;

@@ -3,7 +3,7 @@
 use super::kernel::Kernel;
 use super::points::Points;
 use super::{Axes, Inside, LETTERS, Sample, Sheet, Watch, axes, mean};
-use crate::explain::About;
+use crate::about::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use tsubu_scene::plan::{Measure, Plan};

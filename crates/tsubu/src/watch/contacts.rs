@@ -1,7 +1,7 @@
 //! Contacts one by one.
 
 use super::{Axes, Inside, LETTERS, Sample, Sheet, Watch};
-use crate::explain::About;
+use crate::about::About;
 use crate::view::{Contact, View, Wants};
 use glam::DVec3;
 

@@ -1,7 +1,7 @@
 //! Contacts per grain.
 
 use super::{Inside, Sample, Watch, mean};
-use crate::explain::About;
+use crate::about::About;
 use crate::view::{View, Wants};
 
 pub(super) const ABOUT: About = About {

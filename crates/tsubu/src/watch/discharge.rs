@@ -1,7 +1,7 @@
 //! Grains that have passed a plane.
 
 use super::{Sample, Watch};
-use crate::explain::About;
+use crate::about::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use std::collections::BTreeMap;

@@ -1,7 +1,7 @@
 //! The fabric of the contacts.
 
 use super::{Axes, Inside, LETTERS, Sample, Watch};
-use crate::explain::About;
+use crate::about::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use nalgebra::{Matrix3, SymmetricEigen};

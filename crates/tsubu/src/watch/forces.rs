@@ -1,7 +1,7 @@
 //! Distribution of contact forces, and force chains.
 
 use super::{Inside, Sample, Sheet, Watch, mean};
-use crate::explain::About;
+use crate::about::About;
 use crate::view::{View, Wants};
 
 pub(super) const ABOUT: About = About {

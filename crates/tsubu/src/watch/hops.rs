@@ -3,7 +3,7 @@
 use super::course::{Course, Hop, NUMBERS, Phase, Seen, Sense, Touch};
 use super::means::Means;
 use super::{Axes, LETTERS, Sample, Sheet, Watch, axes, group_number};
-use crate::explain::About;
+use crate::about::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use tsubu_frame::State;

@@ -30,7 +30,7 @@ mod wall_load;
 pub use run::Watches;
 pub use trigger::Trigger;
 
-use crate::explain::About;
+use crate::about::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use std::fmt::Debug;

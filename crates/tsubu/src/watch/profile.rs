@@ -1,7 +1,7 @@
 //! Averages in slices across an axis.
 
 use super::{Axes, Inside, LETTERS, Sample, Sheet, Watch, axes};
-use crate::explain::About;
+use crate::about::About;
 use crate::state::sphere;
 use crate::view::{View, Wants};
 use glam::DVec3;

@@ -2,7 +2,7 @@
 
 use super::surface::Surface;
 use super::{Sample, Sheet, Watch, group_number};
-use crate::explain::About;
+use crate::about::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use tsubu_frame::State;

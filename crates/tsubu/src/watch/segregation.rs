@@ -1,7 +1,7 @@
 //! Mixing of two groups.
 
 use super::{Axes, Inside, Sample, Watch};
-use crate::explain::About;
+use crate::about::About;
 use crate::view::{View, Wants};
 use std::collections::BTreeMap;
 

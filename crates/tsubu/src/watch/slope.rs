@@ -2,7 +2,7 @@
 
 use super::surface::Surface;
 use super::{Sample, Sheet, Watch, mean};
-use crate::explain::About;
+use crate::about::About;
 use crate::view::{View, Wants};
 use tsubu_scene::plan::{Axis, Measure, Plan};
 

@@ -1,11 +1,10 @@
 //! The water.
 
 use super::{Sample, Sheet, Watch};
-use crate::check::KARMAN;
-use crate::explain::About;
+use crate::about::About;
 use crate::state::sphere;
 use crate::view::{View, Wants};
-use crate::water::{Coupled, Layers, Stream, Water};
+use crate::water::{Coupled, KARMAN, Layers, Stream, Water};
 use glam::DVec3;
 use tsubu_scene::plan::{self, Flow, Plan};
 

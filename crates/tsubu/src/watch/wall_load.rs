@@ -1,7 +1,7 @@
 //! Force and torque on a wall.
 
 use super::{Axes, LETTERS, Sample, Watch};
-use crate::explain::About;
+use crate::about::About;
 use crate::view::{View, WallLoad, Wants};
 use glam::DVec3;
 

@@ -1,7 +1,7 @@
 //! Buoyancy.
 
 use super::{Kind, Parcel, Part};
-use crate::explain::About;
+use crate::about::About;
 use glam::DVec3;
 use multiversion::multiversion;
 use tsubu_scene::plan;

@@ -28,7 +28,7 @@ pub use level::Top;
 
 use super::Layers;
 use super::stream::{CONSTANT, PER_DECADE};
-use crate::explain::About;
+use crate::about::About;
 use glam::DVec3;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;

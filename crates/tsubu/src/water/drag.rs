@@ -1,7 +1,7 @@
 //! Drag.
 
 use super::{Kind, Parcel, Part, hindrance};
-use crate::explain::About;
+use crate::about::About;
 use multiversion::multiversion;
 use std::f64::consts::PI;
 use tsubu_scene::plan;

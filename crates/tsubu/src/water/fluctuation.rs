@@ -9,7 +9,7 @@
 //! interval, up to x = 2. Its integral is 8/pi^2 intervals, the Lagrangian time, which with the variance is all that dispersion
 //! over longer times depends on (Taylor 1921).
 
-use crate::explain::About;
+use crate::about::About;
 use crate::random::{Purpose, unit, words};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use tsubu_scene::plan;

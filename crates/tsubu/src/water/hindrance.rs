@@ -4,7 +4,7 @@
 //! hydrostatic buoyancy: what drives the water through the crowd is not counted again in the pressure.
 
 use super::Parcel;
-use crate::explain::About;
+use crate::about::About;
 use multiversion::multiversion;
 use tsubu_scene::plan::Hindrance;
 

@@ -1,7 +1,7 @@
 //! Lift by spin.
 
 use super::{Kind, Parcel, Part};
-use crate::explain::About;
+use crate::about::About;
 use multiversion::multiversion;
 use std::f64::consts::PI;
 use tsubu_scene::plan;

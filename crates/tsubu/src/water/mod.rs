@@ -29,7 +29,7 @@ pub use parcel::{Parcel, WaterPowers};
 pub use part::{Kind, Part};
 pub use stream::Stream;
 
-use crate::explain::About;
+use crate::about::About;
 use crate::state::sphere;
 use buoyancy::Buoyancy;
 use drag::Drag;
@@ -63,6 +63,9 @@ pub const ABOUT: &[&About] = &[
     &magnus::OESTERLE_DINH,
     &fluctuation::ABOUT,
 ];
+
+/// Karman's constant, in the log law's 5.75 = ln(10)/0.40.
+pub const KARMAN: f64 = 0.40;
 
 /// The water of a scene.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! A part: one force of the water.
 
 use super::Parcel;
-use crate::explain::About;
+use crate::about::About;
 
 /// What becomes of the work of a force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Lift by shear.
 
 use super::{Kind, Parcel, Part};
-use crate::explain::About;
+use crate::about::About;
 use multiversion::multiversion;
 use tsubu_scene::plan;
 

@@ -3,7 +3,7 @@
 use super::coupled::{Coupled, Setting, Top};
 use super::logarithm::ln;
 use super::{Layers, Parcel};
-use crate::explain::About;
+use crate::about::About;
 use multiversion::multiversion;
 use std::f64::consts::LN_10;
 use tsubu_frame::State;

@@ -4,7 +4,8 @@ use super::open_text;
 use std::path::Path;
 use tsubu::engine;
 use tsubu::interrupt::Interrupt;
-use tsubu::run::{Watcher, run};
+use tsubu::interrupt::Watcher;
+use tsubu::run::run;
 use tsubu_frame::{Existing, Kind, Table};
 use tsubu_scene::Scene;
 

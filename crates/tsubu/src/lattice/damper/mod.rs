@@ -26,7 +26,7 @@ pub mod wall_collision;
 use super::direction::{Direction, Vector};
 use super::fixed::{Restitution, Scale};
 use super::grid::Grid;
-use crate::explain::About;
+use crate::about::About;
 use tsubu_scene::plan::{Collision, ObliqueGravity};
 
 pub(crate) const ABOUT: About = About {

@@ -4,7 +4,7 @@
 use super::collide::{REST, SLOTS};
 use super::grains::Grains;
 use super::numbers::{NOBODY, Numbers};
-use crate::explain::About;
+use crate::about::About;
 use crate::lattice::direction::Direction;
 use crate::random::{Purpose, unit, words};
 

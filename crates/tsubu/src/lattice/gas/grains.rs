@@ -7,7 +7,7 @@ use super::collide::{REST, Rules, SLOTS, collide};
 use super::numbers::{Crew, EMPTY, NOBODY, Numbers, go_on};
 use super::sites::Sites;
 use super::step::MIRRORED;
-use crate::explain::About;
+use crate::about::About;
 use crate::lattice::direction::{Direction, Vector};
 use crate::random::{Purpose, words};
 

@@ -21,7 +21,7 @@ pub mod sites;
 pub mod step;
 pub mod sweep;
 
-use crate::explain::About;
+use crate::about::About;
 
 pub(crate) const ABOUT: About = About {
     key: "method.fhp",

@@ -4,7 +4,7 @@
 //! below it. Few grains fly at a time, so they are a list. They move from the lowest up, each once a step.
 
 use super::sites::Sites;
-use crate::explain::About;
+use crate::about::About;
 use crate::lattice::direction::Direction;
 use crate::random::{Purpose, unit, words};
 use std::collections::VecDeque;

@@ -5,7 +5,7 @@ use crate::interrupt::Interrupt;
 use crate::ledger::{Account, Ledger};
 use crate::partner::Hosts;
 use crate::run::RunError;
-use crate::study::unsettled;
+use crate::trial::unsettled;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::time::Instant;

@@ -4,7 +4,7 @@ use super::curve::CaseResult;
 use crate::engine;
 use crate::ledger::Account;
 use crate::partner::Hosts;
-use crate::study::unsettled;
+use crate::trial::unsettled;
 use crate::{check, run};
 use tsubu_frame::{Cell, FileError, RunFolder, Status, Summary, Table};
 use tsubu_scene::{Plan, Scene};

@@ -1,0 +1,139 @@
+//! A scene tried before it is run: its verdict, whether it opens, and what a step costs on this machine.
+
+mod cost;
+
+use crate::bench::Bench;
+use crate::check::{Verdict, human_time, step_key, verdict};
+use crate::engine::{self, Engine, OpenError};
+use crate::neighbours::lists::WORTH_THREADS;
+use crate::partner::Hosts;
+use tsubu_scene::plan::{Method, Particles, Plan, Start};
+
+/// The same plan with grains left where they are dropped from: for a bed that is settled already, or need not be.
+pub(crate) fn unsettled(plan: &Plan) -> Plan {
+    let mut plan = plan.clone();
+    for group in plan.particles.values_mut() {
+        if let Start::Settled { time } = &mut group.start {
+            *time = 0.0;
+        }
+    }
+    plan
+}
+
+/// Builds the scene, judges it, and measures for a moment how fast this machine moves it.
+///
+/// Where `bench` knows this machine, the estimate is for all its cores too. `ahead` hears what is known so far, and what comes
+/// next: a part that may take long.
+pub fn check(
+    plan: &Plan,
+    bench: Option<&Bench>,
+    ahead: &mut dyn FnMut(&Verdict, &'static str),
+) -> Result<Verdict, OpenError> {
+    ahead(&Verdict::default(), "placing the grains");
+    let mut hosts = Hosts::new(&plan.hosts);
+    let settles = |group: &Particles| matches!(group.start, Start::Settled { time } if time > 0.0);
+    let mut engine = engine::open(&unsettled(plan), &hosts)?;
+    let mut verdict = verdict(plan, &hosts, &*engine);
+    let total = plan.duration / engine.time_step();
+    if total.round() < 1.0 {
+        let (duration, dt) = (plan.duration, engine.time_step());
+        verdict.judge(false, format!("the run would have no step: it lasts {duration} s, a step {dt} s"), || {
+            format!("`duration`, or `{}`", step_key(plan))
+        });
+        verdict.fails = true;
+        return Ok(verdict);
+    }
+    if plan.particles.values().any(settles) {
+        ahead(&verdict, "settling the grains before time 0");
+        match engine::open(plan, &hosts) {
+            Ok(settled) => engine = settled,
+            Err(OpenError::Settling(fault)) => {
+                verdict.fail("settling before time 0 would fail", &fault);
+                return Ok(verdict);
+            }
+            Err(other) => return Err(other),
+        }
+    }
+    ahead(&verdict, "the first steps");
+    let now = match cost::trial(&mut *engine, &mut hosts, total) {
+        Ok(cost) => cost,
+        Err(fault) => {
+            verdict.fail("the run would fail", &fault);
+            return Ok(verdict);
+        }
+    };
+    ahead(&verdict, "the first steps of a settled bed");
+    let dense = cost::of_a_bed(plan).map_or(now, |bed| bed.max(now));
+    times(&mut verdict, plan, &hosts, &*engine, [now, dense], bench);
+    Ok(verdict)
+}
+
+/// The longest run [s] that is not worth a warning: a month.
+const LONGEST: f64 = 30.0 * 86_400.0;
+
+/// How long a run takes, with the cost of a step as it is measured now, and of a settled bed [s].
+fn times(
+    verdict: &mut Verdict,
+    plan: &Plan,
+    hosts: &Hosts,
+    engine: &dyn Engine,
+    cost: [f64; 2],
+    bench: Option<&Bench>,
+) {
+    let total = plan.duration / engine.time_step();
+    let [low, high] = cost.map(|cost| cost * total);
+    let shorter = || format!("a shorter `duration`, fewer grains, or a longer `{}`", step_key(plan));
+    verdict.judge(
+        high <= LONGEST,
+        format!(
+            "time: about {} on this machine for one run ({} a step, one thread{})",
+            span(low, high),
+            span(cost[0], cost[1]),
+            if cost[1] > 1.2 * cost[0] { ", as grains are now to all of them lying on each other" } else { "" }
+        ),
+        shorter,
+    );
+    let threaded = plan.method == Method::Dem && engine.grains() >= WORTH_THREADS;
+    match bench {
+        Some(bench) if threaded && bench.cores > 1 => verdict.say(format!(
+            "time: about {} with {} threads, {:.2} times as fast by `tsubu bench`",
+            span(low / bench.scaling(), high / bench.scaling()),
+            bench.cores,
+            bench.scaling()
+        )),
+        None if threaded => verdict.say("time with more threads: `tsubu bench` measures this machine".to_owned()),
+        _ => {}
+    }
+    let Some(response) = &plan.response else { return };
+    let cases: usize = response.vary.values().map(Vec::len).product();
+    let runs = cases * response.frequency_ratio.len() * response.seeds as usize;
+    let f0 = hosts.index(&response.host).and_then(|i| hosts.list[i].natural_frequencies().first().copied());
+    // A period is that of the drive: at a tenth of the natural frequency ten times as long.
+    let periods = f64::from(response.discard_periods + response.measure_periods);
+    let seconds: f64 = response.frequency_ratio.iter().map(|ratio| periods / (ratio * f0.unwrap_or(1.0))).sum();
+    let steps = seconds / engine.time_step() * (cases * response.seeds as usize) as f64;
+    let [low, high] = cost.map(|cost| cost * steps * grains_of_cases(plan) / rayon::current_num_threads() as f64);
+    verdict.judge(
+        high <= LONGEST,
+        format!("time: about {} for `tsubu response` ({runs} runs side by side)", span(low, high)),
+        || "fewer frequencies, cases or periods".to_owned(),
+    );
+}
+
+/// Grains of the cases of a response over those of the scene, in the mean.
+fn grains_of_cases(plan: &Plan) -> f64 {
+    let all = plan.grains();
+    let vary = plan.response.iter().flat_map(|response| &response.vary);
+    let more = plan.particles.iter().map(|(name, group)| {
+        let values = vary.clone().find(|(key, _)| **key == format!("particles.{name}.count")).map(|(_, values)| values);
+        let counts = values.into_iter().flatten().filter_map(toml::Value::as_integer);
+        let (sum, number) = counts.fold((0.0, 0.0), |(sum, number), count| (sum + count as f64, number + 1.0));
+        if number > 0.0 { sum / number - group.count as f64 } else { 0.0 }
+    });
+    if all > 0 { 1.0 + more.sum::<f64>() / all as f64 } else { 1.0 }
+}
+
+/// A time, or from when to when.
+fn span(low: f64, high: f64) -> String {
+    if high <= 1.2 * low { human_time(high) } else { format!("{} to {}", human_time(low), human_time(high)) }
+}
