@@ -17,6 +17,8 @@ const FEW: usize = 6;
 pub(crate) struct Source {
     pub dir: PathBuf,
     pub notes: Vec<String>,
+    /// Watches that saw nothing: no damage.
+    nothing_seen: Vec<String>,
     /// The notes that stand on the page already.
     pub damage: Vec<String>,
     pub files: Vec<(String, Vec<u8>)>,
@@ -79,7 +81,9 @@ impl Source {
             self.notes.push(format!("{name} ends within a line: it was cut off."));
         }
         if table.rows.is_empty() {
-            self.notes.push(format!("{name} has no rows."));
+            // A hop ends, a grain leaves: what a watch waits for may not have happened.
+            let list = if name.starts_with("watch/") { &mut self.nothing_seen } else { &mut self.notes };
+            list.push(format!("{name} has no rows."));
             return None;
         }
         Some(table)
@@ -109,7 +113,8 @@ impl Source {
     /// The notes as blocks, for the head of the page.
     pub fn note_blocks(&mut self) -> Vec<Block> {
         self.damage.extend_from_slice(&self.notes);
-        self.notes.drain(..).map(|n| Block::Note(Tone::Warning, n)).collect()
+        let all = self.notes.drain(..).chain(self.nothing_seen.drain(..));
+        all.map(|n| Block::Note(Tone::Warning, n)).collect()
     }
 
     /// Scene and verdict, folded away at the end.

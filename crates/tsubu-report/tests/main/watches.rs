@@ -148,3 +148,17 @@ fn damaged_tables_of_watches_become_notes() {
     fixture::text(dir.path(), "watch/index.json", "[{");
     assert!(section(&build(dir.path()).unwrap(), "Watches").is_empty());
 }
+
+/// The report of a short run in which no grain had ended a hop was called one of damaged results, with exit code 3.
+#[test]
+fn a_watch_that_saw_nothing_is_no_damage() {
+    let dir = tempfile::tempdir().unwrap();
+    watched(dir.path());
+    let damage = || tsubu_report::report(dir.path()).unwrap().damage;
+    let before = damage();
+    fixture::text(dir.path(), "watch/field.csv", "time [s],x [m]\n");
+    assert_eq!(damage(), before);
+    assert!(build(dir.path()).unwrap().to_html().contains("watch/field.csv has no rows"));
+    fixture::text(dir.path(), "watch/field.csv", "time [s],x [m]\n1,2");
+    assert_ne!(damage(), before);
+}
