@@ -1,7 +1,7 @@
 //! What must pass before a change goes in.
 
 use crate::shell::{cargo, cargo_path, command, run};
-use crate::{book, generate, guard, smoke, test, variants};
+use crate::{book, generate, guard, test, variants};
 
 /// Everything, the quick things first; the tests only if `tests`.
 pub fn check(tests: bool) -> Result<(), String> {
@@ -15,7 +15,6 @@ pub fn check(tests: bool) -> Result<(), String> {
     if tests {
         test::test()?;
     }
-    smoke::smoke()?;
     variants::quick()?;
     guard::quick()
 }

@@ -13,7 +13,6 @@ mod guard;
 mod imports;
 mod race;
 mod shell;
-mod smoke;
 mod test;
 mod variants;
 
@@ -22,13 +21,12 @@ use std::process::ExitCode;
 const HELP: &str = "\
 cargo xtask CHORE
 
-  check [--no-test]   what must pass before a change goes in: format, lints, documentation, generated pages, a short
-                      run of every scene, all tests, a minute of the guards
+  check [--no-test]   what must pass before a change goes in: format, lints, documentation, generated pages, all
+                      tests, every scene in ten ways for a moment, a minute of the guards
   test                all tests; with Python 3, also those that read written frames back with VTK
   gen [--check]       write the generated pages and tables, or only say which are out of date
   book                build the book, where there is an mdbook
   claims [NAME]...    run verification cases (without names all quick ones) and keep what they claim
-  smoke               run every scene for a moment
   fuzz [--seed N] [--seconds S] [--cases N] [--only KIND] [--case N]
                       draw scenes, files and command lines, and hold tsubu against them; --help says more
   variants [--quick] [--seed N]
@@ -52,7 +50,6 @@ fn main() -> ExitCode {
         ["gen", "--check"] => generate::check(),
         ["claims", names @ ..] => claims::claims(names),
         ["book"] => book::book(),
-        ["smoke"] => smoke::smoke(),
         ["fuzz", rest @ ..] => guard::guard("fuzz", rest),
         ["variants", rest @ ..] => variants::chore(rest),
         ["kills", rest @ ..] => guard::guard("kills", rest),

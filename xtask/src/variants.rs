@@ -166,7 +166,7 @@ fn hold(case: &Case, seed: u64) -> (usize, Vec<String>) {
 /// Every scene by its methods, each for as long as the computing takes that is wanted.
 fn cases(wanted: &Wanted, tsubu: &Path) -> Result<Vec<Case>, String> {
     let mut cases = Vec::new();
-    for name in crate::smoke::scenes()? {
+    for name in scenes()? {
         let scene = root().join(format!("scenes/{name}.toml"));
         let plan = Scene::read(&scene, &[]).map_err(|complaints| complaints.to_string())?;
         let (own, whole) = (plan.plan().method.name(), plan.plan().duration);
@@ -193,6 +193,17 @@ fn cases(wanted: &Wanted, tsubu: &Path) -> Result<Vec<Case>, String> {
         }
     }
     Ok(cases)
+}
+
+/// The name of every scene, in order.
+fn scenes() -> Result<Vec<String>, String> {
+    let entries = fs::read_dir(root().join("scenes")).map_err(|error| format!("cannot list scenes/: {error}"))?;
+    let files =
+        entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|e| e == "toml"));
+    let mut names: Vec<String> =
+        files.filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned())).collect();
+    names.sort();
+    if names.is_empty() { Err("there are no scenes".to_owned()) } else { Ok(names) }
 }
 
 impl Case {

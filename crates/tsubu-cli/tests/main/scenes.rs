@@ -12,26 +12,31 @@ fn runs(desk: &Desk, scene: &str, options: &str, method: &str) {
 }
 
 #[test]
-fn every_shipped_scene_runs_and_closes_its_books() {
+fn every_shipped_scene_is_checked_runs_closes_its_books_and_is_reported() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let mut count = 0;
     for entry in std::fs::read_dir(folder).unwrap().flatten() {
         if entry.path().extension().is_some_and(|e| e == "toml") {
-            runs(&Desk::empty(), entry.path().to_str().unwrap(), "--set 'duration=0.2 s' --set claim=[]", "dem");
+            let (desk, path) = (Desk::empty(), entry.path());
+            let name = path.file_stem().unwrap().to_str().unwrap();
+            desk.done(&format!("check {}", path.display()));
+            runs(&desk, path.to_str().unwrap(), "--set 'duration=0.2 s' --set claim=[]", "dem");
+            desk.done(&format!("report {name}-dem"));
             count += 1;
         }
     }
     assert!(count >= 5);
 }
 
+/// So that what is written by `new` is tested with the scenes.
 #[test]
-fn every_template_runs_and_closes_its_books() {
+fn every_template_is_a_shipped_scene() {
     let desk = Desk::empty();
-    let list = desk.done("new --list").stdout;
-    for line in list.lines() {
+    for line in desk.done("new --list").stdout.lines() {
         let name = line.split_whitespace().next().unwrap();
         desk.done(&format!("new {name}"));
-        runs(&desk, &format!("{name}.toml"), "--set 'duration=0.15 s' --set claim=[]", "dem");
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../scenes/{name}.toml"));
+        assert_eq!(desk.read(&format!("{name}.toml")), std::fs::read_to_string(scene).unwrap(), "{name}");
     }
 }
 
