@@ -62,7 +62,7 @@ pub struct Energy {
     /// Each term [J].
     #[serde(flatten)]
     pub terms: Named<Joule>,
-    /// What the books miss, relative to the energy turned over.
+    /// Energy residual, relative to the energy turned over.
     #[serde(deserialize_with = "real")]
     pub residual_relative: f64,
 }

@@ -132,7 +132,7 @@ fn headline(summary: Option<&Summary>, history: Option<&Table>) -> String {
     }
     let residual = s.energy.residual_relative;
     if residual.is_finite() && !s.energy.terms.is_empty() {
-        let _ = write!(text, " The energy books close to {}.", short(residual.abs()));
+        let _ = write!(text, " The energy residual is {}.", short(residual.abs()));
     }
     text
 }
@@ -196,7 +196,7 @@ fn motion_blocks(source: &mut Source, history: &Table, watches: &Watches) -> Vec
         let name = split_unit(&history.header[i]).0.to_owned();
         let file = format!("history_{}", name.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
         let drawn = source.figure(&file, &over_time(history, &[i], &name), "");
-        // Without a host the rest is what there is to see, short of what the books miss.
+        // Without a host the rest is what there is to see, short of the energy residual.
         if hosts.is_empty() && !name.contains("residual") { blocks.extend(drawn) } else { inside.extend(drawn) }
     }
     if !inside.is_empty() {

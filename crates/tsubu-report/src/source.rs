@@ -201,7 +201,7 @@ fn named<'a>(summary: &'a Summary, result: &'a str) -> (&'a str, &'a str) {
 pub(crate) fn result_cards(summary: &Summary, most: usize) -> Vec<Card> {
     let mut cards = Vec::new();
     for (result, value) in summary.results_in_order() {
-        // What the books miss is no result to be proud of; the energy has its own card. What came to no number is none.
+        // The energy residual is no result to be proud of; the energy has its own card. What came to no number is none.
         let ResultValue::Number(x) = value else { continue };
         if result.contains("residual") || !x.is_finite() {
             continue;

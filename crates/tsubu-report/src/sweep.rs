@@ -133,7 +133,7 @@ impl<'a> Sweep<'a> {
         let Some((along, x)) = self.along() else { return Vec::new() };
         let unit = x.first().and_then(|text| text.split_once(' ')).map_or("-", |(_, unit)| unit);
         let mut blocks = Vec::new();
-        // What the books miss is told in the table.
+        // The energy residual is told in the table.
         let told = |column: &&usize| {
             let header = &self.table.header;
             let name = split_unit(&header[**column]).0;

@@ -44,7 +44,12 @@ struct Load {
 }
 
 /// What a stream of a slope [rad] and a depth of water over its bed, in diameters, comes to in a time.
-fn transport([slope, water]: [f64; 2], stream: Kind, [from, until]: [f64; 2], spoiler: f64) -> Result<Load, String> {
+fn transport(
+    [slope, water]: [f64; 2],
+    stream: Kind,
+    [from, until]: [f64; 2],
+    perturbation: f64,
+) -> Result<Load, String> {
     let height = (DEEP + water) * D;
     let coupled = format!("flow.coupled = {{ bottom = 0, top = {height} }}\nhindrance.richardson-zaki = {{}}");
     let flow = match stream {
@@ -95,7 +100,7 @@ fn transport([slope, water]: [f64; 2], stream: Kind, [from, until]: [f64; 2], sp
         large = 1.1 * D,
         high = height + 20.0 * D,
     );
-    let mut rig = Rig::new(&text, spoiler)?;
+    let mut rig = Rig::new(&text, perturbation)?;
     let area = LONG * WIDE * D * D;
     rig.until(from)?;
     let (mut rate, mut stress, mut weight, mut looks, mut time) = (0.0, 0.0, 0.0, 0.0, from);
@@ -122,7 +127,7 @@ fn transport([slope, water]: [f64; 2], stream: Kind, [from, until]: [f64; 2], sp
 }
 
 /// V-57: rates within a factor of 2 of published ones.
-pub(super) fn rates(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn rates(perturbation: f64) -> Result<Vec<Claim>, String> {
     let published = |t: f64| (8.0 * (t - 0.047).powf(1.5), 3.97 * (t - 0.0495).powf(1.5));
     let source = "between half of Wong and Parker 2006 and twice Meyer-Peter and Mueller 1948";
     let gate = |Load { shields, rate, .. }: Load, what: &str| {
@@ -138,14 +143,14 @@ pub(super) fn rates(spoiler: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     for (kind, name) in [(Kind::Mean, "bedload, mean stream"), (Kind::Turbulent, "bedload, turbulent stream")] {
         for stream in [[0.025, 8.0], [0.06, 8.0], [0.06, 15.0]] {
-            let found = transport(stream, kind, STEADY, spoiler)?;
+            let found = transport(stream, kind, STEADY, perturbation)?;
             claims.push(gate(found, name));
             claims.push(steady(found, name));
         }
     }
-    let early = transport([0.025, 8.0], Kind::Turbulent, EARLY, spoiler)?;
+    let early = transport([0.025, 8.0], Kind::Turbulent, EARLY, perturbation)?;
     claims.push(refused("a stream that is not steady yet", &[gate(early, ""), steady(early, "")], 1));
-    let wrong = transport([0.06, 8.0], Kind::Unslowed, STEADY, spoiler)?;
+    let wrong = transport([0.06, 8.0], Kind::Unslowed, STEADY, perturbation)?;
     claims.push(refused("a stream that grains do not slow, down to the bottom of the bed", &[gate(wrong, "")], 1));
     Ok(claims)
 }

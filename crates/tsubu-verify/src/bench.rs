@@ -41,7 +41,7 @@ pub(super) fn spoiled_materials(text: &str, factor: f64) -> Result<Vec<String>, 
     Ok(changes)
 }
 
-/// Multiplies by the spoiler what [`spoil`] leaves alone as well: friction of every kind, surface energy, density of water.
+/// Multiplies by the perturbation what [`spoil`] leaves alone as well: friction of every kind, surface energy, density of water.
 fn spoil_all(plan: &mut Plan, factor: f64) {
     spoil(plan, factor);
     if let Some(water) = &mut plan.water {
@@ -66,22 +66,22 @@ pub(super) struct Rig {
 
 impl Rig {
     /// From a scene text.
-    pub fn new(text: &str, spoiler: f64) -> Result<Self, String> {
-        Self::of(plan(text)?, spoiler)
+    pub fn new(text: &str, perturbation: f64) -> Result<Self, String> {
+        Self::of(plan(text)?, perturbation)
     }
 
     /// From a scene text that names files in a folder.
-    pub fn in_folder(text: &str, folder: &Path, spoiler: f64) -> Result<Self, String> {
+    pub fn in_folder(text: &str, folder: &Path, perturbation: f64) -> Result<Self, String> {
         let scene = Scene::parse("verification case", text, folder, &[]).map_err(|c| c.to_string())?;
-        Self::of(scene.plan().clone(), spoiler)
+        Self::of(scene.plan().clone(), perturbation)
     }
 
     /// From a plan.
-    pub fn of(mut plan: Plan, spoiler: f64) -> Result<Self, String> {
-        spoil_all(&mut plan, spoiler);
+    pub fn of(mut plan: Plan, perturbation: f64) -> Result<Self, String> {
+        spoil_all(&mut plan, perturbation);
         let hosts = Hosts::new(&plan.hosts);
         let engine = engine::open(&plan, &hosts).map_err(|e| e.to_string())?;
-        let ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+        let ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
         Ok(Self { plan, engine, hosts, ledger })
     }
 
@@ -130,12 +130,12 @@ impl Rig {
 
     /// Energy that the books cannot explain, over the energy turned over.
     pub fn residual(&self) -> f64 {
-        self.ledger.residual_relative(&engine::stocks(&*self.engine, &self.hosts))
+        self.ledger.residual_relative(&engine::energies(&*self.engine, &self.hosts))
     }
 
     /// The same in joules.
     pub fn unexplained(&self) -> f64 {
-        self.ledger.residual(&engine::stocks(&*self.engine, &self.hosts))
+        self.ledger.residual(&engine::energies(&*self.engine, &self.hosts))
     }
 
     /// Energy posted to an account [J].

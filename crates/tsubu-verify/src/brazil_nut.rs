@@ -13,7 +13,7 @@ const LOWEST: usize = 19;
 
 /// A box of 20 diameters, shaken as a whole, so that its walls drag the bed into rolls; one grain of its own size begins at the
 /// middle of the floor.
-fn bed(size: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
+fn bed(size: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
     let text = format!(
         r#"
         title = "one large grain in a shaken bed"
@@ -44,7 +44,7 @@ fn bed(size: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
         frequency = 1.0 / period(),
         law = law(5e3, 0.5, 0.6),
     );
-    Rig::new(&text, spoiler)
+    Rig::new(&text, perturbation)
 }
 
 /// Of a shake, in sqrt(d/g).
@@ -53,8 +53,13 @@ fn period() -> f64 {
 }
 
 /// Mean height of grains over that of all: at the start, and in the mean over the looks.
-fn heights(size: f64, seed: u32, spoiler: f64, followed: impl Fn(&[f64]) -> Vec<usize>) -> Result<[f64; 2], String> {
-    let mut rig = bed(size, seed, spoiler)?;
+fn heights(
+    size: f64,
+    seed: u32,
+    perturbation: f64,
+    followed: impl Fn(&[f64]) -> Vec<usize>,
+) -> Result<[f64; 2], String> {
+    let mut rig = bed(size, seed, perturbation)?;
     let height = |rig: &Rig| rig.vectors("position").iter().map(|p| p.z).collect::<Vec<_>>();
     let start = height(&rig);
     let grains = followed(&start);
@@ -75,10 +80,10 @@ fn rises(what: &str, [start, end]: [f64; 2]) -> [Claim; 2] {
 }
 
 /// V-38: a grain of four diameters comes up from the floor and stays on top; grains of the bed's own size go everywhere.
-pub(super) fn brazil_nut(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn brazil_nut(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     for seed in 1..=3 {
-        let found = heights(4.0, seed, spoiler, |_| vec![0])?;
+        let found = heights(4.0, seed, perturbation, |_| vec![0])?;
         claims.extend(rises(&format!("shaken bed, seed {seed}, a grain of 4 diameters"), found));
     }
     let lowest = |z: &[f64]| {
@@ -87,7 +92,7 @@ pub(super) fn brazil_nut(spoiler: f64) -> Result<Vec<Claim>, String> {
         order.truncate(LOWEST);
         order
     };
-    let control = heights(1.0, 1, spoiler, lowest)?;
+    let control = heights(1.0, 1, perturbation, lowest)?;
     let source = "grains of equal size have no reason to rise";
     let name = "shaken bed, the 19 lowest of equal grains: height over the bed's mean after 90 shakes";
     claims.push(within(name, control[1], 1.0, 0.25, source));

@@ -20,7 +20,7 @@ pub struct Case {
     pub gap: bool,
     /// Runs it. The factor multiplies the constants of the contact law; 1 but in the tests that show that the
     /// claims can fail.
-    pub run: fn(spoiler: f64) -> Judged,
+    pub run: fn(perturbation: f64) -> Judged,
     /// The same into a folder, where it leaves pictures and tables; `None`: claims are all there is.
     pub kept: Option<fn(folder: &RunFolder) -> Judged>,
 }

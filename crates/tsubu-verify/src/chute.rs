@@ -15,7 +15,7 @@ const EDGE: f64 = 3.0;
 const CUT: [f64; 2] = [2.5, 3.7];
 
 /// Places of the frozen grains: cut out of a bed at rest, so dense that no grain gets in between. The highest are below 0.
-fn base(spoiler: f64) -> Result<Vec<DVec3>, String> {
+fn base(perturbation: f64) -> Result<Vec<DVec3>, String> {
     let text = format!(
         r#"
         title = "the bed that a base is cut from"
@@ -38,7 +38,7 @@ fn base(spoiler: f64) -> Result<Vec<DVec3>, String> {
         law = law(5e3, 0.5, 0.88),
         count = (7.0 * LENGTH * WIDE) as u32,
     );
-    let mut rig = Rig::new(&text, spoiler)?;
+    let mut rig = Rig::new(&text, perturbation)?;
     rig.until(40.0)?;
     let inside = |p: &DVec3| (CUT[0]..CUT[1]).contains(&p.z);
     let around = |p: DVec3| DVec3::new(p.x.rem_euclid(LENGTH), p.y.rem_euclid(WIDE), p.z - CUT[1]);
@@ -59,7 +59,7 @@ struct Slope<'a> {
 }
 
 impl Slope<'_> {
-    fn rig(&self, spoiler: f64) -> Result<Rig, String> {
+    fn rig(&self, perturbation: f64) -> Result<Rig, String> {
         let (sin, cos) = self.degrees.to_radians().sin_cos();
         let mut groups = String::new();
         if !self.base.is_empty() {
@@ -115,12 +115,12 @@ impl Slope<'_> {
             bottom = if self.base.is_empty() { 0 } else { -2 },
             law = law(5e3, self.friction, 0.88),
         );
-        Rig::new(&text, spoiler)
+        Rig::new(&text, perturbation)
     }
 
     /// What it does in the span of time.
-    fn flow(&self, span: [f64; 2], spoiler: f64) -> Result<Flow, String> {
-        let mut rig = self.rig(spoiler)?;
+    fn flow(&self, span: [f64; 2], perturbation: f64) -> Result<Flow, String> {
+        let mut rig = self.rig(perturbation)?;
         let base = self.base.len();
         let samples = sampled(&mut rig, [span[0], span[1], 0.5], |rig| {
             let speeds = rig.vectors("velocity").split_off(base);
@@ -225,14 +225,14 @@ impl Flow {
 }
 
 /// V-36: at rest below, steady flow of constant density with Bagnold's profile above the angle of repose.
-pub(super) fn silbert(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn silbert(perturbation: f64) -> Result<Vec<Claim>, String> {
     let source = "Silbert et al. 2001: flow from 19.5 to 26 degrees";
-    let base = base(spoiler)?;
+    let base = base(perturbation)?;
     let slope = |degrees: f64, layers: f64, start: f64| Slope { degrees, layers, friction: 0.5, base: &base, start };
-    let still = slope(17.0, 12.0, 1.0).flow([200.0, 220.0], spoiler)?;
+    let still = slope(17.0, 12.0, 1.0).flow([200.0, 220.0], perturbation)?;
     let mut claims = vec![within("chute at 17 degrees: speed", still.speed(), 0.0, 1e-3, source)];
-    let gentle = slope(22.0, 24.0, 5.0).flow([250.0, 450.0], spoiler)?;
-    let steep = slope(25.0, 24.0, 12.0).flow([250.0, 450.0], spoiler)?;
+    let gentle = slope(22.0, 24.0, 5.0).flow([250.0, 450.0], perturbation)?;
+    let steep = slope(25.0, 24.0, 12.0).flow([250.0, 450.0], perturbation)?;
     for flow in [&gentle, &steep] {
         claims.extend(flow.gates());
         let [lower, upper] = flow.inertial();
@@ -243,8 +243,8 @@ pub(super) fn silbert(spoiler: f64) -> Result<Vec<Claim>, String> {
     }
     let name = "chute: speed at 25 over speed at 22 degrees";
     claims.push(Claim::judge(name, steep.speed() / gentle.speed(), Some(1.2), None, source));
-    let thin = slope(25.0, 12.0, 5.0).flow([200.0, 400.0], spoiler)?;
-    let thick = slope(25.0, 40.0, 25.0).flow([400.0, 600.0], spoiler)?;
+    let thin = slope(25.0, 12.0, 5.0).flow([200.0, 400.0], perturbation)?;
+    let thick = slope(25.0, 40.0, 25.0).flow([400.0, 600.0], perturbation)?;
     let source = "mean speed grows with height to the power 3/2; 1 for a plug, 2 for a viscous liquid";
     for [low, high] in [[&thin, &steep], [&steep, &thick]] {
         let exponent = (high.speed() / low.speed()).ln() / (high.thickness() / low.thickness()).ln();

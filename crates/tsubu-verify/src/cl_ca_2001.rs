@@ -1,6 +1,6 @@
 //! Sakaguchi, Murakami, Hasegawa and Kawai (2001): grains made of lattice points.
 //!
-//! The paper shows pictures and no numbers, so the claims are signs, order and shape. A spoiler other than 1 takes away
+//! The paper shows pictures and no numbers, so the claims are signs, order and shape. A perturbation other than 1 takes away
 //! what each effect needs: the wall stays, the large grain is as small as the others, the walls are smooth, nothing is
 //! poured or pushed.
 
@@ -74,8 +74,8 @@ pub(super) fn slope(grains: &[DVec3], wall: f64) -> (f64, f64, f64) {
 }
 
 /// C-F9 to F11: dropped, at rest, a side wall removed, at rest again.
-pub(super) fn collapse(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let mut rig = collapsing("cl-ca", spoiler == 1.0, &[])?;
+pub(super) fn collapse(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let mut rig = collapsing("cl-ca", perturbation == 1.0, &[])?;
     rig.until(0.5)?;
     let mut claims = vec![between("initial: grains that still move", moved(&mut rig, 0.09, 1e-9)?, 0.0, 0.0, SOURCE)];
     rig.until(0.62)?;
@@ -98,9 +98,9 @@ pub(super) fn collapse(spoiler: f64) -> Result<Vec<Claim>, String> {
 
 /// C-F9 to F11 by CL-CA and by DEM, one after the other on one machine. Hexagons cannot turn, so their fair twins are discs
 /// that do not turn; discs that roll, freely or with resistance, stand beside them.
-pub(super) fn twin(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
     let run = |method: &str, changes: &[&str]| -> Result<_, String> {
-        let mut rig = collapsing(method, spoiler == 1.0, changes)?;
+        let mut rig = collapsing(method, perturbation == 1.0, changes)?;
         let begun = Instant::now();
         rig.until(1.6)?;
         Ok((slope(&rig.vectors("position"), WALL), begun.elapsed().as_secs_f64()))
@@ -139,12 +139,12 @@ pub(super) fn twin(spoiler: f64) -> Result<Vec<Claim>, String> {
 
 /// The collapse of triangles that may turn by 60 degrees, against those that may not (C-7). DEM has no triangles; what turning
 /// does to discs says [`twin`].
-pub(super) fn turning(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn turning(perturbation: f64) -> Result<Vec<Claim>, String> {
     // 6 and 21 points, for the 7 and 19 of the hexagons.
     const TRIANGLES: &str = "cl-ca.shapes={ small = { polygon = { corners = [[0, 0], [0, 4], [2, 2]] } }, \
                              large = { polygon = { corners = [[0, 0], [0, 10], [5, 5]] } } }";
     let run = |shapes: &[&str], turning: bool| -> Result<_, String> {
-        let turning = format!("cl-ca.turning={}", turning && spoiler == 1.0);
+        let turning = format!("cl-ca.turning={}", turning && perturbation == 1.0);
         let mut rig = collapsing("cl-ca", true, &[shapes, &[turning.as_str()]].concat())?;
         rig.until(0.59)?;
         let height = rig.engine.centre_of_mass()[2];
@@ -178,7 +178,7 @@ pub(super) fn turning(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// A box of hexagons and triangles, mixed so that they do not crystallise, shaken by gravity that points up for 20 steps.
-fn shaken(more: &str, seed: u64, spoiler: f64) -> Result<Rig, String> {
+fn shaken(more: &str, seed: u64, perturbation: f64) -> Result<Rig, String> {
     let text = format!(
         r#"
         title = "shaken"
@@ -207,21 +207,21 @@ fn shaken(more: &str, seed: u64, spoiler: f64) -> Result<Rig, String> {
         {more}
         "#
     );
-    Rig::new(&text, spoiler)
+    Rig::new(&text, perturbation)
 }
 
 /// Steps of a cycle of shaking: gravity up, and down.
 const CYCLE: [u64; 2] = [20, 200];
 
 /// C-x1: how high a grain of some radius rises, and in how many cycles.
-pub(super) fn rise(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn rise(perturbation: f64) -> Result<Vec<Claim>, String> {
     const SEEDS: u64 = 3;
     const CYCLES: u64 = 200;
     let source = "the large grain rises, a grain as small as the others does not";
     let mut claims = Vec::new();
     let mut times = Vec::new();
     for radius in 1..=4 {
-        let drawn = if spoiler == 1.0 { radius } else { 1 };
+        let drawn = if perturbation == 1.0 { radius } else { 1 };
         let (mut height, mut time) = (0.0, 0.0);
         for seed in 1..=SEEDS {
             let more = format!(
@@ -299,9 +299,9 @@ fn rolls(rough: bool) -> Result<[f64; 7], String> {
 }
 
 /// C-x2: down along rough walls, up beside that; along smooth walls next to nothing.
-pub(super) fn convection(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn convection(perturbation: f64) -> Result<Vec<Claim>, String> {
     let source = "convection needs rough walls";
-    let rough = rolls(spoiler == 1.0)?;
+    let rough = rolls(perturbation == 1.0)?;
     let smooth = rolls(false)?;
     let outer = |v: &[f64; 7]| 0.5 * (v[0] + v[6]);
     let inner = |v: &[f64; 7]| 0.5 * (v[1] + v[5]);
@@ -315,11 +315,11 @@ pub(super) fn convection(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// C-x3: grains are poured; slopes of the heap, and how often each angle is met along its surface.
-pub(super) fn pour(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn pour(perturbation: f64) -> Result<Vec<Claim>, String> {
     let text = include_str!("../../../studies/cl-ca-2001/pour.toml");
     let mut plan = super::bench::plan(text)?;
     plan.watch.clear();
-    if spoiler != 1.0 {
+    if perturbation != 1.0 {
         plan.cl_ca.fall_height = Some(1e3);
         plan.duration = 0.1;
     }
@@ -381,8 +381,8 @@ pub(super) fn pour(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// C-6: what holds after every step, whatever the scene: the collapse under the active rule, the pushed plate under the passive
-/// one. The spoiler takes a point away from a grain.
-pub(super) fn invariants(spoiler: f64) -> Result<Vec<Claim>, String> {
+/// one. The perturbation takes a point away from a grain.
+pub(super) fn invariants(perturbation: f64) -> Result<Vec<Claim>, String> {
     const STEPS: u64 = 400;
     let plate = super::bench::plan(include_str!("../../../studies/cl-ca-2001/plate.toml"))?;
     let scenes = [("active rule", collapsing("cl-ca", true, &[])?.plan, 0.6), ("passive rule", plate, PUSHED)];
@@ -394,7 +394,7 @@ pub(super) fn invariants(spoiler: f64) -> Result<Vec<Claim>, String> {
         // From a little before the wall goes, or the plate meets the bed, on.
         let run = |threads: usize, hosts: &mut Hosts| -> Result<_, String> {
             let mut engine = ClCaEngine::new(&plan, hosts).map_err(|refusal| refusal.to_string())?;
-            let mut ledger = Ledger::open(engine::stocks(&engine, hosts), engine.momentum());
+            let mut ledger = Ledger::open(engine::energies(&engine, hosts), engine.momentum());
             let grains = engine.grains();
             let threads = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| e.to_string())?;
             threads.install(|| {
@@ -424,7 +424,7 @@ pub(super) fn invariants(spoiler: f64) -> Result<Vec<Claim>, String> {
         let Some(free) = bed.present().find(|&grain| bed.kind(grain).free) else { return Err("no grain".to_owned()) };
         let mut wrong = bed.clone();
         wrong.grid.set(cells[free] as usize, WALL_POINT);
-        claims.push(gate(if spoiler == 1.0 { &bed } else { &wrong }, broken));
+        claims.push(gate(if perturbation == 1.0 { &bed } else { &wrong }, broken));
         claims.push(refused("a wall where a grain is", &[gate(&wrong, 0)], 1));
         let lost = (grains - engine.grains()) as f64;
         claims.push(between(format!("{name}: grains lost"), lost, 0.0, 0.0, source));
@@ -438,7 +438,7 @@ pub(super) fn invariants(spoiler: f64) -> Result<Vec<Claim>, String> {
 const PUSHED: f64 = 1.46;
 
 /// C-x4: shared points of a bed into which a plate has been pushed by 1 mm: some grains carry, most of them below the plate.
-pub(super) fn plate(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn plate(perturbation: f64) -> Result<Vec<Claim>, String> {
     let pushed = |plate: bool| -> Result<_, String> {
         let mut plan = super::bench::plan(include_str!("../../../studies/cl-ca-2001/plate.toml"))?;
         if !plate {
@@ -457,7 +457,7 @@ pub(super) fn plate(spoiler: f64) -> Result<Vec<Claim>, String> {
             at_least("of those, share below the plate", under, 0.45, "the plate covers 30 of 80 mm: 0.37 if all alike"),
         ])
     };
-    let mut claims = pushed(spoiler == 1.0)?.to_vec();
+    let mut claims = pushed(perturbation == 1.0)?.to_vec();
     claims.push(refused("no plate", &pushed(false)?, 4));
     Ok(claims)
 }
@@ -504,13 +504,13 @@ fn scatter(loads: &[f64]) -> f64 {
 }
 
 /// C-x4 beside DEM: the forces of a bed of discs into which the same plate has been pushed as far.
-pub(super) fn plate_twin(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn plate_twin(perturbation: f64) -> Result<Vec<Claim>, String> {
     let text = include_str!("../../../studies/cl-ca-2001/plate.toml");
     let at = |method: &str, time: Option<f64>, contacts: Contacts| -> Result<Network, String> {
         let changes = [format!("method={method}")];
         let scene = Scene::parse("plate", text, Path::new("."), &changes).map_err(|c| c.to_string())?;
         let mut plan = scene.plan().clone();
-        if spoiler != 1.0 {
+        if perturbation != 1.0 {
             plan.particles.retain(|name, _| name != "plate");
             plan.cl_ca.rule = tsubu_scene::plan::ClCaRule::Passive;
         }

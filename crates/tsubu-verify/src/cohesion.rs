@@ -60,13 +60,13 @@ fn scene(law: &str, plane: bool) -> String {
 
 /// Largest force [N] with which the sphere is lifted, and the residual of the books over the most that contacts store: what
 /// is turned over in a slow cycle is next to nothing.
-fn lift(law: &str, plane: bool, spoiler: f64) -> Result<(f64, f64), String> {
-    let mut rig = Rig::new(&scene(law, plane), spoiler)?;
+fn lift(law: &str, plane: bool, perturbation: f64) -> Result<(f64, f64), String> {
+    let mut rig = Rig::new(&scene(law, plane), perturbation)?;
     let (mut most, mut stored) = (0.0f64, 0.0f64);
-    let before = rig.engine.grain_stocks().elastic;
+    let before = rig.engine.grain_energies().elastic;
     while rig.engine.time() < 3.0 {
         rig.steps(1)?;
-        stored = stored.max((rig.engine.grain_stocks().elastic - before).abs());
+        stored = stored.max((rig.engine.grain_energies().elastic - before).abs());
         let frame = rig.frame();
         let forces = vectors(&frame, Kind::Contact, "force");
         let (Some(Values::Integer(first)), Some(Values::Integer(second))) = (
@@ -88,11 +88,11 @@ fn lift(law: &str, plane: bool, spoiler: f64) -> Result<(f64, f64), String> {
 }
 
 /// V-08: DMT parts at 4 pi gamma R*, JKR at 3 pi gamma R*, gamma the energy of one face.
-pub(super) fn pull_off(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn pull_off(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     for (law, factor) in [("dmt", 4.0), ("jkr", 3.0)] {
         for (other, plane, reduced) in [("sphere", false, 0.5 * RADIUS), ("plane", true, RADIUS)] {
-            let (force, residual) = lift(law, plane, spoiler)?;
+            let (force, residual) = lift(law, plane, perturbation)?;
             let closed = factor * PI * GAMMA * reduced;
             let source = "Derjaguin, Muller, Toporov 1975; Johnson, Kendall, Roberts 1971";
             claims.push(near(format!("pull-off by {law}, sphere and {other} N"), force, closed, 2e-3, source));

@@ -13,18 +13,18 @@ mod shaken;
 use super::Judged;
 use tsubu_frame::RunFolder;
 
-pub(super) fn hopper(spoiler: f64, folder: Option<&RunFolder>) -> Judged {
-    seen::judged(&hopper::TEST, spoiler, folder)
+pub(super) fn hopper(perturbation: f64, folder: Option<&RunFolder>) -> Judged {
+    seen::judged(&hopper::TEST, perturbation, folder)
 }
 
-pub(super) fn heap(spoiler: f64, folder: Option<&RunFolder>) -> Judged {
-    seen::judged(&heap::TEST, spoiler, folder)
+pub(super) fn heap(perturbation: f64, folder: Option<&RunFolder>) -> Judged {
+    seen::judged(&heap::TEST, perturbation, folder)
 }
 
-pub(super) fn shaken(spoiler: f64, folder: Option<&RunFolder>) -> Judged {
-    seen::judged(&shaken::TEST, spoiler, folder)
+pub(super) fn shaken(perturbation: f64, folder: Option<&RunFolder>) -> Judged {
+    seen::judged(&shaken::TEST, perturbation, folder)
 }
 
-pub(super) fn collapse(spoiler: f64, folder: Option<&RunFolder>) -> Judged {
-    seen::judged(&collapse::TEST, spoiler, folder)
+pub(super) fn collapse(perturbation: f64, folder: Option<&RunFolder>) -> Judged {
+    seen::judged(&collapse::TEST, perturbation, folder)
 }

@@ -7,7 +7,7 @@ use tsubu::partner::Hosts;
 use tsubu_frame::Claim;
 
 /// A ball thrown at a floor, or at another ball, with 1 m/s; 200 steps per contact.
-fn impact(law: &str, restitution: f64, pair: bool, speed: f64, spoiler: f64) -> Result<f64, String> {
+fn impact(law: &str, restitution: f64, pair: bool, speed: f64, perturbation: f64) -> Result<f64, String> {
     let positions = if pair { "[[-3.1e-3, 0], [3.1e-3, 0]]" } else { "[[0, 3.1e-3]]" };
     let velocities =
         if pair { format!("[[{}, 0], [{}, 0]]", 0.5 * speed, -0.5 * speed) } else { format!("[[0, {}]]", -speed) };
@@ -41,11 +41,11 @@ fn impact(law: &str, restitution: f64, pair: bool, speed: f64, spoiler: f64) -> 
         steps = if law.contains("linear") { 2000 } else { 200 },
     );
     let mut plan = bench::plan(&text)?;
-    bench::spoil(&mut plan, spoiler);
+    bench::spoil(&mut plan, perturbation);
     let mut hosts = Hosts::new(&plan.hosts);
     let mut engine = engine::open(&plan, &hosts).map_err(|e| e.to_string())?;
-    let mut ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
-    let energy = |engine: &dyn engine::Engine| engine.grain_stocks().kinetic;
+    let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
+    let energy = |engine: &dyn engine::Engine| engine.grain_energies().kinetic;
     let before = energy(&*engine);
     let steps = (plan.duration / engine.time_step()) as u64;
     engine.advance(steps, &mut hosts, &mut ledger).map_err(|e| e.to_string())?;
@@ -53,7 +53,7 @@ fn impact(law: &str, restitution: f64, pair: bool, speed: f64, spoiler: f64) -> 
 }
 
 /// V-05. The restitution that was asked for comes back, to 1e-3, at the speed where the form promises it.
-pub(super) fn restitution(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn restitution(perturbation: f64) -> Result<Vec<Claim>, String> {
     let forms = [
         ("sqrt, attraction", "damping.sqrt = {}\nattraction = true"),
         ("sqrt", "damping.sqrt = {}"),
@@ -68,7 +68,7 @@ pub(super) fn restitution(spoiler: f64) -> Result<Vec<Claim>, String> {
     for (name, law) in forms {
         for e in [0.9, 0.75, 0.5] {
             for pair in [false, true] {
-                let value = impact(law, e, pair, 1.0, spoiler)?;
+                let value = impact(law, e, pair, 1.0, perturbation)?;
                 let where_ = if pair { "pair" } else { "wall" };
                 claims.push(Claim::judge(
                     format!("restitution {e} by {name}, {where_}"),

@@ -8,7 +8,7 @@ use tsubu_frame::Claim;
 const FILLED: f64 = 0.1;
 
 /// A periodic box of `count` grains of diameter 1 and mass 1 at temperature 1.
-fn gas(dimension: u8, count: u32, restitution: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
+fn gas(dimension: u8, count: u32, restitution: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
     let space = dimension == 3;
     let density = if space { FILLED * 6.0 / PI } else { FILLED * 4.0 / PI };
     let half = 0.5 * (f64::from(count) / density).powf(1.0 / f64::from(dimension));
@@ -42,7 +42,7 @@ fn gas(dimension: u8, count: u32, restitution: f64, seed: u32, spoiler: f64) -> 
         low = corner(-half),
         high = corner(half),
     );
-    Rig::new(&text, spoiler)
+    Rig::new(&text, perturbation)
 }
 
 /// Mean kinetic energy a degree of freedom of the random motion, and for masses of 1 the temperature.
@@ -65,14 +65,14 @@ fn collisions(dimension: u8) -> f64 {
 }
 
 /// V-30: sqrt(T1/T2) - 1 grows as time over Haff's time, in boxes too small for clusters.
-pub(super) fn haff(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn haff(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     for (dimension, count, seeds) in [(2, 50, 6), (3, 400, 1)] {
         for restitution in [0.9, 0.8] {
             let haff = 2.0 * f64::from(dimension) / ((1.0 - restitution * restitution) * collisions(dimension));
             let mut rate = 0.0;
             for seed in 1..=seeds {
-                let mut rig = gas(dimension, count, restitution, seed, spoiler)?;
+                let mut rig = gas(dimension, count, restitution, seed, perturbation)?;
                 // Five collisions make the equal speeds of the start Maxwell's.
                 rig.until(5.0 / collisions(dimension))?;
                 let (t, first) = (rig.engine.time(), temperature(&rig, dimension));

@@ -18,10 +18,10 @@ const FIGURE_11: &str = include_str!("../../../studies/damper-2003/fig11-automat
 /// Peak heights of a single inelastic lump on the same structure (A-7.1): an order of magnitude, not the paper's data [m].
 const LUMP: [(usize, f64); 3] = [(10, 9.58e-3), (30, 7.99e-3), (50, 7.73e-3)];
 
-/// The cases of a response, with the contact law's constants multiplied by the spoiler.
-fn respond(text: &str, changes: &[String], spoiler: f64) -> Result<Vec<CaseResult>, String> {
+/// The cases of a response, with the contact law's constants multiplied by the perturbation.
+fn respond(text: &str, changes: &[String], perturbation: f64) -> Result<Vec<CaseResult>, String> {
     let mut changes = changes.to_vec();
-    changes.extend(bench::spoiled_materials(text, spoiler)?);
+    changes.extend(bench::spoiled_materials(text, perturbation)?);
     let scene = Scene::parse("study scene", text, std::path::Path::new("."), &changes).map_err(|c| c.to_string())?;
     curves(&scene).map_err(|e| e.to_string())
 }
@@ -67,27 +67,27 @@ fn dem_claims(name: &str, cases: &[CaseResult], source: &str) -> Vec<Claim> {
 }
 
 /// A-F3a: literal DEM, wall friction 0.5.
-pub(super) fn figure_3a(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let cases = respond(FIGURE_3, &["response.vary.\"materials.casing.friction\"=[0.5]".to_owned()], spoiler)?;
+pub(super) fn figure_3a(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let cases = respond(FIGURE_3, &["response.vary.\"materials.casing.friction\"=[0.5]".to_owned()], perturbation)?;
     Ok(dem_claims("DEM, wall friction 0.5", &cases, "figure 3a: more balls, lower peak"))
 }
 
 /// A-F3b: literal DEM, wall friction 0.6.
-pub(super) fn figure_3b(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let cases = respond(FIGURE_3, &["response.vary.\"materials.casing.friction\"=[0.72]".to_owned()], spoiler)?;
+pub(super) fn figure_3b(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let cases = respond(FIGURE_3, &["response.vary.\"materials.casing.friction\"=[0.72]".to_owned()], perturbation)?;
     Ok(dem_claims("DEM, wall friction 0.6", &cases, "figure 3b: more balls, lower peak"))
 }
 
 /// A-F3 with rotation, tangential spring and constant restitution.
-pub(super) fn figure_3_extended(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let cases = respond(FIGURE_3_EXTENDED, &[], spoiler)?;
+pub(super) fn figure_3_extended(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let cases = respond(FIGURE_3_EXTENDED, &[], perturbation)?;
     Ok(dem_claims("DEM, extended law", &cases, "figure 2 (experiment): more balls, lower peak"))
 }
 
 /// A-F11, literal: the peak falls and does not move down, which the authors name as the defect of their model.
-pub(super) fn figure_11_literal(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn figure_11_literal(perturbation: f64) -> Result<Vec<Claim>, String> {
     let changes = ["response.vary.\"lattice.mode\"=[\"literal\"]".to_owned(), "response.seeds=20".to_owned()];
-    let cases = respond(FIGURE_11, &changes, spoiler)?;
+    let cases = respond(FIGURE_11, &changes, perturbation)?;
     let source = "figure 11: more balls, lower peak at a higher frequency (a defect of the model, says the paper)";
     let mut claims = Vec::new();
     for pair in [0, 10, 30, 50].windows(2) {
@@ -102,9 +102,9 @@ pub(super) fn figure_11_literal(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// A-F11, extended: with resting impulses the shift has the sign of nature.
-pub(super) fn figure_11_extended(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn figure_11_extended(perturbation: f64) -> Result<Vec<Claim>, String> {
     let extended = "response.vary.\"lattice.mode\"=[\"extended\"]".to_owned();
-    let cases = respond(FIGURE_11, std::slice::from_ref(&extended), spoiler)?;
+    let cases = respond(FIGURE_11, std::slice::from_ref(&extended), perturbation)?;
     let mut claims = Vec::new();
     let source = "resting impulses bring the shift down";
     for pair in [0, 10, 30, 50].windows(2) {
@@ -120,7 +120,7 @@ pub(super) fn figure_11_extended(spoiler: f64) -> Result<Vec<Claim>, String> {
         "response.seeds=1".to_owned(),
         "response.frequency-ratio={ from = 0.9, to = 1.04, step = 0.005 }".to_owned(),
     ];
-    let cases = respond(FIGURE_11, &small, spoiler)?;
+    let cases = respond(FIGURE_11, &small, perturbation)?;
     for count in [10, 30, 50] {
         let limit = 1.0 / (1.0 + 0.2e-3 * f64::from(count) / 0.086_f64).sqrt();
         claims.push(Claim::judge(

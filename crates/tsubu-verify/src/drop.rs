@@ -12,15 +12,15 @@ const GRAVITY: f64 = 10.0;
 const DROP: f64 = 0.09;
 
 /// Height of the lowest point over the floor and time of every apex after an impact.
-fn apexes(method: Method, spoiler: f64, count: usize) -> Result<Vec<(f64, f64)>, String> {
+fn apexes(method: Method, perturbation: f64, count: usize) -> Result<Vec<(f64, f64)>, String> {
     let mut plan = bench::plan(SCENE)?;
     plan.method = method;
     // At the default 20 steps an impact's restitution is met within 1 %; the gate is finer.
     plan.dem.steps_per_contact = 100.0;
-    bench::spoil(&mut plan, spoiler);
+    bench::spoil(&mut plan, perturbation);
     let mut hosts = Hosts::new(&plan.hosts);
     let mut engine = engine::open(&plan, &hosts).map_err(|e| e.to_string())?;
-    let mut ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+    let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let mut apexes = Vec::new();
     let mut best = (f64::MIN, 0.0);
     let mut falling = true;
@@ -58,8 +58,8 @@ fn closed_form(k: i32, e: f64) -> (f64, f64) {
 }
 
 /// V-06 and A-F8 by DEM: heights within 0.5 %, times within 0.2 % (a contact lasts 0.1 % of the first flight).
-pub(super) fn dem(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let found = apexes(Method::Dem, spoiler, 4)?;
+pub(super) fn dem(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let found = apexes(Method::Dem, perturbation, 4)?;
     let mut claims = Vec::new();
     for k in 1..=4 {
         let (height, time) = closed_form(k, 0.75);
@@ -78,8 +78,8 @@ pub(super) fn dem(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// A-F8 by the automaton: apex cells are the whole part of the continuous apex in cells, times within 2 %.
-pub(super) fn lattice(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let found = apexes(Method::Lattice, spoiler, 4)?;
+pub(super) fn lattice(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let found = apexes(Method::Lattice, perturbation, 4)?;
     let mut claims = Vec::new();
     for k in 1..=4 {
         let (height, time) = closed_form(k, 0.75);

@@ -14,7 +14,7 @@ fn turning(froude: f64) -> f64 {
 
 /// One grain that does not spin, on the wall of a rough drum. It moves with the wall's surface, w R, on a circle of R - r: the
 /// Froude number is (w R)^2 / ((R - r) g).
-fn carried(froude: f64, spoiler: f64) -> Result<Rig, String> {
+fn carried(froude: f64, perturbation: f64) -> Result<Rig, String> {
     let arm = DRUM - RADIUS;
     let spin = turning(froude);
     let text = format!(
@@ -39,7 +39,7 @@ fn carried(froude: f64, spoiler: f64) -> Result<Rig, String> {
         [contact]
         rotation = false
         "#,
-        gravity = G * spoiler,
+        gravity = G * perturbation,
         diameter = 2.0 * RADIUS,
         low = -arm,
         along = -spin * DRUM,
@@ -48,8 +48,8 @@ fn carried(froude: f64, spoiler: f64) -> Result<Rig, String> {
 }
 
 /// Angle before the top [degrees] at which the grain leaves the wall; `None` if it stays for two turns.
-fn leaves(froude: f64, spoiler: f64) -> Result<Option<f64>, String> {
-    let mut rig = carried(froude, spoiler)?;
+fn leaves(froude: f64, perturbation: f64) -> Result<Option<f64>, String> {
+    let mut rig = carried(froude, perturbation)?;
     let turn = std::f64::consts::TAU / turning(froude);
     rig.until(0.05 * turn)?;
     while rig.engine.time() < 2.0 * turn {
@@ -64,16 +64,16 @@ fn leaves(froude: f64, spoiler: f64) -> Result<Option<f64>, String> {
 
 /// V-37: from a Froude number of 1 on a grain goes round; below it leaves the wall where its cosine from the top is that
 /// number.
-pub(super) fn centrifuging(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn centrifuging(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     let source = "closed form w^2 R = g cos(angle)";
     for froude in [0.5f64, 0.7, 0.9, 0.98] {
-        let found = leaves(froude, spoiler)?.unwrap_or(f64::NAN);
+        let found = leaves(froude, perturbation)?.unwrap_or(f64::NAN);
         let name = format!("drum at Froude number {froude}: angle before the top where a grain leaves");
         claims.push(within(name, found, froude.acos().to_degrees(), 1.0, source));
     }
     for froude in [1.02, 1.2] {
-        let stays = f64::from(u8::from(leaves(froude, 2.0 - spoiler)?.is_none()));
+        let stays = f64::from(u8::from(leaves(froude, 2.0 - perturbation)?.is_none()));
         let name = format!("drum at Froude number {froude}: whether a grain stays on the wall");
         claims.push(within(name, stays, 1.0, 0.0, "closed form w^2 R >= g"));
     }

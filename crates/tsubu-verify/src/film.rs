@@ -28,12 +28,12 @@ struct Rebound {
     /// Speeds down at touch, and up behind the film [m/s].
     touch: f64,
     up: f64,
-    /// Energy that the books miss, over the energy turned over.
+    /// Energy residual over the energy turned over.
     missing: f64,
 }
 
 /// A grain that comes down onto a floor from beyond the film, no force but the film's and the contact's.
-fn rebound(viscosity: f64, stiffness: &str, rest: &str, spoiler: f64) -> Result<Rebound, String> {
+fn rebound(viscosity: f64, stiffness: &str, rest: &str, perturbation: f64) -> Result<Rebound, String> {
     let text = format!(
         r#"
         dimension = 3
@@ -59,7 +59,7 @@ fn rebound(viscosity: f64, stiffness: &str, rest: &str, spoiler: f64) -> Result<
         diameter = 2.0 * R,
         height = R + 1.2 * REACH,
     );
-    let mut rig = Rig::new(&text, spoiler)?;
+    let mut rig = Rig::new(&text, perturbation)?;
     let look = |rig: &Rig| {
         let view = rig.engine.view(Wants::GRAINS);
         (view.grains.position[0].z - R, view.grains.velocity[0].z)
@@ -83,13 +83,13 @@ fn rebound(viscosity: f64, stiffness: &str, rest: &str, spoiler: f64) -> Result<
 }
 
 /// V-56: what a film takes of an approach, and what it leaves of a rebound.
-pub(super) fn rebounds(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn rebounds(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (soft, hard) = ("0.5 MPa", "5 MPa");
     let film = "[contact]\nfilm.lubrication = {}";
     let (mut claims, mut missing) = (Vec::new(), 0.0f64);
     for dt in ["1e-7", "1e-6", "4e-6"] {
         let rest = format!("{film}\ndamping.none = {{}}\n[dem]\ntime-step = {dt}");
-        let found = rebound(1e-6, soft, &rest, spoiler)?;
+        let found = rebound(1e-6, soft, &rest, perturbation)?;
         missing = missing.max(found.missing);
         let lost = SPEED - found.touch;
         let gate = |factor: f64| {
@@ -101,7 +101,7 @@ pub(super) fn rebounds(spoiler: f64) -> Result<Vec<Claim>, String> {
         claims.push(refused("the factor of two equal spheres", &[gate(0.25)], 1));
     }
     let mut wet = |number: f64, stiffness: &str, rest: &str| {
-        let found = rebound(viscosity(number), stiffness, rest, spoiler)?;
+        let found = rebound(viscosity(number), stiffness, rest, perturbation)?;
         missing = missing.max(found.missing);
         Ok::<f64, String>(found.up / SPEED)
     };

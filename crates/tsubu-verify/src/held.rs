@@ -23,7 +23,7 @@ fn pinch(ratio: f64) -> (f64, f64) {
 }
 
 /// The small sphere hangs in friction by `share` of what it can hold, one large sphere at each side.
-fn squeezed(ratio: f64, share: f64, spoiler: f64) -> Result<Rig, String> {
+fn squeezed(ratio: f64, share: f64, perturbation: f64) -> Result<Rig, String> {
     let gravity = share * 2.0 * FRICTION * pinch(ratio).0 / MASS;
     let x = RADIUS * (1.0 + ratio - 2.0 * PINCH);
     let text = format!(
@@ -53,18 +53,18 @@ fn squeezed(ratio: f64, share: f64, spoiler: f64) -> Result<Rig, String> {
         small = 2.0 * RADIUS,
         large = 2.0 * ratio * RADIUS,
     );
-    Rig::new(&text, spoiler)
+    Rig::new(&text, perturbation)
 }
 
 /// V-16: friction holds the small sphere at any ratio of sizes: it sags as the springs say, does not drift, and falls when
 /// it is too heavy.
-pub(super) fn three_spheres(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn three_spheres(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     let source = "statics; after the three spheres of Vyas et al. 2025";
     for ratio in [1.0, 3.0, 10.0, 30.0, 100.0] {
         let (press, stiffness) = pinch(ratio);
         let sag = 0.45 * FRICTION * press / stiffness;
-        let mut rig = squeezed(ratio, 0.45, spoiler)?;
+        let mut rig = squeezed(ratio, 0.45, perturbation)?;
         rig.steps(4000)?;
         let height = rig.vector("position", 0).z;
         claims.push(near(format!("three spheres, ratio {ratio}: sag m"), -height, sag, 0.01, source));
@@ -77,7 +77,7 @@ pub(super) fn three_spheres(spoiler: f64) -> Result<Vec<Claim>, String> {
             1e-3,
             source,
         ));
-        let mut rig = squeezed(ratio, 0.97, spoiler)?;
+        let mut rig = squeezed(ratio, 0.97, perturbation)?;
         rig.steps(20_000)?;
         let speed = rig.vector("velocity", 0).length();
         claims.push(within(
@@ -87,7 +87,7 @@ pub(super) fn three_spheres(spoiler: f64) -> Result<Vec<Claim>, String> {
             1e-6,
             source,
         ));
-        let mut rig = squeezed(ratio, 1.03, spoiler)?;
+        let mut rig = squeezed(ratio, 1.03, perturbation)?;
         rig.steps(20_000)?;
         let fell = -rig.vector("position", 0).z / RADIUS;
         let name = format!("three spheres, ratio {ratio}: fall at 1.03 of the limit, in radii");
@@ -97,11 +97,11 @@ pub(super) fn three_spheres(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-15: tangential restitution of a linear spring that does not slip.
-pub(super) fn no_slip(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn no_slip(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     for (name, shape, inverse) in [("sphere", "sphere = {}", 3.5f64), ("disc", "disc = { thickness = 1e-3 }", 3.0)] {
         for ratio in [0.1, 2.0 / 7.0, 0.5, 1.0] {
-            let law = format!("normal.hooke.stiffness = 1e9\ntangential.spring.ratio = {}", ratio * spoiler);
+            let law = format!("normal.hooke.stiffness = 1e9\ntangential.spring.ratio = {}", ratio * perturbation);
             let throw =
                 Throw { friction: 1e6, velocity: [0.5, 1.0], shape, law: &law, steps: 5000.0, ..Throw::default() };
             let seen = throw.go(1.0)?;

@@ -24,11 +24,11 @@ fn measured(plan: &Plan, wanted: &Response, bed: &State, frequency: f64) -> Resu
 }
 
 /// The empty structure: half-power width, energy per cycle and ring-down give twice the damping ratio.
-pub(super) fn loss_factor(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn loss_factor(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut plan = bench::plan(DAMPER)?;
     set_count(&mut plan, 0);
     if let tsubu_scene::plan::Structure::Oscillator { damping, .. } = &mut structure(&mut plan)?.structure {
-        *damping *= spoiler;
+        *damping *= perturbation;
     }
     let expected = C / (K * M).sqrt();
     let wanted = plan.response.clone().ok_or("the damper scene has no response")?;

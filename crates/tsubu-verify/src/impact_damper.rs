@@ -9,9 +9,9 @@ use tsubu_frame::Claim;
 const SCENE: &str = include_str!("../../../scenes/impact-damper.toml");
 
 /// Two symmetric impacts a cycle: peak, root mean square and number of impacts of the last twenty periods.
-pub(super) fn symmetric(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn symmetric(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut plan = bench::plan(SCENE)?;
-    bench::spoil(&mut plan, spoiler);
+    bench::spoil(&mut plan, perturbation);
     // The closed form knows no contact time: 50 GPa brings it to 0.03 % of a period. The restitution must be met better
     // than the 1 % of the default step.
     for material in plan.materials.values_mut() {
@@ -21,7 +21,7 @@ pub(super) fn symmetric(spoiler: f64) -> Result<Vec<Claim>, String> {
     plan.duration = 40.0;
     let mut hosts = Hosts::new(&plan.hosts);
     let mut engine = engine::open(&plan, &hosts).map_err(|e| e.to_string())?;
-    let mut ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+    let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let period = 1.0 / hosts.list[0].natural_frequencies().first().copied().unwrap_or(f64::NAN);
     let periods = 20.0;
     let steps = |time: f64| (time / engine.time_step()).round() as u64;

@@ -1,6 +1,6 @@
 //! The lattice grain model of Gutt and Haff (spec of the review: R-4).
 //!
-//! The spoiler multiplies restitution.
+//! The perturbation multiplies restitution.
 
 use super::bench::{refused, within};
 use tsubu::lattice::grid::Grid;
@@ -67,12 +67,12 @@ fn drop_gates(name: &str, found: &[(f64, f64)]) -> Vec<Claim> {
 }
 
 /// free fall, rebounds beyond the fourth, momentum.
-pub(super) fn drop(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let mut claims = drop_gates("lattice grain dropped on a low node", &rebounds(4, 1e-4, 0.75 * spoiler)?);
-    claims.extend(drop_gates("lattice grain dropped on a high node", &rebounds(5, 1e-4, 0.75 * spoiler)?));
+pub(super) fn drop(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let mut claims = drop_gates("lattice grain dropped on a low node", &rebounds(4, 1e-4, 0.75 * perturbation)?);
+    claims.extend(drop_gates("lattice grain dropped on a high node", &rebounds(5, 1e-4, 0.75 * perturbation)?));
     claims.push(refused("restitution 0.7", &drop_gates("", &rebounds(4, 1e-4, 0.7)?), 8));
     claims.push(free_fall()?);
-    claims.extend(gas(spoiler)?);
+    claims.extend(gas(perturbation)?);
     Ok(claims)
 }
 
@@ -93,7 +93,7 @@ fn free_fall() -> Result<Claim, String> {
 }
 
 /// Momentum of a gas in a box, what walls got counted; how much the energy falls.
-fn gas(spoiler: f64) -> Result<Vec<Claim>, String> {
+fn gas(perturbation: f64) -> Result<Vec<Claim>, String> {
     let grid = boxed(40, 40);
     let mut grains = Vec::new();
     for (number, node) in (5..36).flat_map(|c| (5..36).map(move |r| (c, r))).enumerate() {
@@ -106,7 +106,7 @@ fn gas(spoiler: f64) -> Result<Vec<Claim>, String> {
             });
         }
     }
-    let mut model = LatticeGrains::new(grid, grains, 0.0, [0.8 * spoiler; 2], 1);
+    let mut model = LatticeGrains::new(grid, grains, 0.0, [0.8 * perturbation; 2], 1);
     let before = model.momentum();
     let mut walls = [0.0; 2];
     let mut missing = [0.0; 2];
@@ -160,11 +160,11 @@ fn floor_load(rows: usize, restitution: f64) -> Result<(f64, f64), String> {
 }
 
 /// the load on the floor of a silo saturates, as Janssen has it; that of water does not.
-pub(super) fn janssen(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn janssen(perturbation: f64) -> Result<Vec<Claim>, String> {
     let heights = [10, 20, 40];
     let mut loads = Vec::new();
     for rows in heights {
-        loads.push(floor_load(rows, 0.5 * spoiler)?);
+        loads.push(floor_load(rows, 0.5 * perturbation)?);
     }
     let source = "Janssen 1895: the weight of what lies higher than a few widths goes to the walls";
     let gate = |low: f64, high: f64| {

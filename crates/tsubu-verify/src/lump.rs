@@ -7,7 +7,7 @@ use tsubu::partner::Hosts;
 use tsubu_frame::Claim;
 
 /// Flight times over the period, in the order they happen, after the first eighteen periods.
-fn flights(gamma: f64, spoiler: f64) -> Result<Vec<f64>, String> {
+fn flights(gamma: f64, perturbation: f64) -> Result<Vec<f64>, String> {
     let (gravity, frequency) = (10.0, 6.0);
     let w = std::f64::consts::TAU * frequency;
     let amplitude = gamma * gravity / (w * w);
@@ -40,11 +40,11 @@ fn flights(gamma: f64, spoiler: f64) -> Result<Vec<f64>, String> {
         "#
     );
     let mut plan = bench::plan(&text)?;
-    // No constant of the law enters an inelastic flight: here the spoiler acts on gravity.
-    plan.gravity[2] *= spoiler;
+    // No constant of the law enters an inelastic flight: here the perturbation acts on gravity.
+    plan.gravity[2] *= perturbation;
     let mut hosts = Hosts::new(&plan.hosts);
     let mut engine = engine::open(&plan, &hosts).map_err(|e| e.to_string())?;
-    let mut ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+    let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let period = 1.0 / frequency;
     let mut flights = Vec::new();
     let mut left = None;
@@ -68,11 +68,11 @@ fn flights(gamma: f64, spoiler: f64) -> Result<Vec<f64>, String> {
 
 /// Flight time is one period for sqrt(1 + pi^2) <= Gamma <= sqrt(4 + pi^2), shorter below, of two lengths above. The
 /// tolerance is the time that a contact of this stiffness lasts.
-pub(super) fn locking(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn locking(perturbation: f64) -> Result<Vec<Claim>, String> {
     let source = "closed form and event-driven integration";
     let mut claims = Vec::new();
     for (gamma, expected) in [(3.25, 0.9922), (3.32, 1.0), (3.6, 1.0)] {
-        let found = flights(gamma, spoiler)?;
+        let found = flights(gamma, perturbation)?;
         for (label, value) in [
             ("shortest", found.iter().copied().fold(f64::NAN, f64::min)),
             ("longest", found.iter().copied().fold(f64::NAN, f64::max)),
@@ -81,7 +81,7 @@ pub(super) fn locking(spoiler: f64) -> Result<Vec<Claim>, String> {
             claims.push(Claim::judge(name, value, Some(expected - 0.003), Some(expected + 0.003), source));
         }
     }
-    let mut found = flights(3.74, spoiler)?;
+    let mut found = flights(3.74, perturbation)?;
     // Long and short ones take turns: an even number of them for the mean.
     found.truncate(found.len() / 2 * 2);
     let mean = found.iter().sum::<f64>() / found.len() as f64;

@@ -9,12 +9,12 @@ const ROLL: &str = include_str!("../../../studies/open-dem-benchmark/roll.toml")
 
 /// An M1 sphere strikes steel at 1 m/s and comes back with the restitution of the pair, at the source's time step: 58
 /// steps per contact, good for 1 %.
-pub(super) fn rebound(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn rebound(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut plan = plan(REBOUND)?;
     for pair in &mut plan.material_pair {
-        pair.restitution = pair.restitution.map(|e| e * spoiler);
+        pair.restitution = pair.restitution.map(|e| e * perturbation);
     }
-    let mut rig = Rig::of(plan, spoiler)?;
+    let mut rig = Rig::of(plan, perturbation)?;
     rig.impact()?;
     let speed = rig.vector("velocity", 0).z;
     let books = rig.residual();
@@ -25,13 +25,13 @@ pub(super) fn rebound(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// A steel sphere on a slope of 45 degrees, below atan(7/2 mu): it rolls from the beginning, at 5/7 of the pull.
-pub(super) fn roll(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn roll(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut plan = plan(ROLL)?;
     let pull = plan.gravity[0];
     // What rolls without slip knows no constant of the law.
-    plan.gravity = plan.gravity.map(|g| g * spoiler);
+    plan.gravity = plan.gravity.map(|g| g * perturbation);
     let radius = 0.5 * plan.particles.values().map(|group| group.diameter).sum::<f64>();
-    let mut rig = Rig::of(plan, spoiler)?;
+    let mut rig = Rig::of(plan, perturbation)?;
     rig.until(rig.plan.duration)?;
     let (time, speed) = (rig.engine.time(), rig.speed());
     // Right-handed about y, which points into the picture: rolling to the right turns about +y.

@@ -30,7 +30,7 @@ fn opens(hole: f64) -> f64 {
 }
 
 /// A flat-bottomed cylinder 2.5 holes wide. Its hole is closed by a plate that vanishes; grains below it vanish.
-fn silo(hole: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
+fn silo(hole: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
     let radius = SILO * hole;
     let area = std::f64::consts::PI * radius * radius;
     let text = format!(
@@ -67,7 +67,7 @@ fn silo(hole: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
         half = 0.5 * hole,
         opens = opens(hole),
     );
-    Rig::new(&text, spoiler)
+    Rig::new(&text, perturbation)
 }
 
 /// A silo that has emptied.
@@ -78,8 +78,8 @@ struct Run {
     rates: Vec<f64>,
 }
 
-fn run(hole: f64, seed: u32, spoiler: f64) -> Result<Run, String> {
-    let mut rig = silo(hole, seed, spoiler)?;
+fn run(hole: f64, seed: u32, perturbation: f64) -> Result<Run, String> {
+    let mut rig = silo(hole, seed, perturbation)?;
     rig.until(opens(hole))?;
     let density = density(&rig.vectors("position"), SILO * hole);
     rig.until(opens(hole) + STARTS)?;
@@ -125,7 +125,7 @@ fn gates(fit: &Fit) -> [Claim; 2] {
 }
 
 /// V-31, in space: rate^(2/5) is straight in the width of the hole, zero at k d, and does not know the height.
-pub(super) fn beverloo(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn beverloo(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (mut points, mut claims, mut densities) = (Vec::new(), Vec::new(), Vec::new());
     for (hole, silos) in HOLES {
         let all = (1..=silos).map(|seed| run(hole, seed, 1.0)).collect::<Result<Vec<_>, _>>()?;
@@ -149,7 +149,7 @@ pub(super) fn beverloo(spoiler: f64) -> Result<Vec<Claim>, String> {
         let source = "Beverloo 1961: C about 0.58; a tenth either way is ours";
         let constant = 1.0 / time / (density * (hole - 1.4).powf(2.5));
         claims.push(within(format!("hole of {hole} d: C, with k = 1.4"), constant, 0.58, 0.06, source));
-        points.push([hole * spoiler, 1.0 / time, error / (time * time)]);
+        points.push([hole * perturbation, 1.0 / time, error / (time * time)]);
         densities.push(density);
     }
     let fit = Fit::of(&points, 2.5, 1.4);

@@ -19,7 +19,7 @@ const SLOTS: [(f64, u32); 5] = [(6.0, 6), (8.0, 4), (10.0, 3), (14.0, 2), (20.0,
 
 /// A flat-bottomed silo, four slots wide and higher than wide. Its slot, between frozen grains, is closed by a plate that falls
 /// away faster than grains do; grains below it vanish.
-fn silo(slot: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
+fn silo(slot: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
     let half = 2.0 * slot;
     let mut floor = String::new();
     for i in 0..(half - 0.5 * slot) as u32 {
@@ -64,12 +64,12 @@ fn silo(slot: f64, seed: u32, spoiler: f64) -> Result<Rig, String> {
         top = 1.5 * high + 3.0,
         gone = OPENS + 5.0,
     );
-    Rig::new(&text, spoiler)
+    Rig::new(&text, perturbation)
 }
 
 /// Grains a unit of time in spans of equal numbers of grains, while the bed sinks to half the silo's width.
-fn rates(slot: f64, seed: u32, spoiler: f64) -> Result<Vec<f64>, String> {
-    let mut rig = silo(slot, seed, spoiler)?;
+fn rates(slot: f64, seed: u32, perturbation: f64) -> Result<Vec<f64>, String> {
+    let mut rig = silo(slot, seed, perturbation)?;
     rig.until(STEADY)?;
     let (first, last) = (rig.engine.grains(), (4.0 * slot * (2.0 * slot + 10.0) * PACKED) as usize);
     let (mut count, mut time) = (first, rig.engine.time());
@@ -140,7 +140,7 @@ fn with_error(points: &[[f64; 3]], make: impl Fn(&[[f64; 3]]) -> f64) -> [f64; 2
 }
 
 /// V-31, in the plane: rate^(2/3) is straight in the width of the slot, zero at k d, and does not know the height.
-pub(super) fn beverloo(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn beverloo(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (mut points, mut claims) = (Vec::new(), Vec::new());
     for (slot, silos) in SLOTS {
         let all = (1..=silos).map(|seed| rates(slot, seed, 1.0)).collect::<Result<Vec<_>, _>>()?;
@@ -162,7 +162,7 @@ pub(super) fn beverloo(spoiler: f64) -> Result<Vec<Claim>, String> {
         let source = "steady within 3 %, or the fits below say nothing; not a reference";
         let name = format!("slot of {slot} d: standard error of the rate, over the rate");
         claims.push(Claim::judge(name, error / time, None, Some(0.03), source));
-        points.push([slot * spoiler, 1.0 / time, error / (time * time)]);
+        points.push([slot * perturbation, 1.0 / time, error / (time * time)]);
     }
     let fit = Fit::of(&points, 1.5, 1.4);
     claims.extend(fit.claims());

@@ -1,6 +1,6 @@
 //! Forces in a pile at rest, after Hemmingsson, Herrmann and Roux (spec of the review: R-5).
 //!
-//! The spoiler multiplies what the grains weigh below the middle of the pile.
+//! The perturbation multiplies what the grains weigh below the middle of the pile.
 
 use super::bench::{refused, within};
 use tsubu::lattice::hemmingsson_herrmann::{Pile, Rule, Split};
@@ -25,9 +25,9 @@ fn triangle(base: usize) -> Sheet {
 }
 
 /// Loads of the base grains, left to right, and the sum of what walls got.
-pub(super) fn base(sheet: Sheet, rule: Rule, seed: u64, spoiler: f64) -> (Vec<[f64; 2]>, [f64; 2]) {
+pub(super) fn base(sheet: Sheet, rule: Rule, seed: u64, perturbation: f64) -> (Vec<[f64; 2]>, [f64; 2]) {
     let count = sheet.grains();
-    let weight = (0..count).map(|grain| if grain < count / 2 { spoiler } else { 1.0 }).collect();
+    let weight = (0..count).map(|grain| if grain < count / 2 { perturbation } else { 1.0 }).collect();
     let mut pile = Pile::new(sheet, rule, weight, seed);
     let mut floor = [0.0; 2];
     let walls: Vec<bool> = pile.sheet.cells.iter().map(|&cell| cell == WALL).collect();
@@ -57,11 +57,11 @@ fn flat(name: &str, loads: &[[f64; 2]]) -> Vec<Claim> {
 }
 
 /// How far the mean load of the five middle base grains lies below the largest mean of five, over the mean of all.
-fn dip(rule: Rule, spoiler: f64) -> f64 {
+fn dip(rule: Rule, perturbation: f64) -> f64 {
     let size = 61;
     let mut mean = vec![0.0; size];
     for seed in 0..100 {
-        for (sum, load) in mean.iter_mut().zip(base(triangle(size), rule, seed, spoiler).0) {
+        for (sum, load) in mean.iter_mut().zip(base(triangle(size), rule, seed, perturbation).0) {
             *sum += load[1];
         }
     }
@@ -72,7 +72,7 @@ fn dip(rule: Rule, spoiler: f64) -> f64 {
 
 /// the five closed forms, the q-model among them, and the dip by arching.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(super) fn pile(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn pile(perturbation: f64) -> Result<Vec<Claim>, String> {
     let size = 40;
     let total = triangle(size).grains() as f64;
     let carried = |rule: Rule| base(triangle(size), rule, 1, 1.0).1[1] / total;
@@ -91,9 +91,9 @@ pub(super) fn pile(spoiler: f64) -> Result<Vec<Claim>, String> {
             "balance of forces",
         ));
     }
-    claims.extend(flat("pile, frictionless", &base(triangle(size), BALANCE, 1, spoiler).0));
+    claims.extend(flat("pile, frictionless", &base(triangle(size), BALANCE, 1, perturbation).0));
     claims.push(refused("arching in the flat pile", &flat("", &base(triangle(size), arch, 1, 1.0).0), 2));
-    claims.extend(q_model(spoiler));
+    claims.extend(q_model(perturbation));
     let gate = |dip| {
         Claim::judge(
             "pile, arching 0.5: dip below the axis over the mean load",
@@ -103,7 +103,7 @@ pub(super) fn pile(spoiler: f64) -> Result<Vec<Claim>, String> {
             "arching carries load outwards",
         )
     };
-    let none = dip(BALANCE, spoiler);
+    let none = dip(BALANCE, perturbation);
     claims.push(gate(dip(Rule { arching: 0.5, ..BALANCE }, 1.0)));
     claims.push(within("pile, no arching: dip", none, 0.0, 1e-12, "closed form: flat"));
     claims.push(refused("no arching", &[gate(none)], 1));
@@ -131,12 +131,12 @@ fn exact_variance(depth: usize) -> f64 {
 }
 
 /// Random shares: loads under a wide bed. P(x) = 4 x exp(-2 x) is the limit; its variance 1/2 is reached slowly.
-fn q_model(spoiler: f64) -> Vec<Claim> {
+fn q_model(perturbation: f64) -> Vec<Claim> {
     let (depth, width) = (200, 6000);
     let mut sheet = Sheet::new(Layout::Triangular, width, depth + 2);
     sheet.fill(1, depth + 1, 0);
     let rule = Rule { split: Split::Random, ..BALANCE };
-    let loads = base(sheet, rule, 1, spoiler).0;
+    let loads = base(sheet, rule, 1, perturbation).0;
     // Side walls take load; they are felt no further than sqrt(depth).
     let inner: Vec<f64> = loads[100..loads.len() - 100].iter().map(|l| l[1]).collect();
     let mean = inner.iter().sum::<f64>() / inner.len() as f64;

@@ -1,7 +1,7 @@
 //! Forces in a pile, row by row and by DEM (spec of the review: R-5, point 5).
 //!
 //! First the very same pile: discs without friction in the rows of the automaton. Then a heap that was poured, beside a pile
-//! of its slope. The spoiler multiplies what the grains of the automaton weigh below the middle.
+//! of its slope. The perturbation multiplies what the grains of the automaton weigh below the middle.
 
 use super::bench::{Rig, at_least, between, refused, within};
 use super::pile_stress::{BALANCE, base};
@@ -211,7 +211,7 @@ fn poured(seed: u64) -> Result<Heap, String> {
 }
 
 /// A pile of a slope over `size` grains by the automaton.
-fn piled(size: usize, tangent: f64, rule: Rule, seed: u64, spoiler: f64) -> Heap {
+fn piled(size: usize, tangent: f64, rule: Rule, seed: u64, perturbation: f64) -> Heap {
     let rows = (0.5 * size as f64 * tangent) as usize + 4;
     let mut sheet = Sheet::new(Layout::Triangular, size + 4, rows);
     let [first, low] = sheet.point(sheet.index(2, 1));
@@ -226,14 +226,14 @@ fn piled(size: usize, tangent: f64, rule: Rule, seed: u64, spoiler: f64) -> Heap
         }
     }
     let count = grains.len();
-    grains[..count / 2].iter_mut().for_each(|grain| grain[2] = spoiler);
+    grains[..count / 2].iter_mut().for_each(|grain| grain[2] = perturbation);
     let seats: Vec<f64> = grains.iter().filter(|grain| grain[1] < 0.1).map(|grain| grain[0]).collect();
-    let loads = base(sheet, rule, seed, spoiler).0;
+    let loads = base(sheet, rule, seed, perturbation).0;
     Heap { floor: seats.into_iter().zip(loads).map(|(x, load)| (x, load[1])).collect(), grains }
 }
 
 /// R-5, point 5: the automaton beside DEM.
-pub(super) fn twin(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
     let tangent = 0.5 * DISC[1] / (DISC[0] * DISC[0] - 0.25 * DISC[1] * DISC[1]).sqrt();
     let loads = same()?;
     let mut claims = flat("the same pile by DEM", &loads, tangent);
@@ -244,8 +244,9 @@ pub(super) fn twin(spoiler: f64) -> Result<Vec<Claim>, String> {
     let slope = poured.iter().map(Heap::tangent).sum::<f64>() / poured.len() as f64;
     let size = poured.iter().map(|heap| heap.floor.len()).sum::<usize>() / poured.len();
     let dem = Carried::of(&poured);
-    let by =
-        |rule: Rule| Carried::of(&(1..=50).map(|seed| piled(size, slope, rule, seed, spoiler)).collect::<Vec<_>>());
+    let by = |rule: Rule| {
+        Carried::of(&(1..=50).map(|seed| piled(size, slope, rule, seed, perturbation)).collect::<Vec<_>>())
+    };
     let balance = by(BALANCE);
     let arched = by(Rule { arching: 0.3, ..BALANCE });
     let random = by(Rule { split: Split::Random, ..BALANCE });

@@ -26,8 +26,8 @@ fn loads(width: f64) -> Vec<f64> {
 
 /// V-40: the distribution tends to 4 x exp(-2x). At depth 1500 its variance is 0.467 of the final 0.5.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(super) fn q_model(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let row = loads(spoiler);
+pub(super) fn q_model(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let row = loads(perturbation);
     let total: f64 = row.iter().sum();
     let mean = DEPTH as f64;
     let source = "Coppersmith, Liu, Majumdar, Narayan, Witten 1996, mean field; independent calculation";

@@ -25,7 +25,7 @@ fn published(inertial: f64) -> [f64; 2] {
 
 /// Discs of the published study (a fifth larger or smaller, friction 0.4, restitution 0.1) on a row of frozen ones with gaps. They
 /// begin with about the profile that they will have.
-fn slope(degrees: f64, friction: f64, spoiler: f64) -> Result<Rig, String> {
+fn slope(degrees: f64, friction: f64, perturbation: f64) -> Result<Rig, String> {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let mut groups = String::new();
     let (sheets, high) = (4, LAYERS * 2.2 / 4.0);
@@ -72,7 +72,7 @@ fn slope(degrees: f64, friction: f64, spoiler: f64) -> Result<Rig, String> {
         base = base.join(", "),
         law = law(5e3, friction, 0.1),
     );
-    Rig::new(&text, spoiler)
+    Rig::new(&text, perturbation)
 }
 
 /// What flows down one slope, in the middle of its layer.
@@ -87,8 +87,8 @@ struct Flow {
 }
 
 impl Flow {
-    fn of(degrees: f64, friction: f64, spoiler: f64) -> Result<Self, String> {
-        let mut rig = slope(degrees, friction, spoiler)?;
+    fn of(degrees: f64, friction: f64, perturbation: f64) -> Result<Self, String> {
+        let mut rig = slope(degrees, friction, perturbation)?;
         let radii = scalars(&rig.frame(), Kind::Grain, "radius");
         let samples = sampled(&mut rig, [LOOKED[0], LOOKED[1], 0.5], |rig| {
             let grains = rig.vectors("position").into_iter().zip(rig.vectors("velocity")).zip(&radii).skip(BASE);
@@ -140,8 +140,8 @@ impl Flow {
 }
 
 /// V-35: four slopes lie on the published straight lines, which are those of flows sheared under a constant pressure.
-pub(super) fn friction(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let flows = SLOPES.map(|degrees| Flow::of(degrees, 0.4, spoiler));
+pub(super) fn friction(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let flows = SLOPES.map(|degrees| Flow::of(degrees, 0.4, perturbation));
     let flows = flows.into_iter().collect::<Result<Vec<_>, _>>()?;
     let mut claims: Vec<Claim> = Vec::new();
     for flow in &flows {
@@ -153,7 +153,7 @@ pub(super) fn friction(spoiler: f64) -> Result<Vec<Claim>, String> {
     let source = "da Cruz et al. 2005: mu = 0.25 + 1.1 I";
     claims.push(within("discs: friction at I = 0", rest, 0.25, 0.03, source));
     claims.push(within("discs: rise of the friction with I", steep, 1.1, 0.25, source));
-    let slippery = Flow::of(20.0, 0.0, spoiler)?;
+    let slippery = Flow::of(20.0, 0.0, perturbation)?;
     claims.push(refused("discs without friction, 20 degrees", &slippery.gates(), 1));
     Ok(claims)
 }

@@ -26,7 +26,7 @@ struct Start<'a> {
 }
 
 impl Start<'_> {
-    fn rig(&self, spoiler: f64) -> Result<Rig, String> {
+    fn rig(&self, perturbation: f64) -> Result<Rig, String> {
         let Self { shape, slope, friction, rolling, speed, spin, law, duration } = self;
         let text = format!(
             r#"
@@ -52,13 +52,13 @@ impl Start<'_> {
             damping.linear = {{}}
             {law}
             "#,
-            // What rolls without slip knows no constant of the law: the spoiler acts on gravity too.
-            gx = G * spoiler * slope.sin(),
-            gz = -G * spoiler * slope.cos(),
+            // What rolls without slip knows no constant of the law: the perturbation acts on gravity too.
+            gx = G * perturbation * slope.sin(),
+            gz = -G * perturbation * slope.cos(),
             diameter = 2.0 * RADIUS,
             height = RADIUS * (1.0 - 1e-5),
         );
-        Rig::new(&text, spoiler)
+        Rig::new(&text, perturbation)
     }
 }
 
@@ -78,14 +78,14 @@ fn books(name: &str, rig: &Rig) -> Claim {
 }
 
 /// V-20: a sliding grain comes to roll.
-pub(super) fn slide_to_roll(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn slide_to_roll(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     let (mu, u0) = (0.3, 1.0);
     for (name, shape, share) in [SPHERE, DISC] {
         let end = u0 / (1.0 + share);
         let time = (u0 - end) / (mu * G);
         let distance = 0.5 * (u0 + end) * time;
-        let mut rig = Start { shape, speed: u0, friction: mu, ..PLAIN }.rig(spoiler)?;
+        let mut rig = Start { shape, speed: u0, friction: mu, ..PLAIN }.rig(perturbation)?;
         let source = "closed form";
         // Half way it still slides.
         rig.until(0.5 * time)?;
@@ -105,7 +105,7 @@ pub(super) fn slide_to_roll(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-21: down a slope, with and without slip.
-pub(super) fn incline(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn incline(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     for (name, shape, share) in [SPHERE, DISC] {
         // It rolls without slip up to tan(slope) = (1 + 1/share) mu.
@@ -114,7 +114,7 @@ pub(super) fn incline(spoiler: f64) -> Result<Vec<Claim>, String> {
             let slope = (0.5 * (0.3 + 0.1) * limit).atan();
             let closed =
                 if what == "rolls" { G * slope.sin() / (1.0 + share) } else { G * (slope.sin() - mu * slope.cos()) };
-            let mut rig = Start { shape, slope, friction: mu, ..PLAIN }.rig(spoiler)?;
+            let mut rig = Start { shape, slope, friction: mu, ..PLAIN }.rig(perturbation)?;
             rig.until(0.1)?;
             let (v, t) = (rig.speed(), rig.engine.time());
             rig.until(0.3)?;
@@ -132,14 +132,14 @@ pub(super) fn incline(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-22: rolling resistance alone slows a spin at a constant rate; V-24: Osada's torque, and its energy.
-pub(super) fn spin_down(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn spin_down(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     let (mu_r, w0, time) = (0.05, 100.0, 0.2);
     let laws = ["rolling.constant = {}", "rolling.epsd = {}", "rolling.spring = { stiffness = 1e4, damping = 0.1 }"];
     for law in laws {
         let law = format!("tangential.none = {{}}\n{law}");
         let name = law.lines().last().unwrap_or_default().split([' ', '=']).next().unwrap_or_default().to_owned();
-        let mut rig = Start { rolling: mu_r, spin: w0, law: &law, ..PLAIN }.rig(spoiler)?;
+        let mut rig = Start { rolling: mu_r, spin: w0, law: &law, ..PLAIN }.rig(perturbation)?;
         rig.until(time)?;
         let closed = 2.5 * mu_r * G / RADIUS;
         let value = (w0 - rig.vector("spin", 0).y) / rig.engine.time();
@@ -148,7 +148,7 @@ pub(super) fn spin_down(spoiler: f64) -> Result<Vec<Claim>, String> {
     }
     let factor = 0.5;
     let law = "tangential.none = {}\nrolling.contact-width = {}";
-    let mut rig = Start { rolling: factor, spin: w0, law, ..PLAIN }.rig(spoiler)?;
+    let mut rig = Start { rolling: factor, spin: w0, law, ..PLAIN }.rig(perturbation)?;
     rig.until(0.02)?;
     let (w, t, lost) = (rig.vector("spin", 0).y, rig.engine.time(), rig.flow(Account::Rolling));
     rig.until(0.05)?;
@@ -166,15 +166,15 @@ pub(super) fn spin_down(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-23: a rolling grain stops where it must, and stays there; models that cannot hold a slope creep as they say.
-pub(super) fn models(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn models(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     let (mu_r, v0) = (0.1, 0.3);
     let slowing = mu_r * G / 1.4;
     let stop = v0 * v0 / (2.0 * slowing);
     for (model, law) in [("A (constant)", "rolling.constant = {}"), ("C (EPSD)", "rolling.epsd = {}")] {
         let law = format!("tangential.spring = {{}}\n{law}");
-        let mut rig =
-            Start { friction: 0.6, rolling: mu_r, speed: v0, spin: v0 / RADIUS, law: &law, ..PLAIN }.rig(spoiler)?;
+        let mut rig = Start { friction: 0.6, rolling: mu_r, speed: v0, spin: v0 / RADIUS, law: &law, ..PLAIN }
+            .rig(perturbation)?;
         rig.until(2.0 * v0 / slowing)?;
         let source = "closed form: mu_r g / (7/5)";
         let went = rig.vector("position", 0).x;
@@ -196,7 +196,7 @@ pub(super) fn models(spoiler: f64) -> Result<Vec<Claim>, String> {
             ("C (EPSD)", "tangential.spring = {}\nrolling.epsd = {}"),
             ("EPSD2", "tangential.spring.damping = 1\nrolling.epsd2 = {}"),
         ] {
-            let mut rig = start(law, mu_r).rig(spoiler)?;
+            let mut rig = start(law, mu_r).rig(perturbation)?;
             rig.until(0.5)?;
             let at = rig.vector("position", 0).x;
             rig.until(1.0)?;
@@ -207,12 +207,12 @@ pub(super) fn models(spoiler: f64) -> Result<Vec<Claim>, String> {
     }
     let tangential = "tangential.spring = {}";
     let law = format!("{tangential}\nrolling.constant.smoothing-speed = 1e-2");
-    let mut rig = Start { slope, friction: 0.6, rolling: mu_r, law: &law, ..PLAIN }.rig(spoiler)?;
+    let mut rig = Start { slope, friction: 0.6, rolling: mu_r, law: &law, ..PLAIN }.rig(perturbation)?;
     rig.until(1.0)?;
     let source = "its own formula: it creeps at v_eps tan(slope) / mu_r";
     claims.push(near("rolling model A on a slope: creep m/s", rig.speed(), 1e-2 * 0.25, 0.01, source));
     let law = format!("{tangential}\nrolling.viscous.coefficient = 5");
-    let mut rig = Start { slope, friction: 0.6, rolling: mu_r, law: &law, ..PLAIN }.rig(spoiler)?;
+    let mut rig = Start { slope, friction: 0.6, rolling: mu_r, law: &law, ..PLAIN }.rig(perturbation)?;
     rig.until(3.0)?;
     let source = "its own formula: it does not hold a slope, but rolls at tan(slope) / (mu_r c)";
     claims.push(near("rolling model B on a slope: speed m/s", rig.speed(), 0.25 / 5.0, 0.01, source));

@@ -52,7 +52,7 @@ fn impact(
     law: &str,
     restitution: f64,
     steps: u32,
-    spoiler: f64,
+    perturbation: f64,
 ) -> Result<[f64; 2], String> {
     let text = format!(
         r#"
@@ -77,14 +77,14 @@ fn impact(
         steps-per-contact = {steps}
         "#
     );
-    let mut rig = Rig::in_folder(&text, &folder.0, spoiler)?;
+    let mut rig = Rig::in_folder(&text, &folder.0, perturbation)?;
     rig.impact()?;
     let v = rig.vectors("velocity");
     Ok([v[0].z - v.get(1).map_or(0.0, |v| v.z), rig.residual()])
 }
 
 /// V-05: the restitution that was asked for comes back within 1e-3, whatever the other body is.
-pub(super) fn restitution(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn restitution(perturbation: f64) -> Result<Vec<Claim>, String> {
     let folder = Folder::with_triangle()?;
     // A linear dashpot jumps at first touch: its error falls with the step, not with its square.
     let forms = [
@@ -98,12 +98,12 @@ pub(super) fn restitution(spoiler: f64) -> Result<Vec<Claim>, String> {
     for (shape, entry) in SHAPES {
         for (form, law, steps) in forms {
             for e in [0.9, 0.3] {
-                let [value, _] = impact(&folder, entry, law, e, steps, spoiler)?;
+                let [value, _] = impact(&folder, entry, law, e, steps, perturbation)?;
                 let source = "definition; coefficients: Antypov and Elliott 2011, Thornton et al. 2013";
                 claims.push(within(format!("restitution {e} by {form}, {shape}"), value, e, 1e-3, source));
             }
         }
-        let [_, residual] = impact(&folder, entry, "", 0.7, 20, spoiler)?;
+        let [_, residual] = impact(&folder, entry, "", 0.7, 20, perturbation)?;
         let name = format!("impact on {shape}: energy residual at the default step");
         claims.push(within(name, residual, 0.0, 1e-3, "conservation of energy"));
     }
@@ -112,7 +112,7 @@ pub(super) fn restitution(spoiler: f64) -> Result<Vec<Claim>, String> {
 
 /// V-05: the coefficient found for contacts without attraction is that of the published polynomial (0.1 <= e <= 0.9).
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(super) fn thornton(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn thornton(perturbation: f64) -> Result<Vec<Claim>, String> {
     use tsubu::contact::calibrate;
     let published = |e: f64| {
         let h = [
@@ -124,7 +124,7 @@ pub(super) fn thornton(spoiler: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     for e in [0.1, 0.3, 0.5, 0.7, 0.9] {
         // Dashpot 2 gamma sqrt(m dF/dd), with dF/dd = 3/2 k sqrt(d).
-        let beta = 2.0 * published(e) * 1.5f64.sqrt() * spoiler;
+        let beta = 2.0 * published(e) * 1.5f64.sqrt() * perturbation;
         let value = calibrate::restitution(beta, 1.5, 0.25, false);
         let source = "polynomial of Thornton, Cummins, Cleary 2013, good to 3e-4";
         claims.push(within(
@@ -137,7 +137,7 @@ pub(super) fn thornton(spoiler: f64) -> Result<Vec<Claim>, String> {
     }
     for (e, apparent) in [(0.9, 0.9020), (0.75, 0.7626), (0.7, 0.7182), (0.5, 0.5503), (0.3, 0.3971)] {
         for (law, p, q) in [("linear", 1.0, 0.0), ("Hertz and quarter", 1.5, 0.25)] {
-            let beta = calibrate::coefficient(e, p, q, true) * spoiler;
+            let beta = calibrate::coefficient(e, p, q, true) * perturbation;
             let value = calibrate::restitution(beta, p, q, false);
             let source = "independent integration; Schwager and Poeschel 2007";
             let name = format!("restitution {e} asked with attraction, {law}, attraction cut");

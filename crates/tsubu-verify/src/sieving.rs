@@ -1,6 +1,6 @@
 //! A chute on the square lattice, after Savage (spec of the review: ).
 //!
-//! The spoiler multiplies the chance of upward moves.
+//! The perturbation multiplies the chance of upward moves.
 
 use super::bench::{near, refused};
 use super::voids::slope;
@@ -28,8 +28,8 @@ fn seats(chute: &Chute) -> impl Iterator<Item = (usize, usize)> + '_ {
 }
 
 /// Logarithm of n/(1-n) and of the speed against the row, as slopes, both over -1/h of the closed form.
-fn profile(spoiler: f64) -> [f64; 2] {
-    let (mut chute, _) = bed(1.0, Moves { up: SMALL.up * spoiler, ..SMALL });
+fn profile(perturbation: f64) -> [f64; 2] {
+    let (mut chute, _) = bed(1.0, Moves { up: SMALL.up * perturbation, ..SMALL });
     let rows = chute.sheet.rows();
     let (mut here, mut gone) = (vec![0.0; rows], vec![0.0; rows]);
     for step in 0..16000 {
@@ -53,8 +53,8 @@ fn profile(spoiler: f64) -> [f64; 2] {
 
 /// Height of large grains over small ones, in rows, after every so many steps; and how far the mean grain has come,
 /// in spacings.
-fn sorted(ratio: f64, spoiler: f64) -> Vec<(f64, f64)> {
-    let (mut chute, large) = bed(ratio, Moves { down: 0.5, diagonal: 0.3, sideways: 0.6, up: 0.3 * spoiler });
+fn sorted(ratio: f64, perturbation: f64) -> Vec<(f64, f64)> {
+    let (mut chute, large) = bed(ratio, Moves { down: 0.5, diagonal: 0.3, sideways: 0.6, up: 0.3 * perturbation });
     let (mut way, mut found) = (0.0, Vec::new());
     for step in 1..=3000 {
         chute.advance();
@@ -76,9 +76,9 @@ fn sorted(ratio: f64, spoiler: f64) -> Vec<(f64, f64)> {
 
 /// the profile of the flow, and large grains that come to lie on top.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(super) fn chute(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn chute(perturbation: f64) -> Result<Vec<Claim>, String> {
     let closed = "closed form: n/(1-n) = exp((z0-z)/h), speed as exp(-(z0-z)/h), h = 1/ln(downward chances / upward)";
-    let [odds, speed] = profile(spoiler);
+    let [odds, speed] = profile(perturbation);
     let mut claims = vec![
         near("chute after Savage: fall-off of voids with depth over closed form", odds, 1.0, 0.1, closed),
         near("chute after Savage: fall-off of speed with depth over closed form", speed, 1.0, 0.1, closed),
@@ -103,7 +103,7 @@ pub(super) fn chute(spoiler: f64) -> Result<Vec<Claim>, String> {
             ),
         ]
     };
-    let (mixed, equal) = (sorted(0.6, spoiler), sorted(1.0, spoiler));
+    let (mixed, equal) = (sorted(0.6, perturbation), sorted(1.0, perturbation));
     claims.extend(gates(&mixed));
     let none = equal[equal.len() - 1].1;
     claims.push(Claim::judge(

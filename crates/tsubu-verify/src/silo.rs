@@ -140,7 +140,7 @@ fn form(weight: f64, depth: f64, length: f64) -> f64 {
 }
 
 /// The gates, for columns that are right and for wrong ones.
-fn gates(columns: &[Seen], spoiler: f64) -> Vec<Claim> {
+fn gates(columns: &[Seen], perturbation: f64) -> Vec<Claim> {
     let weight = columns.iter().map(Seen::bulk).sum::<f64>() / columns.len() as f64;
     let levels = levels(columns, weight);
     let length = length(&levels, weight);
@@ -148,7 +148,7 @@ fn gates(columns: &[Seen], spoiler: f64) -> Vec<Claim> {
     let source = "Janssen 1895, K fitted";
     let mut claims = vec![Claim::judge("Janssen: K, fitted", fitted, Some(0.3), Some(1.0), source)];
     for level in &levels {
-        let closed = form(weight, level.depth, length * spoiler.powi(2));
+        let closed = form(weight, level.depth, length * perturbation.powi(2));
         claims.push(near(
             format!("Janssen: vertical stress at depth {}", level.depth),
             level.vertical,
@@ -178,7 +178,7 @@ fn columns(friction: f64, seed: u32) -> Result<[Vec<Seen>; 2], String> {
 }
 
 /// V-32: vertical stress follows Janssen's exponential, with one fitted length.
-pub(super) fn janssen(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn janssen(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (mut rest, mut sinking, mut by_silo) = (Vec::new(), Vec::new(), Vec::new());
     for seed in 1..=SILOS {
         let [still, moved] = columns(WALL_FRICTION, seed)?;
@@ -187,7 +187,7 @@ pub(super) fn janssen(spoiler: f64) -> Result<Vec<Claim>, String> {
         rest.extend(still);
         sinking.extend(moved);
     }
-    let mut claims = gates(&sinking, spoiler);
+    let mut claims = gates(&sinking, perturbation);
     let error = |k: usize| {
         let (value, error) = mean(&by_silo.iter().map(|levels| levels[k].vertical).collect::<Vec<_>>());
         error / value

@@ -16,12 +16,12 @@ const SPIN: f64 = 900.0;
 const STOKES: f64 = SIGMA * R * R / (15.0 * RHO * NU);
 
 /// Spin about y that is left after about `seconds` of one that begins at `spin`, and how many seconds it was.
-fn left(spin: f64, water: &str, seconds: f64, spoiler: f64) -> Result<(f64, f64), String> {
+fn left(spin: f64, water: &str, seconds: f64, perturbation: f64) -> Result<(f64, f64), String> {
     let start = format!("position = [[0, 0, 0]], spin = [[0, {spin}, 0]]");
     let text = quartz(2.0 * R, "stokes-newton = {}", water)
         .replace("position = [[0, 0, 0]]", &start)
         .replace("dimension = 3", "dimension = 3\ngravity = 0");
-    let mut rig = Rig::new(&text, spoiler)?;
+    let mut rig = Rig::new(&text, perturbation)?;
     rig.until(seconds)?;
     Ok((rig.vector("spin", 0).y, rig.engine.time()))
 }
@@ -37,8 +37,8 @@ fn decayed(seconds: f64, square: f64) -> f64 {
 }
 
 /// V-54: spins die away as the torque of the water says, and end at half the shear rate of a stream.
-pub(super) fn spin(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let (slow, passed) = left(SPIN, "torque.stokes = {}", STOKES, spoiler)?;
+pub(super) fn spin(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let (slow, passed) = left(SPIN, "torque.stokes = {}", STOKES, perturbation)?;
     let time = passed / (SPIN / slow).ln();
     let gate = |wanted: f64| {
         near("2 mm of quartz spins down by Stokes's torque: time scale [s]", time, wanted, 1e-3, "sigma r^2/(15 mu)")
@@ -47,7 +47,7 @@ pub(super) fn spin(spoiler: f64) -> Result<Vec<Claim>, String> {
     let mut claims = vec![gate(STOKES), refused("the inertia of a disc", &[gate(1.25 * STOKES)], 1)];
 
     for seconds in [1e-3, 0.02, 0.1] {
-        let (found, passed) = left(SPIN, "torque.finite-reynolds = {}", seconds, spoiler)?;
+        let (found, passed) = left(SPIN, "torque.finite-reynolds = {}", seconds, perturbation)?;
         let gate = |square: f64| {
             let name = format!("the same from 900 rad/s by the law for all spins, {seconds} s: spin left [rad/s]");
             near(name, found, decayed(passed, square), 1e-3, "Dennis, Singh and Ingham 1980")
@@ -58,7 +58,7 @@ pub(super) fn spin(spoiler: f64) -> Result<Vec<Claim>, String> {
 
     // Held in the stream by its own fall is no grain: it rests at z = 0, without weight, and drifts along x only.
     let stream = "torque.stokes = {}\nflow.log-law = { shear-velocity = 0.1, roughness = 2e-3, zero-level = -4e-3 }";
-    let (end, _) = left(0.0, stream, 10.0 * STOKES, spoiler)?;
+    let (end, _) = left(0.0, stream, 10.0 * STOKES, perturbation)?;
     let shear = 0.1 * 5.75 / LN_10 / 4e-3;
     let gate = |rate: f64| {
         near("drifting in a log-law stream: spin in the end [rad/s]", end, rate, 1e-3, "half the shear rate")

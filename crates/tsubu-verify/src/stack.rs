@@ -11,7 +11,7 @@ const OVERLAP: f64 = 5e-4 * 2.0 * RADIUS;
 /// Such that the sag stays within the overlap: no contact opens.
 const GRAVITY: f64 = 20.0;
 
-fn rig(normal: &str, steps: f64, spoiler: f64) -> Result<Rig, String> {
+fn rig(normal: &str, steps: f64, perturbation: f64) -> Result<Rig, String> {
     let [low, high] = [RADIUS - OVERLAP, 3.0 * RADIUS - 2.0 * OVERLAP];
     let text = format!(
         r#"
@@ -50,7 +50,7 @@ fn rig(normal: &str, steps: f64, spoiler: f64) -> Result<Rig, String> {
         m0 = MASS[0],
         m1 = MASS[1],
     );
-    Rig::new(&text, spoiler)
+    Rig::new(&text, perturbation)
 }
 
 /// Displacement of both from where they began, under equal linear springs: -(1 - cos(sqrt(A) t)) A^-1 g.
@@ -72,10 +72,10 @@ fn closed(t: f64) -> [f64; 2] {
 }
 
 /// V-07: both move as two masses on three springs, and elastic energy is not lost.
-pub(super) fn stacked(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn stacked(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     let hooke = format!("normal.hooke.stiffness = {STIFFNESS}\ntangential.none = {{}}");
-    let mut stack = rig(&hooke, 1000.0, spoiler)?;
+    let mut stack = rig(&hooke, 1000.0, perturbation)?;
     let low = RADIUS - OVERLAP;
     let high = 3.0 * RADIUS - 2.0 * OVERLAP;
     for part in 1..=3 {
@@ -87,20 +87,20 @@ pub(super) fn stacked(spoiler: f64) -> Result<Vec<Claim>, String> {
         }
     }
     for (name, law) in [("Hooke", hooke.as_str()), ("Hertz", "")] {
-        let mut stack = rig(law, 20.0, spoiler)?;
-        let start = stack.engine.grain_stocks().total();
-        let held = stack.engine.grain_stocks().elastic;
+        let mut stack = rig(law, 20.0, perturbation)?;
+        let start = stack.engine.grain_energies().total();
+        let held = stack.engine.grain_energies().elastic;
         let mut worst = 0.0f64;
         for _ in 0..100 {
             stack.steps(400)?;
-            worst = worst.max((stack.engine.grain_stocks().total() - start).abs());
+            worst = worst.max((stack.engine.grain_energies().total() - start).abs());
         }
         // Verlet's energy swings by (w dt)^2/8 of the energy that swings, and does not drift.
         let source = "conservation of energy";
         let name = format!("stack, {name}: energy error within 40000 default steps over elastic energy");
         claims.push(within(name, worst / held, 0.0, 1e-3, source));
     }
-    let held = rig("", 20.0, spoiler)?.engine.grain_stocks().elastic;
+    let held = rig("", 20.0, perturbation)?.engine.grain_energies().elastic;
     claims.push(near("stack: elastic energy at the start over Hertz's", held / hertz(), 1.0, 1e-6, "Hertz"));
     Ok(claims)
 }

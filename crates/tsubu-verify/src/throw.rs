@@ -116,8 +116,8 @@ impl Throw<'_> {
     }
 
     /// Throws it.
-    pub fn go(&self, spoiler: f64) -> Result<Seen, String> {
-        let mut rig = Rig::new(&self.scene(), spoiler)?;
+    pub fn go(&self, perturbation: f64) -> Result<Seen, String> {
+        let mut rig = Rig::new(&self.scene(), perturbation)?;
         let (force, overlap, time) = watch(&mut rig)?;
         let (velocity, spin) = (rig.vector("velocity", 0), rig.vector("spin", 0));
         let residual = rig.residual();

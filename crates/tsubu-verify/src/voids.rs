@@ -1,6 +1,6 @@
 //! Void models of a bed that runs out: Litwiniszyn, and after Caram and Hong (spec of the review: ).
 //!
-//! The spoiler multiplies the probability that a void goes to the left.
+//! The perturbation multiplies the probability that a void goes to the left.
 
 use super::bench::{refused, within};
 use tsubu::lattice::caram_hong::{CaramHong, Chances};
@@ -84,8 +84,8 @@ fn spread_gates(name: &str, passed: &[f64], sheet: &Sheet) -> Vec<Claim> {
 
 /// (a) spreading, (b) flux against height, (c) wide outlet, (d) reflecting walls, (e) discharge against fill height.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(super) fn litwiniszyn_case(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let left = 0.5 * spoiler;
+pub(super) fn litwiniszyn_case(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let left = 0.5 * perturbation;
     let sheet = bed(COLUMNS, 102, MIDDLE..=MIDDLE);
     let passed = litwiniszyn(&sheet, left, 150, 300);
     let mut claims = spread_gates("Litwiniszyn, voids", &passed, &sheet);
@@ -187,8 +187,8 @@ fn discharge(left: f64) -> Vec<Claim> {
 }
 
 /// rare voids spread as R-1; dense ones do not; V-shaped depression, stable slope, shadow of an obstacle, voids kept.
-pub(super) fn caram_hong_case(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let left = 0.5 * spoiler;
+pub(super) fn caram_hong_case(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let left = 0.5 * perturbation;
     let sheet = bed(COLUMNS, 102, MIDDLE..=MIDDLE);
     let passed = caram_hong(&sheet, Chances { left, rate: 0.1 }, 80, 300);
     let mut claims = spread_gates("after Caram and Hong, rare voids", &passed, &sheet);

@@ -28,8 +28,8 @@ pub(super) fn quartz(diameter: f64, drag: &str, rest: &str) -> String {
 }
 
 /// Speed at which a grain sinks after some time [m/s].
-fn sunk(diameter: f64, drag: &str, rest: &str, seconds: f64, spoiler: f64) -> Result<f64, String> {
-    let mut rig = Rig::new(&quartz(diameter, drag, rest), spoiler)?;
+fn sunk(diameter: f64, drag: &str, rest: &str, seconds: f64, perturbation: f64) -> Result<f64, String> {
+    let mut rig = Rig::new(&quartz(diameter, drag, rest), perturbation)?;
     rig.until(seconds)?;
     Ok(-rig.vector("velocity", 0).z)
 }
@@ -74,12 +74,12 @@ const LAWS: [Law; 4] = [
 ];
 
 /// V-50: terminal speeds, 0.1 %, and the table of the literature to its digits.
-pub(super) fn settling(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn settling(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     for law in &LAWS {
         for (d, published) in [0.2e-3, 0.5e-3, 1e-3, 2e-3, 5e-3, 10e-3].into_iter().zip(law.published) {
             let seconds = if d < 1.5e-3 { 0.6 } else { 3.0 };
-            let found = sunk(d, law.name, "", seconds, spoiler)?;
+            let found = sunk(d, law.name, "", seconds, perturbation)?;
             let name = |what: &str| format!("quartz of {} mm sinks, {}{what} [m/s]", d * 1e3, law.name);
             claims.push(near(name(""), found, terminal(d, law.coefficient), 1e-3, "C(Re) v^2 = 4/3 (s-1) g d"));
             claims.push(within(
@@ -91,14 +91,14 @@ pub(super) fn settling(spoiler: f64) -> Result<Vec<Claim>, String> {
             ));
         }
     }
-    let light = sunk(2e-3, LAWS[0].name, "density = 950", 3.0, spoiler)?;
+    let light = sunk(2e-3, LAWS[0].name, "density = 950", 3.0, perturbation)?;
     claims.push(refused("water lighter by 5 %", &[near("", light, LAWS[0].published[3], 1e-3, "")], 1));
     Ok(claims)
 }
 
 /// V-55: (s-1) g/(s + 1/2).
-pub(super) fn released(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let begin = |rest: &str| Ok::<f64, String>(sunk(2e-3, "none = {}", rest, 1e-3, spoiler)? / 1e-3);
+pub(super) fn released(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let begin = |rest: &str| Ok::<f64, String>(sunk(2e-3, "none = {}", rest, 1e-3, perturbation)? / 1e-3);
     let gate = |name: &str, value: f64| near(name, value, 1.65 * 9.8 / 3.15, 5e-3, "Batchelor 1967: (s-1) g/(s + 1/2)");
     let mut claims = vec![gate("quartz let go in still water [m/s^2]", begin("")?)];
     claims.push(refused("no added mass", &[gate("", begin("added-mass = 0")?)], 1));
@@ -106,7 +106,7 @@ pub(super) fn released(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// A column of beads that water rises through [m/s], settled.
-fn column(velocity: f64, spoiler: f64) -> Result<Rig, String> {
+fn column(velocity: f64, perturbation: f64) -> Result<Rig, String> {
     let text = format!(
         r#"
         dimension = 3
@@ -132,7 +132,7 @@ fn column(velocity: f64, spoiler: f64) -> Result<Rig, String> {
         flow.column = {{ bottom = 0, top = "120 mm", velocity = {velocity} }}
         "#
     );
-    let mut rig = Rig::new(&text, spoiler)?;
+    let mut rig = Rig::new(&text, perturbation)?;
     rig.until(1.2)?;
     Ok(rig)
 }
@@ -154,14 +154,14 @@ fn loss(rig: &Rig) -> (f64, f64) {
 }
 
 /// V-52: the forces on the beads add up to Ergun's loss, 3 %.
-pub(super) fn packed(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn packed(perturbation: f64) -> Result<Vec<Claim>, String> {
     let ergun = |e: f64, u: f64| {
         let (mu, rho, d) = (1e-3, 1000.0, 2e-3f64);
         150.0 * mu * (1.0 - e).powi(2) * u / (e.powi(3) * d * d) + 1.75 * rho * (1.0 - e) * u * u / (e.powi(3) * d)
     };
     let mut claims = Vec::new();
     for u in [2e-3, 8e-3, 15e-3] {
-        let (open, loss) = loss(&column(u, spoiler)?);
+        let (open, loss) = loss(&column(u, perturbation)?);
         let name = |what: &str| format!("packed column, {} mm/s: {what}", u * 1e3);
         let gate = |u: f64| near(name("loss of pressure over Ergun's"), loss / ergun(open, u), 1.0, 0.03, "Ergun 1952");
         claims.push(gate(u));
@@ -179,11 +179,11 @@ pub(super) fn packed(spoiler: f64) -> Result<Vec<Claim>, String> {
 
 /// V-53: water that rises faster than the velocity at which Ergun's loss carries the bed lifts it, at 0.85 of that the bed stays.
 /// The velocity: 150 mu (1-e)/(e^3 d^2) u + 1.75 rho u^2/(e^3 d) = (sigma - rho) g.
-pub(super) fn fluidised(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn fluidised(perturbation: f64) -> Result<Vec<Claim>, String> {
     let e = 0.42f64;
     let (a, b) = (1.75 * 1000.0 / (e.powi(3) * 2e-3), 150.0 * 1e-3 * (1.0 - e) / (e.powi(3) * 4e-6));
     let least = ((b * b + 4.0 * a * 1500.0 * 9.8).sqrt() - b) / (2.0 * a);
-    let height = |velocity: f64| Ok::<f64, String>(column(velocity, spoiler)?.engine.centre_of_mass()[2]);
+    let height = |velocity: f64| Ok::<f64, String>(column(velocity, perturbation)?.engine.centre_of_mass()[2]);
     let (rest, below, above) = (height(1e-3)?, height(0.85 * least)?, height(1.4 * least)?);
     let source = "Ergun 1952, loss = weight under water";
     let stays = |height: f64| {

@@ -45,7 +45,7 @@ fn period(c: &mut Criterion) {
             let scene = Scene::parse("benchmark", text, Path::new("."), &changes).expect("the scene is right");
             let mut hosts = Hosts::new(&scene.plan().hosts);
             let mut engine = engine::open(scene.plan(), &hosts).expect("the method can run it");
-            let mut ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+            let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
             let steps = (1.0 / 6.0 / engine.time_step()).round() as u64;
             engine.advance(10 * steps, &mut hosts, &mut ledger).expect("it runs");
             group.bench_function(BenchmarkId::new(name, count), |b| {

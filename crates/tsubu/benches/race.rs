@@ -31,7 +31,7 @@ fn race(path: &Path, changes: &[String], warm: u64, steps: u64) {
     let scene = Scene::read(path, changes).unwrap_or_else(|c| panic!("{c}"));
     let mut hosts = Hosts::new(&scene.plan().hosts);
     let mut engine = engine::open(scene.plan(), &hosts).unwrap_or_else(|e| panic!("{e}"));
-    let mut ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+    let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let mut go = |steps: u64| {
         let begun = Instant::now();
         engine.advance(steps, &mut hosts, &mut ledger).unwrap_or_else(|e| panic!("{e}"));
@@ -41,7 +41,7 @@ fn race(path: &Path, changes: &[String], warm: u64, steps: u64) {
     let seconds = go(steps);
     // Before the picture of the end, which a run without output does not take.
     let memory = peak_memory();
-    let stocks = engine::stocks(&*engine, &hosts);
+    let energies = engine::energies(&*engine, &hosts);
     let end = End::of(&*engine, &hosts, scene.plan());
     let result = serde_json::json!({
         "grains": engine.grains(),
@@ -49,13 +49,13 @@ fn race(path: &Path, changes: &[String], warm: u64, steps: u64) {
         "steps": steps,
         "seconds": seconds,
         "million particle-steps per second": engine.grains() as f64 * steps as f64 / seconds * 1e-6,
-        "kinetic": stocks.kinetic,
-        "rotational": stocks.rotational,
+        "kinetic": energies.kinetic,
+        "rotational": energies.rotational,
         "contacts": engine.contacts(),
         "contacts per grain": end.coordination,
         "highest grain": end.highest,
         "peak memory [kB]": memory,
-        "energy residual": ledger.residual_relative(&stocks),
+        "energy residual": ledger.residual_relative(&energies),
     });
     println!("{result}");
 }

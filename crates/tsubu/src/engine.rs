@@ -1,7 +1,7 @@
 //! What every method must do, and the door to all of them.
 
 use crate::check::memory::refuse_more_than_there_is;
-use crate::ledger::{Ledger, Stocks};
+use crate::ledger::{Energies, Ledger};
 use crate::partner::Hosts;
 use crate::view::{View, Wants};
 use tsubu_frame::state::MissingSection;
@@ -192,8 +192,8 @@ pub trait Engine: Send {
     /// Moves the system by `steps` steps, together with its hosts; posts every flow to the ledger.
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault>;
 
-    /// Energy of the grains now (the hosts' rows are zero here; [`stocks`] adds them).
-    fn grain_stocks(&self) -> Stocks;
+    /// Energy of the grains now (the hosts' rows are zero here; [`energies`] adds them).
+    fn grain_energies(&self) -> Energies;
 
     /// Momentum of the grains now [N.s].
     fn momentum(&self) -> [f64; 3];
@@ -221,10 +221,10 @@ pub trait Engine: Send {
 }
 
 /// Energy of grains and hosts together.
-pub fn stocks(engine: &dyn Engine, hosts: &Hosts) -> Stocks {
-    let mut stocks = engine.grain_stocks();
+pub fn energies(engine: &dyn Engine, hosts: &Hosts) -> Energies {
+    let mut energies = engine.grain_energies();
     let (kinetic, spring) = hosts.energy(engine.time());
-    stocks.host_kinetic = kinetic;
-    stocks.host_spring = spring;
-    stocks
+    energies.host_kinetic = kinetic;
+    energies.host_spring = spring;
+    energies
 }

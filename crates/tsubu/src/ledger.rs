@@ -1,12 +1,14 @@
 //! The ledger: where energy and momentum went.
 //!
-//! *Stocks* are what the system holds now, measured from its state. *Flows* are what came in or was lost since time 0,
+//! *Energies* are what the system holds now, measured from its state. *Flows* are what came in or was lost since time 0,
 //! posted step by step by whoever does the work. The books close when
 //!
-//! stocks now - stocks at 0 = work done on the system - losses,
+//! energies now - energies at 0 = work done on the system - losses,
 //!
 //! and what is left over is the residual: an error of the time integration, or of the program.
 
+use crate::state::named::{self, Named};
+use std::slice::from_mut;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 
@@ -111,7 +113,7 @@ impl Account {
 
 /// What the system holds [J].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Stocks {
+pub struct Energies {
     /// Translational kinetic energy of the grains.
     pub kinetic: f64,
     /// Rotational kinetic energy of the grains.
@@ -132,20 +134,28 @@ pub struct Stocks {
     pub stream: f64,
 }
 
-impl Stocks {
+impl Energies {
     /// The terms with their names.
-    pub fn terms(&self) -> [(&'static str, f64); 9] {
+    pub fn terms(mut self) -> [(&'static str, f64); 9] {
+        self.terms_mut().map(|(name, value)| (name, *value))
+    }
+
+    fn terms_mut(&mut self) -> [(&'static str, &mut f64); 9] {
         [
-            ("kinetic", self.kinetic),
-            ("rotational", self.rotational),
-            ("potential", self.potential),
-            ("elastic", self.elastic),
-            ("host kinetic", self.host_kinetic),
-            ("host spring", self.host_spring),
-            ("walls", self.walls),
-            ("added mass", self.added_mass),
-            ("stream", self.stream),
+            ("kinetic", &mut self.kinetic),
+            ("rotational", &mut self.rotational),
+            ("potential", &mut self.potential),
+            ("elastic", &mut self.elastic),
+            ("host kinetic", &mut self.host_kinetic),
+            ("host spring", &mut self.host_spring),
+            ("walls", &mut self.walls),
+            ("added mass", &mut self.added_mass),
+            ("stream", &mut self.stream),
         ]
+    }
+
+    fn named(&mut self) -> Named<'_> {
+        self.terms_mut().map(|(name, value)| (name, &mut *from_mut(value))).into()
     }
 
     /// Sum of all terms.
@@ -170,15 +180,15 @@ pub struct Ledger {
     pub rule_impulse: [f64; 3],
     /// Impulse that hosts heard from the grains, along their directions [N.s].
     pub host_impulse: f64,
-    /// Stocks at time 0; set by [`Ledger::open`].
-    opening: Stocks,
+    /// Energies at time 0; set by [`Ledger::open`].
+    opening: Energies,
     opening_momentum: [f64; 3],
 }
 
 impl Ledger {
     /// Opens the books: what the system holds at time 0.
-    pub fn open(stocks: Stocks, momentum: [f64; 3]) -> Self {
-        Self { opening: stocks, opening_momentum: momentum, ..Self::default() }
+    pub fn open(energies: Energies, momentum: [f64; 3]) -> Self {
+        Self { opening: energies, opening_momentum: momentum, ..Self::default() }
     }
 
     /// Adds energy [J] to an account.
@@ -199,14 +209,14 @@ impl Ledger {
     }
 
     /// Energy that the books cannot explain [J].
-    pub fn residual(&self, now: &Stocks) -> f64 {
+    pub fn residual(&self, now: &Energies) -> f64 {
         let change = now.total() - self.opening.total();
         let explained: f64 = Account::ALL.iter().map(|&a| if a.is_work() { self.flow(a) } else { -self.flow(a) }).sum();
         change - explained
     }
 
-    /// Residual over the energy turned over: the sum of all flows (absolute) and of the largest of the stocks' changes.
-    pub fn residual_relative(&self, now: &Stocks) -> f64 {
+    /// Residual over the energy turned over: the sum of all flows (absolute) and of the largest of the energies' changes.
+    pub fn residual_relative(&self, now: &Energies) -> f64 {
         let flows: f64 = self.flows.iter().map(|f| f.abs()).sum();
         let moving = now.kinetic.max(self.opening.kinetic)
             + now.host_kinetic.max(self.opening.host_kinetic)
@@ -230,50 +240,32 @@ impl Ledger {
         })
     }
 
+    /// Everything that the books hold, each under its name.
+    fn named(&mut self) -> Named<'_> {
+        let accounts = Account::ALL.iter().zip(&mut self.flows);
+        let mut all: Named = accounts.map(|(account, flow)| (account.name(), from_mut(flow))).collect();
+        all.push(("gravity impulse", &mut self.gravity_impulse));
+        all.push(("wall impulse", &mut self.wall_impulse));
+        all.push(("water impulse", &mut self.water_impulse));
+        all.push(("exchange impulse", &mut self.exchange_impulse));
+        all.push(("rule impulse", &mut self.rule_impulse));
+        all.push(("host impulse", from_mut(&mut self.host_impulse)));
+        all.push(("opening momentum", &mut self.opening_momentum));
+        all
+    }
+
     /// Writes the books into a checkpoint.
     pub fn save(&self, state: &mut State) {
-        state.put_real("ledger.flows", self.flows.to_vec());
-        let mut impulses = Vec::new();
-        impulses.extend(self.gravity_impulse);
-        impulses.extend(self.wall_impulse);
-        impulses.extend(self.rule_impulse);
-        impulses.push(self.host_impulse);
-        impulses.extend(self.opening_momentum);
-        impulses.extend(self.exchange_impulse);
-        impulses.extend(self.water_impulse);
-        state.put_real("ledger.impulses", impulses);
-        state.put_real("ledger.opening", self.opening.terms().map(|(_, v)| v).to_vec());
+        let mut books = self.clone();
+        named::save("ledger", books.named(), state);
+        named::save("ledger.opening", books.opening.named(), state);
     }
 
     /// Reads the books from a checkpoint.
     pub fn load(state: &State) -> Result<Self, MissingSection> {
-        let missing = || MissingSection { name: "ledger".to_owned(), kind: "real" };
-        let flows = state.real("ledger.flows")?.try_into().map_err(|_| missing())?;
-        let p = state.real("ledger.impulses")?;
-        let o = state.real("ledger.opening")?;
-        if p.len() != 19 || o.len() != 9 {
-            return Err(missing());
-        }
-        Ok(Self {
-            flows,
-            gravity_impulse: [p[0], p[1], p[2]],
-            wall_impulse: [p[3], p[4], p[5]],
-            rule_impulse: [p[6], p[7], p[8]],
-            host_impulse: p[9],
-            opening_momentum: [p[10], p[11], p[12]],
-            exchange_impulse: [p[13], p[14], p[15]],
-            water_impulse: [p[16], p[17], p[18]],
-            opening: Stocks {
-                kinetic: o[0],
-                rotational: o[1],
-                potential: o[2],
-                elastic: o[3],
-                host_kinetic: o[4],
-                host_spring: o[5],
-                walls: o[6],
-                added_mass: o[7],
-                stream: o[8],
-            },
-        })
+        let mut books = Self::default();
+        named::load("ledger", books.named(), state)?;
+        named::load("ledger.opening", books.opening.named(), state)?;
+        Ok(books)
     }
 }

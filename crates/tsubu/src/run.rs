@@ -5,7 +5,7 @@ mod resume;
 use crate::check;
 use crate::engine::{self, Engine, Fault, OpenError};
 use crate::interrupt::Watcher;
-use crate::ledger::{Account, Ledger, Stocks};
+use crate::ledger::{Account, Energies, Ledger};
 use crate::partner::Hosts;
 use crate::scene_files;
 use crate::watch::means::Means;
@@ -86,7 +86,7 @@ pub(crate) fn run_with(
     let engine = engine::open(plan, &hosts)?;
     let last = steps(plan, &*engine)?;
     let mut run = Run {
-        ledger: Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum()),
+        ledger: Ledger::open(engine::energies(&*engine, &hosts), engine.momentum()),
         measured: Measured::new(&hosts),
         watches: Watches::new(plan, &*engine),
         scene_hash: scene_hash(&scene.steps_toml()),
@@ -269,7 +269,8 @@ impl Run<'_> {
 
     fn header(&self) -> Vec<String> {
         let mut header = vec!["time [s]".to_owned()];
-        header.extend(engine::stocks(&*self.engine, &self.hosts).terms().map(|(name, _)| format!("{name} energy [J]")));
+        header
+            .extend(engine::energies(&*self.engine, &self.hosts).terms().map(|(name, _)| format!("{name} energy [J]")));
         header.extend(Account::ALL.map(|a| format!("{} [J]", a.name())));
         header.extend(
             ["residual [J]", "momentum residual [N.s]", "contacts [-]", "centre of mass height [m]"].map(String::from),
@@ -284,11 +285,11 @@ impl Run<'_> {
     }
 
     fn row(&mut self) -> Vec<f64> {
-        let stocks = engine::stocks(&*self.engine, &self.hosts);
+        let energies = engine::energies(&*self.engine, &self.hosts);
         let mut row = vec![self.engine.time()];
-        row.extend(stocks.terms().map(|(_, value)| value));
+        row.extend(energies.terms().map(|(_, value)| value));
         row.extend(Account::ALL.map(|a| self.ledger.flow(a)));
-        row.push(self.ledger.residual(&stocks));
+        row.push(self.ledger.residual(&energies));
         let momentum = self.ledger.momentum_residual(self.engine.momentum());
         row.push(momentum.iter().map(|p| p * p).sum::<f64>().sqrt());
         row.push(self.engine.contacts() as f64);
@@ -297,14 +298,14 @@ impl Run<'_> {
             row.extend([host.displacement(), host.velocity(), host.grain_force()]);
         }
         row.extend(self.watches.row(&*self.engine));
-        let seen = self.seen(&stocks);
+        let seen = self.seen(&energies);
         self.measured.take(&self.hosts, self.engine.contacts(), seen);
         row
     }
 
     /// What every scene has to tell of itself, in the order of [`SEEN`].
-    fn seen(&self, stocks: &Stocks) -> [f64; 3] {
-        [stocks.kinetic + stocks.rotational, self.engine.centre_of_mass()[2], self.engine.contacts() as f64]
+    fn seen(&self, energies: &Energies) -> [f64; 3] {
+        [energies.kinetic + energies.rotational, self.engine.centre_of_mass()[2], self.engine.contacts() as f64]
     }
 
     fn save(&mut self, folder: &RunFolder, out: &mut Outputs) -> Result<(), FileError> {
@@ -336,7 +337,7 @@ impl Run<'_> {
     }
 
     fn summary(&self, status: Status) -> Summary {
-        let stocks = engine::stocks(&*self.engine, &self.hosts);
+        let energies = engine::energies(&*self.engine, &self.hosts);
         let wall_seconds = self.wall_seconds();
         let mut summary = Summary {
             tsubu_version: crate::VERSION.to_owned(),
@@ -354,27 +355,26 @@ impl Run<'_> {
             state_hash: self.state().hash(),
             ..Summary::default()
         };
-        for (name, value) in stocks.terms() {
+        for (name, value) in energies.terms() {
             summary.energy.terms.insert(name, value);
         }
         for account in Account::ALL {
             summary.energy.terms.insert(account.name(), self.ledger.flow(account));
         }
-        let residual = self.ledger.residual_relative(&stocks);
-        summary.energy.terms.insert("residual", self.ledger.residual(&stocks));
+        let residual = self.ledger.residual_relative(&energies);
+        summary.energy.terms.insert("residual", self.ledger.residual(&energies));
         summary.energy.residual_relative = residual;
         let finite =
-            self.ledger.residual(&stocks).is_finite() && stocks.terms().iter().all(|(_, value)| value.is_finite());
+            self.ledger.residual(&energies).is_finite() && energies.terms().iter().all(|(_, value)| value.is_finite());
         if !finite {
-            summary.warnings.push(
-                "the energy books hold numbers that are not finite: what they say of this run is worth nothing"
-                    .to_owned(),
-            );
+            summary
+                .warnings
+                .push("energies of this run are not finite: its energy residual is worth nothing".to_owned());
         }
         let tolerance = self.plan.dem.energy_tolerance;
         if residual.abs() > tolerance {
             summary.warnings.push(format!(
-                "the energy books miss {residual:.2e} of the energy turned over, more than `dem.energy-tolerance` = {tolerance:e}: shorten `dem.time-step`"
+                "the energy residual is {residual:.2e} of the energy turned over, more than `dem.energy-tolerance` = {tolerance:e}: shorten `dem.time-step`"
             ));
         }
         for note in self.engine.notes() {
@@ -384,7 +384,7 @@ impl Run<'_> {
         self.measured.results(&self.hosts, &mut summary);
         // Where nothing is watched, this is what happened.
         if self.plan.watch.is_empty() {
-            self.measured.tell(self.seen(&stocks), &mut summary);
+            self.measured.tell(self.seen(&energies), &mut summary);
         }
         for (name, grains) in self.engine.traffic() {
             summary.give(name, "-", grains as f64);

@@ -86,7 +86,7 @@ pub struct Columns<'a> {
     /// Centre [m]; may lie a little beyond a periodic end.
     pub position: Cow<'a, [DVec3]>,
     /// What periodic ends have taken from the position so far [m].
-    pub wrapped: Cow<'a, [DVec3]>,
+    pub unwrap_offset: Cow<'a, [DVec3]>,
     /// Velocity [m/s].
     pub velocity: Cow<'a, [DVec3]>,
     /// Spin [rad/s].
@@ -187,7 +187,7 @@ impl View<'_> {
 
     /// Centre of a grain as if the world did not repeat.
     pub fn unwrapped(&self, i: usize) -> DVec3 {
-        self.grains.position[i] + self.grains.wrapped[i]
+        self.grains.position[i] + self.grains.unwrap_offset[i]
     }
 
     /// Contacts of every grain; those with walls only if `walls`.

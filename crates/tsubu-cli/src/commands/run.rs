@@ -95,7 +95,7 @@ fn told(title: &str, summary: &Summary) -> String {
     );
     let _ = writeln!(
         text,
-        "  energy     the books miss {:.1e} of what was turned over",
+        "  energy     residual {:.1e} of the energy turned over",
         summary.energy.residual_relative.abs()
     );
     let _ = writeln!(text, "  state      {}", summary.state_hash);

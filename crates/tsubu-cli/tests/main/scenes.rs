@@ -8,7 +8,7 @@ fn runs(desk: &Desk, scene: &str, options: &str, method: &str) {
     let summary = desk.summary(&folder);
     assert_eq!(summary["status"], "finished");
     let residual = summary["energy"]["residual_relative"].as_f64().unwrap();
-    assert!(residual.abs() < 1e-3, "{folder}: the books miss {residual:e}");
+    assert!(residual.abs() < 1e-3, "{folder}: the energy residual is {residual:e}");
 }
 
 #[test]

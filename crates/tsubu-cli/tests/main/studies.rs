@@ -158,7 +158,7 @@ fn reduced(desk: &Desk, scene: &str) -> serde_json::Value {
     let summary = desk.summary("out");
     assert_eq!(summary["status"], "finished");
     let residual = summary["energy"]["residual_relative"].as_f64().unwrap();
-    assert!(residual.abs() < 1e-3, "{scene}: the books miss {residual:e}");
+    assert!(residual.abs() < 1e-3, "{scene}: the energy residual is {residual:e}");
     summary
 }
 

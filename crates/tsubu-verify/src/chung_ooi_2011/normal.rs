@@ -35,7 +35,7 @@ fn claims(test: &str, found: Closed, closed: Closed) -> impl Iterator<Item = Cla
 }
 
 /// Two equal spheres of 10 mm radius, 10 m/s each, in space and not along an axis of the scene.
-fn head_on(m: &Material, steps: f64, spoiler: f64) -> Result<(Closed, f64), String> {
+fn head_on(m: &Material, steps: f64, perturbation: f64) -> Result<(Closed, f64), String> {
     let Material { young, poisson, density, .. } = m;
     let text = format!(
         r#"
@@ -58,7 +58,7 @@ fn head_on(m: &Material, steps: f64, spoiler: f64) -> Result<(Closed, f64), Stri
         steps-per-contact = {steps}
         "#
     );
-    let mut rig = Rig::new(&text, spoiler)?;
+    let mut rig = Rig::new(&text, perturbation)?;
     let (force, overlap, time) = watch(&mut rig)?;
     Ok(([force, overlap, time], rig.residual()))
 }
@@ -68,12 +68,12 @@ fn onto_plane(m: &Material) -> Throw<'static> {
 }
 
 /// V-02, V-03, and the elastic limit of V-04: force, overlap and time within 0.2 %.
-pub(crate) fn elastic(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn elastic(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut all = Vec::new();
     for (m, closed) in &PAIRS {
-        let (found, _) = head_on(m, 2000.0, spoiler)?;
+        let (found, _) = head_on(m, 2000.0, perturbation)?;
         all.extend(claims(&format!("test 1, two balls of {}", m.name), found, *closed));
-        let (_, residual) = head_on(m, 20.0, spoiler)?;
+        let (_, residual) = head_on(m, 20.0, perturbation)?;
         all.push(within(
             format!("test 1, two balls of {}: energy residual at the default step", m.name),
             residual,
@@ -83,35 +83,36 @@ pub(crate) fn elastic(spoiler: f64) -> Result<Vec<Claim>, String> {
         ));
     }
     for (m, closed) in &PLANES {
-        let seen = onto_plane(m).go(spoiler)?;
+        let seen = onto_plane(m).go(perturbation)?;
         let test = format!("test 2, {} onto a rigid plane", m.name);
         all.extend(claims(&test, [seen.force, seen.overlap, seen.time], *closed));
-        let seen = Throw { steps: 20.0, ..onto_plane(m) }.go(spoiler)?;
+        let seen = Throw { steps: 20.0, ..onto_plane(m) }.go(perturbation)?;
         let name = format!("{test}: energy residual at the default step");
         all.push(within(name, seen.residual, 0.0, 1e-3, "conservation of energy"));
     }
     // The plane of other codes, 1000 times as stiff only: 0.04 % less.
-    let seen = Throw { wall: 1000.0, ..onto_plane(&PLANES[0].0) }.go(spoiler)?;
+    let seen = Throw { wall: 1000.0, ..onto_plane(&PLANES[0].0) }.go(perturbation)?;
     let name = "test 2, aluminium alloy onto a plane 1000 times as stiff: largest force N";
     all.push(near(name, seen.force, 11.3653e3, 2e-4, "Hertz"));
     for (m, closed) in &THROWN {
-        let seen = Throw { velocity: [0.0, 3.9], ..m.throw() }.go(spoiler)?;
+        let seen = Throw { velocity: [0.0, 3.9], ..m.throw() }.go(perturbation)?;
         all.extend(claims(&format!("test 3, {}, elastic", m.name), [seen.force, seen.overlap, seen.time], *closed));
     }
     Ok(all)
 }
 
 /// V-04: the restitution asked for comes back, within 1e-3.
-pub(crate) fn restitution(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn restitution(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut all = Vec::new();
     for (m, _) in &THROWN {
         for e in [0.2, 0.4, 0.6, 0.8, 1.0] {
             let throw = Throw { velocity: [0.0, 3.9], restitution: e, ..m.throw() };
-            let found = throw.go(spoiler)?.velocity[1] / 3.9;
+            let found = throw.go(perturbation)?.velocity[1] / 3.9;
             let name = format!("test 3, {}: restitution {e}", m.name);
             all.push(within(name, found, e, 1e-3, "definition; Chung and Ooi 2011, test 3"));
         }
-        let residual = Throw { velocity: [0.0, 3.9], restitution: 0.6, steps: 20.0, ..m.throw() }.go(spoiler)?.residual;
+        let residual =
+            Throw { velocity: [0.0, 3.9], restitution: 0.6, steps: 20.0, ..m.throw() }.go(perturbation)?.residual;
         let name = format!("test 3, {}, restitution 0.6: energy residual at the default step", m.name);
         all.push(within(name, residual, 0.0, 1e-3, "conservation of energy"));
     }

@@ -19,7 +19,7 @@ pub(super) fn table<const N: usize>(text: &str) -> Vec<[f64; N]> {
 }
 
 /// Tangential restitution of the centre, and spin [rad/s] in the paper's sign.
-fn hit(m: &Material, angle: f64, law: &str, spoiler: f64) -> Result<(f64, f64), String> {
+fn hit(m: &Material, angle: f64, law: &str, perturbation: f64) -> Result<(f64, f64), String> {
     let (along, down) = angle.to_radians().sin_cos();
     let throw = Throw {
         restitution: 0.98,
@@ -29,17 +29,17 @@ fn hit(m: &Material, angle: f64, law: &str, spoiler: f64) -> Result<(f64, f64), 
         steps: 500.0,
         ..m.throw()
     };
-    let seen = throw.go(spoiler)?;
+    let seen = throw.go(perturbation)?;
     Ok((seen.velocity[0] / (3.9 * along), -seen.spin))
 }
 
 /// V-10, test 4: exact where the contact slides all the time (from 30 degrees), the authors' curve below 20.
-pub(crate) fn kharaz(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn kharaz(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     let fullest = 618.0;
     for [angle, et_oxide, spin_oxide, et_alloy, spin_alloy] in table::<5>(AUTHORS) {
         for (m, et, spin) in [(&OXIDE, et_oxide, spin_oxide), (&ALLOY, et_alloy, spin_alloy)] {
-            let (found_et, found_spin) = hit(m, angle, SECANT, spoiler)?;
+            let (found_et, found_spin) = hit(m, angle, SECANT, perturbation)?;
             let name = format!("test 4, {} at {angle} degrees", m.name);
             if angle >= 30.0 {
                 let normal = 3.9 * angle.to_radians().cos();
@@ -61,7 +61,7 @@ pub(crate) fn kharaz(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-11, test 5: contact velocity and spin where the contact slides all the time.
-pub(crate) fn gross_sliding(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn gross_sliding(perturbation: f64) -> Result<Vec<Claim>, String> {
     let steel = material("steel", 208e9, 0.3, 7850.0);
     let polyethylene = material("polyethylene", 1e9, 0.4, 1400.0);
     let mut claims = Vec::new();
@@ -69,7 +69,7 @@ pub(crate) fn gross_sliding(spoiler: f64) -> Result<Vec<Claim>, String> {
         for form in ["incremental", "secant"] {
             let law = format!("tangential.mindlin = {{ form = \"{form}\", damping = 0 }}");
             for x in [6.5, 7.5, 10.0, 13.0] {
-                let (y1, y2) = test_5(m, x, &law, spoiler)?;
+                let (y1, y2) = test_5(m, x, &law, perturbation)?;
                 let source = "Coulomb, gross sliding with the contact at half the overlap; begins as in Maw, Barber, Fawcett 1976";
                 let name = format!("test 5, {}, {form}, x = {x}", m.name);
                 let spin = -5.0 * (1.0 - shortening(m));
@@ -91,10 +91,10 @@ fn shortening(m: &Material) -> f64 {
 }
 
 /// Dimensionless velocity of the contact and spin after an elastic impact at x = v_t / (mu v_n).
-fn test_5(m: &Material, x: f64, law: &str, spoiler: f64) -> Result<(f64, f64), String> {
+fn test_5(m: &Material, x: f64, law: &str, perturbation: f64) -> Result<(f64, f64), String> {
     let (friction, down, radius) = (0.3, 5.0, 1e-5);
     let throw = Throw { radius, friction, velocity: [x * friction * down, down], law, steps: 500.0, ..m.throw() };
-    let seen = throw.go(spoiler)?;
+    let seen = throw.go(perturbation)?;
     let scale = friction * down;
     Ok(((seen.velocity[0] - seen.spin * radius) / scale, -seen.spin * radius / scale))
 }

@@ -20,7 +20,7 @@ fn surface_speed(s: f64) -> f64 {
 }
 
 /// Test 6: -v_s'/v_s at a given s, against a rigid plane.
-fn against_plane(m: &Material, s: f64, law: &str, spoiler: f64) -> Result<f64, String> {
+fn against_plane(m: &Material, s: f64, law: &str, perturbation: f64) -> Result<f64, String> {
     let throw = Throw {
         radius: RADIUS,
         restitution: RESTITUTION,
@@ -31,12 +31,12 @@ fn against_plane(m: &Material, s: f64, law: &str, spoiler: f64) -> Result<f64, S
         steps: 500.0,
         ..m.throw()
     };
-    let seen = throw.go(spoiler)?;
+    let seen = throw.go(perturbation)?;
     Ok((seen.velocity[0] - seen.spin * RADIUS) / surface_speed(s))
 }
 
 /// Two spheres that meet along x with relative speed `SPEED`: the rig.
-fn pair(m: &Material, large: bool, spins: [f64; 2], law: &str, spoiler: f64) -> Result<Rig, String> {
+fn pair(m: &Material, large: bool, spins: [f64; 2], law: &str, perturbation: f64) -> Result<Rig, String> {
     let (times, other, speeds) =
         if large { (1000.0, 0.5, [SPEED, 0.0]) } else { (1.0, RADIUS, [0.5 * SPEED, -0.5 * SPEED]) };
     let text = format!(
@@ -84,15 +84,15 @@ fn pair(m: &Material, large: bool, spins: [f64; 2], law: &str, spoiler: f64) -> 
         w0 = spins[0],
         w1 = spins[1],
     );
-    let mut rig = Rig::new(&text, spoiler)?;
+    let mut rig = Rig::new(&text, perturbation)?;
     rig.impact()?;
     Ok(rig)
 }
 
 /// Test 8: -v_s'/v_s against a sphere five times as large, a thousand times as stiff and dense, at rest.
-fn against_large(m: &Material, s: f64, law: &str, spoiler: f64) -> Result<f64, String> {
+fn against_large(m: &Material, s: f64, law: &str, perturbation: f64) -> Result<f64, String> {
     let speed = surface_speed(s);
-    let rig = pair(m, true, [speed / RADIUS, 0.0], law, spoiler)?;
+    let rig = pair(m, true, [speed / RADIUS, 0.0], law, perturbation)?;
     // Surface velocity of the small one at the contact, along z, relative to the large one.
     let (v, w) = (rig.vectors("velocity"), rig.vectors("spin"));
     let surface = (v[0].z - w[0].y * RADIUS) - (v[1].z + w[1].y * 0.5);
@@ -100,7 +100,7 @@ fn against_large(m: &Material, s: f64, law: &str, spoiler: f64) -> Result<f64, S
 }
 
 /// V-12 and V-14, tests 6 and 8: gross sliding gives s - 1; above, both are one curve.
-pub(crate) fn spinning(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn spinning(perturbation: f64) -> Result<Vec<Claim>, String> {
     let nylon = material("nylon", 2.5e9, 0.4, 1000.0);
     let source = "Coulomb, gross sliding: s - 1";
     let mut claims = Vec::new();
@@ -108,18 +108,19 @@ pub(crate) fn spinning(spoiler: f64) -> Result<Vec<Claim>, String> {
         for s in [0.176, 0.352, 0.551, 0.771] {
             // With its dashpot the contact slides from the first moment on; a spring alone sticks first.
             let name = format!("test 6, {}, s = {s}: tangential rebound", m.name);
-            claims.push(near(name, against_plane(m, s, "", spoiler)?, s - 1.0, 2e-3, source));
+            claims.push(near(name, against_plane(m, s, "", perturbation)?, s - 1.0, 2e-3, source));
             let name = format!("test 8, {}, s = {s}: tangential rebound", m.name);
-            claims.push(near(name, against_large(m, s, "", spoiler)?, s - 1.0, 2e-3, source));
+            claims.push(near(name, against_large(m, s, "", perturbation)?, s - 1.0, 2e-3, source));
         }
     }
     for [s, beta] in table::<2>(AUTHORS).into_iter().filter(|row| row[0] < 1.0) {
         let name = format!("test 6, {}, s = {s}, secant: tangential rebound", ALLOY.name);
         let source = "Chung and Ooi 2011, figure of test 6, 3 % of its height";
-        claims.push(within(name, against_plane(&ALLOY, s, SECANT, spoiler)?, beta, 0.03, source));
+        claims.push(within(name, against_plane(&ALLOY, s, SECANT, perturbation)?, beta, 0.03, source));
     }
     for s in [1.454, 2.996, 7.819] {
-        let (plane, large) = (against_plane(&ALLOY, s, SECANT, spoiler)?, against_large(&ALLOY, s, SECANT, spoiler)?);
+        let (plane, large) =
+            (against_plane(&ALLOY, s, SECANT, perturbation)?, against_large(&ALLOY, s, SECANT, perturbation)?);
         let name = format!("tests 8 and 6, {}, s = {s}: difference of their rebounds", ALLOY.name);
         claims.push(within(name, large - plane, 0.0, 2e-3, "one curve for both tests"));
     }
@@ -127,11 +128,11 @@ pub(crate) fn spinning(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-13, test 7: spins that do not slip are left alone, to 1e-10.
-pub(crate) fn no_slip(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn no_slip(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     for spin in [0.175, 1.0, 5.0, 22.86] {
-        // The constants of the law do not matter here: the spoiler spoils one spin.
-        let rig = pair(&ALLOY, false, [spin, -spin * spoiler], "", 1.0)?;
+        // The constants of the law do not matter here: the perturbation spoils one spin.
+        let rig = pair(&ALLOY, false, [spin, -spin * perturbation], "", 1.0)?;
         let (v, w) = (rig.vectors("velocity"), rig.vectors("spin"));
         let source = "symmetry; Chung and Ooi 2011, test 7";
         let name = |what: &str| format!("test 7, {spin} rad/s: {what}");

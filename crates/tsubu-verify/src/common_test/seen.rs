@@ -141,15 +141,15 @@ impl Measured {
 }
 
 /// Runs a test and judges it; into a folder also pictures and tables.
-pub(super) fn judged(test: &Test, spoiler: f64, folder: Option<&RunFolder>) -> Result<Vec<Claim>, String> {
-    let measured = run(test, spoiler)?;
+pub(super) fn judged(test: &Test, perturbation: f64, folder: Option<&RunFolder>) -> Result<Vec<Claim>, String> {
+    let measured = run(test, perturbation)?;
     if let Some(folder) = folder {
         keep(test, &measured, folder).map_err(|error| error.to_string())?;
     }
     Ok((test.judge)(&measured))
 }
 
-fn run(test: &Test, spoiler: f64) -> Result<Measured, String> {
+fn run(test: &Test, perturbation: f64) -> Result<Measured, String> {
     let scene = Scene::parse(test.name, test.scene, Path::new("."), &[]).map_err(|c| c.to_string())?;
     let of = |list: &str| {
         let variants = if list.is_empty() { Vec::new() } else { Variant::list(list)? };
@@ -165,7 +165,7 @@ fn run(test: &Test, spoiler: f64) -> Result<Measured, String> {
     let mut broken = 0;
     for (index, (variant, scene)) in who.into_iter().chain(controls).enumerate() {
         let mut plan = scene.plan().clone();
-        if spoiler != 1.0 {
+        if perturbation != 1.0 {
             (test.spoil)(&mut plan);
         }
         match Seen::of(&variant.name, &plan) {

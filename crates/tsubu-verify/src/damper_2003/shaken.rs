@@ -16,7 +16,7 @@ fn force_by_phase(method: &str, count: usize) -> Result<[f64; BINS], String> {
     let plan = scene.plan();
     let mut hosts = Hosts::new(&plan.hosts);
     let mut engine = engine::open(plan, &hosts).map_err(|e| e.to_string())?;
-    let mut ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+    let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let period = 1.0 / 6.0;
     let weight = 0.2e-3 * count as f64 * 10.0;
     let mut impulse = [0.0; BINS];

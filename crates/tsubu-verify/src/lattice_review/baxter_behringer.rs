@@ -117,9 +117,9 @@ fn run(alignment: Option<Alignment>) -> Seen {
 
 /// Grains that like to lie along their way stand upright where the hopper narrows; nothing else changes.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn hopper_order(spoiler: f64) -> Result<Vec<Claim>, String> {
-    // The spoiler heats the grains.
-    let temperature = 1.0 / spoiler.powi(60);
+pub(crate) fn hopper_order(perturbation: f64) -> Result<Vec<Claim>, String> {
+    // The perturbation heats the grains.
+    let temperature = 1.0 / perturbation.powi(60);
     let with = run(Some(Alignment { neighbours: 0.5, way: 1.0, temperature }));
     let without = run(Some(Alignment { neighbours: 0.0, way: 0.0, temperature: 1.0 }));
     let round = run(None);
@@ -157,14 +157,14 @@ pub(crate) fn hopper_order(spoiler: f64) -> Result<Vec<Claim>, String> {
 
 /// Order was to grow near walls as well as along the slope.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn hopper_walls(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn hopper_walls(perturbation: f64) -> Result<Vec<Claim>, String> {
     let gate = |alignment: Alignment| {
         let [walls, middle] = run(Some(alignment)).shoulder;
         let name =
             "hopper, above the slope: share of upright grains within four columns of the walls less that in the middle";
         Claim::judge(name, walls - middle, Some(0.1), None, SOURCE)
     };
-    let temperature = 1.0 / spoiler.powi(60);
+    let temperature = 1.0 / perturbation.powi(60);
     Ok(vec![
         gate(Alignment { neighbours: 0.5, way: 1.0, temperature }),
         refused("no alignment", &[gate(Alignment { neighbours: 0.0, way: 0.0, temperature: 1.0 })], 1),

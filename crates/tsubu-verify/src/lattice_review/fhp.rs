@@ -86,11 +86,11 @@ pub(super) fn slope(x: &[f64], y: &[f64]) -> f64 {
 
 /// The viscosity that the collisions themselves give, against the published closed form.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn collisions(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn collisions(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (mut claims, mut gates) = (Vec::new(), Vec::new());
     for (rules, name) in ALL {
         for d in [0.1, 0.3, 0.5] {
-            let value = from_collisions(rules, d * spoiler);
+            let value = from_collisions(rules, d * perturbation);
             let other = formula(if rules == Rules::Two { Rules::Three } else { Rules::Two }, d);
             claims.push(near(
                 format!("{name}: viscosity of its collisions, d = {d}"),
@@ -108,13 +108,13 @@ pub(crate) fn collisions(spoiler: f64) -> Result<Vec<Claim>, String> {
 
 /// Viscosity from shear waves, in a gas that forgets whom it met and in the gas as it is.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn viscosity(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn viscosity(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (mut claims, mut gates) = (Vec::new(), Vec::new());
     // At d = 0.15 the closed forms of all three are steep, and a wrong density is seen.
     for (rules, name) in ALL {
         // Short waves see that particles fly some spacings before they meet, most of all in FHP-I.
         let columns = if rules == Rules::One { 192 } else { 96 };
-        let value = decay(rules, 0.15 * spoiler, [columns, 32_768], true) * formula(rules, 0.15 * spoiler);
+        let value = decay(rules, 0.15 * perturbation, [columns, 32_768], true) * formula(rules, 0.15 * perturbation);
         let text = format!("{name}: viscosity of a shear wave without correlations, d = 0.15");
         claims.push(near(text, value, formula(rules, 0.15), 0.03, FRISCH));
         let other = if rules == Rules::Two { Rules::Three } else { Rules::Two };
@@ -123,7 +123,7 @@ pub(crate) fn viscosity(spoiler: f64) -> Result<Vec<Claim>, String> {
     }
     claims.push(refused("viscosity of another form, or of a gas 10 % thinner", &gates, 6));
     for (rules, name, d, columns) in [(Rules::One, "FHP-I", 0.35, 64), (Rules::Three, "FHP-III", 0.5, 32)] {
-        claims.push(as_it_is(rules, name, d * spoiler, columns, false));
+        claims.push(as_it_is(rules, name, d * perturbation, columns, false));
     }
     Ok(claims)
 }
@@ -139,14 +139,14 @@ fn as_it_is(rules: Rules, name: &str, d: f64, columns: usize, chaos: bool) -> Cl
 /// The same where the gas as it is is not the formula: FHP-II and III away from half filling. Particles that have met meet
 /// again; where they forget each other the formula holds.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn viscosity_plain(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn viscosity_plain(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (mut claims, mut gates) = (Vec::new(), Vec::new());
     for (rules, name, d) in [(Rules::Two, "FHP-II", 0.25), (Rules::Three, "FHP-III", 0.3)] {
-        let chaos = as_it_is(rules, name, d * spoiler, 64, true);
+        let chaos = as_it_is(rules, name, d * perturbation, 64, true);
         let other = if rules == Rules::Two { Rules::Three } else { Rules::Two };
         let over_other = chaos.value * formula(rules, d) / formula(other, d);
         gates.push(within(name, over_other, 1.0, 0.03, FRISCH));
-        claims.extend([chaos, as_it_is(rules, name, d * spoiler, 64, false)]);
+        claims.extend([chaos, as_it_is(rules, name, d * perturbation, 64, false)]);
     }
     claims.push(refused("viscosity of another form", &gates, 2));
     Ok(claims)
@@ -175,8 +175,8 @@ fn sound_speed(rules: Rules) -> f64 {
 
 /// Speed of sound of the three forms.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn sound(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let speeds = ALL.map(|(rules, name)| (rules, name, sound_speed(rules) * spoiler));
+pub(crate) fn sound(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let speeds = ALL.map(|(rules, name)| (rules, name, sound_speed(rules) * perturbation));
     let expected = |rules: Rules| if rules == Rules::One { 0.5_f64.sqrt() } else { (3.0_f64 / 7.0).sqrt() };
     let mut claims: Vec<Claim> = speeds
         .iter()
@@ -250,11 +250,11 @@ fn closed_form(push: f64) -> Vec<f64> {
 /// A channel whose walls send back flows as the closed form says, and comes to rest half a column inside the walls; with
 /// mirrors for walls the gas falls freely.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn channel(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn channel(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut channel = Channel::new(true);
     channel.profile(1000);
     let speeds = channel.profile(1600);
-    let form = closed_form(spoiler);
+    let form = closed_form(perturbation);
     let middle = |speeds: &[f64]| speeds[WIDTH / 2 - 3..WIDTH / 2 + 3].iter().sum::<f64>();
     let source = "Navier and Stokes, with the viscosity of Frisch et al. 1987";
     let gates = |speeds: &[f64]| {

@@ -55,16 +55,16 @@ fn angle(friction: f64) -> f64 {
 
 /// The slope is finite and grows with friction.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn pile_angle(spoiler: f64) -> Result<Vec<Claim>, String> {
-    // The spoiler takes friction away.
-    let angles = [0.02, 0.1, 0.2].map(|friction| angle(friction * spoiler.powi(60)));
+pub(crate) fn pile_angle(perturbation: f64) -> Result<Vec<Claim>, String> {
+    // The perturbation takes friction away.
+    let angles = [0.02, 0.1, 0.2].map(|friction| angle(friction * perturbation.powi(60)));
     let gate = |name: &str, rise: f64| Claim::judge(name, rise, Some(4.0), None, SOURCE);
     let mut claims =
         vec![Claim::judge("pile: slope at friction 0.02 [degrees]", angles[0], Some(30.0), Some(40.0), SOURCE)];
     claims.push(gate("pile: rise of the slope from friction 0.02 to 0.1 [degrees]", angles[1] - angles[0]));
     claims.push(gate("pile: rise of the slope from friction 0.1 to 0.2 [degrees]", angles[2] - angles[1]));
     claims.push(Claim::judge("pile: slope at friction 0.2 [degrees]", angles[2], None, Some(75.0), SOURCE));
-    let again = angle(0.1 * spoiler.powi(60));
+    let again = angle(0.1 * perturbation.powi(60));
     claims.push(refused("the same friction twice", &[gate("rise", again - angles[1])], 1));
     Ok(claims)
 }
@@ -77,8 +77,8 @@ fn exponent(fell: &[f64], from: f64, to: f64) -> f64 {
 
 /// Avalanches over the edge have a largest size: their distribution falls ever more steeply.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn pile_avalanches(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let (pile, fell) = heap(0.1 * spoiler, 60, 30_000);
+pub(crate) fn pile_avalanches(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let (pile, fell) = heap(0.1 * perturbation, 60, 30_000);
     let fell: Vec<f64> = fell[8000..].iter().map(|f| *f as f64).collect();
     let gates = |fell: &[f64], name: &str| {
         let steeper = exponent(fell, 64.0, 256.0) - exponent(fell, 1.0, 8.0);
@@ -140,8 +140,8 @@ fn farther(pile: &Pile) -> f64 {
 
 /// Poured at one side of a silo, smooth grains go farther than rough ones; equal ones do not part.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn pile_segregation(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let rough = 0.02 + 0.38 * spoiler.powi(60);
+pub(crate) fn pile_segregation(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let rough = 0.02 + 0.38 * perturbation.powi(60);
     let gate = |name: &str, value: f64| Claim::judge(name, value, Some(4.0), None, SOURCE);
     let equal = farther(&silo([0.2; 2]));
     Ok(vec![
@@ -172,8 +172,8 @@ fn layered(kind: impl Fn(usize, usize) -> Option<usize>) -> f64 {
 
 /// Grains of two kinds were to part into layers, as real ones do when they are poured.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn silo_layers(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let rough = 0.02 + 0.38 * spoiler.powi(60);
+pub(crate) fn silo_layers(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let rough = 0.02 + 0.38 * perturbation.powi(60);
     let gate = |name: &str, value: f64| Claim::judge(name, value, Some(0.1), None, SOURCE);
     let at_rest = |pile: Pile| move |c: usize, r: usize| pile.at_rest(c, r);
     let drawn = |c: usize, r: usize| Some((r + c.div_ceil(2)) / 4 % 2);

@@ -68,8 +68,8 @@ fn none(name: &str, value: f64) -> Claim {
 
 /// Waves come with dissipation and a density that is neither low nor high; what smooth walls do says [`pipe_smooth`].
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn pipe_waves(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let wave = waves(0.25, spoiler.min(1.0).powi(20), 1.0);
+pub(crate) fn pipe_waves(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let wave = waves(0.25, perturbation.min(1.0).powi(20), 1.0);
     let is = |name: &str, value: f64| Claim::judge(name, value, Some(8.0), None, SOURCE);
     let mut claims = vec![is("pipe: variance of the density over that of lone grains", wave)];
     let without = [
@@ -85,15 +85,15 @@ pub(crate) fn pipe_waves(spoiler: f64) -> Result<Vec<Claim>, String> {
 
 /// The abstract says that waves need rough walls.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn pipe_smooth(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn pipe_smooth(perturbation: f64) -> Result<Vec<Claim>, String> {
     let name = "pipe, smooth walls: variance of the density over that of lone grains";
-    let rough = none(name, waves(0.25, spoiler.min(1.0).powi(20), 1.0));
+    let rough = none(name, waves(0.25, perturbation.min(1.0).powi(20), 1.0));
     Ok(vec![none(name, waves(0.25, 1.0, 0.0)), refused("rough walls", &[rough], 1)])
 }
 
 /// Without gravity and dissipation the grains are FHP-II, site by site.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn pipe_limit(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn pipe_limit(perturbation: f64) -> Result<Vec<Claim>, String> {
     let differing = |dissipation: f64| {
         let mut grains = pipe(2.0, Habits { gravity: 0.0, dissipation, roughness: 1.0 });
         let mut gas = Gas::new(Rules::Two, WIDTH + 2, LENGTH, [true, true], 1);
@@ -115,7 +115,7 @@ pub(crate) fn pipe_limit(spoiler: f64) -> Result<Vec<Claim>, String> {
         let differ = sites.filter(|(c, r)| grains.site(*c, *r) != gas.site(*c, *r)).count();
         (differ as f64, before.abs_diff(grains.mass()) as f64)
     };
-    let (differ, _) = differing(1.0 - spoiler.min(1.0));
+    let (differ, _) = differing(1.0 - perturbation.min(1.0));
     let (wrong, lost) = differing(0.01);
     let name = "pipe without dissipation and gravity: sites that differ from FHP-II after 200 steps";
     Ok(vec![
@@ -161,9 +161,9 @@ fn exponent(dissipation: f64) -> f64 {
 
 /// The spectrum falls as a power near 4/3.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn pipe_spectrum(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn pipe_spectrum(perturbation: f64) -> Result<Vec<Claim>, String> {
     let name = "pipe: exponent of the power spectrum of the density, periods of 25 to 1000 steps";
-    let value = exponent(spoiler.min(1.0).powi(20));
+    let value = exponent(perturbation.min(1.0).powi(20));
     let gate = |value: f64| Claim::judge(name, value, Some(1.1), Some(1.5), SOURCE);
     Ok(vec![gate(value), refused("no dissipation", &[gate(exponent(0.0))], 1)])
 }

@@ -22,8 +22,8 @@ struct Profile {
 }
 
 /// The avalanche of one contact time [s] in its tenth second.
-fn profile(contact: f64, way: Way, spoiler: f64) -> Result<Profile, String> {
-    let mut rig = rig(SCENE, &law(DIAMETER, stiffness_for(DIAMETER, contact), way), spoiler)?;
+fn profile(contact: f64, way: Way, perturbation: f64) -> Result<Profile, String> {
+    let mut rig = rig(SCENE, &law(DIAMETER, stiffness_for(DIAMETER, contact), way), perturbation)?;
     let (mut count, mut sum) = ([0.0; LAYERS], [0.0; LAYERS]);
     for look in 1..=LOOKS {
         rig.until(9.0 + look as f64 / LOOKS as f64)?;
@@ -81,7 +81,7 @@ fn findings(name: &str, long: &Profile, short: &Profile, source: &str) -> Vec<Cl
 }
 
 /// 0.01 s against a shorter contact, by the paper's integration and by a good one.
-fn pair(shorter: f64, spoiler: f64) -> Result<Vec<Claim>, String> {
+fn pair(shorter: f64, perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     for (way, source) in [
         (
@@ -93,7 +93,7 @@ fn pair(shorter: f64, spoiler: f64) -> Result<Vec<Claim>, String> {
             "the same; not what the law gives: grains with short contacts stand at 40 degrees, see the README of the study",
         ),
     ] {
-        let (long, short) = (profile(0.01, way, spoiler)?, profile(shorter, way, spoiler)?);
+        let (long, short) = (profile(0.01, way, perturbation)?, profile(shorter, way, perturbation)?);
         let name = format!("{}, 0.01 s and {shorter} s", way.integrator);
         claims.extend(findings(&name, &long, &short, source));
         claims.push(refused(
@@ -106,11 +106,11 @@ fn pair(shorter: f64, spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// B-F13 to B-F16 with a contact of 0.001 s for the shorter one, and what longer ones do.
-pub(in super::super) fn avalanche(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let mut claims = pair(1e-3, spoiler)?;
+pub(in super::super) fn avalanche(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let mut claims = pair(1e-3, perturbation)?;
     let way = Way { integrator: VERLET, steps: 20 };
     let speeds: Result<Vec<f64>, String> =
-        [0.03, 0.01, 0.003].iter().map(|t| Ok(mean(&profile(*t, way, spoiler)?.speed))).collect();
+        [0.03, 0.01, 0.003].iter().map(|t| Ok(mean(&profile(*t, way, perturbation)?.speed))).collect();
     let speeds = speeds?;
     let source = "trend: the longer the contact, the faster (Osada 2004, figure 14)";
     for (ratio, times) in [(speeds[0] / speeds[1], "0.03 over 0.01 s"), (speeds[1] / speeds[2], "0.01 over 0.003 s")] {
@@ -121,6 +121,6 @@ pub(in super::super) fn avalanche(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// The same with the paper's 0.0001 s: three million steps.
-pub(in super::super) fn avalanche_stiff(spoiler: f64) -> Result<Vec<Claim>, String> {
-    pair(1e-4, spoiler)
+pub(in super::super) fn avalanche_stiff(perturbation: f64) -> Result<Vec<Claim>, String> {
+    pair(1e-4, perturbation)
 }

@@ -44,7 +44,7 @@ impl Impact {
         Self { diameter, stiffness, speed, dashpot: 0.0, tension: false }
     }
 
-    fn seen(&self, spoiler: f64) -> Result<Seen, String> {
+    fn seen(&self, perturbation: f64) -> Result<Seen, String> {
         let Self { diameter: d, stiffness, speed, dashpot, tension } = self;
         let dt = contact_seconds(*d, *stiffness) / STEPS;
         let gap = 1.5 * speed * dt;
@@ -79,7 +79,7 @@ impl Impact {
             duration = 10.0 * STEPS * dt,
             height = d + gap,
         );
-        let mut rig = Rig::new(&text, spoiler)?;
+        let mut rig = Rig::new(&text, perturbation)?;
         let height = |rig: &Rig| rig.vector("position", 1).z - d;
         let (mut lowest, mut forces) = (0.0f64, Vec::new());
         let last = (10.0 * STEPS) as u64;
@@ -118,7 +118,7 @@ fn deviation(points: &Points) -> f64 {
 }
 
 /// Contact times over stiffnesses [N/cm], beside the closed form for a `share` of the mass.
-fn times(diameter: f64, stiffnesses: &[f64], share: f64, spoiler: f64) -> Result<Points, String> {
+fn times(diameter: f64, stiffnesses: &[f64], share: f64, perturbation: f64) -> Result<Points, String> {
     let mut points = Points {
         figure: "Figures 4 and 12: contact time".to_owned(),
         axes: ["stiffness [N/cm]", "contact time [s]"].map(String::from),
@@ -130,14 +130,14 @@ fn times(diameter: f64, stiffnesses: &[f64], share: f64, spoiler: f64) -> Result
         let stiffness = k * N_PER_CM;
         // An overlap of 1 % of the diameter.
         let speed = 0.01 * diameter * PI / contact_seconds(diameter, stiffness);
-        points.found.push([*k, Impact::undamped(diameter, stiffness, speed).seen(spoiler)?.overlapping]);
+        points.found.push([*k, Impact::undamped(diameter, stiffness, speed).seen(perturbation)?.overlapping]);
         points.published.push([*k, share.sqrt() * contact_seconds(diameter, stiffness)]);
     }
     Ok(points)
 }
 
 /// B-F4, B-F12: contact times are half a natural period.
-pub(in super::super) fn contact_time(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn contact_time(perturbation: f64) -> Result<Vec<Claim>, String> {
     let source = "t = pi sqrt(m/k) (Osada 2004, equation 8; figures 4, 12)";
     let claim = |d: f64, k: &[f64], share: f64| {
         let name = format!(
@@ -145,7 +145,7 @@ pub(in super::super) fn contact_time(spoiler: f64) -> Result<Vec<Claim>, String>
             k[0],
             k[k.len() - 1]
         );
-        let points = times(0.01 * d, k, share, spoiler)?;
+        let points = times(0.01 * d, k, share, perturbation)?;
         Ok::<_, String>(Claim::judge(name, deviation(&points), None, Some(1e-3), source).showing(points))
     };
     let mut claims = Vec::new();
@@ -156,7 +156,7 @@ pub(in super::super) fn contact_time(spoiler: f64) -> Result<Vec<Claim>, String>
     let quoted = [(0.2, 0.01, 0.01), (0.2, 100.0, 1e-4)];
     for (d, k, printed) in quoted {
         let speed = 0.01 * 0.01 * d * PI / contact_seconds(0.01 * d, k * N_PER_CM);
-        let found = Impact::undamped(0.01 * d, k * N_PER_CM, speed).seen(spoiler)?.overlapping;
+        let found = Impact::undamped(0.01 * d, k * N_PER_CM, speed).seen(perturbation)?.overlapping;
         let name = format!("contact time of {d} cm at {k} N/cm s");
         // Printed with one digit.
         claims.push(Claim::judge(name, found, Some(0.95 * printed), Some(1.05 * printed), "Osada 2004, printed"));
@@ -166,15 +166,16 @@ pub(in super::super) fn contact_time(spoiler: f64) -> Result<Vec<Claim>, String>
 }
 
 /// B-F5: damping hardly changes the contact time.
-pub(in super::super) fn damped(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn damped(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (d, k) = (2e-3, 100.0 * N_PER_CM);
     let free = contact_seconds(d, k);
     let z = DAMPING_RATIO;
     let root = (1.0 - z * z).sqrt();
     // Where k x + c x' = 0 for the first time.
     let cut = PI - 2.0 * z.asin();
-    let impact =
-        |dashpot: f64, tension: bool| Impact { diameter: d, stiffness: k, speed: 0.1, dashpot, tension }.seen(spoiler);
+    let impact = |dashpot: f64, tension: bool| {
+        Impact { diameter: d, stiffness: k, speed: 0.1, dashpot, tension }.seen(perturbation)
+    };
     let (pulls, pushes) = (impact(dashpot(d, k), true)?, impact(dashpot(d, k), false)?);
     let source = "damped oscillation, e = 0.7, z = 0.1128 (Osada 2004, figure 5)";
     let name = |what: &str| format!("damped contact, 0.2 cm: {what}");
@@ -198,9 +199,9 @@ pub(in super::super) fn damped(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// B-F8, B-F11: overlap against stiffness, and the band of stiffness that the paper draws from it.
-pub(in super::super) fn overlap(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn overlap(perturbation: f64) -> Result<Vec<Claim>, String> {
     let law = "v sqrt(m/k) / d at 0.600 m/s (Osada 2004, figures 8, 11)";
-    let of = |d: f64, k: f64| Ok::<_, String>(Impact::undamped(d, k, SPEED).seen(spoiler)?.overlap);
+    let of = |d: f64, k: f64| Ok::<_, String>(Impact::undamped(d, k, SPEED).seen(perturbation)?.overlap);
     let mut claims = Vec::new();
     for d in DIAMETERS.map(|d| 0.01 * d) {
         let mut points = Points {

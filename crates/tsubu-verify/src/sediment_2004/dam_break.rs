@@ -34,19 +34,19 @@ impl Break {
     }
 
     /// Slope that is left [degrees].
-    fn slope(&self, seed: u32, spoiler: f64) -> Result<f64, String> {
+    fn slope(&self, seed: u32, perturbation: f64) -> Result<f64, String> {
         let mut changes = law(DIAMETER, STIFFNESS, self.way);
         changes.push(format!("seed={seed}"));
         changes.push(format!("contact.rotation={}", self.rotation));
         changes.push(format!("materials.gravel.rolling-friction={}", self.rolling));
-        let mut rig = rig(SCENE, &changes, spoiler)?;
+        let mut rig = rig(SCENE, &changes, perturbation)?;
         rig.until(END)?;
         Ok(slope(&rig))
     }
 
     /// Slopes of several fillings [degrees], by seed.
-    fn slopes(&self, seeds: u32, spoiler: f64) -> Result<Vec<f64>, String> {
-        (1..=seeds).map(|seed| self.slope(seed, spoiler)).collect()
+    fn slopes(&self, seeds: u32, perturbation: f64) -> Result<Vec<f64>, String> {
+        (1..=seeds).map(|seed| self.slope(seed, perturbation)).collect()
     }
 }
 
@@ -89,12 +89,12 @@ fn slope(rig: &Rig) -> f64 {
 }
 
 /// B-F19: slopes with rotation locked and free; and what the paper's integration has to do with it.
-pub(in super::super) fn dam_break(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn dam_break(perturbation: f64) -> Result<Vec<Claim>, String> {
     let source = "about 33 degrees locked, 18 free (Osada 2004, figure 19)";
     let differs = "about 33 degrees (Osada 2004, figure 19); not what the law gives, see the README of the study";
-    let locked = Break::of(false).slopes(10, spoiler)?;
-    let free = Break::of(true).slopes(10, spoiler)?;
-    let forward = Break { way: Way { integrator: FORWARD, steps: 14 }, ..Break::of(false) }.slopes(10, spoiler)?;
+    let locked = Break::of(false).slopes(10, perturbation)?;
+    let free = Break::of(true).slopes(10, perturbation)?;
+    let forward = Break { way: Way { integrator: FORWARD, steps: 14 }, ..Break::of(false) }.slopes(10, perturbation)?;
     let gate = |what: &str, slopes: &[f64], wanted: f64, source: &str| {
         let name = format!("dam break, {what}: slope in degrees, median of ten");
         within(name, median(slopes), wanted, 4.0, source).showing(fillings(what, slopes, wanted))
@@ -108,7 +108,7 @@ pub(in super::super) fn dam_break(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// B-F23: what the rolling friction (B13) does to the slope.
-pub(in super::super) fn dam_break_rolling(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn dam_break_rolling(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     let mut slopes = Vec::new();
     let mut points = Points {
@@ -119,7 +119,7 @@ pub(in super::super) fn dam_break_rolling(spoiler: f64) -> Result<Vec<Claim>, St
         ..Points::default()
     };
     for rolling in [0.0, 0.25, 0.5, 1.0] {
-        let found = median(&Break { rolling, ..Break::of(true) }.slopes(5, spoiler)?);
+        let found = median(&Break { rolling, ..Break::of(true) }.slopes(5, perturbation)?);
         points.found.push([rolling, found]);
         slopes.push(found);
     }

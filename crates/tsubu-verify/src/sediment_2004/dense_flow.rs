@@ -38,9 +38,9 @@ struct Flow {
 }
 
 /// The flow of the scene with some keys changed.
-fn flow(changes: &[&str], spoiler: f64) -> Result<Flow, String> {
+fn flow(changes: &[&str], perturbation: f64) -> Result<Flow, String> {
     let changes: Vec<String> = changes.iter().map(|c| (*c).to_owned()).collect();
-    let mut rig = rig(SCENE, &changes, spoiler)?;
+    let mut rig = rig(SCENE, &changes, perturbation)?;
     rig.until(FROM)?;
     let (mut count, mut sum) = ([0.0; LAYERS], [0.0; LAYERS]);
     let mut places: Vec<Vec<DVec3>> = Vec::new();
@@ -101,7 +101,7 @@ fn takahashi(slope: f64, friction: f64) -> f64 {
 }
 
 /// B-F17: the paper's stream, which grains do not slow, and one that digs into its bed and is slowed.
-pub(in super::super) fn dense_flow(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn dense_flow(perturbation: f64) -> Result<Vec<Claim>, String> {
     let upper = |value: f64, what: &str| {
         let source = "concentration near the surface about 0.3 (Osada 2004, figure 17)";
         within(format!("dense flow, {what}: solid fraction in the upper third"), value, 0.3, 0.1, source)
@@ -117,11 +117,11 @@ pub(in super::super) fn dense_flow(spoiler: f64) -> Result<Vec<Claim>, String> {
             "water.flow={log-law={depth='1.48 cm',zero-level='1.635 mm'}}",
             "water.hindrance={none={}}",
         ],
-        spoiler,
+        perturbation,
     )?;
-    let coupled = flow(&[], spoiler)?;
-    let turbulent = flow(&[TURBULENT], spoiler)?;
-    let gentle = flow(&["slope='2 deg'", TURBULENT], spoiler)?;
+    let coupled = flow(&[], perturbation)?;
+    let turbulent = flow(&[TURBULENT], perturbation)?;
+    let gentle = flow(&["slope='2 deg'", TURBULENT], perturbation)?;
     let source = "depth of the flume test, 1.48 cm (Osada 2004)";
     let deep = |value: f64, what: &str| within(format!("dense flow, {what}: depth m"), value, 0.0148, 0.003, source);
     let equal = |value: f64, what: &str, friction: f64| {

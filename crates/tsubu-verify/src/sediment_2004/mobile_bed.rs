@@ -22,9 +22,9 @@ struct Bed {
 }
 
 /// The bed on a slope [degrees].
-fn bed(slope: f64, rotation: bool, spoiler: f64) -> Result<Bed, String> {
+fn bed(slope: f64, rotation: bool, perturbation: f64) -> Result<Bed, String> {
     let changes = [format!("slope='{slope} deg'"), format!("contact.rotation={rotation}")];
-    let mut rig = rig(SCENE, &changes, spoiler)?;
+    let mut rig = rig(SCENE, &changes, perturbation)?;
     rig.until(FROM)?;
     let (mut moving, mut free, mut apart) = (0, 0, Vec::new());
     let looks = ((UNTIL - FROM) / PAUSE).round() as usize;
@@ -45,7 +45,7 @@ fn bed(slope: f64, rotation: bool, spoiler: f64) -> Result<Bed, String> {
 }
 
 /// B-F22: the slope at which the bed begins to move, locked and free, and how rows of locked grains move above it.
-pub(in super::super) fn mobile_bed(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn mobile_bed(perturbation: f64) -> Result<Vec<Claim>, String> {
     let source = "grains that do not turn cannot climb over one another (Osada 2004, figure 22)";
     let lies = |bed: &Bed, what: &str| {
         let name = format!("mobile bed, {what}: share of grains that move");
@@ -61,10 +61,10 @@ pub(in super::super) fn mobile_bed(spoiler: f64) -> Result<Vec<Claim>, String> {
         let name = "mobile bed: difference of velocity of grains that touch and move, locked over free";
         Claim::judge(name, locked / free, None, Some(0.7), source)
     };
-    let (locked, free) = (bed(2.8624, false, spoiler)?, bed(2.8624, true, spoiler)?);
-    let steeper = bed(4.0, false, spoiler)?;
-    let steep = bed(STEEP, false, spoiler)?;
-    let gentle = bed(1.5, true, spoiler)?;
+    let (locked, free) = (bed(2.8624, false, perturbation)?, bed(2.8624, true, perturbation)?);
+    let steeper = bed(4.0, false, perturbation)?;
+    let steep = bed(STEEP, false, perturbation)?;
+    let gentle = bed(1.5, true, perturbation)?;
     Ok(vec![
         lies(&locked, "rotation locked, 1 in 20"),
         lies(&steeper, "rotation locked, 4 degrees"),

@@ -72,7 +72,7 @@ fn law(diameter: f64, stiffness: f64, way: Way) -> Vec<String> {
 }
 
 /// A scene of the study with some keys changed, at time 0.
-fn rig(text: &str, changes: &[String], spoiler: f64) -> Result<Rig, String> {
+fn rig(text: &str, changes: &[String], perturbation: f64) -> Result<Rig, String> {
     let scene = Scene::parse("study scene", text, Path::new("."), changes).map_err(|c| c.to_string())?;
-    Rig::of(scene.plan().clone(), spoiler)
+    Rig::of(scene.plan().clone(), perturbation)
 }

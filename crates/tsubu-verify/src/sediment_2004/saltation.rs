@@ -40,13 +40,13 @@ fn contact_seconds(mass: f64, stiffness: f64) -> f64 {
 }
 
 /// Lets the grain leap `hops` times after the begin; contacts of stiffness [N/m].
-fn leaps(stiffness: f64, changes: &[&str], hops: usize, spoiler: f64) -> Result<Leaps, String> {
+fn leaps(stiffness: f64, changes: &[&str], hops: usize, perturbation: f64) -> Result<Leaps, String> {
     let text = include_str!("../../../../studies/sediment-2004/saltation.toml");
     let dt = contact_seconds(MASS, stiffness) / STEPS;
     let mut all = vec![format!("contact.normal.hooke.stiffness={stiffness}"), format!("dem.time-step={dt:e}")];
     all.extend(changes.iter().map(|c| (*c).to_owned()));
     let scene = Scene::parse("saltation", text, Path::new("."), &all).map_err(|c| c.to_string())?;
-    let mut rig = Rig::of(scene.plan().clone(), spoiler)?;
+    let mut rig = Rig::of(scene.plan().clone(), perturbation)?;
     rig.until(DISCARD)?;
     let look = |rig: &Rig| {
         let view = rig.engine.view(Wants { spins: true, ..Wants::GRAINS });
@@ -123,13 +123,13 @@ fn contact_claim(stiffness: f64, found: &Leaps) -> Claim {
 }
 
 /// B-F6, B-F7: contact times follow the stiffness, hops do not while grains overlap little; published hops.
-pub(in super::super) fn saltation(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn saltation(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     for stiffness in [1e3, 1e5] {
-        claims.push(contact_claim(stiffness, &leaps(stiffness, LOCKED, HOPS, spoiler)?));
+        claims.push(contact_claim(stiffness, &leaps(stiffness, LOCKED, HOPS, perturbation)?));
     }
-    let soft = leaps(1e2, LOCKED, MANY, spoiler)?;
-    let (paper, stiff) = (leaps(1e4, LOCKED, MANY, spoiler)?, leaps(1e5, LOCKED, MANY, spoiler)?);
+    let soft = leaps(1e2, LOCKED, MANY, perturbation)?;
+    let (paper, stiff) = (leaps(1e4, LOCKED, MANY, perturbation)?, leaps(1e5, LOCKED, MANY, perturbation)?);
     claims.push(contact_claim(1e4, &paper));
     let source = "Osada et al. 2004: what counts is the impulse";
     let same = |what: &str, a: f64, b: f64| {
@@ -156,8 +156,8 @@ pub(in super::super) fn saltation(spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// B-F6 at its softest: in a contact of 1 ms the grain goes on by half a diameter, so that the bed's grain lets it go early.
-pub(in super::super) fn softest(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let found = leaps(100.0, LOCKED, MANY, spoiler)?;
+pub(in super::super) fn softest(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let found = leaps(100.0, LOCKED, MANY, perturbation)?;
     let source = "why the contact ends early";
     let moved = found.contact * found.speed / D;
     Ok(vec![
@@ -174,8 +174,8 @@ pub(in super::super) fn softest(spoiler: f64) -> Result<Vec<Claim>, String> {
 
 /// B-F20, B-F21: free to spin, grains leap higher and farther, friction holds them half as much, and they spin up to what rolling
 /// would have; the torque of the water, which the paper leaves out, takes most of the spin away.
-pub(in super::super) fn spinning(spoiler: f64) -> Result<Vec<Claim>, String> {
-    let run = |changes: &[&str]| leaps(1e4, changes, MANY, spoiler);
+pub(in super::super) fn spinning(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let run = |changes: &[&str]| leaps(1e4, changes, MANY, perturbation);
     let (locked, free, wet) = (run(LOCKED)?, run(FREE)?, run(IN_WATER)?);
     let source = "Osada et al. 2004, figures 20 and 21";
     let more = |what: &str, a: f64, b: f64| {

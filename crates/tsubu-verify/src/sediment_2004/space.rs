@@ -7,9 +7,9 @@ use tsubu_frame::Claim;
 use tsubu_scene::TEMPLATES;
 
 /// A scene of the program with some keys changed, at time 0.
-fn template(name: &str, changes: &[&str], spoiler: f64) -> Result<Rig, String> {
+fn template(name: &str, changes: &[&str], perturbation: f64) -> Result<Rig, String> {
     let text = TEMPLATES.iter().find(|template| template.name == name).map_or("", |template| template.text);
-    rig(text, &changes.iter().map(|change| (*change).to_owned()).collect::<Vec<_>>(), spoiler)
+    rig(text, &changes.iter().map(|change| (*change).to_owned()).collect::<Vec<_>>(), perturbation)
 }
 
 /// A watch of the scene.
@@ -25,8 +25,8 @@ fn number(rig: &Rig, watch: &mut dyn Watch, name: &str) -> f64 {
 }
 
 /// Means over the hops after the first half second: height and length [m], velocity along the bed [m/s], contact time [s].
-fn hops(changes: &[&str], spoiler: f64) -> Result<[f64; 4], String> {
-    let mut rig = template("saltation-space", changes, spoiler)?;
+fn hops(changes: &[&str], perturbation: f64) -> Result<[f64; 4], String> {
+    let mut rig = template("saltation-space", changes, perturbation)?;
     let mut hops = watch(&rig, "hops");
     let mut load = watch(&rig, "grains");
     rig.until(rig.plan.watch["hops"].from)?;
@@ -45,7 +45,7 @@ fn hops(changes: &[&str], spoiler: f64) -> Result<[f64; 4], String> {
 }
 
 /// V-58 in space: hops as high, long and fast as measured ones, to a factor of 2; contact times as in figure 6.
-pub(in super::super) fn saltation_space(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn saltation_space(perturbation: f64) -> Result<Vec<Claim>, String> {
     const D: f64 = 2e-3;
     let gates = |found: [f64; 4]| {
         let wanted = [
@@ -59,20 +59,20 @@ pub(in super::super) fn saltation_space(spoiler: f64) -> Result<Vec<Claim>, Stri
             Claim::judge(name, value, Some(0.5 * wanted), Some(2.0 * wanted), source)
         })
     };
-    let found = hops(&[], spoiler)?;
+    let found = hops(&[], perturbation)?;
     let mut claims = gates(found).to_vec();
     let name = "leaping grains in space: contact time over pi sqrt(m/k)";
     let source = "Osada et al. 2004, figure 6 and (B8): general agreement";
     claims.push(near(name, found[3] / contact_seconds(D, 1e4), 1.0, 0.1, source));
     let faster = ["water.flow.log-law={shear-velocity=0.2,roughness=0.002,zero-level=-0.0005}", "water.surface=0.0195"];
-    claims.push(refused("a stream twice as fast", &gates(hops(&faster, spoiler)?), 2));
+    claims.push(refused("a stream twice as fast", &gates(hops(&faster, perturbation)?), 2));
     Ok(claims)
 }
 
 /// Height of a bed of so many grains when its gate vanishes, and how far 99 % of its mass have come out in the end [m].
-fn run_out(count: u32, changes: &[&str], spoiler: f64) -> Result<[f64; 2], String> {
+fn run_out(count: u32, changes: &[&str], perturbation: f64) -> Result<[f64; 2], String> {
     let count = format!("particles.gravel.count={count}");
-    let mut rig = template("dam-break-space", &[&[count.as_str()], changes].concat(), spoiler)?;
+    let mut rig = template("dam-break-space", &[&[count.as_str()], changes].concat(), perturbation)?;
     rig.until(0.29)?;
     let mut surface = watch(&rig, "surface");
     let height = number(&rig, &mut *surface, "surface height");
@@ -82,7 +82,7 @@ fn run_out(count: u32, changes: &[&str], spoiler: f64) -> Result<[f64; 2], Strin
 }
 
 /// Run-out of a dam break in space: in proportion to the height before, and how far.
-pub(in super::super) fn dam_break_space(spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn dam_break_space(perturbation: f64) -> Result<Vec<Claim>, String> {
     let gates = |low: [f64; 2], high: [f64; 2]| {
         let power = (high[1] / low[1]).ln() / (high[0] / low[0]).ln();
         [
@@ -102,9 +102,9 @@ pub(in super::super) fn dam_break_space(spoiler: f64) -> Result<Vec<Claim>, Stri
             ),
         ]
     };
-    let mut claims = gates(run_out(1200, &[], spoiler)?, run_out(1800, &[], spoiler)?).to_vec();
+    let mut claims = gates(run_out(1200, &[], perturbation)?, run_out(1800, &[], perturbation)?).to_vec();
     let locked = ["contact.rotation=false", "contact.rolling={none={}}"];
-    let wrong = gates(run_out(1200, &locked, spoiler)?, run_out(1800, &locked, spoiler)?);
+    let wrong = gates(run_out(1200, &locked, perturbation)?, run_out(1800, &locked, perturbation)?);
     claims.push(refused("grains that cannot turn", &wrong, 2));
     Ok(claims)
 }

@@ -78,7 +78,7 @@ impl Bench {
             let plan = plan();
             let hosts = Hosts::default();
             let engine = engine::open(&plan, &hosts).map_err(|error| BenchError::Work { work, error })?;
-            let ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+            let ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
             let mut job = Job { work, engine, hosts, ledger, watcher };
             let share = seconds / work::ALL.len() as f64;
             let all = threads(cores);

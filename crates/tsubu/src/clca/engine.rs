@@ -13,7 +13,7 @@ use crate::engine::{Engine, Fault, Note, Refusal};
 use crate::lattice::direction::{Direction, Vector};
 use crate::lattice::grid::{EMPTY, WALL};
 use crate::lattice::stage::Stage;
-use crate::ledger::{Account, Ledger, Stocks};
+use crate::ledger::{Account, Energies, Ledger};
 use crate::motion::value_and_rate;
 use crate::partner::Hosts;
 use crate::random::Purpose;
@@ -321,10 +321,10 @@ impl Engine for ClCaEngine {
         Ok(())
     }
 
-    fn grain_stocks(&self) -> Stocks {
+    fn grain_energies(&self) -> Energies {
         let free = self.bed.present().filter(|&grain| self.bed.kind(grain).free);
         let moment: f64 = free.map(|grain| self.bed.kind(grain).mass * self.position(grain).z).sum();
-        Stocks { kinetic: self.kinetic(), potential: self.gravity * moment, ..Stocks::default() }
+        Energies { kinetic: self.kinetic(), potential: self.gravity * moment, ..Energies::default() }
     }
 
     fn momentum(&self) -> [f64; 3] {
@@ -375,7 +375,7 @@ impl Engine for ClCaEngine {
         let inverse = |grain: usize| if self.bed.kind(grain).free { 1.0 / self.bed.kind(grain).mass } else { 0.0 };
         let grains = Columns {
             position: vectors(&|grain| self.position(grain)).into(),
-            wrapped: vec![DVec3::ZERO; n].into(),
+            unwrap_offset: vec![DVec3::ZERO; n].into(),
             velocity: vectors(&|grain| self.velocity(grain)).into(),
             spin: vec![DVec3::ZERO; n].into(),
             radius: real(&|grain| self.radius(grain)).into(),

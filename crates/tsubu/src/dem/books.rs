@@ -4,9 +4,11 @@ use super::contact_forces::{ContactForces, ContactLosses};
 use super::engine::DemEngine;
 use super::immersion::Immersion;
 use crate::ledger::{Account, Ledger};
+use crate::state::named::Named;
 use crate::view::WallLoad;
 use crate::water::WaterPowers;
 use glam::DVec3;
+use std::slice::from_mut;
 
 /// Powers and forces at a time level.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,6 +20,29 @@ pub(super) struct Powers {
     /// Force of walls and of fixed grains on the others [N].
     pub wall_force: DVec3,
     pub water: WaterPowers,
+}
+
+impl Powers {
+    /// Everything, each under its name, for a checkpoint.
+    pub fn named(&mut self) -> Named<'_> {
+        let Self { lost, walls, wall_force, water } = self;
+        let WaterPowers { pressure, carried, stream, spin_work, fluctuation, lost: drag, held, force } = water;
+        vec![
+            ("normal damping", from_mut(&mut lost.normal)),
+            ("sliding", from_mut(&mut lost.sliding)),
+            ("rolling", from_mut(&mut lost.rolling)),
+            ("walls", from_mut(walls)),
+            ("wall force", wall_force.as_mut()),
+            ("water pressure", from_mut(pressure)),
+            ("water pressure on stream", from_mut(carried)),
+            ("water stream", from_mut(stream)),
+            ("water spin", from_mut(spin_work)),
+            ("water fluctuation", from_mut(fluctuation)),
+            ("water drag", from_mut(drag)),
+            ("water on held grains", from_mut(held)),
+            ("water force", force.as_mut()),
+        ]
+    }
 }
 
 /// What the ledger needs from step to step.

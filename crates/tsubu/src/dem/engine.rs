@@ -11,7 +11,7 @@ use super::sources::Sources;
 use crate::check;
 use crate::contact::Table;
 use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
-use crate::ledger::{Ledger, Stocks};
+use crate::ledger::{Energies, Ledger};
 use crate::neighbours::lists::{BLOCK, shares};
 use crate::neighbours::{NeighbourLists, Search};
 use crate::partner::Hosts;
@@ -239,10 +239,10 @@ impl Engine for DemEngine {
         if shares(grains) > 1 { awake(grains.div_ceil(BLOCK), go) } else { go() }
     }
 
-    fn grain_stocks(&self) -> Stocks {
+    fn grain_energies(&self) -> Energies {
         let walls: f64 = self.walls.iter().map(|w| w.energy().0 + w.energy().1).sum();
         let stream = self.immersion.as_ref().map_or(0.0, Immersion::stream_energy);
-        Stocks { elastic: self.contacts.sums.stored, walls, stream, ..self.grains.stocks(self.integration.gravity) }
+        Energies { elastic: self.contacts.sums.stored, walls, stream, ..self.grains.energies(self.integration.gravity) }
     }
 
     fn momentum(&self) -> [f64; 3] {

@@ -15,13 +15,13 @@ impl DemEngine {
     /// do not change.
     pub(super) fn open_gates(&mut self, ledger: &mut Ledger) {
         let history = self.snapshot_history();
-        let before = self.grain_stocks().total();
+        let before = self.grain_energies().total();
         self.place_gates();
         self.rebuild_neighbours_with(history);
         // What the springs of those contacts held is in the difference below.
         self.contacts.released = 0.0;
         self.evaluate_at_rest();
-        ledger.post(Account::Gates, self.grain_stocks().total() - before);
+        ledger.post(Account::Gates, self.grain_energies().total() - before);
     }
 
     /// Lets every wall be there or not, as the time of this step wants.

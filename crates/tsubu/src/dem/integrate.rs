@@ -46,7 +46,7 @@ struct Slice<'a> {
     velocity: &'a mut [DVec3],
     acceleration: &'a mut [DVec3],
     spin: &'a mut [DVec3],
-    spin_rate: &'a mut [DVec3],
+    angular_acceleration: &'a mut [DVec3],
     inverse_mass: &'a [f64],
     inertia: &'a [f64],
     reference: &'a [DVec3],
@@ -64,7 +64,7 @@ impl<'a> Slice<'a> {
             velocity: &mut grains.velocity,
             acceleration: &mut grains.acceleration,
             spin: &mut grains.spin,
-            spin_rate: &mut grains.spin_rate,
+            angular_acceleration: &mut grains.angular_acceleration,
             inverse_mass: &grains.inverse_mass,
             inertia: &grains.inertia,
             reference: &neighbours.reference,
@@ -86,7 +86,7 @@ impl BlockRange for Slice<'_> {
         let (velocity, velocities) = self.velocity.split_at_mut(grains);
         let (acceleration, accelerations) = self.acceleration.split_at_mut(grains);
         let (spin, spins) = self.spin.split_at_mut(grains);
-        let (spin_rate, spin_rates) = self.spin_rate.split_at_mut(grains);
+        let (angular_acceleration, angular_accelerations) = self.angular_acceleration.split_at_mut(grains);
         let (inverse_mass, inverse_masses) = self.inverse_mass.split_at(grains);
         let (inertia, inertias) = self.inertia.split_at(grains);
         let (reference, references) = self.reference.split_at(grains);
@@ -98,7 +98,7 @@ impl BlockRange for Slice<'_> {
             velocity,
             acceleration,
             spin,
-            spin_rate,
+            angular_acceleration,
             inverse_mass,
             inertia,
             reference,
@@ -111,7 +111,7 @@ impl BlockRange for Slice<'_> {
             velocity: velocities,
             acceleration: accelerations,
             spin: spins,
-            spin_rate: spin_rates,
+            angular_acceleration: angular_accelerations,
             inverse_mass: inverse_masses,
             inertia: inertias,
             reference: references,
@@ -205,7 +205,7 @@ fn drift_on(s: &mut Slice, offset: DVec3, motion: &Motion) -> (DVec3, f64) {
         sum += away;
     }
     if motion.rotation {
-        for (spin, rate) in s.spin.iter_mut().zip(&*s.spin_rate) {
+        for (spin, rate) in s.spin.iter_mut().zip(&*s.angular_acceleration) {
             *spin += *rate * dt;
         }
     }
@@ -247,8 +247,8 @@ fn second_half(s: &mut Slice, contacts: &[BlockContacts], motion: &Motion) -> Re
         report.correction += load.dissipative.as_dvec3().dot(change);
         if motion.rotation {
             let rate = load.torque * (1.0 / s.inertia[i]);
-            let change = (rate - s.spin_rate[i]) * share;
-            s.spin_rate[i] = rate;
+            let change = (rate - s.angular_acceleration[i]) * share;
+            s.angular_acceleration[i] = rate;
             s.spin[i] += change;
             report.correction += load.torque.dot(change);
         }

@@ -52,7 +52,7 @@ impl DemEngine {
         if turned.len() < ids {
             turned.resize(ids, DQuat::IDENTITY);
         }
-        for ((id, spin), rate) in grains.id.iter().zip(&grains.spin).zip(&grains.spin_rate) {
+        for ((id, spin), rate) in grains.id.iter().zip(&grains.spin).zip(&grains.angular_acceleration) {
             let spin: DVec3 = *spin - *rate * (0.5 * self.clock.dt);
             let q = &mut turned[*id as usize];
             *q = (DQuat::from_scaled_axis(spin * self.clock.dt) * *q).normalize();

@@ -1,13 +1,10 @@
 //! What the engine shows and what it saves.
 
-use super::books::Powers;
-use super::contact_forces::ContactLosses;
 use super::engine::DemEngine;
 use super::history_transfer::{ContactId, HistorySnapshot};
 use crate::partner::Hosts;
-use crate::state::Grains;
+use crate::state::{Grains, named};
 use crate::view::{Columns, Contact, Contacts, View, Wants};
-use crate::water::WaterPowers;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use tsubu_frame::state::MissingSection;
@@ -84,7 +81,7 @@ impl DemEngine {
         let g = &self.grains;
         let grains = Columns {
             position: (&g.position).into(),
-            wrapped: (&g.wrapped).into(),
+            unwrap_offset: (&g.unwrap_offset).into(),
             velocity: (&g.velocity).into(),
             spin: (&g.spin).into(),
             radius: (&g.radius).into(),
@@ -113,14 +110,8 @@ impl DemEngine {
         state.put_real("dem.moved-mass", vec![self.books.moved_mass]);
         self.orientation.save(state);
         state.put_integer("dem.streams", self.sources.counts());
-        let Powers { lost, walls, wall_force, water } = self.books.last;
-        let mut reals = vec![lost.normal, lost.sliding, lost.rolling, walls];
-        reals.extend(wall_force.to_array());
-        reals.push(self.contacts.sums.stored);
-        reals.extend([water.stream, water.spin_work, water.pressure, water.carried, water.fluctuation, water.lost]);
-        reals.push(water.held);
-        reals.extend(water.force.to_array());
-        state.put_real("dem.flows", reals);
+        named::save("dem.powers", self.books.last.clone().named(), state);
+        state.put_real("dem.stored", vec![self.contacts.sums.stored]);
         let flat = |v: &[DVec3]| v.iter().flat_map(DVec3::to_array).collect::<Vec<_>>();
         state.put_real("dem.reference", flat(&self.neighbours.reference));
         let places = self.neighbours.wall_reference.iter().flat_map(crate::wall::Pose::place);
@@ -161,21 +152,9 @@ impl DemEngine {
         self.place_gates();
         self.orientation.load(state)?;
         self.sources.set_counts(state.integer("dem.streams")?);
-        let flows = state.real("dem.flows")?;
-        if flows.len() != 18 {
-            return Err(missing("dem.flows"));
-        }
-        let losses = ContactLosses { normal: flows[0], sliding: flows[1], rolling: flows[2] };
-        self.contacts.sums.stored = flows[7];
-        let [stream, spin_work, pressure, carried, fluctuation, lost, held] =
-            [8, 9, 10, 11, 12, 13, 14].map(|k| flows[k]);
-        let force = DVec3::from_slice(&flows[15..]);
-        self.books.last = Powers {
-            lost: losses,
-            walls: flows[3],
-            wall_force: DVec3::from_slice(&flows[4..7]),
-            water: WaterPowers { pressure, carried, stream, spin_work, fluctuation, lost, held, force },
-        };
+        named::load("dem.powers", self.books.last.named(), state)?;
+        let &[stored] = state.real("dem.stored")? else { return Err(missing("dem.stored")) };
+        self.contacts.sums.stored = stored;
         let reference = state.real("dem.reference")?;
         let places = state.real("dem.wall-reference")?;
         if reference.len() != 3 * self.grains.len() || places.len() != 7 * self.walls.len() {

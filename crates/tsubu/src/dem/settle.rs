@@ -37,8 +37,8 @@ impl DemEngine {
         while self.clock.time() < time && self.clock.step < MOST_STEPS && result.is_ok() && !at_rest {
             let steps = block.min(MOST_STEPS - self.clock.step);
             result = self.advance(steps, &mut hosts, &mut ledger);
-            let stocks = self.grain_stocks();
-            left = stocks.kinetic + stocks.rotational;
+            let energies = self.grain_energies();
+            left = energies.kinetic + energies.rotational;
             // Shortly after they are let go all grains are slow.
             at_rest = left <= AT_REST * fall && steps == block;
         }

@@ -171,7 +171,7 @@ impl DemEngine {
             return;
         }
         let history = self.snapshot_history();
-        let before = self.books();
+        let before = self.energy_and_momentum();
         self.grains.permute(&order);
         for grain in arrivals {
             self.grains.push(grain);
@@ -184,15 +184,15 @@ impl DemEngine {
         if some_go {
             self.evaluate_at_rest();
         }
-        let after = self.books();
+        let after = self.energy_and_momentum();
         ledger.post(Account::Exchange, after.0 - before.0);
         for (axis, impulse) in ledger.exchange_impulse.iter_mut().enumerate() {
             *impulse += after.1[axis] - before.1[axis];
         }
     }
 
-    fn books(&self) -> (f64, DVec3) {
-        (self.grain_stocks().total(), self.grains.momentum())
+    fn energy_and_momentum(&self) -> (f64, DVec3) {
+        (self.grain_energies().total(), self.grains.momentum())
     }
 
     /// The grains that come now.

@@ -10,7 +10,7 @@ use super::direction::{Direction, Vector};
 use super::grid::COLUMN_SPACING;
 use super::start::Geometry;
 use crate::engine::{Engine, Fault, Note, Refusal};
-use crate::ledger::{Account, Ledger, Stocks};
+use crate::ledger::{Account, Energies, Ledger};
 use crate::partner::Hosts;
 use crate::view::{Columns, View, Wants};
 use crate::wall::Mover;
@@ -196,13 +196,13 @@ impl Engine for LatticeEngine {
         Ok(())
     }
 
-    fn grain_stocks(&self) -> Stocks {
+    fn grain_energies(&self) -> Energies {
         // Potential energy counts from z = 0, the automaton's from the centre of the lowest cell.
         let lowest = self.geometry.floor_centre[2] + 0.5 * self.geometry.spacing;
-        Stocks {
+        Energies {
             kinetic: self.energy_unit * self.damper.kinetic() as f64,
             potential: self.energy_unit * self.damper.potential() as f64 - self.weight_impulse / self.dt * lowest,
-            ..Stocks::default()
+            ..Energies::default()
         }
     }
 
@@ -243,7 +243,7 @@ impl Engine for LatticeEngine {
         let vectors = |of: &dyn Fn(usize) -> [f64; 3]| (0..n).map(|i| DVec3::from_array(of(i))).collect::<Vec<_>>();
         let grains = Columns {
             position: vectors(&|i| self.position(i)).into(),
-            wrapped: vec![DVec3::ZERO; n].into(),
+            unwrap_offset: vec![DVec3::ZERO; n].into(),
             velocity: vectors(&|i| self.velocity(i)).into(),
             spin: vec![DVec3::ZERO; n].into(),
             radius: vec![self.radius; n].into(),

@@ -164,7 +164,7 @@ impl NeighbourLists {
                 let periods = ((x - low) / (high - low)).floor();
                 if periods != 0.0 {
                     grains.position[i][axis] = x - periods * (high - low);
-                    grains.wrapped[i][axis] += periods * (high - low);
+                    grains.unwrap_offset[i][axis] += periods * (high - low);
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! Grains as columns.
 
 use super::columns::columns;
-use crate::ledger::Stocks;
+use crate::ledger::Energies;
 use glam::DVec3;
 
 columns! {
@@ -17,9 +17,9 @@ columns! {
         /// Spin [rad/s].
         spin: DVec3,
         /// Rate of spin at the last time level [rad/s^2].
-        spin_rate: DVec3,
+        angular_acceleration: DVec3,
         /// What periodic boundaries have taken from the position so far [m].
-        wrapped: DVec3,
+        unwrap_offset: DVec3,
         /// Radius [m].
         radius: f64,
         /// Mass [kg].
@@ -49,19 +49,19 @@ impl Grains {
     }
 
     /// Kinetic, rotational and potential energy under `gravity` [m/s^2] of the grains that forces move.
-    pub fn stocks(&self, gravity: DVec3) -> Stocks {
-        let mut stocks = Stocks::default();
+    pub fn energies(&self, gravity: DVec3) -> Energies {
+        let mut energies = Energies::default();
         for i in 0..self.len() {
             if self.inverse_mass[i] == 0.0 {
                 continue;
             }
             let squared = self.velocity[i].length_squared();
-            stocks.kinetic += 0.5 * self.mass[i] * squared;
-            stocks.added_mass += 0.5 * self.added_mass(i) * squared;
-            stocks.rotational += 0.5 * self.inertia[i] * self.spin[i].length_squared();
-            stocks.potential -= self.mass[i] * gravity.dot(self.position[i] + self.wrapped[i]);
+            energies.kinetic += 0.5 * self.mass[i] * squared;
+            energies.added_mass += 0.5 * self.added_mass(i) * squared;
+            energies.rotational += 0.5 * self.inertia[i] * self.spin[i].length_squared();
+            energies.potential -= self.mass[i] * gravity.dot(self.position[i] + self.unwrap_offset[i]);
         }
-        stocks
+        energies
     }
 
     /// Mass of the water that moves along with a grain that forces move [kg]; without water an exact zero.
@@ -77,10 +77,10 @@ impl Grains {
         moved.map(|i| (self.mass[i] + self.added_mass(i)) * self.velocity[i]).sum()
     }
 
-    /// Centre of mass of the grains that forces move, as if nothing had been wrapped [m]; zero where there are none.
+    /// Centre of mass of the grains that forces move, unwrapped [m]; zero where there are none.
     pub fn centre_of_mass(&self) -> DVec3 {
         let moved = (0..self.len()).filter(|&i| self.inverse_mass[i] != 0.0);
-        let sum: DVec3 = moved.map(|i| self.mass[i] * (self.position[i] + self.wrapped[i])).sum();
+        let sum: DVec3 = moved.map(|i| self.mass[i] * (self.position[i] + self.unwrap_offset[i])).sum();
         let mass = self.moved_mass();
         if mass > 0.0 { sum / mass } else { DVec3::ZERO }
     }

@@ -2,6 +2,7 @@
 
 pub mod columns;
 pub mod grains;
+pub mod named;
 pub mod sphere;
 
 pub use grains::{Grain, Grains};

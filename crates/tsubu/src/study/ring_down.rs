@@ -20,7 +20,7 @@ pub struct Cycle {
 pub fn ring_down(plan: &Plan, rest: f64) -> Result<Vec<Cycle>, OpenError> {
     let mut hosts = Hosts::new(&plan.hosts);
     let mut engine = engine::open(plan, &hosts)?;
-    let mut ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+    let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let lost = |ledger: &Ledger| -> f64 { Account::ALL.iter().filter(|a| !a.is_work()).map(|&a| ledger.flow(a)).sum() };
     let mut cycles = Vec::new();
     let (mut amplitude, mut begin): (f64, Option<(f64, f64)>) = (0.0, None);

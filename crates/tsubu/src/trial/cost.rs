@@ -26,7 +26,7 @@ fn worked(begun: Instant) -> f64 {
 
 /// Steps an engine for a moment, `total` steps at most; gives seconds of work a step.
 pub(super) fn trial(engine: &mut dyn Engine, hosts: &mut Hosts, total: f64) -> Result<f64, Fault> {
-    let mut ledger = Ledger::open(engine::stocks(engine, hosts), engine.momentum());
+    let mut ledger = Ledger::open(engine::energies(engine, hosts), engine.momentum());
     alone(|| go(engine, hosts, &mut ledger, total, TRIAL))
 }
 
@@ -74,7 +74,7 @@ pub(super) fn of_a_bed(plan: &Plan) -> Option<f64> {
     let hosts = &mut Hosts::default();
     let mut engine = engine::open(&piece, hosts).ok()?;
     let grains = engine.grains();
-    let mut ledger = Ledger::open(engine::stocks(&*engine, hosts), engine.momentum());
+    let mut ledger = Ledger::open(engine::energies(&*engine, hosts), engine.momentum());
     let cost = alone(|| go(&mut *engine, hosts, &mut ledger, f64::INFINITY, BED)).ok()?;
     (count > 0 && grains > 0).then(|| cost / grains as f64 * count as f64)
 }

@@ -55,7 +55,7 @@ impl Run {
         let scene = Scene::parse("test", text, Path::new("."), changes).unwrap();
         let hosts = Hosts::default();
         let engine = ClCaEngine::new(scene.plan(), &hosts).unwrap();
-        let ledger = Ledger::open(engine::stocks(&engine, &hosts), engine.momentum());
+        let ledger = Ledger::open(engine::energies(&engine, &hosts), engine.momentum());
         Self { engine, hosts, ledger }
     }
 
@@ -72,7 +72,7 @@ impl Run {
 
     pub fn residual(&self) -> f64 {
         let momentum = self.ledger.momentum_residual(self.engine.momentum());
-        let energy = self.ledger.residual_relative(&engine::stocks(&self.engine, &self.hosts));
+        let energy = self.ledger.residual_relative(&engine::energies(&self.engine, &self.hosts));
         energy.abs().max(momentum.iter().fold(0.0, |m, p| p.abs().max(m)))
     }
 

@@ -10,7 +10,7 @@ fn residual(changes: &[&str], seconds: f64) -> f64 {
     let (mut engine, mut hosts, mut ledger) = open("damper", changes);
     let steps = (seconds / engine.time_step()) as u64;
     engine.advance(steps, &mut hosts, &mut ledger).unwrap();
-    ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs()
+    ledger.residual_relative(&engine::energies(&*engine, &hosts)).abs()
 }
 
 /// 50 balls thrown by the box: below 1e-3 at the default step and at least as dt^2 when it is halved.
@@ -68,7 +68,7 @@ tangential.none = {}
 fn elastic_gas_keeps_its_energy() {
     let drift = |steps: &str| {
         let (mut engine, mut hosts, mut ledger) = open_text(GAS, &[&format!("dem.steps-per-contact={steps}")]);
-        let opening = engine::stocks(&*engine, &hosts).total();
+        let opening = engine::energies(&*engine, &hosts).total();
         let (mut contacts, mut before) = (0, 0);
         while contacts < 1000 {
             engine.advance(1, &mut hosts, &mut ledger).unwrap();
@@ -78,7 +78,7 @@ fn elastic_gas_keeps_its_energy() {
         while engine.contacts() > 0 {
             engine.advance(1, &mut hosts, &mut ledger).unwrap();
         }
-        (engine::stocks(&*engine, &hosts).total() / opening - 1.0).abs()
+        (engine::energies(&*engine, &hosts).total() / opening - 1.0).abs()
     };
     let fine = drift("640");
     assert!(fine < 1e-6, "{fine:e}");

@@ -41,14 +41,14 @@ fn a_grain_takes_along_what_its_contacts_hold() {
     assert_eq!(engine.grains(), 2);
     let mut elastic = 0.0;
     while engine.grains() == 2 {
-        elastic = engine.grain_stocks().elastic;
+        elastic = engine.grain_energies().elastic;
         engine.advance(1, &mut hosts, &mut ledger).unwrap();
         assert!(engine.time() < 1e-3);
     }
     engine.advance(100, &mut hosts, &mut ledger).unwrap();
-    assert_eq!(engine.grain_stocks().elastic, 0.0);
-    let stocks = engine::stocks(&*engine, &hosts);
-    let residual = ledger.residual(&stocks).abs();
+    assert_eq!(engine.grain_energies().elastic, 0.0);
+    let energies = engine::energies(&*engine, &hosts);
+    let residual = ledger.residual(&energies).abs();
     assert!(elastic > 1e-6, "nothing to lose: {elastic:e}");
     assert!(residual < 1e-4 * elastic, "{residual:e} of {elastic:e}");
     let momentum = ledger.momentum_residual(engine.momentum()).map(f64::abs);
@@ -67,11 +67,11 @@ fn a_grain_squeezed_from_both_sides_is_missed_by_both() {
     ];
     let (mut engine, mut hosts, mut ledger) = open_text(STRUCK, &changes);
     engine.advance(49, &mut hosts, &mut ledger).unwrap();
-    let elastic = engine.grain_stocks().elastic;
+    let elastic = engine.grain_energies().elastic;
     assert!(elastic > 1e-6 && engine.grains() == 3, "{elastic:e}");
     engine.advance(51, &mut hosts, &mut ledger).unwrap();
     assert_eq!(engine.grains(), 2);
-    let residual = ledger.residual(&engine::stocks(&*engine, &hosts)).abs();
+    let residual = ledger.residual(&engine::energies(&*engine, &hosts)).abs();
     assert!(residual < 1e-3 * elastic, "{residual:e} of {elastic:e}");
 }
 
@@ -87,11 +87,11 @@ fn bodies_that_stick_at_time_zero_are_in_the_books() {
         "dem.time-step='1e-6 s'",
     ];
     let (mut engine, mut hosts, mut ledger) = open_text(STRUCK, &changes);
-    let opening = engine.grain_stocks().elastic;
+    let opening = engine.grain_energies().elastic;
     assert!(opening.abs() > 1e-9 && engine.contacts() == 0, "{opening:e}");
     engine.advance(5000, &mut hosts, &mut ledger).unwrap();
     assert_eq!(engine.contacts(), 1, "they have not pulled each other together");
-    let residual = ledger.residual(&engine::stocks(&*engine, &hosts)).abs();
+    let residual = ledger.residual(&engine::energies(&*engine, &hosts)).abs();
     assert!(residual < 1e-3 * opening.abs(), "{residual:e} of {opening:e}");
 }
 

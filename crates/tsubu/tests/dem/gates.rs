@@ -69,7 +69,7 @@ fn a_ball_rolls_away_when_its_gate_has_gone() {
 fn the_books_tell_what_a_gate_takes_with_it() {
     let (mut engine, mut hosts, mut ledger) = after(0.299, &["materials.glass.friction=0"]);
     let residual =
-        |engine: &dyn Engine, hosts: &Hosts, ledger: &Ledger| ledger.residual(&engine::stocks(engine, hosts));
+        |engine: &dyn Engine, hosts: &Hosts, ledger: &Ledger| ledger.residual(&engine::energies(engine, hosts));
     let before = residual(&*engine, &hosts, &ledger);
     let steps = (0.002 / engine.time_step()) as u64;
     engine.advance(steps, &mut hosts, &mut ledger).unwrap();
@@ -99,7 +99,7 @@ fn a_gate_takes_along_what_friction_held() {
     assert!(hanging[2] > 0.0045, "it does not hang: {hanging:?}");
     let (engine, hosts, ledger) = after(0.35, &steep);
     assert!(x(&*engine) > hanging[0] + 1e-3);
-    let residual = ledger.residual_relative(&engine::stocks(&*engine, &hosts));
+    let residual = ledger.residual_relative(&engine::energies(&*engine, &hosts));
     assert!(residual.abs() < 1e-3, "{residual:e}");
 }
 
@@ -135,7 +135,7 @@ fn gates_of_every_kind_hold_and_open() {
         let mut to = |time: f64| {
             let steps = (time / engine.time_step()).round() as u64 - engine.steps();
             engine.advance(steps, &mut hosts, &mut ledger).unwrap();
-            (x(&*engine), ledger.residual_relative(&engine::stocks(&*engine, &hosts)))
+            (x(&*engine), ledger.residual_relative(&engine::energies(&*engine, &hosts)))
         };
         let before = to(gate - 0.01).0;
         assert!(before < 0.0101, "{name}: {before}");

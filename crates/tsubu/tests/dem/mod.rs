@@ -39,7 +39,7 @@ pub fn run_text(text: &str, folder: &std::path::Path, changes: &[&str]) -> (Box<
     let scene = Scene::parse("test", text, folder, &changes).unwrap_or_else(|c| panic!("{c}"));
     let hosts = Hosts::new(&scene.plan().hosts);
     let engine = engine::open(scene.plan(), &hosts).unwrap();
-    let ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+    let ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     (engine, hosts, ledger)
 }
 
@@ -74,7 +74,7 @@ pub fn hash<R: Send>(
     })
 }
 
-/// Share that the books miss of what was turned over.
+/// Energy residual over the energy turned over.
 pub fn missing(engine: &dyn Engine, hosts: &Hosts, ledger: &Ledger) -> f64 {
-    ledger.residual_relative(&engine::stocks(engine, hosts)).abs()
+    ledger.residual_relative(&engine::energies(engine, hosts)).abs()
 }

@@ -102,7 +102,7 @@ fn outcome(laws: &str) -> Outcome {
         }
     }
     assert_eq!(engine.contacts(), 0);
-    let residual = ledger.residual_relative(&engine::stocks(&*engine, &hosts));
+    let residual = ledger.residual_relative(&engine::energies(&*engine, &hosts));
     assert!(residual.abs() < 1e-3, "{residual:e}");
     let frame = engine.frame(&hosts);
     let Some(Values::Vector(v)) = frame.column(Kind::Grain, "velocity").map(|c| &c.values) else { panic!() };

@@ -101,7 +101,7 @@ fn a_stream_keeps_clear_of_a_mesh() {
     let scene = tsubu_scene::Scene::parse("test", &scene, folder.path(), &[]).unwrap_or_else(|c| panic!("{c}"));
     let mut hosts = tsubu::partner::Hosts::default();
     let mut engine = tsubu::engine::open(scene.plan(), &hosts).unwrap();
-    let mut ledger = tsubu::ledger::Ledger::open(tsubu::engine::stocks(&*engine, &hosts), engine.momentum());
+    let mut ledger = tsubu::ledger::Ledger::open(tsubu::engine::energies(&*engine, &hosts), engine.momentum());
     while engine.grains() < 300 {
         engine.advance(50, &mut hosts, &mut ledger).unwrap();
         assert_eq!(engine.contacts(), 0, "a grain came into the sheet");

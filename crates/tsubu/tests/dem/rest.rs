@@ -35,9 +35,9 @@ fn rest(changes: &[&str]) -> (f64, f64, bool) {
     let warned = verdict.lines.iter().any(|line| !line.good && line.text.contains("dashpot number"));
     let steps = (0.25 / engine.time_step()) as u64;
     engine.advance(steps, &mut hosts, &mut ledger).unwrap();
-    let stocks = engine::stocks(&*engine, &hosts);
-    let moving = stocks.kinetic + stocks.rotational;
-    (ledger.residual_relative(&stocks).abs(), moving / stocks.elastic, warned)
+    let energies = engine::energies(&*engine, &hosts);
+    let moving = energies.kinetic + energies.rotational;
+    (ledger.residual_relative(&energies).abs(), moving / energies.elastic, warned)
 }
 
 /// At the default step, however strong the dashpot. A bed whose dashpots are too many for the step misses a tenth and more; what

@@ -72,12 +72,12 @@ fn run(text: &str, triangles: &[[[f64; 3]; 3]], seconds: f64) -> ([f64; 3], [f64
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("mesh.stl"), stl(triangles)).unwrap();
     let (mut engine, mut hosts, mut ledger) = run_text(text, folder.path(), &[]);
-    let opening = engine::stocks(&*engine, &hosts);
+    let opening = engine::energies(&*engine, &hosts);
     let steps = (seconds / engine.time_step()) as u64;
     let mut worst: f64 = 0.0;
     for _ in 0..steps / 10 {
         engine.advance(10, &mut hosts, &mut ledger).unwrap();
-        let now = engine::stocks(&*engine, &hosts).total();
+        let now = engine::energies(&*engine, &hosts).total();
         worst = worst.max((now - opening.total()).abs() / opening.kinetic);
     }
     let frame = engine.frame(&hosts);

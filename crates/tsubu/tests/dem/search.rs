@@ -21,10 +21,12 @@ fn strewn(count: usize, small: f64, large: f64, frozen: bool, seed: u64) -> Grai
         grains.radius.push(small * (large / small).powf(row[3].powi(4)));
         grains.inverse_mass.push(if frozen && id % 3 == 0 { 0.0 } else { 1.0 });
         grains.id.push(id);
-        for column in [&mut grains.velocity, &mut grains.acceleration, &mut grains.spin, &mut grains.spin_rate] {
+        for column in
+            [&mut grains.velocity, &mut grains.acceleration, &mut grains.spin, &mut grains.angular_acceleration]
+        {
             column.push(DVec3::ZERO);
         }
-        grains.wrapped.push(DVec3::ZERO);
+        grains.unwrap_offset.push(DVec3::ZERO);
         grains.mass.push(1.0);
         grains.inertia.push(1.0);
         grains.material.push(0);

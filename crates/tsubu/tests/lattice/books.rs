@@ -83,7 +83,7 @@ fn coupled_books_close() {
             run.advance(20_000).expect("the box stays on its grid");
             let (energy, momentum) = run.residuals();
             assert!(energy < 1e-9 && momentum < 1e-9, "{mode:?} {reset}: {energy} {momentum}");
-            let now = tsubu::engine::stocks(&run.engine, &run.hosts);
+            let now = tsubu::engine::energies(&run.engine, &run.hosts);
             let mut wrong = run.ledger.clone();
             wrong.post(tsubu::ledger::Account::Collision, 1e-4 * now.total());
             assert!(wrong.residual_relative(&now).abs() > 1e-9, "the gate must notice a wrong row");

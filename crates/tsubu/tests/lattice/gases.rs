@@ -160,7 +160,7 @@ proptest! {
         }
         let half = run.state();
         run.steps(20);
-        let residual = run.ledger.residual(&engine::stocks(&*run.engine, &Hosts::new(&plan.hosts)));
+        let residual = run.ledger.residual(&engine::energies(&*run.engine, &Hosts::new(&plan.hosts)));
         prop_assert!(residual.abs() < 1e-12 * count as f64, "{}", residual);
         let missing = run.ledger.momentum_residual(run.engine.momentum());
         prop_assert!(missing.iter().all(|p| p.abs() < 1e-15 * count as f64), "{:?}", missing);
@@ -179,10 +179,10 @@ fn falling_through_ends_is_falling() {
     plan.after_peng_herrmann.dissipation = 0.0;
     plan.after_peng_herrmann.roughness = 0.0;
     let mut run = Run::new(&plan);
-    let start = run.engine.grain_stocks().potential;
+    let start = run.engine.grain_energies().potential;
     run.steps(1000);
     let weight = 9.8 * run.engine.grains() as f64 * plan.particles["sand"].mass;
-    let fallen = (start - run.engine.grain_stocks().potential) / weight;
+    let fallen = (start - run.engine.grain_energies().potential) / weight;
     // Almost all fly straight down most of the time.
     assert!((0.3..1.0).contains(&fallen), "{fallen} m of 1000 spacings, 1 m");
 }
@@ -201,7 +201,7 @@ fn gases_leave_by_gates_and_outlets() {
         run.steps((0.5 / step) as u64);
         let left = run.engine.grains();
         assert!(left < 100, "{}: {left} left", method.name());
-        let residual = run.ledger.residual(&engine::stocks(&*run.engine, &Hosts::new(&plan.hosts)));
+        let residual = run.ledger.residual(&engine::energies(&*run.engine, &Hosts::new(&plan.hosts)));
         assert!(residual.abs() < 1e-12, "{}: {residual}", method.name());
     }
 }

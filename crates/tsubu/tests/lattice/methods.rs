@@ -33,7 +33,7 @@ impl Run {
     pub fn new(plan: &Plan) -> Self {
         let hosts = Hosts::new(&plan.hosts);
         let engine = engine::open(plan, &hosts).unwrap();
-        let ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+        let ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
         Self { engine, hosts, ledger }
     }
 
@@ -71,7 +71,7 @@ fn sites_resume_with_the_same_bits() {
             again.steps(steps);
             assert_eq!(again.state().hash(), whole.state().hash(), "{}", method.name());
             assert_ne!(whole.state().hash(), begun, "{}: nothing happened", method.name());
-            let residual = whole.ledger.residual_relative(&engine::stocks(&*whole.engine, &whole.hosts));
+            let residual = whole.ledger.residual_relative(&engine::energies(&*whole.engine, &whole.hosts));
             assert!(residual.abs() < 1e-9, "{}: {residual}", method.name());
         }
     }

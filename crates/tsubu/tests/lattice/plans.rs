@@ -91,7 +91,7 @@ impl Run {
     pub fn new(plan: &Plan) -> Self {
         let hosts = Hosts::new(&plan.hosts);
         let engine = LatticeEngine::new(plan, &hosts).expect("the plan is good");
-        let ledger = Ledger::open(tsubu::engine::stocks(&engine, &hosts), engine.momentum());
+        let ledger = Ledger::open(tsubu::engine::energies(&engine, &hosts), engine.momentum());
         Self { engine, hosts, ledger }
     }
 
@@ -101,7 +101,7 @@ impl Run {
 
     /// Energy and momentum that the books cannot explain, over what was turned over.
     pub fn residuals(&self) -> (f64, f64) {
-        let now = tsubu::engine::stocks(&self.engine, &self.hosts);
+        let now = tsubu::engine::energies(&self.engine, &self.hosts);
         let energy = self.ledger.residual_relative(&now);
         let left = self.ledger.momentum_residual(self.engine.momentum());
         let scale = self.ledger.gravity_impulse[2].abs() + self.engine.momentum().iter().map(|p| p.abs()).sum::<f64>();

@@ -13,7 +13,7 @@ fn servo(damping: f64) -> Servo {
     Servo::new(&plan::Servo { direction: [0.0, 0.6, -0.8], force: FORCE, mass: MASS, damping })
 }
 
-/// Runs against a spring that stands for grains; returns displacement, and the energy the books miss.
+/// Runs against a spring that stands for grains; returns displacement, and the energy residual.
 fn run(damping: f64, time: f64, steps: u32) -> (f64, f64) {
     let mut servo = servo(damping);
     let dt = time / f64::from(steps);

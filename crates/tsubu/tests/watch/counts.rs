@@ -100,7 +100,7 @@ fn every_round_of_a_periodic_world_counts() {
     let mut gate = watch(2, "discharge = { normal = \"x\", point = [0.3, 0] }");
     let mut passed = |x: f64| {
         let mut shown = view(&[ball(x - x.floor(), 0.0, 0.0, 0.1)], Vec::new(), [Some([0.0, 1.0]), None, None]);
-        shown.grains.wrapped = vec![DVec3::new(x.floor(), 0.0, 0.0)].into();
+        shown.grains.unwrap_offset = vec![DVec3::new(x.floor(), 0.0, 0.0)].into();
         let sample = once(&mut *gate, &shown);
         scalar(&*gate, &sample, "passed grains")
     };
@@ -198,7 +198,7 @@ fn tracks_go_on_across_ends_and_stop_with_the_grain() {
     );
     let mut track = open(&plan.watch["w"].measure, &plan);
     let mut shown = view(&[ball(0.1, 0.0, 0.2, 0.1), ball(0.3, 0.0, 0.4, 0.1)], Vec::new(), [None; 3]);
-    shown.grains.wrapped = vec![DVec3::new(5.0, 0.0, 0.0), DVec3::ZERO].into();
+    shown.grains.unwrap_offset = vec![DVec3::new(5.0, 0.0, 0.0), DVec3::ZERO].into();
     let sample = once(&mut *track, &shown);
     assert_eq!(sample.rows, [[0.0, 5.1, 0.2, 0.0, 0.0, 0.0]]);
 }

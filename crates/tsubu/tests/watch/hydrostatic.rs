@@ -37,7 +37,7 @@ fn stress_grows_with_the_weight_above() {
     let (mut engine, mut hosts, mut ledger) = open_text(BED, &[]);
     let steps = (4.0 / engine.time_step()) as u64;
     engine.advance(steps, &mut hosts, &mut ledger).unwrap();
-    let kinetic = engine.grain_stocks().kinetic;
+    let kinetic = engine.grain_energies().kinetic;
     assert!(kinetic < 1e-9, "{kinetic:e} J: not at rest");
     let scene = Scene::parse("bed", BED, Path::new("."), &[]).unwrap();
     let plan = scene.plan();

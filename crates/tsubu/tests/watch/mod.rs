@@ -40,7 +40,7 @@ pub fn view(balls: &[Ball], contacts: Vec<Contact>, ends: [Option<[f64; 2]>; 3])
     let reals = |of: fn(&Ball) -> f64| balls.iter().map(of).collect::<Vec<_>>();
     let grains = Columns {
         position: vectors(|b| b.at).into(),
-        wrapped: vectors(|_| DVec3::ZERO).into(),
+        unwrap_offset: vectors(|_| DVec3::ZERO).into(),
         velocity: vectors(|b| b.velocity).into(),
         spin: vectors(|_| DVec3::ZERO).into(),
         radius: reals(|b| b.radius).into(),

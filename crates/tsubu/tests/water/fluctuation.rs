@@ -93,7 +93,7 @@ fn spread(fluctuation: &str, z: f64) -> [(f64, f64); 2] {
     let (mut engine, mut hosts, mut ledger) = open_text(GRAIN, &changes.each_ref().map(String::as_str));
     let steps = (0.1 / engine.time_step()) as u64;
     engine.advance(steps, &mut hosts, &mut ledger).unwrap();
-    let missing = ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs();
+    let missing = ledger.residual_relative(&engine::energies(&*engine, &hosts)).abs();
     assert!(missing < 1e-3, "{missing:e}");
     let view = engine.view(Wants::GRAINS);
     let of = |k: usize| {
@@ -180,7 +180,7 @@ fn books_close_in_turbulence() {
     assert!(missing.abs() < 1e-12 * stream.momentum(), "{missing:e}");
     let missing = ledger.momentum_residual(engine.momentum());
     assert!(missing[0].abs() < 1e-12 * stream.momentum(), "{missing:?}");
-    let missing = ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs();
+    let missing = ledger.residual_relative(&engine::energies(&*engine, &hosts)).abs();
     assert!(missing < 1e-3, "{missing:e}");
 }
 

@@ -45,7 +45,7 @@ fn grains_that_fall_in_raise_the_surface() {
     assert!(grains > 1e-3 * now.momentum());
     let missing = ledger.momentum_residual(engine.momentum());
     assert!(missing.iter().all(|missing| missing.abs() < 1e-12 * now.momentum()), "{missing:?}");
-    let missing = ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs();
+    let missing = ledger.residual_relative(&engine::energies(&*engine, &hosts)).abs();
     assert!(missing < 1e-3, "{missing:e}");
 
     let lid = CHANGES.map(|change| change.replace("free", "rigid"));
@@ -68,7 +68,7 @@ fn what_grains_pick_up_the_stream_loses() {
             most = most.max((missing - before).abs());
             before = missing;
         }
-        let books = ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs();
+        let books = ledger.residual_relative(&engine::energies(&*engine, &hosts)).abs();
         (most / stream(&*engine).momentum(), books)
     };
     let (most, books) = missing(&FLUME.replace("motion.frozen = {}\n", ""));

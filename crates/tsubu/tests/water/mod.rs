@@ -38,7 +38,7 @@ fn after(text: &str, changes: &[&str], seconds: f64) -> (Box<dyn Engine>, Ledger
     let (mut engine, mut hosts, mut ledger) = open_text(text, changes);
     let steps = (seconds / engine.time_step()).round() as u64;
     engine.advance(steps, &mut hosts, &mut ledger).unwrap();
-    let missing = ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs();
+    let missing = ledger.residual_relative(&engine::energies(&*engine, &hosts)).abs();
     (engine, ledger, missing)
 }
 

@@ -79,7 +79,7 @@ fn a_leaping_grain_that_spins_keeps_its_books() {
             sum += view.grains.spin[view.grains.id.iter().position(|id| *id == 10).unwrap()].y;
             looks += 1.0;
         }
-        let missing = ledger.residual_relative(&engine::stocks(&*engine, &hosts)).abs();
+        let missing = ledger.residual_relative(&engine::energies(&*engine, &hosts)).abs();
         assert!(missing < 1e-3, "{changes:?}: {missing:e}");
         sum / looks
     };

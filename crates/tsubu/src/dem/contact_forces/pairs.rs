@@ -1,6 +1,6 @@
 //! Grains that touch grains.
 
-use super::{ContactSums, ForceInput, Load, Scratch, apply_law, skip};
+use super::{ContactSums, ForceInput, Load, Scratch, apply_law, power, skip};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::dem::contact_batch::ContactBatch;
 use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns};
@@ -52,7 +52,7 @@ pub(super) fn evaluate(
         }
         if width > 0 {
             released += history.pairs.stored_energy(cursor..history.pairs.keys.len(), law);
-            sums.lost.sliding += released / input.dt;
+            sums.lost.sliding += power(released, input.dt);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Grains that touch walls: a wall is a body of infinite radius, under the same laws.
 
-use super::{ContactSums, ForceInput, Load, Scratch, apply_law, skip};
+use super::{ContactSums, ForceInput, Load, Scratch, apply_law, power, skip};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::dem::contact_batch::ContactBatch;
 use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns, WallKey};
@@ -98,7 +98,7 @@ fn evaluate_law(
     finish(input, number, history, scratch, sums, visit);
     if remembers {
         released += history.walls.stored_energy(cursor..history.walls.keys.len(), law);
-        sums.lost.sliding += released / input.dt;
+        sums.lost.sliding += power(released, input.dt);
     }
 }
 

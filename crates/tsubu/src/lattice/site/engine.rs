@@ -8,7 +8,7 @@ use super::start::Stream;
 use super::{ForceUnit, Link, Model, Seat, section};
 use crate::engine::{Engine, Fault, Note};
 use crate::lattice::sheet::{OUT, WALL};
-use crate::ledger::{Account, Ledger, Stocks};
+use crate::ledger::{Account, Energies, Ledger};
 use crate::partner::Hosts;
 use crate::random::{Purpose, words};
 use crate::view::{Columns, Contact, Contacts, View, WallLoad, Wants};
@@ -60,7 +60,7 @@ struct Body {
     position: DVec3,
     velocity: DVec3,
     /// What periodic ends have taken from the position [m].
-    wrapped: DVec3,
+    unwrap_offset: DVec3,
 }
 
 impl SiteEngine {
@@ -88,14 +88,14 @@ impl SiteEngine {
         let [x, _, z] = self.scene.ground.ends().map(|ends| ends.map_or(0.0, |[low, high]| high - low));
         let position = self.scene.ground.point(site) + spacing * DVec3::new(offset[0], 0.0, offset[1]);
         let velocity = speed * DVec3::new(velocity[0], 0.0, velocity[1]);
-        let wrapped = DVec3::new(x * f64::from(laps[0]), 0.0, z * f64::from(laps[1]));
-        Body { grain, position, velocity, wrapped }
+        let unwrap_offset = DVec3::new(x * f64::from(laps[0]), 0.0, z * f64::from(laps[1]));
+        Body { grain, position, velocity, unwrap_offset }
     }
 
     /// Energy [J] and momentum [N.s] of a grain.
-    fn energy_and_momentum(&self, &Body { grain, position, velocity, wrapped }: &Body) -> (f64, DVec3) {
+    fn energy_and_momentum(&self, &Body { grain, position, velocity, unwrap_offset }: &Body) -> (f64, DVec3) {
         let mass = self.scene.mass[grain];
-        let energy = mass * (0.5 * velocity.length_squared() - self.scene.gravity.dot(position + wrapped));
+        let energy = mass * (0.5 * velocity.length_squared() - self.scene.gravity.dot(position + unwrap_offset));
         (energy, mass * velocity)
     }
 
@@ -327,13 +327,13 @@ impl Engine for SiteEngine {
         Ok(())
     }
 
-    fn grain_stocks(&self) -> Stocks {
-        let mut stocks = Stocks::default();
-        for Body { grain, position, velocity, wrapped } in self.bodies() {
-            stocks.kinetic += 0.5 * self.scene.mass[grain] * velocity.length_squared();
-            stocks.potential -= self.scene.mass[grain] * self.scene.gravity.dot(position + wrapped);
+    fn grain_energies(&self) -> Energies {
+        let mut energies = Energies::default();
+        for Body { grain, position, velocity, unwrap_offset } in self.bodies() {
+            energies.kinetic += 0.5 * self.scene.mass[grain] * velocity.length_squared();
+            energies.potential -= self.scene.mass[grain] * self.scene.gravity.dot(position + unwrap_offset);
         }
-        stocks
+        energies
     }
 
     fn momentum(&self) -> [f64; 3] {
@@ -394,7 +394,7 @@ impl Engine for SiteEngine {
         let vectors = |of: &dyn Fn(&Body) -> DVec3| bodies.iter().map(of).collect::<Vec<_>>();
         let grains = Columns {
             position: vectors(&|b| b.position).into(),
-            wrapped: vectors(&|b| b.wrapped).into(),
+            unwrap_offset: vectors(&|b| b.unwrap_offset).into(),
             velocity: vectors(&|b| b.velocity).into(),
             spin: vec![DVec3::ZERO; n].into(),
             radius: real(&|b| 0.5 * self.scene.diameter[b.grain]).into(),

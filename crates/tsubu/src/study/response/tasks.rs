@@ -117,7 +117,7 @@ pub fn measure(
     let periods = f64::from(wanted.measure_periods);
     let flows: Vec<f64> = Account::ALL.iter().zip(before).map(|(&a, b)| (ledger.flow(a) - b) / periods).collect();
     let loss = Account::ALL.iter().zip(&flows).filter(|(a, _)| !a.is_work()).map(|(_, f)| f).sum();
-    let residual = ledger.residual_relative(&engine::stocks(&*engine, &hosts));
+    let residual = ledger.residual_relative(&engine::energies(&*engine, &hosts));
     let wall = begun.elapsed().as_secs_f64();
     Ok(Some(Point { frequency, loss, flows, residual, wall, ..window.point(frequency) }))
 }
@@ -136,7 +136,7 @@ fn open(
     hosts.list[host].set_frequency(frequency);
     let mut engine = engine::open(&plan, &hosts)?;
     engine.load(bed).map_err(|e| OpenError::Bed(e.to_string()))?;
-    let ledger = Ledger::open(engine::stocks(&*engine, &hosts), engine.momentum());
+    let ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     Ok((engine, hosts, ledger))
 }
 

@@ -122,7 +122,7 @@ pub(super) fn write(
     let tolerance = plan.dem.energy_tolerance;
     if summary.energy.residual_relative > tolerance {
         summary.warnings.push(format!(
-            "the energy books of some run miss {:.2e} of the energy turned over, more than `dem.energy-tolerance` = {tolerance:e}: shorten the time step",
+            "the energy residual of some run is {:.2e} of the energy turned over, more than `dem.energy-tolerance` = {tolerance:e}: shorten the time step",
             summary.energy.residual_relative
         ));
     }
