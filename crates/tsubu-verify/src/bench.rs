@@ -4,6 +4,7 @@ use glam::DVec3;
 use std::path::Path;
 use tsubu::engine::{self, Engine};
 use tsubu::ledger::{Account, Ledger};
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu_frame::{Claim, Frame, Kind, Values};
 use tsubu_scene::{Plan, Scene};
@@ -80,7 +81,7 @@ impl Rig {
     pub fn of(mut plan: Plan, perturbation: f64) -> Result<Self, String> {
         spoil_all(&mut plan, perturbation);
         let hosts = Hosts::new(&plan.hosts);
-        let engine = engine::open(&plan, &hosts).map_err(|e| e.to_string())?;
+        let engine = methods::open(&plan, &hosts).map_err(|e| e.to_string())?;
         let ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
         Ok(Self { plan, engine, hosts, ledger })
     }

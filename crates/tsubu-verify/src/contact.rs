@@ -3,6 +3,7 @@
 use super::bench;
 use tsubu::engine;
 use tsubu::ledger::Ledger;
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu_frame::Claim;
 
@@ -43,7 +44,7 @@ fn impact(law: &str, restitution: f64, pair: bool, speed: f64, perturbation: f64
     let mut plan = bench::plan(&text)?;
     bench::spoil(&mut plan, perturbation);
     let mut hosts = Hosts::new(&plan.hosts);
-    let mut engine = engine::open(&plan, &hosts).map_err(|e| e.to_string())?;
+    let mut engine = methods::open(&plan, &hosts).map_err(|e| e.to_string())?;
     let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let energy = |engine: &dyn engine::Engine| engine.grain_energies().kinetic;
     let before = energy(&*engine);

@@ -3,6 +3,7 @@
 use super::bench;
 use tsubu::engine::{self, Engine};
 use tsubu::ledger::Ledger;
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu_frame::{Claim, Kind, Values};
 use tsubu_scene::plan::Method;
@@ -19,7 +20,7 @@ fn apexes(method: Method, perturbation: f64, count: usize) -> Result<Vec<(f64, f
     plan.dem.steps_per_contact = 100.0;
     bench::spoil(&mut plan, perturbation);
     let mut hosts = Hosts::new(&plan.hosts);
-    let mut engine = engine::open(&plan, &hosts).map_err(|e| e.to_string())?;
+    let mut engine = methods::open(&plan, &hosts).map_err(|e| e.to_string())?;
     let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let mut apexes = Vec::new();
     let mut best = (f64::MIN, 0.0);

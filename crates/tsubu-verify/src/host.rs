@@ -36,7 +36,7 @@ pub(super) fn loss_factor(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut points = Vec::new();
     let mut bed = State::default();
     let hosts = tsubu::partner::Hosts::new(&plan.hosts);
-    tsubu::engine::open(&plan, &hosts).map_err(|e| e.to_string())?.save(&mut bed);
+    tsubu::methods::open(&plan, &hosts).map_err(|e| e.to_string())?.save(&mut bed);
     for (i, ratio) in ratios.iter().enumerate() {
         points.push((i, measured(&plan, &wanted, &bed, ratio * frequency())?));
     }
@@ -114,7 +114,7 @@ pub(super) fn loss_factor_with_grains(_spoiler: f64) -> Result<Vec<Claim>, Strin
     wanted.measure_periods = 20;
     let hosts = tsubu::partner::Hosts::new(&plan.hosts);
     let mut bed = State::default();
-    tsubu::engine::open(&plan, &hosts).map_err(|e| e.to_string())?.save(&mut bed);
+    tsubu::methods::open(&plan, &hosts).map_err(|e| e.to_string())?.save(&mut bed);
     let peak = measured(&plan, &wanted, &bed, 0.9667 * frequency())?;
     let driven = peak.loss / (std::f64::consts::PI * K * peak.amplitude * peak.amplitude);
     let mass = 0.2e-3 * 30.0;

@@ -3,6 +3,7 @@
 use super::bench;
 use tsubu::engine;
 use tsubu::ledger::Ledger;
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu_frame::Claim;
 
@@ -20,7 +21,7 @@ pub(super) fn symmetric(perturbation: f64) -> Result<Vec<Claim>, String> {
     plan.dem.steps_per_contact = 100.0;
     plan.duration = 40.0;
     let mut hosts = Hosts::new(&plan.hosts);
-    let mut engine = engine::open(&plan, &hosts).map_err(|e| e.to_string())?;
+    let mut engine = methods::open(&plan, &hosts).map_err(|e| e.to_string())?;
     let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let period = 1.0 / hosts.list[0].natural_frequencies().first().copied().unwrap_or(f64::NAN);
     let periods = 20.0;

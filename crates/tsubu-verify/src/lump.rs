@@ -3,6 +3,7 @@
 use super::bench;
 use tsubu::engine;
 use tsubu::ledger::Ledger;
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu_frame::Claim;
 
@@ -43,7 +44,7 @@ fn flights(gamma: f64, perturbation: f64) -> Result<Vec<f64>, String> {
     // No constant of the law enters an inelastic flight: here the perturbation acts on gravity.
     plan.gravity[2] *= perturbation;
     let mut hosts = Hosts::new(&plan.hosts);
-    let mut engine = engine::open(&plan, &hosts).map_err(|e| e.to_string())?;
+    let mut engine = methods::open(&plan, &hosts).map_err(|e| e.to_string())?;
     let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let period = 1.0 / frequency;
     let mut flights = Vec::new();

@@ -21,6 +21,7 @@ use std::path::Path;
 use std::time::Duration;
 use tsubu::engine;
 use tsubu::ledger::Ledger;
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu_scene::Scene;
 
@@ -44,7 +45,7 @@ fn period(c: &mut Criterion) {
             changes.push(format!("particles.balls.count={count}"));
             let scene = Scene::parse("benchmark", text, Path::new("."), &changes).expect("the scene is right");
             let mut hosts = Hosts::new(&scene.plan().hosts);
-            let mut engine = engine::open(scene.plan(), &hosts).expect("the method can run it");
+            let mut engine = methods::open(scene.plan(), &hosts).expect("the method can run it");
             let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
             let steps = (1.0 / 6.0 / engine.time_step()).round() as u64;
             engine.advance(10 * steps, &mut hosts, &mut ledger).expect("it runs");

@@ -8,6 +8,7 @@ use std::path::Path;
 use std::time::Instant;
 use tsubu::engine::{self, Engine};
 use tsubu::ledger::Ledger;
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu::threads::alone;
 use tsubu_frame::{Frame, Kind, Values};
@@ -30,7 +31,7 @@ fn main() {
 fn race(path: &Path, changes: &[String], warm: u64, steps: u64) {
     let scene = Scene::read(path, changes).unwrap_or_else(|c| panic!("{c}"));
     let mut hosts = Hosts::new(&scene.plan().hosts);
-    let mut engine = engine::open(scene.plan(), &hosts).unwrap_or_else(|e| panic!("{e}"));
+    let mut engine = methods::open(scene.plan(), &hosts).unwrap_or_else(|e| panic!("{e}"));
     let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let mut go = |steps: u64| {
         let begun = Instant::now();

@@ -1,12 +1,10 @@
-//! What every method must do, and the door to all of them.
+//! What every method must do.
 
-use crate::check::memory::refuse_more_than_there_is;
 use crate::ledger::{Energies, Ledger};
 use crate::partner::Hosts;
 use crate::view::{View, Wants};
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, State};
-use tsubu_scene::plan::{Method, Plan};
 
 /// What an engine did with one entry of the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,25 +134,6 @@ pub enum OpenError {
     Bed(String),
 }
 
-/// Builds the engine that the plan's method names, at time 0.
-pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
-    refuse_more_than_there_is(plan, 0)?;
-    Ok(match plan.method {
-        Method::Dem => Box::new(crate::dem::DemEngine::new(plan, hosts)?),
-        Method::Lattice => Box::new(crate::lattice::engine::LatticeEngine::new(plan, hosts)?),
-        Method::Litwiniszyn
-        | Method::AfterCaramHong
-        | Method::AfterSavage
-        | Method::GuttHaff
-        | Method::AfterHemmingssonHerrmann
-        | Method::Fhp
-        | Method::AfterPengHerrmann
-        | Method::AfterBaxterBehringer
-        | Method::AfterKarolyiKertesz => Box::new(crate::lattice::site::build::open(plan, hosts)?),
-        Method::ClCa => Box::new(crate::clca::engine::ClCaEngine::new(plan, hosts)?),
-    })
-}
-
 /// Something that can advance a plan.
 pub trait Engine: Send {
     /// What was approximated, entry by entry.
@@ -162,6 +141,9 @@ pub trait Engine: Send {
 
     /// Time step [s].
     fn time_step(&self) -> f64;
+
+    /// The key of a scene that says how long a step is, or what it follows from.
+    fn step_key(&self) -> &str;
 
     /// Steps done since time 0.
     fn steps(&self) -> u64;

@@ -1,6 +1,6 @@
 //! The work: engines, contact laws, walls, hosts, ledger, checks and studies.
 //!
-//! A [`Plan`](tsubu_scene::plan::Plan) comes in, frames and books go out. [`engine::open`] builds the engine that the
+//! A [`Plan`](tsubu_scene::plan::Plan) comes in, frames and books go out. [`methods::open`] builds the engine that the
 //! plan's method names; [`engine::Engine::advance`] moves it; [`partner::Hosts`] are the vibrating structures that it meets
 //! once a step; [`ledger::Ledger`] keeps the books.
 
@@ -15,6 +15,8 @@ pub mod explain;
 pub mod interrupt;
 pub mod lattice;
 pub mod ledger;
+mod memory;
+pub mod methods;
 pub mod motion;
 pub mod neighbours;
 pub mod partner;

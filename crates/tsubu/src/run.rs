@@ -6,6 +6,7 @@ use crate::check;
 use crate::engine::{self, Engine, Fault, OpenError};
 use crate::interrupt::Watcher;
 use crate::ledger::{Account, Energies, Ledger};
+use crate::methods;
 use crate::partner::Hosts;
 use crate::scene_files;
 use crate::watch::means::Means;
@@ -83,7 +84,7 @@ pub(crate) fn run_with(
     let scene = &if resumed { resume::scene(scene, folder) } else { scene.clone() };
     let plan = scene.plan();
     let hosts = Hosts::new(&plan.hosts);
-    let engine = engine::open(plan, &hosts)?;
+    let engine = methods::open(plan, &hosts)?;
     let last = steps(plan, &*engine)?;
     let mut run = Run {
         ledger: Ledger::open(engine::energies(&*engine, &hosts), engine.momentum()),

@@ -3,8 +3,9 @@
 mod cost;
 
 use crate::bench::Bench;
-use crate::check::{Verdict, human_time, step_key, verdict};
-use crate::engine::{self, Engine, OpenError};
+use crate::check::{Verdict, human_time, verdict};
+use crate::engine::{Engine, OpenError};
+use crate::methods;
 use crate::neighbours::lists::WORTH_THREADS;
 use crate::partner::Hosts;
 use tsubu_scene::plan::{Method, Particles, Plan, Start};
@@ -32,20 +33,20 @@ pub fn check(
     ahead(&Verdict::default(), "placing the grains");
     let mut hosts = Hosts::new(&plan.hosts);
     let settles = |group: &Particles| matches!(group.start, Start::Settled { time } if time > 0.0);
-    let mut engine = engine::open(&unsettled(plan), &hosts)?;
+    let mut engine = methods::open(&unsettled(plan), &hosts)?;
     let mut verdict = verdict(plan, &hosts, &*engine);
     let total = plan.duration / engine.time_step();
     if total.round() < 1.0 {
         let (duration, dt) = (plan.duration, engine.time_step());
         verdict.judge(false, format!("the run would have no step: it lasts {duration} s, a step {dt} s"), || {
-            format!("`duration`, or `{}`", step_key(plan))
+            format!("`duration`, or `{}`", engine.step_key())
         });
         verdict.fails = true;
         return Ok(verdict);
     }
     if plan.particles.values().any(settles) {
         ahead(&verdict, "settling the grains before time 0");
-        match engine::open(plan, &hosts) {
+        match methods::open(plan, &hosts) {
             Ok(settled) => engine = settled,
             Err(OpenError::Settling(fault)) => {
                 verdict.fail("settling before time 0 would fail", &fault);
@@ -82,7 +83,7 @@ fn times(
 ) {
     let total = plan.duration / engine.time_step();
     let [low, high] = cost.map(|cost| cost * total);
-    let shorter = || format!("a shorter `duration`, fewer grains, or a longer `{}`", step_key(plan));
+    let shorter = || format!("a shorter `duration`, fewer grains, or a longer `{}`", engine.step_key());
     verdict.judge(
         high <= LONGEST,
         format!(

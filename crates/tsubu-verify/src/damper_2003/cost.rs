@@ -4,6 +4,7 @@ use super::{FIGURE_3, FIGURE_11};
 use std::time::Instant;
 use tsubu::engine;
 use tsubu::ledger::Ledger;
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu_frame::Claim;
 use tsubu_scene::Scene;
@@ -16,7 +17,7 @@ fn seconds_per_period(text: &str, changes: &[&str], count: usize) -> Result<f64,
     all.push(format!("particles.balls.count={count}"));
     let scene = Scene::parse("study scene", text, std::path::Path::new("."), &all).map_err(|c| c.to_string())?;
     let mut hosts = Hosts::new(&scene.plan().hosts);
-    let mut engine = engine::open(scene.plan(), &hosts).map_err(|e| e.to_string())?;
+    let mut engine = methods::open(scene.plan(), &hosts).map_err(|e| e.to_string())?;
     let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let period = (1.0 / 6.0 / engine.time_step()).round() as u64;
     engine.advance(2 * period, &mut hosts, &mut ledger).map_err(|e| e.to_string())?;

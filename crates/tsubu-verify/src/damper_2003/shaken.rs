@@ -2,6 +2,7 @@
 
 use tsubu::engine;
 use tsubu::ledger::Ledger;
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu_frame::Claim;
 use tsubu_scene::Scene;
@@ -15,7 +16,7 @@ fn force_by_phase(method: &str, count: usize) -> Result<[f64; BINS], String> {
     let scene = Scene::parse("study scene", SCENE, std::path::Path::new("."), &changes).map_err(|c| c.to_string())?;
     let plan = scene.plan();
     let mut hosts = Hosts::new(&plan.hosts);
-    let mut engine = engine::open(plan, &hosts).map_err(|e| e.to_string())?;
+    let mut engine = methods::open(plan, &hosts).map_err(|e| e.to_string())?;
     let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let period = 1.0 / 6.0;
     let weight = 0.2e-3 * count as f64 * 10.0;

@@ -9,6 +9,7 @@ mod work;
 use crate::engine::{self, Engine, OpenError};
 use crate::interrupt::Watcher;
 use crate::ledger::Ledger;
+use crate::methods;
 use crate::partner::Hosts;
 use crate::threads::alone;
 use serde::{Deserialize, Serialize};
@@ -77,7 +78,7 @@ impl Bench {
             let part = |done: f64| (watcher.progress)((index as f64 + done) / work::ALL.len() as f64);
             let plan = plan();
             let hosts = Hosts::default();
-            let engine = engine::open(&plan, &hosts).map_err(|error| BenchError::Work { work, error })?;
+            let engine = methods::open(&plan, &hosts).map_err(|error| BenchError::Work { work, error })?;
             let ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
             let mut job = Job { work, engine, hosts, ledger, watcher };
             let share = seconds / work::ALL.len() as f64;

@@ -2,13 +2,11 @@
 
 mod fall;
 mod idle;
-pub(crate) mod memory;
 mod mesh;
 mod rest;
 mod verdict;
 mod water;
 
-pub(crate) use verdict::step_key;
 pub use verdict::{Line, Verdict, human_time, verdict};
 pub use water::blows_up;
 

@@ -1,9 +1,10 @@
 //! The verdict: is this scene resolved well enough, and what will it cost?
 
 use super::rest::{self, IN_A_BED, IN_A_FILM, IN_AN_IMPACT};
-use super::{bodies, idle, memory, mesh, shortest_period, speed_scale, water};
+use super::{bodies, idle, mesh, shortest_period, speed_scale, water};
 use crate::contact::{Pair, Table};
 use crate::engine::{Engine, Fault, Verdict as Noted};
+use crate::memory::{self, human_memory};
 use crate::partner::Hosts;
 use std::fmt;
 use tsubu_scene::plan::{Integrator, Method, Normal, Plan};
@@ -94,7 +95,7 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         verdict.judge(
             steps >= 50.0,
             format!("host: shortest natural period {period:.4e} s, {steps:.0} steps a period (wanted: 50 or more)"),
-            || format!("shorten `{}` to {:.2e} s or less", step_key(plan), period / 50.0),
+            || format!("shorten `{}` to {:.2e} s or less", engine.step_key(), period / 50.0),
         );
     }
     for note in engine.notes() {
@@ -114,23 +115,6 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         human_memory(memory::of(plan, engine.places()))
     ));
     verdict
-}
-
-pub(crate) fn step_key(plan: &Plan) -> &'static str {
-    match plan.method {
-        Method::Dem => "dem.time-step",
-        Method::Lattice => "lattice.time-step",
-        Method::ClCa => "cl-ca.spacing",
-        Method::Litwiniszyn => "litwiniszyn.time-step",
-        Method::AfterCaramHong => "after-caram-hong.time-step",
-        Method::AfterSavage => "after-savage.time-step",
-        Method::GuttHaff => "gutt-haff.time-step",
-        Method::AfterHemmingssonHerrmann => "duration",
-        Method::Fhp => "fhp.time-step",
-        Method::AfterPengHerrmann => "after-peng-herrmann.time-step",
-        Method::AfterBaxterBehringer => "after-baxter-behringer.time-step",
-        Method::AfterKarolyiKertesz => "after-karolyi-kertesz.time-step",
-    }
 }
 
 fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
@@ -307,9 +291,4 @@ pub fn human_time(seconds: f64) -> String {
         s if s < 7200.0 => format!("{:.0} min", s / 60.0),
         s => format!("{:.1} h", s / 3600.0),
     }
-}
-
-/// An amount of memory in the unit that suits it.
-pub(super) fn human_memory(bytes: f64) -> String {
-    if bytes < 1e9 { format!("{:.1} MB", bytes / 1e6) } else { format!("{:.2} GB", bytes / 1e9) }
 }

@@ -3,7 +3,7 @@
 use super::bed::{Bed, Kind};
 use super::place::{self, Grain};
 use super::shape::{Shape, polygon};
-use crate::check::{self, memory::refuse_more_than_there_is};
+use crate::check;
 use crate::engine::{Note, Refusal};
 use crate::lattice::direction::Vector;
 use crate::lattice::grid::WALL;
@@ -11,6 +11,7 @@ use crate::lattice::reach::{self, Ways};
 use crate::lattice::remarks::{Remarks, World};
 use crate::lattice::site::ground::Sites;
 use crate::lattice::stage::{self, LARGEST, Stage};
+use crate::memory::refuse_more_than_there_is;
 use crate::partner::Hosts;
 use crate::sizes;
 use crate::view::{Contacts, Wants};

@@ -298,6 +298,10 @@ impl Engine for ClCaEngine {
         self.dt
     }
 
+    fn step_key(&self) -> &str {
+        "cl-ca.spacing"
+    }
+
     fn steps(&self) -> u64 {
         self.bed.step
     }

@@ -221,6 +221,10 @@ impl Engine for DemEngine {
         self.clock.dt
     }
 
+    fn step_key(&self) -> &str {
+        "dem.time-step"
+    }
+
     fn steps(&self) -> u64 {
         self.clock.step
     }

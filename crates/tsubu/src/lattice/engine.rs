@@ -181,6 +181,10 @@ impl Engine for LatticeEngine {
         self.dt
     }
 
+    fn step_key(&self) -> &str {
+        "lattice.time-step"
+    }
+
     fn steps(&self) -> u64 {
         self.damper.step
     }

@@ -1,8 +1,9 @@
 //! One scene by several methods, or by variants of them: what differs, and what each cost.
 
 use super::variant::Variant;
-use crate::engine::{self, OpenError};
+use crate::engine::OpenError;
 use crate::interrupt::Watcher;
+use crate::methods;
 use crate::partner::Hosts;
 use crate::run::{self, RunError};
 use crate::scene_files;
@@ -115,7 +116,7 @@ pub fn scenes(scene: &Scene, variants: &[Variant]) -> Result<(Runners, Vec<Refus
         let method = [format!("method={}", variant.method.name())];
         let scene = scene.changed(method.iter().chain(&variant.changes)).map_err(CompareError::Scene)?;
         let plan = trial::unsettled(scene.plan());
-        match engine::open(&plan, &Hosts::new(&plan.hosts)) {
+        match methods::open(&plan, &Hosts::new(&plan.hosts)) {
             Ok(engine) => {
                 run::steps(&plan, &*engine)
                     .map_err(|error| CompareError::Run { method: variant.name.clone(), error })?;

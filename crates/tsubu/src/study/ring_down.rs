@@ -2,6 +2,7 @@
 
 use crate::engine::{self, OpenError};
 use crate::ledger::{Account, Ledger};
+use crate::methods;
 use crate::partner::Hosts;
 use tsubu_scene::plan::Plan;
 
@@ -19,7 +20,7 @@ pub struct Cycle {
 /// Lets the first host of a plan swing freely for the plan's duration and cuts the motion into cycles about `rest` [m].
 pub fn ring_down(plan: &Plan, rest: f64) -> Result<Vec<Cycle>, OpenError> {
     let mut hosts = Hosts::new(&plan.hosts);
-    let mut engine = engine::open(plan, &hosts)?;
+    let mut engine = methods::open(plan, &hosts)?;
     let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let lost = |ledger: &Ledger| -> f64 { Account::ALL.iter().filter(|a| !a.is_work()).map(|&a| ledger.flow(a)).sum() };
     let mut cycles = Vec::new();

@@ -1,8 +1,8 @@
 //! A parameter sweep: every case is a run of its own.
 
 use super::cases::{Case, CasesError, cases};
-use crate::engine;
 use crate::interrupt::Watcher;
+use crate::methods;
 use crate::partner::Hosts;
 use crate::run::{self, RunError};
 use crate::scene_files;
@@ -37,7 +37,7 @@ pub fn sweep(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -
     for case in &list {
         let scene = case.scene(scene).map_err(|c| CasesError::Scene(c.to_string()))?;
         let plan = trial::unsettled(scene.plan());
-        let open = engine::open(&plan, &Hosts::new(&plan.hosts)).map_err(RunError::from);
+        let open = methods::open(&plan, &Hosts::new(&plan.hosts)).map_err(RunError::from);
         open.and_then(|engine| run::steps(&plan, &*engine))
             .map_err(|error| CasesError::Run { case: case.name.clone(), error })?;
     }

@@ -2,6 +2,7 @@
 
 use crate::engine::{self, Engine, Fault};
 use crate::ledger::Ledger;
+use crate::methods;
 use crate::partner::Hosts;
 use std::collections::BTreeMap;
 use std::fs;
@@ -72,7 +73,7 @@ pub(super) fn of_a_bed(plan: &Plan) -> Option<f64> {
     let (name, group) = free().max_by_key(|(_, group)| group.count)?;
     let piece = piece(plan, name, group);
     let hosts = &mut Hosts::default();
-    let mut engine = engine::open(&piece, hosts).ok()?;
+    let mut engine = methods::open(&piece, hosts).ok()?;
     let grains = engine.grains();
     let mut ledger = Ledger::open(engine::energies(&*engine, hosts), engine.momentum());
     let cost = alone(|| go(&mut *engine, hosts, &mut ledger, f64::INFINITY, BED)).ok()?;

@@ -16,7 +16,7 @@ fn message_of(text: &str, changes: &[&str]) -> String {
         Err(complaints) => return complaints.to_string(),
     };
     let hosts = Hosts::new(&scene.plan().hosts);
-    tsubu::engine::open(scene.plan(), &hosts).err().map_or_else(|| "accepted".to_owned(), |error| error.to_string())
+    tsubu::methods::open(scene.plan(), &hosts).err().map_or_else(|| "accepted".to_owned(), |error| error.to_string())
 }
 
 #[test]

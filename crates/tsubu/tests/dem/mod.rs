@@ -17,6 +17,7 @@ mod start;
 
 use tsubu::engine::{self, Engine};
 use tsubu::ledger::Ledger;
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu::threads::alone;
 use tsubu_frame::State;
@@ -38,7 +39,7 @@ pub fn run_text(text: &str, folder: &std::path::Path, changes: &[&str]) -> (Box<
     let changes: Vec<String> = changes.iter().map(|c| (*c).to_owned()).collect();
     let scene = Scene::parse("test", text, folder, &changes).unwrap_or_else(|c| panic!("{c}"));
     let hosts = Hosts::new(&scene.plan().hosts);
-    let engine = engine::open(scene.plan(), &hosts).unwrap();
+    let engine = methods::open(scene.plan(), &hosts).unwrap();
     let ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     (engine, hosts, ledger)
 }

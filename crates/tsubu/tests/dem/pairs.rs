@@ -8,6 +8,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use tsubu::check;
 use tsubu::engine;
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu_frame::{Frame, Kind, Values};
 use tsubu_scene::Scene;
@@ -202,7 +203,7 @@ fn the_verdict_judges_each_pair_under_its_own_law() {
         lid(folder.path());
         let scene = Scene::parse("test", &text, folder.path(), &[]).unwrap_or_else(|c| panic!("{c}"));
         let hosts = Hosts::new(&scene.plan().hosts);
-        let engine = engine::open(scene.plan(), &hosts).unwrap();
+        let engine = methods::open(scene.plan(), &hosts).unwrap();
         (engine.time_step(), check::verdict(scene.plan(), &hosts, &*engine).to_string())
     };
     let (step, _) = look("1e8");

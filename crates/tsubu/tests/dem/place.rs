@@ -83,7 +83,7 @@ fn rows_go_round_what_stands_in_the_box() {
     // Too many for what the ball leaves.
     let scene = tsubu_scene::Scene::parse("test", &scene(2160, ball), std::path::Path::new("."), &[]).unwrap();
     let wrong =
-        tsubu::engine::open(scene.plan(), &tsubu::partner::Hosts::default()).err().expect("no room").to_string();
+        tsubu::methods::open(scene.plan(), &tsubu::partner::Hosts::default()).err().expect("no room").to_string();
     assert!(wrong.contains("particles.beads.start.rows") && wrong.contains("of 2160 grains only"), "{wrong}");
 }
 
@@ -100,7 +100,7 @@ fn a_stream_keeps_clear_of_a_mesh() {
     );
     let scene = tsubu_scene::Scene::parse("test", &scene, folder.path(), &[]).unwrap_or_else(|c| panic!("{c}"));
     let mut hosts = tsubu::partner::Hosts::default();
-    let mut engine = tsubu::engine::open(scene.plan(), &hosts).unwrap();
+    let mut engine = tsubu::methods::open(scene.plan(), &hosts).unwrap();
     let mut ledger = tsubu::ledger::Ledger::open(tsubu::engine::energies(&*engine, &hosts), engine.momentum());
     while engine.grains() < 300 {
         engine.advance(50, &mut hosts, &mut ledger).unwrap();
@@ -132,7 +132,7 @@ fn speeds_in_a_file_are_for_free_grains() {
         );
         let scene = tsubu_scene::Scene::parse("test", &scene, folder.path(), &[]).unwrap_or_else(|c| panic!("{c}"));
         let hosts = tsubu::partner::Hosts::default();
-        let engine = tsubu::engine::open(scene.plan(), &hosts).unwrap();
+        let engine = tsubu::methods::open(scene.plan(), &hosts).unwrap();
         assert_eq!(vectors(&engine.frame(&hosts), "velocity")[1][0], speed, "{motion}");
     }
 }

@@ -3,7 +3,8 @@
 use super::open_text;
 use std::fmt::Write as _;
 use std::path::Path;
-use tsubu::engine::{self, Engine};
+use tsubu::engine::Engine;
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu_frame::Kind;
 use tsubu_scene::Scene;
@@ -19,7 +20,7 @@ density = \"2500 kg/m^3\"
 
 fn opened(text: &str, folder: &Path) -> Result<Box<dyn Engine>, String> {
     let scene = Scene::parse("test", text, folder, &[]).map_err(|c| c.to_string())?;
-    engine::open(scene.plan(), &Hosts::new(&scene.plan().hosts)).map_err(|error| error.to_string())
+    methods::open(scene.plan(), &Hosts::new(&scene.plan().hosts)).map_err(|error| error.to_string())
 }
 
 /// A rough floor of frozen grains reached behind a gate: the run ended in its first step, "grain 496 overlaps its neighbour by

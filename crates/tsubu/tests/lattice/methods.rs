@@ -2,6 +2,7 @@
 
 use tsubu::engine::{self, Engine, OpenError};
 use tsubu::ledger::Ledger;
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu_frame::State;
 use tsubu_scene::plan::{Method, Plan};
@@ -32,7 +33,7 @@ pub(super) struct Run {
 impl Run {
     pub fn new(plan: &Plan) -> Self {
         let hosts = Hosts::new(&plan.hosts);
-        let engine = engine::open(plan, &hosts).unwrap();
+        let engine = methods::open(plan, &hosts).unwrap();
         let ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
         Self { engine, hosts, ledger }
     }
@@ -167,7 +168,7 @@ fn an_outlet_below_a_gate_opens_with_it() {
 pub(super) fn refused(change: impl Fn(&mut Plan), text: &str) -> String {
     let mut plan = plan(text);
     change(&mut plan);
-    match engine::open(&plan, &Hosts::new(&plan.hosts)) {
+    match methods::open(&plan, &Hosts::new(&plan.hosts)) {
         Err(OpenError::Refused(refusal)) => refusal.to_string(),
         Err(other) => other.to_string(),
         Ok(_) => "not refused".to_owned(),

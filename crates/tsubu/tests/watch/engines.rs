@@ -5,9 +5,10 @@ use crate::dem::open_text;
 use glam::DVec3;
 use std::fs;
 use std::path::Path;
-use tsubu::engine::{self, OpenError};
+use tsubu::engine::OpenError;
 use tsubu::interrupt::Interrupt;
 use tsubu::interrupt::Watcher;
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu::run::run;
 use tsubu::view::{Contact, Wants};
@@ -188,7 +189,7 @@ fn the_automaton_says_what_it_cannot_show() {
         let text = format!("{alone}[watch.w]\n{watch}\n");
         let changes = ["method=lattice".to_owned(), "particles.a.start.settled={}".to_owned()];
         let scene = Scene::parse("test", &text, Path::new("."), &changes).unwrap_or_else(|wrong| panic!("{wrong}"));
-        match engine::open(scene.plan(), &Hosts::default()) {
+        match methods::open(scene.plan(), &Hosts::default()) {
             Ok(engine) => {
                 let notes: Vec<String> = engine.notes().iter().map(|n| format!("{}: {}", n.key, n.text)).collect();
                 Err(notes.join("\n"))

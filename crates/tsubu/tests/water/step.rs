@@ -3,7 +3,7 @@
 use super::{GRAIN, after};
 use std::f64::consts::PI;
 use std::path::Path;
-use tsubu::engine;
+use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu_scene::Scene;
 
@@ -15,7 +15,7 @@ const RELAXATION: f64 = MOVED / (6.0 * PI * 1e-3 * 1e-3);
 fn opened(step: f64) -> Result<(), String> {
     let changes: Vec<String> = SLOW.iter().map(|c| (*c).to_owned()).chain([format!("dem.time-step={step}")]).collect();
     let scene = Scene::parse("test", GRAIN, Path::new("."), &changes).unwrap_or_else(|c| panic!("{c}"));
-    engine::open(scene.plan(), &Hosts::new(&scene.plan().hosts)).map(|_| ()).map_err(|e| e.to_string())
+    methods::open(scene.plan(), &Hosts::new(&scene.plan().hosts)).map(|_| ()).map_err(|e| e.to_string())
 }
 
 /// Just below the relaxation time a grain that is let go still comes to its terminal speed; above it the scene is refused, and the message says which key, which group and which step would do.

@@ -3,8 +3,8 @@
 use super::engine::{Scene, SiteEngine};
 use super::ground::{Ground, Sites};
 use super::pile::Stack;
+use super::rule::{GasRule, SiteRule};
 use super::{Model, gas, start};
-use crate::check::memory::refuse_more_than_there_is;
 use crate::engine::Refusal;
 use crate::lattice::build::restitution;
 use crate::lattice::caram_hong::{CaramHong, Chances};
@@ -16,25 +16,28 @@ use crate::lattice::remarks::{Remarks, World};
 use crate::lattice::savage::{Chute, Moves};
 use crate::lattice::sheet::{Layout, OUT, ROW_SPACING, WALL};
 use crate::lattice::stage;
+use crate::memory::refuse_more_than_there_is;
 use crate::partner::Hosts;
 use crate::wall::Wall;
 use glam::DVec3;
 use std::collections::BTreeMap;
-use tsubu_scene::plan::{self, Method, Plan, Region, Removal};
+use tsubu_scene::plan::{self, Plan, Region, Removal};
 
 /// Share of a spacing that the fastest lattice grain flies in an automatic step.
 const SHARE: f64 = 0.02;
 
 /// The engine of a plan whose method is one of the models with grains on sites.
-pub fn open(plan: &Plan, hosts: &Hosts) -> Result<SiteEngine, Refusal> {
+pub fn open(plan: &Plan, rule: SiteRule, hosts: &Hosts) -> Result<SiteEngine, Refusal> {
     let mut remarks = Remarks::of(plan.method.name());
-    let built = scene(plan, hosts, &mut remarks).map(|(scene, cells)| {
-        let (model, dt) = model(plan, &scene, &cells, &mut remarks);
+    let built = scene(plan, rule, hosts, &mut remarks).map(|(scene, cells)| {
+        let (model, dt) = model(plan, rule, &scene, &cells, &mut remarks);
         remarks.watches(&plan.watch, plan, model.offers());
         (scene, model, dt)
     });
     match (built, remarks.refusal()) {
-        (Some((scene, model, dt)), None) => Ok(SiteEngine::new(model, scene, dt, remarks.notes)),
+        (Some((scene, model, dt)), None) => {
+            Ok(SiteEngine::new(model, scene, (dt, step_key(plan, rule)), remarks.notes))
+        }
         (_, refused) => Err(refused.unwrap_or(Refusal { method: plan.method.name(), notes: Vec::new() })),
     }
 }
@@ -42,10 +45,10 @@ pub fn open(plan: &Plan, hosts: &Hosts) -> Result<SiteEngine, Refusal> {
 /// The scene, and what is on every site, grains by their numbers.
 ///
 /// Takes the plan apart, every field by name, so that a new field does not compile until it has been decided on here.
-fn scene(plan: &Plan, hosts: &Hosts, remarks: &mut Remarks) -> Option<(Scene, Vec<i32>)> {
+fn scene(plan: &Plan, rule: SiteRule, hosts: &Hosts, remarks: &mut Remarks) -> Option<(Scene, Vec<i32>)> {
     let Plan {
         title: _,
-        method,
+        method: _,    // By `rule`.
         dimension: _, // As periodic and water: read by `Remarks::world`.
         seed,
         gravity,
@@ -78,7 +81,7 @@ fn scene(plan: &Plan, hosts: &Hosts, remarks: &mut Remarks) -> Option<(Scene, Ve
         output: _,
         claim: _,
     } = plan;
-    remarks.world(plan, world(*method));
+    remarks.world(plan, world(rule));
     for (name, wall) in walls {
         refuse_motion(name, wall, remarks);
     }
@@ -91,16 +94,14 @@ fn scene(plan: &Plan, hosts: &Hosts, remarks: &mut Remarks) -> Option<(Scene, Ve
     if remarks.refusal().is_some() {
         return None;
     }
-    remarks.approximate("contact", law(*method));
-    let spacing = spacing(plan, remarks)?;
+    remarks.approximate("contact", law(rule));
+    let spacing = spacing(plan, rule, remarks)?;
     let walls: Vec<Wall> =
         walls.iter().map(|(name, wall)| Wall::new(name, wall, 2, hosts, DVec3::from_array(*gravity))).collect();
-    let gas = gas::layers(plan);
-    let sites = match method {
-        _ if gas.is_some() => Sites::Upright,
-        Method::GuttHaff => Sites::Upright,
-        Method::AfterSavage => Sites::Level(Layout::Square),
-        _ => Sites::Level(Layout::Triangular),
+    let sites = match rule {
+        SiteRule::Gas(_) | SiteRule::GuttHaff => Sites::Upright,
+        SiteRule::Savage => Sites::Level(Layout::Square),
+        SiteRule::Litwiniszyn | SiteRule::CaramHong | SiteRule::HemmingssonHerrmann => Sites::Level(Layout::Triangular),
     };
     let mut region = stage::region(plan, &walls, 4.0 * spacing);
     for (axis, ends) in [(0, periodic.x), (2, periodic.z)] {
@@ -108,6 +109,7 @@ fn scene(plan: &Plan, hosts: &Hosts, remarks: &mut Remarks) -> Option<(Scene, Ve
             (region.low[axis], region.high[axis]) = (low, high);
         }
     }
+    let gas = if let SiteRule::Gas(gas) = rule { Some(gas) } else { None };
     let repeats = if gas.is_some() { [periodic.x.is_some(), periodic.z.is_some()] } else { [false; 2] };
     let ground = region.as_ref().and_then(|region: &Region| Ground::repeating(sites, region, spacing, repeats));
     let Some(ground) = ground else {
@@ -122,7 +124,7 @@ fn scene(plan: &Plan, hosts: &Hosts, remarks: &mut Remarks) -> Option<(Scene, Ve
     }
     let regions: Vec<_> = removal.values().cloned().collect();
     let (painted, owner) = ground.paint(&walls, &regions);
-    let mut cells = painted.repeat(gas.unwrap_or(1));
+    let mut cells = painted.repeat(gas.map_or(1, |gas| gas::layers(plan, gas)));
     let streams = start::place(plan, &ground, &mut cells, gas.is_some(), remarks);
     remark_removal(removal, &ground, &walls, &cells, &streams, remarks);
     let each = |of: &dyn Fn(usize, &plan::Particles) -> f64| -> Vec<f64> {
@@ -144,17 +146,28 @@ fn scene(plan: &Plan, hosts: &Hosts, remarks: &mut Remarks) -> Option<(Scene, Ve
     Some((scene, cells))
 }
 
+/// The key that says how long a step is; a pile at rest has a step for every row.
+fn step_key(plan: &Plan, rule: SiteRule) -> String {
+    if rule == SiteRule::HemmingssonHerrmann {
+        "duration".to_owned()
+    } else {
+        format!("{}.time-step", plan.method.name())
+    }
+}
+
 /// What the lattice of a method has room for.
-fn world(method: Method) -> World {
+fn world(rule: SiteRule) -> World {
     let (noun, weightless) = ("grains of this lattice", false);
-    match method {
-        Method::AfterSavage => World { noun, tilted: true, weightless, periodic: [true, false] },
-        Method::Fhp => World { noun, tilted: true, weightless: true, periodic: [true; 2] },
-        Method::AfterPengHerrmann | Method::AfterBaxterBehringer => {
+    match rule {
+        SiteRule::Savage => World { noun, tilted: true, weightless, periodic: [true, false] },
+        SiteRule::Gas(GasRule::Fhp) => World { noun, tilted: true, weightless: true, periodic: [true; 2] },
+        SiteRule::Gas(GasRule::PengHerrmann | GasRule::BaxterBehringer) => {
             World { noun, tilted: false, weightless: true, periodic: [true; 2] }
         }
-        Method::AfterKarolyiKertesz => World { noun, tilted: false, weightless, periodic: [true, false] },
-        _ => World { noun, tilted: false, weightless, periodic: [false; 2] },
+        SiteRule::Gas(GasRule::KarolyiKertesz) => World { noun, tilted: false, weightless, periodic: [true, false] },
+        SiteRule::Litwiniszyn | SiteRule::CaramHong | SiteRule::GuttHaff | SiteRule::HemmingssonHerrmann => {
+            World { noun, tilted: false, weightless, periodic: [false; 2] }
+        }
     }
 }
 
@@ -197,22 +210,24 @@ fn remark_removal(
 }
 
 /// What the method makes of the contact law.
-fn law(method: Method) -> &'static str {
-    match method {
-        Method::GuttHaff => {
+fn law(rule: SiteRule) -> &'static str {
+    match rule {
+        SiteRule::GuttHaff => {
             "contacts are collisions with the restitution of the first material; no friction, no stiffness"
         }
-        Method::AfterHemmingssonHerrmann => {
+        SiteRule::HemmingssonHerrmann => {
             "contacts push as balance asks for, with the friction of the method's own table"
         }
-        Method::Fhp => "no forces: particles fly at one speed, and turn where they meet, without loss",
-        Method::AfterPengHerrmann | Method::AfterBaxterBehringer => {
+        SiteRule::Gas(GasRule::Fhp) => "no forces: particles fly at one speed, and turn where they meet, without loss",
+        SiteRule::Gas(GasRule::PengHerrmann | GasRule::BaxterBehringer) => {
             "no forces: grains fly at one speed or rest; what they lose the method's own table says"
         }
-        Method::AfterKarolyiKertesz => {
+        SiteRule::Gas(GasRule::KarolyiKertesz) => {
             "no forces: the friction of a material is the probability that a grain of it stops when it slides, or holds when it is hit"
         }
-        _ => "no forces: grains move where there is room, whatever their stiffness, restitution and friction",
+        SiteRule::Litwiniszyn | SiteRule::CaramHong | SiteRule::Savage => {
+            "no forces: grains move where there is room, whatever their stiffness, restitution and friction"
+        }
     }
 }
 
@@ -233,7 +248,7 @@ fn refuse_motion(name: &str, wall: &plan::Wall, remarks: &mut Remarks) {
 }
 
 /// Width of a site: the mean diameter of the grains [m].
-fn spacing(plan: &Plan, remarks: &mut Remarks) -> Option<f64> {
+fn spacing(plan: &Plan, rule: SiteRule, remarks: &mut Remarks) -> Option<f64> {
     let (mut count, mut sum) = (0.0, 0.0);
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for group in plan.particles.values() {
@@ -247,8 +262,9 @@ fn spacing(plan: &Plan, remarks: &mut Remarks) -> Option<f64> {
         remarks.refuse("particles", "there are no grains; their diameter is the width of a site");
         return None;
     }
-    let mean = gas::spacing(plan).unwrap_or(sum / count);
-    if gas::layers(plan).is_some() {
+    let typed = if let SiteRule::Gas(gas) = rule { gas::spacing(plan, gas) } else { None };
+    let mean = typed.unwrap_or(sum / count);
+    if matches!(rule, SiteRule::Gas(_)) {
         if most > least * (1.0 + 1e-9) {
             remarks.approximate("particles", "grains of a gas are alike but for their masses, whatever their sizes");
         }
@@ -263,24 +279,21 @@ fn spacing(plan: &Plan, remarks: &mut Remarks) -> Option<f64> {
 }
 
 /// The model of the plan's method, and its time step [s].
-fn model(plan: &Plan, scene: &Scene, cells: &[i32], remarks: &mut Remarks) -> (Box<dyn Model>, f64) {
-    if gas::layers(plan).is_some() {
-        return gas::model(plan, scene, cells, remarks);
-    }
+fn model(plan: &Plan, rule: SiteRule, scene: &Scene, cells: &[i32], remarks: &mut Remarks) -> (Box<dyn Model>, f64) {
     let Scene { ground, mass, .. } = scene;
     let (spacing, gravity) = (ground.spacing, -scene.gravity.z);
     let fall = |height: f64| (2.0 * height / gravity).sqrt();
     // What a gate stands on may become an outlet.
     let gate = plan.walls.values().any(|wall| wall.until.is_some());
     let outlets = cells.contains(&OUT) || (gate && !plan.removal.is_empty());
-    match plan.method {
-        Method::Litwiniszyn => {
+    match rule {
+        SiteRule::Litwiniszyn => {
             let plan::Voids { left, rate, time_step } = plan.litwiniszyn;
             remark_outlet(outlets, remarks);
             let model = Litwiniszyn::new(ground.sheet(cells), left, rate, plan.seed);
             (Box::new(model), time_step.unwrap_or_else(|| fall(ROW_SPACING * spacing)))
         }
-        Method::AfterSavage => {
+        SiteRule::Savage => {
             let plan::Savage { down, diagonal, sideways, up, time_step } = plan.after_savage;
             let smallest = scene.diameter.iter().copied().fold(f64::INFINITY, f64::min);
             let sieve = scene.diameter.iter().map(|diameter| smallest / diameter).collect();
@@ -290,13 +303,13 @@ fn model(plan: &Plan, scene: &Scene, cells: &[i32], remarks: &mut Remarks) -> (B
             let model = Chute::new(ground.sheet(cells), sieve, moves, slope, wraps, plan.seed);
             (Box::new(model), time_step.unwrap_or_else(|| fall(spacing)))
         }
-        Method::GuttHaff => {
+        SiteRule::GuttHaff => {
             let (_, size) = ground.inside();
             let fastest = (2.0 * gravity * size.z).sqrt();
             let dt = plan.gutt_haff.time_step.unwrap_or(SHARE * spacing / fastest);
             (Box::new(lattice_grains(plan, scene, cells, dt)), dt)
         }
-        Method::AfterHemmingssonHerrmann => {
+        SiteRule::HemmingssonHerrmann => {
             let plan::Heap { split, friction, arching } = plan.after_hemmingsson_herrmann;
             let split = match split {
                 plan::Split::Balance => Split::Vector,
@@ -309,13 +322,13 @@ fn model(plan: &Plan, scene: &Scene, cells: &[i32], remarks: &mut Remarks) -> (B
                 .approximate("duration", format!("a pile at rest knows no time: a step is a row, of {}", pile.rows()));
             (Box::new(Stack { pile, passed: Vec::new() }), dt)
         }
-        // After Caram and Hong; other methods do not come here.
-        _ => {
+        SiteRule::CaramHong => {
             let plan::Voids { left, rate, time_step } = plan.after_caram_hong;
             remark_outlet(outlets, remarks);
             let model = CaramHong::new(ground.sheet(cells), Chances { left, rate }, plan.seed);
             (Box::new(model), time_step.unwrap_or_else(|| fall(ROW_SPACING * spacing)))
         }
+        SiteRule::Gas(gas) => gas::model(plan, gas, scene, cells, remarks),
     }
 }
 

@@ -47,6 +47,7 @@ pub struct SiteEngine {
     model: Box<dyn Model>,
     scene: Scene,
     dt: f64,
+    step_key: String,
     notes: Vec<Note>,
     /// Grains that are there.
     present: usize,
@@ -64,8 +65,9 @@ struct Body {
 }
 
 impl SiteEngine {
-    pub(super) fn new(model: Box<dyn Model>, scene: Scene, dt: f64, notes: Vec<Note>) -> Self {
-        let mut engine = Self { model, scene, dt, notes, present: 0, opening: (0.0, DVec3::ZERO) };
+    /// `step`: its length [s], and the key that says it.
+    pub(super) fn new(model: Box<dyn Model>, scene: Scene, (dt, step_key): (f64, String), notes: Vec<Note>) -> Self {
+        let mut engine = Self { model, scene, dt, step_key, notes, present: 0, opening: (0.0, DVec3::ZERO) };
         engine.opening = engine.held();
         engine.present = engine.count();
         engine
@@ -296,6 +298,10 @@ impl Engine for SiteEngine {
 
     fn time_step(&self) -> f64 {
         self.dt
+    }
+
+    fn step_key(&self) -> &str {
+        &self.step_key
     }
 
     fn steps(&self) -> u64 {

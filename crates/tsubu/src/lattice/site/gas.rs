@@ -5,6 +5,7 @@ use super::avalanche::Avalanche;
 use super::engine::Scene;
 use super::fhp::Fhp;
 use super::grain_gas::GrainGas;
+use super::rule::GasRule;
 use crate::lattice::gas::collide::{REST, Rules, SLOTS};
 use crate::lattice::gas::elongated::Alignment;
 use crate::lattice::gas::grains::{Grains, Habits};
@@ -14,42 +15,46 @@ use crate::lattice::gas::planes::Gas;
 use crate::lattice::gas::sites::Sites;
 use crate::lattice::remarks::Remarks;
 use crate::lattice::sheet::WALL;
-use tsubu_scene::plan::{self, FhpRules, GasWalls, Method, Plan};
+use tsubu_scene::plan::{self, FhpRules, GasWalls, Plan};
 
-/// How many grains a site holds at the start in the gas of a plan; `None`: the method is no gas.
-pub(super) fn layers(plan: &Plan) -> Option<usize> {
-    match plan.method {
-        Method::Fhp if plan.fhp.rules == FhpRules::One => Some(REST),
-        Method::Fhp | Method::AfterPengHerrmann | Method::AfterBaxterBehringer => Some(SLOTS),
-        Method::AfterKarolyiKertesz => Some(1),
-        _ => None,
+/// How many grains a site holds at the start in the gas of a plan.
+pub(super) fn layers(plan: &Plan, gas: GasRule) -> usize {
+    match gas {
+        GasRule::Fhp if plan.fhp.rules == FhpRules::One => REST,
+        GasRule::Fhp | GasRule::PengHerrmann | GasRule::BaxterBehringer => SLOTS,
+        GasRule::KarolyiKertesz => 1,
     }
 }
 
 /// Distance of sites as typed [m].
-pub(super) fn spacing(plan: &Plan) -> Option<f64> {
-    match plan.method {
-        Method::Fhp => plan.fhp.spacing,
-        Method::AfterPengHerrmann => plan.after_peng_herrmann.spacing,
-        Method::AfterBaxterBehringer => plan.after_baxter_behringer.spacing,
-        Method::AfterKarolyiKertesz => plan.after_karolyi_kertesz.spacing,
-        _ => None,
+pub(super) fn spacing(plan: &Plan, gas: GasRule) -> Option<f64> {
+    match gas {
+        GasRule::Fhp => plan.fhp.spacing,
+        GasRule::PengHerrmann => plan.after_peng_herrmann.spacing,
+        GasRule::BaxterBehringer => plan.after_baxter_behringer.spacing,
+        GasRule::KarolyiKertesz => plan.after_karolyi_kertesz.spacing,
     }
 }
 
 /// The gas of a plan, with the grains on the layers of `cells`, and its time step [s].
-pub(super) fn model(plan: &Plan, scene: &Scene, cells: &[i32], remarks: &mut Remarks) -> (Box<dyn Model>, f64) {
-    let board = Board::new(plan, scene, cells);
-    match plan.method {
-        Method::Fhp => fhp(plan, &board, remarks),
-        Method::AfterPengHerrmann => {
+pub(super) fn model(
+    plan: &Plan,
+    gas: GasRule,
+    scene: &Scene,
+    cells: &[i32],
+    remarks: &mut Remarks,
+) -> (Box<dyn Model>, f64) {
+    let board = Board::new(plan, gas, scene, cells);
+    match gas {
+        GasRule::Fhp => fhp(plan, &board, remarks),
+        GasRule::PengHerrmann => {
             let plan::PengHerrmann { gravity, dissipation, roughness, spacing: _, time_step } =
                 plan.after_peng_herrmann;
             let habits = Habits { gravity: board.odds(gravity), dissipation, roughness };
             let dt = board.time_step(plan, time_step, gravity * FALLS, remarks);
             (Box::new(GrainGas::new(board.grains(habits), None, board.outlets)), dt)
         }
-        Method::AfterBaxterBehringer => {
+        GasRule::BaxterBehringer => {
             let plan::BaxterBehringer {
                 neighbours,
                 way,
@@ -67,8 +72,7 @@ pub(super) fn model(plan: &Plan, scene: &Scene, cells: &[i32], remarks: &mut Rem
             let alignment = Alignment { neighbours, way, temperature };
             (Box::new(GrainGas::new(grains, Some(alignment), board.outlets)), dt)
         }
-        // After Karolyi and Kertesz; other methods do not come here.
-        _ => {
+        GasRule::KarolyiKertesz => {
             let plan::KarolyiKertesz { gravity, dissipation, spacing: _, time_step } = plan.after_karolyi_kertesz;
             let friction: Vec<f64> =
                 plan.particles.values().map(|group| friction(plan, &group.material, remarks)).collect();
@@ -107,13 +111,13 @@ struct Board<'a> {
 }
 
 impl<'a> Board<'a> {
-    fn new(plan: &Plan, scene: &Scene, cells: &'a [i32]) -> Self {
+    fn new(plan: &Plan, gas: GasRule, scene: &Scene, cells: &'a [i32]) -> Self {
         let ground = &scene.ground;
         let takes = |site: &usize| scene.removal.iter().any(|removal| removal.takes(ground.point(*site).to_array()));
         Self {
             sites: Sites::new(ground.columns, ground.rows, ground.periodic),
             cells,
-            layers: layers(plan).unwrap_or(1),
+            layers: layers(plan, gas),
             outlets: (0..ground.len()).filter(takes).collect(),
             seed: plan.seed,
             count: scene.mass.len(),

@@ -15,6 +15,7 @@ pub mod grains;
 pub mod ground;
 pub mod hopping;
 pub mod pile;
+pub mod rule;
 pub mod start;
 
 use crate::view::Wants;

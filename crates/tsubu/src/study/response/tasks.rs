@@ -3,6 +3,7 @@
 use crate::engine::{self, Engine, OpenError};
 use crate::interrupt::Interrupt;
 use crate::ledger::{Account, Ledger};
+use crate::methods;
 use crate::partner::Hosts;
 use crate::run::RunError;
 use crate::trial::unsettled;
@@ -73,7 +74,7 @@ pub(super) fn bed(plan: &Plan, seed: u32) -> Result<State, OpenError> {
     let plan = seeded(plan, seed);
     let hosts = Hosts::new(&plan.hosts);
     let mut state = State::default();
-    engine::open(&plan, &hosts)?.save(&mut state);
+    methods::open(&plan, &hosts)?.save(&mut state);
     Ok(state)
 }
 
@@ -134,7 +135,7 @@ fn open(
     let mut hosts = Hosts::new(&plan.hosts);
     let host = hosts.index(&wanted.host).unwrap_or_default();
     hosts.list[host].set_frequency(frequency);
-    let mut engine = engine::open(&plan, &hosts)?;
+    let mut engine = methods::open(&plan, &hosts)?;
     engine.load(bed).map_err(|e| OpenError::Bed(e.to_string()))?;
     let ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     Ok((engine, hosts, ledger))

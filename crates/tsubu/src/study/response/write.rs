@@ -1,8 +1,8 @@
 //! The files of a response.
 
 use super::curve::CaseResult;
-use crate::engine;
 use crate::ledger::Account;
+use crate::methods;
 use crate::partner::Hosts;
 use crate::trial::unsettled;
 use crate::{check, run};
@@ -131,7 +131,7 @@ pub(super) fn write(
     }
     let hosts = Hosts::new(&plan.hosts);
     // Nothing of this depends on where grains lie.
-    if let Ok(engine) = engine::open(&unsettled(plan), &hosts) {
+    if let Ok(engine) = methods::open(&unsettled(plan), &hosts) {
         summary.time_step = engine.time_step();
         summary.warnings.extend(engine.notes().iter().map(|n| format!("{}: {}", n.key, n.text)));
         folder.write("check.txt", check::verdict(plan, &hosts, &*engine).to_string().as_bytes())?;

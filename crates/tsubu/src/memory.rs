@@ -1,6 +1,5 @@
 //! How much memory a scene takes, and whether there is as much.
 
-use super::verdict::human_memory;
 use crate::engine::{Note, Refusal, Verdict};
 use std::fs;
 use tsubu_scene::plan::{Method, Plan, Shape};
@@ -91,4 +90,9 @@ fn process() -> Option<f64> {
     let taken: f64 =
         status.lines().find_map(|line| line.strip_prefix("VmSize:")?.split_whitespace().next()?.parse().ok())?;
     Some(limit - 1024.0 * taken)
+}
+
+/// An amount of memory in the unit that suits it.
+pub(crate) fn human_memory(bytes: f64) -> String {
+    if bytes < 1e9 { format!("{:.1} MB", bytes / 1e6) } else { format!("{:.2} GB", bytes / 1e9) }
 }
