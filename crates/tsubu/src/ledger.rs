@@ -7,7 +7,7 @@
 //!
 //! and what is left over is the residual: an error of the time integration, or of the program.
 
-use crate::state::named::{self, Named};
+use crate::sections::{self, Named};
 use std::slice::from_mut;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
@@ -257,15 +257,15 @@ impl Ledger {
     /// Writes the books into a checkpoint.
     pub fn save(&self, state: &mut State) {
         let mut books = self.clone();
-        named::save("ledger", books.named(), state);
-        named::save("ledger.opening", books.opening.named(), state);
+        sections::save("ledger", books.named(), state);
+        sections::save("ledger.opening", books.opening.named(), state);
     }
 
     /// Reads the books from a checkpoint.
     pub fn load(state: &State) -> Result<Self, MissingSection> {
         let mut books = Self::default();
-        named::load("ledger", books.named(), state)?;
-        named::load("ledger.opening", books.opening.named(), state)?;
+        sections::load("ledger", books.named(), state)?;
+        sections::load("ledger.opening", books.opening.named(), state)?;
         Ok(books)
     }
 }

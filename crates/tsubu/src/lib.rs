@@ -23,6 +23,7 @@ pub mod partner;
 pub mod random;
 pub mod run;
 pub(crate) mod scene_files;
+pub mod sections;
 pub(crate) mod sizes;
 pub mod state;
 pub mod study;

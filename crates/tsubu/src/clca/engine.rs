@@ -298,7 +298,7 @@ impl Engine for ClCaEngine {
         self.dt
     }
 
-    fn step_key(&self) -> &str {
+    fn step_key(&self) -> &'static str {
         "cl-ca.spacing"
     }
 

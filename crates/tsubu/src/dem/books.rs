@@ -4,7 +4,7 @@ use super::contact_forces::{ContactForces, ContactLosses};
 use super::engine::DemEngine;
 use super::immersion::Immersion;
 use crate::ledger::{Account, Ledger};
-use crate::state::named::Named;
+use crate::sections::Named;
 use crate::view::WallLoad;
 use crate::water::WaterPowers;
 use glam::DVec3;

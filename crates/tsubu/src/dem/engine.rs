@@ -221,7 +221,7 @@ impl Engine for DemEngine {
         self.clock.dt
     }
 
-    fn step_key(&self) -> &str {
+    fn step_key(&self) -> &'static str {
         "dem.time-step"
     }
 

@@ -3,7 +3,8 @@
 use super::engine::DemEngine;
 use super::history_transfer::{ContactId, HistorySnapshot};
 use crate::partner::Hosts;
-use crate::state::{Grains, named};
+use crate::sections;
+use crate::state::Grains;
 use crate::view::{Columns, Contact, Contacts, View, Wants};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -110,7 +111,7 @@ impl DemEngine {
         state.put_real("dem.moved-mass", vec![self.books.moved_mass]);
         self.orientation.save(state);
         state.put_integer("dem.streams", self.sources.counts());
-        named::save("dem.powers", self.books.last.clone().named(), state);
+        sections::save("dem.powers", self.books.last.clone().named(), state);
         state.put_real("dem.stored", vec![self.contacts.sums.stored]);
         let flat = |v: &[DVec3]| v.iter().flat_map(DVec3::to_array).collect::<Vec<_>>();
         state.put_real("dem.reference", flat(&self.neighbours.reference));
@@ -152,7 +153,7 @@ impl DemEngine {
         self.place_gates();
         self.orientation.load(state)?;
         self.sources.set_counts(state.integer("dem.streams")?);
-        named::load("dem.powers", self.books.last.named(), state)?;
+        sections::load("dem.powers", self.books.last.named(), state)?;
         let &[stored] = state.real("dem.stored")? else { return Err(missing("dem.stored")) };
         self.contacts.sums.stored = stored;
         let reference = state.real("dem.reference")?;

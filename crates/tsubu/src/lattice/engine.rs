@@ -181,7 +181,7 @@ impl Engine for LatticeEngine {
         self.dt
     }
 
-    fn step_key(&self) -> &str {
+    fn step_key(&self) -> &'static str {
         "lattice.time-step"
     }
 

@@ -2,7 +2,6 @@
 
 pub mod columns;
 pub mod grains;
-pub mod named;
 pub mod sphere;
 
 pub use grains::{Grain, Grains};
