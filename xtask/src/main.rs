@@ -32,6 +32,9 @@ cargo xtask CHORE
   variants [--quick] [--seed N]
                       one answer for every way to compute it: every scene by every method in ten ways that must not
                       matter (threads, outputs, a busy machine, cut and resumed); a quarter of an hour, --quick a minute
+  same PROGRAM [--seconds S]
+                      every scene by this program and by an earlier build of it: does a change that must not change a
+                      number change one
   kills [--seed N] [--kills N]
                       kill runs of all kinds at random moments, resume them, and compare with runs left alone
   bench [ARGUMENT]... the benchmarks; arguments go to cargo bench
@@ -52,6 +55,7 @@ fn main() -> ExitCode {
         ["book"] => book::book(),
         ["fuzz", rest @ ..] => guard::guard("fuzz", rest),
         ["variants", rest @ ..] => variants::chore(rest),
+        ["same", rest @ ..] => variants::same(rest),
         ["kills", rest @ ..] => guard::guard("kills", rest),
         ["bench", rest @ ..] => bench::bench(rest),
         ["race", rest @ ..] => race::race(rest),

@@ -83,6 +83,41 @@ pub fn chore(options: &[&str]) -> Result<(), String> {
     variants(&wanted)
 }
 
+/// Each scene by its own method, by this program and by an earlier one: for changes that must not change a number. A hash that
+/// differs alone is told apart: it covers the names under which the state is kept.
+pub fn same(options: &[&str]) -> Result<(), String> {
+    let (earlier, seconds) = match options {
+        [earlier] => (*earlier, Ok(2.0)),
+        [earlier, "--seconds", seconds] => (*earlier, seconds.parse::<f64>()),
+        _ => return Err("same needs the path of an earlier program; --seconds S".to_owned()),
+    };
+    let seconds = seconds.map_err(|_| "--seconds needs a number")?;
+    cargo(&["build", "--release", "--locked", "--package", "tsubu-cli", "--quiet"])?;
+    let (mut wrong, mut names) = (0, 0);
+    let cases = cases(&Wanted { seconds, whole: false, seed: 1 }, &root().join("target/release/tsubu"))?;
+    for case in &cases {
+        let way = Variant { threads: 1, rows: 40, frames: true, ..Variant::default() };
+        let now = case.run(&way)?;
+        let mut before = Case { tsubu: earlier.into(), scene: case.scene.clone(), ..*case }.run(&way)?;
+        let named = before.hash != now.hash;
+        before.hash.clone_from(&now.hash);
+        let told = match now.differs(&before) {
+            Some(text) => {
+                wrong += 1;
+                format!("DIFFERS: {text}")
+            }
+            None if named => {
+                names += 1;
+                "the same but for the hash".to_owned()
+            }
+            None => "the same".to_owned(),
+        };
+        println!("{:<18} t = {:<8.3e} s  {told}", case.name(), case.duration);
+    }
+    println!("\n{} scenes: {wrong} differ, {names} in the hash alone", cases.len());
+    if wrong == 0 { Ok(()) } else { Err(format!("{wrong} scenes gave another answer")) }
+}
+
 /// Runs all; says what differs.
 fn variants(wanted: &Wanted) -> Result<(), String> {
     let begun = Instant::now();
