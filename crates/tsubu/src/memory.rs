@@ -12,7 +12,7 @@ const TRIANGLE: f64 = 800.0;
 /// Meshes of 200,000 and 2,000,000 triangles took 840 and 740 bytes each. Measured for DEM: beds of 1,000 to 1,000,000 spheres with friction springs, whole program with its checkpoints; a bed that
 /// has yet to settle will have two contacts a grain. For lattices: 1000 grains on a million sites, the whole program.
 pub(crate) fn of(plan: &Plan, places: usize) -> f64 {
-    let grains = plan.particles.values().map(|group| group.count as f64).sum::<f64>();
+    let grains = plan.grains() as f64;
     let places = places as f64;
     let meshes = plan.walls.values().map(|wall| match &wall.shape {
         Shape::Mesh { triangles, .. } => TRIANGLE * triangles.len() as f64,

@@ -1,4 +1,4 @@
-//! The door to all methods: which engine a plan's method names, and what is known of a method before its engine is there.
+//! The door to all methods: which engine a plan's method names.
 
 use crate::clca::engine::ClCaEngine;
 use crate::dem::DemEngine;
@@ -10,38 +10,22 @@ use crate::memory::refuse_more_than_there_is;
 use crate::partner::Hosts;
 use tsubu_scene::plan::{Method, Plan};
 
-/// What runs a method.
-enum Kind {
-    Dem,
-    Lattice,
-    ClCa,
-    Sites(SiteRule),
-}
-
-const fn kind(method: Method) -> Kind {
-    match method {
-        Method::Dem => Kind::Dem,
-        Method::Lattice => Kind::Lattice,
-        Method::ClCa => Kind::ClCa,
-        Method::Litwiniszyn => Kind::Sites(SiteRule::Litwiniszyn),
-        Method::AfterCaramHong => Kind::Sites(SiteRule::CaramHong),
-        Method::AfterSavage => Kind::Sites(SiteRule::Savage),
-        Method::GuttHaff => Kind::Sites(SiteRule::GuttHaff),
-        Method::AfterHemmingssonHerrmann => Kind::Sites(SiteRule::HemmingssonHerrmann),
-        Method::Fhp => Kind::Sites(SiteRule::Gas(GasRule::Fhp)),
-        Method::AfterPengHerrmann => Kind::Sites(SiteRule::Gas(GasRule::PengHerrmann)),
-        Method::AfterBaxterBehringer => Kind::Sites(SiteRule::Gas(GasRule::BaxterBehringer)),
-        Method::AfterKarolyiKertesz => Kind::Sites(SiteRule::Gas(GasRule::KarolyiKertesz)),
-    }
-}
-
 /// Builds the engine that the plan's method names, at time 0.
 pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
     refuse_more_than_there_is(plan, 0)?;
-    Ok(match kind(plan.method) {
-        Kind::Dem => Box::new(DemEngine::new(plan, hosts)?),
-        Kind::Lattice => Box::new(LatticeEngine::new(plan, hosts)?),
-        Kind::ClCa => Box::new(ClCaEngine::new(plan, hosts)?),
-        Kind::Sites(rule) => Box::new(build::open(plan, rule, hosts)?),
-    })
+    let rule = match plan.method {
+        Method::Dem => return Ok(Box::new(DemEngine::new(plan, hosts)?)),
+        Method::Lattice => return Ok(Box::new(LatticeEngine::new(plan, hosts)?)),
+        Method::ClCa => return Ok(Box::new(ClCaEngine::new(plan, hosts)?)),
+        Method::Litwiniszyn => SiteRule::Litwiniszyn,
+        Method::AfterCaramHong => SiteRule::CaramHong,
+        Method::AfterSavage => SiteRule::Savage,
+        Method::GuttHaff => SiteRule::GuttHaff,
+        Method::AfterHemmingssonHerrmann => SiteRule::HemmingssonHerrmann,
+        Method::Fhp => SiteRule::Gas(GasRule::Fhp),
+        Method::AfterPengHerrmann => SiteRule::Gas(GasRule::PengHerrmann),
+        Method::AfterBaxterBehringer => SiteRule::Gas(GasRule::BaxterBehringer),
+        Method::AfterKarolyiKertesz => SiteRule::Gas(GasRule::KarolyiKertesz),
+    };
+    Ok(Box::new(build::open(plan, rule, hosts)?))
 }

@@ -35,9 +35,7 @@ pub fn open(plan: &Plan, rule: SiteRule, hosts: &Hosts) -> Result<SiteEngine, Re
         (scene, model, dt)
     });
     match (built, remarks.refusal()) {
-        (Some((scene, model, dt)), None) => {
-            Ok(SiteEngine::new(model, scene, (dt, step_key(plan, rule)), remarks.notes))
-        }
+        (Some((scene, model, dt)), None) => Ok(SiteEngine::new(model, scene, dt, step_key(plan, rule), remarks.notes)),
         (_, refused) => Err(refused.unwrap_or(Refusal { method: plan.method.name(), notes: Vec::new() })),
     }
 }

@@ -65,8 +65,7 @@ struct Body {
 }
 
 impl SiteEngine {
-    /// `step`: its length [s], and the key that says it.
-    pub(super) fn new(model: Box<dyn Model>, scene: Scene, (dt, step_key): (f64, String), notes: Vec<Note>) -> Self {
+    pub(super) fn new(model: Box<dyn Model>, scene: Scene, dt: f64, step_key: String, notes: Vec<Note>) -> Self {
         let mut engine = Self { model, scene, dt, step_key, notes, present: 0, opening: (0.0, DVec3::ZERO) };
         engine.opening = engine.held();
         engine.present = engine.count();
