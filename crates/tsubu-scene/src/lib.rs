@@ -43,6 +43,7 @@ mod files;
 mod going_on;
 mod grain_file;
 mod header;
+mod key;
 mod lines;
 mod mesh_check;
 mod mesh_file;

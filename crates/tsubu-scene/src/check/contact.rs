@@ -4,7 +4,7 @@ mod cohesion;
 
 use super::Parts;
 use crate::complaint::Complaint;
-use crate::plan::{Cohesion, Contact, MaterialPair, Normal, Rolling, Tangential, Twisting};
+use crate::plan::{Contact, MaterialPair, Normal, Rolling, Strength, Tangential, Twisting};
 
 /// A stack of parts: the scene's, or that of a pair of materials.
 struct Stack<'a> {
@@ -33,45 +33,35 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
 fn stack(stack: &Stack<'_>, complaints: &mut Vec<Complaint>) {
     let contact = &stack.contact;
     let hertz = matches!(contact.normal, Normal::Hertz {});
-    let sprung = matches!(contact.tangential, Tangential::Mindlin { .. } | Tangential::Spring { .. });
+    let [normal, tangential, cohesion] = [contact.normal.name(), contact.tangential.name(), contact.cohesion.name()];
     let mut wants = |part: [&str; 2], other: [&str; 2], why: &str, hint: &str| {
         complaints.extend(stack.unfit(part, other, why, hint));
     };
     match contact.tangential {
         Tangential::Mindlin { .. } if !hertz => wants(
-            ["tangential", "mindlin"],
-            ["normal", "hooke"],
+            ["tangential", tangential],
+            ["normal", normal],
             "its stiffness comes from `normal.hertz`",
-            "with `normal.hooke` write tangential.spring = {}, or tangential.coulomb = {}",
+            &format!("with `normal.{normal}` write tangential.spring = {{}}, or tangential.coulomb = {{}}"),
         ),
         Tangential::Spring { .. } if hertz => wants(
-            ["tangential", "spring"],
-            ["normal", "hertz"],
+            ["tangential", tangential],
+            ["normal", normal],
             "its stiffness is a share of that of `normal.hooke`",
             "with `normal.hertz` write tangential.mindlin = {}",
         ),
         _ => {}
     }
-    let cohesion = match contact.cohesion {
-        Cohesion::Dmt {} => Some("dmt"),
-        Cohesion::Jkr {} => Some("jkr"),
-        Cohesion::None {} | Cohesion::Sjkr {} | Cohesion::Constant {} => None,
-    };
-    if let (Some(name), false) = (cohesion, hertz) {
+    if contact.cohesion.strength() == Some(Strength::SurfaceEnergy) && !hertz {
         wants(
-            ["cohesion", name],
-            ["normal", "hooke"],
+            ["cohesion", cohesion],
+            ["normal", normal],
             "it is a theory of elastic spheres, `normal.hertz`",
-            "with `normal.hooke` write cohesion.sjkr = {} or cohesion.constant = {}",
+            &format!("with `normal.{normal}` write cohesion.sjkr = {{}} or cohesion.constant = {{}}"),
         );
     }
-    let tangential = match contact.tangential {
-        Tangential::None {} => "none",
-        Tangential::Coulomb { .. } => "coulomb",
-        Tangential::Mindlin { .. } => "mindlin",
-        Tangential::Spring { .. } => "spring",
-    };
     let hint = "write tangential.mindlin = {} with `normal.hertz`, tangential.spring = {} with `normal.hooke`";
+    let sprung = contact.tangential.sprung();
     if matches!(contact.rolling, Rolling::Epsd2 {}) && !sprung {
         wants(["rolling", "epsd2"], ["tangential", tangential], "its stiffness is that of a tangential spring", hint);
     }

@@ -1,4 +1,22 @@
-//! Materials and the contact law. What the choices are stands in the table of keys and beside their code: `tsubu explain`.
+//! Materials and the contact law: one file a family of parts, with what a scene may say of each. Formulas stand beside their
+//! code: `tsubu explain`.
+
+mod cohesion;
+mod damping;
+mod film;
+mod normal;
+mod rolling;
+mod tangential;
+mod twisting;
+
+pub use cohesion::{Cohesion, Strength};
+pub(crate) use cohesion::{READ_A_DENSITY, READ_A_FORCE};
+pub use damping::Damping;
+pub use film::Film;
+pub use normal::Normal;
+pub use rolling::Rolling;
+pub use tangential::{MindlinForm, Tangential};
+pub use twisting::Twisting;
 
 use serde::{Deserialize, Serialize};
 
@@ -70,175 +88,4 @@ pub struct Contact {
     pub film: Film,
     /// Whether grains spin.
     pub rotation: bool,
-}
-
-/// Elastic normal force for overlap d.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
-pub enum Normal {
-    /// `contact.normal.hertz`.
-    Hertz {},
-    /// `contact.normal.hooke`.
-    Hooke {
-        /// k [N/m].
-        stiffness: f64,
-    },
-}
-
-/// Damping of the normal motion for overlap d and overlap rate d'.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
-pub enum Damping {
-    /// `contact.damping.none`.
-    None {},
-    /// `contact.damping.sqrt`.
-    Sqrt {
-        /// Impact speed at which the restitution is the materials' [m/s].
-        reference_speed: f64,
-    },
-    /// `contact.damping.quarter`.
-    Quarter {},
-    /// `contact.damping.linear`.
-    Linear {
-        /// Impact speed at which the restitution is the materials' [m/s].
-        reference_speed: f64,
-    },
-    /// `contact.damping.rate`.
-    Rate {
-        /// Damping coefficient over reduced mass [1/s].
-        rate: f64,
-    },
-    /// `contact.damping.dashpot`.
-    Dashpot {
-        /// c [N.s/m].
-        coefficient: f64,
-    },
-}
-
-/// Tangential force.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
-pub enum Tangential {
-    /// `contact.tangential.none`.
-    None {},
-    /// `contact.tangential.coulomb`.
-    Coulomb {
-        /// v_eps [m/s].
-        smoothing_speed: f64,
-    },
-    /// `contact.tangential.mindlin`.
-    Mindlin {
-        /// How force and slip belong together.
-        form: MindlinForm,
-        /// Tangential over normal dashpot [-]; `None`: equal damping ratios.
-        damping: Option<f64>,
-    },
-    /// `contact.tangential.spring`.
-    Spring {
-        /// k_t over the stiffness of `contact.normal.hooke` [-].
-        ratio: f64,
-        /// Tangential over normal dashpot [-].
-        damping: f64,
-        /// Grain-level cohesion c: the tangential force may reach mu f_n plus this [N].
-        cohesion: f64,
-    },
-}
-
-/// Which reading of Mindlin's no-slip solution is used.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum MindlinForm {
-    /// dF = -k_t(d) dx, F scaled down on unloading (Thornton, Cummins, Cleary 2013).
-    Incremental,
-    /// F = -k_t(d) x, x the whole slip (the form behind the curves of Chung and Ooi 2011).
-    Secant,
-}
-
-/// Rolling resistance.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
-pub enum Rolling {
-    /// `contact.rolling.none`.
-    None {},
-    /// `contact.rolling.constant`.
-    Constant {
-        /// Rolling speed below which the torque fades [m/s].
-        smoothing_speed: f64,
-    },
-    /// `contact.rolling.viscous`.
-    Viscous {
-        /// Torque over (mu_r R f_n) at a rolling speed of 1 m/s [s/m].
-        coefficient: f64,
-    },
-    /// `contact.rolling.epsd`.
-    Epsd {
-        /// 2.25 in space, 3 in the plane [-].
-        ratio: f64,
-        /// Damping ratio of the rolling spring [-].
-        damping_ratio: f64,
-    },
-    /// `contact.rolling.epsd2`.
-    Epsd2 {},
-    /// `contact.rolling.spring`.
-    Spring {
-        /// k [N/m].
-        stiffness: f64,
-        /// c [N.s/m].
-        damping: f64,
-    },
-    /// `contact.rolling.contact-width`.
-    ContactWidth {
-        /// Rolling speed below which the torque fades [m/s].
-        smoothing_speed: f64,
-    },
-}
-
-/// Resistance against relative spin about the normal.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
-pub enum Twisting {
-    /// `contact.twisting.none`.
-    None {},
-    /// `contact.twisting.sliding`.
-    Sliding {
-        /// Spin below which the torque fades [rad/s].
-        smoothing_spin: f64,
-    },
-    /// `contact.twisting.spring`.
-    Spring {},
-}
-
-/// Attraction between bodies in contact.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
-pub enum Cohesion {
-    /// `contact.cohesion.none`.
-    None {},
-    /// `contact.cohesion.dmt`.
-    Dmt {},
-    /// `contact.cohesion.jkr`.
-    Jkr {},
-    /// `contact.cohesion.sjkr`.
-    Sjkr {},
-    /// `contact.cohesion.constant`.
-    Constant {},
-}
-
-/// Liquid between bodies that are near.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
-pub enum Film {
-    /// `contact.film.none`.
-    None {},
-    /// `contact.film.lubrication`.
-    Lubrication {
-        /// Gap at which it grows no more [m].
-        roughness: f64,
-        /// Gap beyond which it is not counted [m].
-        reach: f64,
-        /// mu [Pa.s].
-        viscosity: f64,
-        /// Whether it goes on while the bodies touch.
-        in_contact: bool,
-    },
 }

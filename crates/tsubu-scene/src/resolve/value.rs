@@ -5,6 +5,7 @@ use super::vector::vector_value;
 use crate::complaint::Complaint;
 use crate::keys::{Bound, Family, Key, Kind, Word};
 use crate::node::{Node, Value};
+use crate::plan::{READ_A_DENSITY, READ_A_FORCE};
 use crate::suggest;
 use crate::units::{self, ACCELERATION, ANGLE, Dimension, ENERGY_DENSITY, FORCE, NUMBER, SPIN};
 
@@ -216,11 +217,11 @@ impl Resolver<'_> {
             Some(Value::List(pairs)) => pairs.as_slice(),
             _ => &[],
         };
-        let chosen = |part| {
-            let says = |node: &Node| node.find(&["contact", "cohesion", part]).is_some();
+        let chosen = |kinds: &[&str]| {
+            let says = |node: &Node| kinds.iter().any(|kind| node.find(&["contact", "cohesion", kind]).is_some());
             says(self.root) || pairs.iter().any(says)
         };
-        let dimension = match (chosen("constant"), chosen("sjkr"), &node.value) {
+        let dimension = match (chosen(READ_A_FORCE), chosen(READ_A_DENSITY), &node.value) {
             (true, false, _) => &FORCE,
             (false, true, _) => &ENERGY_DENSITY,
             // Nobody reads it: either will do. Where both parts are chosen, who reads what is checked pair by pair.

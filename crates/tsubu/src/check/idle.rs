@@ -3,7 +3,7 @@
 
 use super::{Bodies, Verdict};
 use crate::contact::Table;
-use tsubu_scene::plan::{Cohesion, Plan, Rolling, Twisting};
+use tsubu_scene::plan::{Plan, Rolling, Strength, Twisting};
 
 /// Judges the contact law of every pair of bodies that can touch.
 pub(super) fn parts(verdict: &mut Verdict, plan: &Plan, table: &Table, bodies: &Bodies) {
@@ -12,26 +12,13 @@ pub(super) fn parts(verdict: &mut Verdict, plan: &Plan, table: &Table, bodies: &
     for (a, b) in bodies.pairs() {
         let law = plan.contact_of(table.name(a.material), table.name(b.material));
         let constants = table.pair(a.body(), b.body()).constants;
-        let rolling = match law.rolling {
-            Rolling::None {} => None,
-            Rolling::Constant { .. }
-            | Rolling::Viscous { .. }
-            | Rolling::Epsd { .. }
-            | Rolling::Epsd2 {}
-            | Rolling::Spring { .. }
-            | Rolling::ContactWidth { .. } => Some(("rolling", "rolling-friction", constants.rolling)),
-        };
-        let twisting = match law.twisting {
-            Twisting::None {} => None,
-            Twisting::Sliding { .. } | Twisting::Spring {} => {
-                Some(("twisting", "twisting-friction", constants.twisting))
-            }
-        };
-        let cohesion = match law.cohesion {
-            Cohesion::None {} => None,
-            Cohesion::Dmt {} | Cohesion::Jkr {} => Some(("cohesion", "surface-energy", constants.surface_energy)),
-            Cohesion::Sjkr {} | Cohesion::Constant {} => Some(("cohesion", "cohesion", constants.cohesion)),
-        };
+        let rolling = (law.rolling != Rolling::None {}).then_some(("rolling", "rolling-friction", constants.rolling));
+        let twisting =
+            (law.twisting != Twisting::None {}).then_some(("twisting", "twisting-friction", constants.twisting));
+        let cohesion = law.cohesion.strength().map(|strength| match strength {
+            Strength::SurfaceEnergy => ("cohesion", "surface-energy", constants.surface_energy),
+            Strength::Force | Strength::EnergyDensity => ("cohesion", "cohesion", constants.cohesion),
+        });
         for (found, part) in found.iter_mut().zip([rolling, twisting, cohesion]) {
             if let Some(part) = part.filter(|part| found.is_none_or(|found| found.2 < part.2)) {
                 *found = Some(part);

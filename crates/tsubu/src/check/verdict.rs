@@ -7,7 +7,7 @@ use crate::engine::{Engine, Fault, Verdict as Noted};
 use crate::memory::{self, human_memory};
 use crate::partner::Hosts;
 use std::fmt;
-use tsubu_scene::plan::{Integrator, Method, Normal, Plan};
+use tsubu_scene::plan::{Integrator, Method, Plan};
 
 /// One judgement.
 #[derive(Clone, Debug, PartialEq)]
@@ -163,9 +163,9 @@ fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
     }
     idle::parts(verdict, plan, &table, &bodies);
     for (name, group) in &plan.particles {
-        // A linear spring knows nothing of the modulus.
-        let hertz = matches!(plan.contact_of(&group.material, &group.material).normal, Normal::Hertz {});
-        if group.count == 0 || !hertz {
+        // A spring of a told stiffness knows nothing of the modulus.
+        let told = plan.contact_of(&group.material, &group.material).normal.stiffness();
+        if group.count == 0 || told.is_some() {
             continue;
         }
         let m = &plan.materials[&group.material];
@@ -249,13 +249,13 @@ fn film(verdict: &mut Verdict, label: &str, pair: &Pair, dt: f64, speed: f64) {
 }
 
 fn stiffness_key(plan: &Plan, material: &str, other: &str) -> String {
-    match plan.contact_of(material, other).normal {
-        Normal::Hertz {} => format!("`materials.{material}.young-modulus`"),
-        Normal::Hooke { .. } if plan.pair(material, other).is_some_and(|pair| pair.contact.is_some()) => {
-            format!("`contact.normal.hooke.stiffness` of the pair `{material}` and `{other}`")
-        }
-        Normal::Hooke { .. } => "`contact.normal.hooke.stiffness`".to_owned(),
+    let normal = &plan.contact_of(material, other).normal;
+    if normal.stiffness().is_none() {
+        return format!("`materials.{material}.young-modulus`");
     }
+    let own = plan.pair(material, other).is_some_and(|pair| pair.contact.is_some());
+    let whose = if own { format!(" of the pair `{material}` and `{other}`") } else { String::new() };
+    format!("`contact.normal.{}.stiffness`{whose}", normal.name())
 }
 
 fn lattice(verdict: &mut Verdict, plan: &Plan, dt: f64, speed: f64) {

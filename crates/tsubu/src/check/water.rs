@@ -5,7 +5,7 @@ use crate::partner::Hosts;
 use crate::water::{KARMAN, Stream, Water};
 use glam::DVec3;
 use std::f64::consts::PI;
-use tsubu_scene::plan::{self, GrainMotion, Normal, Particles, Plan, Torque};
+use tsubu_scene::plan::{self, GrainMotion, Particles, Plan, Torque};
 
 /// Part of the drag relaxation time that a step may be: beyond it the drag of the last moment is not that of this one.
 /// With all of it velocity Verlet with predicted velocities is at the end of its stability: of v' = -v/T a step makes a map of
@@ -194,7 +194,8 @@ fn contacts(
     drag: f64,
 ) -> bool {
     let law = plan.contact_of(&group.material, &group.material);
-    let Normal::Hooke { stiffness } = law.normal else { return false };
+    let Some(stiffness) = law.normal.stiffness() else { return false };
+    let key = format!("contact.normal.{}.stiffness", law.normal.name());
     let speed = speed_scale(plan, hosts);
     let (m, d) = (sunk.moved(), sunk.diameter);
     // Against a fixed grain and without damping, d = v sqrt(m/k).
@@ -210,7 +211,7 @@ fn contacts(
         format!(
             "{name} in water: stiffness {stiffness:.3e} N/m; the window of overlap / d from 0.001 to 0.01 at {speed:.3} m/s is {softest:.3e} to {stiffest:.3e} N/m: {place}"
         ),
-        || format!("`contact.normal.hooke.stiffness` to {softest:.2e} N/m or more"),
+        || format!("`{key}` to {softest:.2e} N/m or more"),
     );
     verdict.say(format!(
         "{name} in water: the window is one decade of contact time, {shortest:.2e} to {longest:.2e} s: two contact times a hundred apart, as in the avalanche of Osada et al. (2004), are never both inside"
@@ -226,7 +227,7 @@ fn contacts(
             100.0 * contact / drag,
             100.0 * contact / hop
         ),
-        || "a stiffer `contact.normal.hooke.stiffness`: the stream changes during a contact".to_owned(),
+        || format!("a stiffer `{key}`: the stream changes during a contact"),
     );
     true
 }

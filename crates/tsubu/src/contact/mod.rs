@@ -1,7 +1,8 @@
 //! Contact laws: stacks of parts that work on chunks of touching pairs.
 //!
 //! One file a part. A part knows neither walls nor threads nor dimension: grain-grain and grain-wall contacts reach it as
-//! rows of the same [`chunk::Chunk`].
+//! rows of the same [`chunk::Chunk`]. Beside its own file a part stands here alone: its `mod` line, the arm of its family that
+//! puts it into a law, its text in [`ABOUT`].
 //!
 //! # How a part is made fast
 //!
@@ -49,7 +50,99 @@ mod viscous;
 use crate::about::About;
 pub use chunk::Chunk;
 pub use law::Law;
+use part::Part;
 pub use table::{Pair, Table};
+use tsubu_scene::plan::{Cohesion, Contact, Damping, Film, Normal, Rolling, Tangential, Twisting};
+
+/// A part, where a scene asks for one.
+type Chosen = Option<Box<dyn Part>>;
+
+/// The parts that a `[contact]` asks for.
+fn parts(contact: &Contact) -> Vec<Box<dyn Part>> {
+    let parts = [
+        Some(normal(&contact.normal)),
+        cohesion(&contact.cohesion),
+        damping(contact),
+        tangential(&contact.tangential),
+        rolling(&contact.rolling),
+        twisting(&contact.twisting),
+        film(contact),
+    ];
+    parts.into_iter().flatten().collect()
+}
+
+fn normal(normal: &Normal) -> Box<dyn Part> {
+    match *normal {
+        Normal::Hertz {} => Box::new(hertz::Hertz),
+        Normal::Hooke { stiffness } => Box::new(hooke::Hooke { stiffness }),
+    }
+}
+
+fn cohesion(cohesion: &Cohesion) -> Chosen {
+    match *cohesion {
+        Cohesion::None {} => None,
+        Cohesion::Dmt {} => Some(Box::new(dmt::part())),
+        Cohesion::Jkr {} => Some(Box::new(jkr::Jkr)),
+        Cohesion::Sjkr {} => Some(Box::new(sjkr::part())),
+        Cohesion::Constant {} => Some(Box::new(cohesion_constant::part())),
+    }
+}
+
+fn damping(contact: &Contact) -> Chosen {
+    let attraction = contact.attraction;
+    let hertz = matches!(contact.normal, Normal::Hertz {});
+    let viscous = |form, reference_speed| -> Chosen {
+        Some(Box::new(viscous::Viscous { form, hertz, attraction, reference_speed }))
+    };
+    let told = |dashpot| -> Chosen { Some(Box::new(dashpot::Told { dashpot, attraction })) };
+    match contact.damping {
+        Damping::None {} => None,
+        Damping::Sqrt { reference_speed } => viscous(viscous::Form::Sqrt, reference_speed),
+        Damping::Quarter {} => viscous(viscous::Form::Quarter, 1.0),
+        Damping::Linear { reference_speed } => viscous(viscous::Form::Linear, reference_speed),
+        Damping::Rate { rate } => told(dashpot::Dashpot::Rate(rate)),
+        Damping::Dashpot { coefficient } => told(dashpot::Dashpot::Constant(coefficient)),
+    }
+}
+
+fn tangential(tangential: &Tangential) -> Chosen {
+    match *tangential {
+        Tangential::None {} => None,
+        Tangential::Coulomb { smoothing_speed } => Some(Box::new(coulomb::part(smoothing_speed))),
+        Tangential::Mindlin { form, damping } => Some(Box::new(mindlin::Mindlin { form, damping })),
+        Tangential::Spring { ratio, damping, cohesion } => Some(Box::new(spring::Spring { ratio, damping, cohesion })),
+    }
+}
+
+fn rolling(rolling: &Rolling) -> Chosen {
+    match *rolling {
+        Rolling::None {} => None,
+        Rolling::Constant { smoothing_speed } => Some(Box::new(rolling_constant::part(smoothing_speed))),
+        Rolling::Viscous { coefficient } => Some(Box::new(rolling_viscous::part(coefficient))),
+        Rolling::Epsd { ratio, damping_ratio } => Some(Box::new(epsd::Epsd { told: Some([ratio, damping_ratio]) })),
+        Rolling::Epsd2 {} => Some(Box::new(epsd::Epsd { told: None })),
+        Rolling::Spring { stiffness, damping } => Some(Box::new(rolling_spring::RollingSpring { stiffness, damping })),
+        Rolling::ContactWidth { smoothing_speed } => Some(Box::new(contact_width::part(smoothing_speed))),
+    }
+}
+
+fn twisting(twisting: &Twisting) -> Chosen {
+    match *twisting {
+        Twisting::None {} => None,
+        Twisting::Sliding { smoothing_spin } => Some(Box::new(twisting_sliding::part(smoothing_spin))),
+        Twisting::Spring {} => Some(Box::new(twisting_spring::TwistingSpring)),
+    }
+}
+
+fn film(contact: &Contact) -> Chosen {
+    match contact.film {
+        Film::None {} => None,
+        Film::Lubrication { roughness, reach, viscosity, in_contact } => {
+            let beside_damping = contact.damping != Damping::None {};
+            Some(Box::new(lubrication::Lubrication { roughness, reach, viscosity, in_contact, beside_damping }))
+        }
+    }
+}
 
 /// What the parts of contact laws are.
 pub const ABOUT: &[&About] = &[

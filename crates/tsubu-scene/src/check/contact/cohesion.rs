@@ -5,15 +5,15 @@
 use super::Parts;
 use crate::complaint::Complaint;
 use crate::node::Value;
-use crate::plan::{Cohesion, Contact, MaterialPair};
+use crate::plan::{Cohesion, Contact, MaterialPair, Strength};
 use crate::units::{self, Dimension, ENERGY_DENSITY, FORCE};
 
 /// What a part reads, and what the other one does.
 fn reads(cohesion: &Cohesion) -> Option<[&'static Dimension; 2]> {
-    match cohesion {
-        Cohesion::Constant {} => Some([&FORCE, &ENERGY_DENSITY]),
-        Cohesion::Sjkr {} => Some([&ENERGY_DENSITY, &FORCE]),
-        Cohesion::None {} | Cohesion::Dmt {} | Cohesion::Jkr {} => None,
+    match cohesion.strength()? {
+        Strength::Force => Some([&FORCE, &ENERGY_DENSITY]),
+        Strength::EnergyDensity => Some([&ENERGY_DENSITY, &FORCE]),
+        Strength::SurfaceEnergy => None,
     }
 }
 
@@ -23,8 +23,9 @@ pub(super) fn check(
     pairs: &[(String, MaterialPair)],
     complaints: &mut Vec<Complaint>,
 ) {
-    let all = || pairs.iter().filter_map(|(_, pair)| pair.contact.as_ref()).chain([scene]).map(|c| &c.cohesion);
-    if !(all().any(|c| *c == Cohesion::Constant {}) && all().any(|c| *c == Cohesion::Sjkr {})) {
+    let all = pairs.iter().filter_map(|(_, pair)| pair.contact.as_ref()).chain([scene]);
+    let strengths: Vec<Strength> = all.filter_map(|contact| contact.cohesion.strength()).collect();
+    if ![Strength::Force, Strength::EnergyDensity].iter().all(|strength| strengths.contains(strength)) {
         return;
     }
     let text = |path: &[&str]| match parts.root.find(path).map(|node| &node.value) {
