@@ -87,7 +87,7 @@ pub struct Chunk {
     pub tangential_stiffness: Column,
     /// Between parts: local viscous coefficient of the normal damping [N.s/m], for tangential dashpots.
     pub dashpot: Column,
-    /// Between parts: what cohesion adds to the normal force before friction multiplies it [N].
+    /// Between parts: what attraction adds to the normal force before friction multiplies it [N], added to.
     pub pull_off: Column,
     /// Between parts: what friction multiplies [N]: normal force and pull-off, never below zero.
     pub load: Column,
@@ -102,7 +102,7 @@ pub struct Chunk {
     pub torque: [Column; 3],
     /// Result: energy stored [J]. Set by the normal part, added to by the others.
     pub stored: Column,
-    /// Result: power lost in normal damping and in contacts that snap together or part [W], added to.
+    /// Result: power lost in normal damping, in yielding, and in contacts that snap together or part [W], added to.
     pub lost_normal: Column,
     /// Result: power lost in sliding [W].
     pub lost_sliding: Column,
@@ -160,7 +160,8 @@ impl Chunk {
     /// that no part of a law sets stay zero. (Clearing them all took 0.5 ns a row, as long as Hertz.)
     pub fn clear_results(&mut self) {
         let n = self.rows();
-        for column in [&mut self.lost_normal, &mut self.lost_rolling].into_iter().chain(&mut self.torque) {
+        let columns = [&mut self.pull_off, &mut self.lost_normal, &mut self.lost_rolling];
+        for column in columns.into_iter().chain(&mut self.torque) {
             column[..n].fill(0.0);
         }
     }

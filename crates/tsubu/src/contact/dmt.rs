@@ -20,7 +20,7 @@ pub(super) fn pull(chunk: &mut Chunk, held: f64, force: impl Fn(&Chunk, usize) -
         let force = if chunk.contact_radius[i] > 0.0 { force(chunk, i) } else { 0.0 };
         chunk.normal_force[i] -= force;
         chunk.stored[i] -= force * chunk.overlap[i];
-        chunk.pull_off[i] = held * force;
+        chunk.pull_off[i] += held * force;
     }
 }
 

@@ -24,6 +24,6 @@ fn rows(chunk: &mut Chunk) {
         let force = 2.0 * PI * chunk.cohesion[i] * (chunk.contact_radius[i] * chunk.contact_radius[i]);
         chunk.normal_force[i] -= force;
         chunk.stored[i] -= 0.5 * force * chunk.overlap[i];
-        chunk.pull_off[i] = force;
+        chunk.pull_off[i] += force;
     }
 }

@@ -40,8 +40,10 @@ pub struct Pair {
     pub radius: f64,
     /// Effective mass m* = 1/(1/m1 + 1/m2) [kg].
     pub mass: f64,
-    /// k of the elastic force k d^p, set by the normal part [N/m^p].
+    /// k of the elastic force k d^p in loading, set by the normal part [N/m^p].
     pub stiffness: f64,
+    /// The largest k with which it ever acts, where that is not the same, set by the normal part [N/m^p].
+    pub stiffest: f64,
     /// c of the damping c d^q d', set by the damping part; zero without one.
     pub damping: f64,
     /// q, set by the damping part [-].
@@ -54,12 +56,13 @@ pub struct Pair {
 
 impl Pair {
     /// Undamped contact time at impact speed `v` [s]: pi sqrt(m*/k) (p = 1), 2.943275 d_max / v (p = 3/2), and for any p
-    /// 2 I d_max / v with I the integral of 1/sqrt(1 - x^(p+1)) from 0 to 1.
+    /// 2 I d_max / v with I the integral of 1/sqrt(1 - x^(p+1)) from 0 to 1; with the largest k, as it is for the time step.
     pub fn contact_time(&self, v: f64) -> f64 {
+        let stiff = Self { stiffness: self.stiffness.max(self.stiffest), ..*self };
         match self.constants.exponent {
-            1.0 => std::f64::consts::PI * (self.mass / self.stiffness).sqrt(),
-            1.5 => 2.943_275 * self.largest_overlap(v) / v,
-            p => 2.0 * approach(p) * self.largest_overlap(v) / v,
+            1.0 => std::f64::consts::PI * (stiff.mass / stiff.stiffness).sqrt(),
+            1.5 => 2.943_275 * stiff.largest_overlap(v) / v,
+            p => 2.0 * approach(p) * stiff.largest_overlap(v) / v,
         }
     }
 

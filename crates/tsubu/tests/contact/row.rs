@@ -49,7 +49,7 @@ fn faults(subject: &Subject, chunk: &Chunk, i: usize, held: f64, dt: f64) -> Str
     let losses = [chunk.lost_normal[i], chunk.lost_sliding[i], chunk.lost_rolling[i]];
     let finite = numbers.iter().chain(&losses).all(|x| x.is_finite());
     ask(finite && chunk.history.iter().all(|column| column[i].is_finite()), "not finite; ");
-    let cohesive = !matches!(contact.cohesion, Cohesion::None {});
+    let cohesive = stack::attracts(contact);
     ask(force >= 0.0 || cohesive || contact.attraction, "pulls; ");
     let pull = chunk.pull_off[i];
     ask(pull == 0.0 || cohesive, "cohesion from nowhere; ");

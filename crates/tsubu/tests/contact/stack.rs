@@ -30,6 +30,11 @@ pub fn mindlin(form: MindlinForm) -> Tangential {
     Tangential::Mindlin { form, damping: None }
 }
 
+/// An example of each normal force.
+pub fn normals() -> Vec<Normal> {
+    vec![Normal::Hertz {}, Normal::Hooke { stiffness: 1e5 }]
+}
+
 fn dampings() -> Vec<Damping> {
     vec![
         Damping::Quarter {},
@@ -43,12 +48,12 @@ fn dampings() -> Vec<Damping> {
 
 fn tangentials(normal: &Normal) -> Vec<Tangential> {
     let coulomb = Tangential::Coulomb { smoothing_speed: 1e-3 };
-    match normal {
-        Normal::Hertz {} => {
+    match normal.stiffness() {
+        None => {
             let [a, b] = [MindlinForm::Incremental, MindlinForm::Secant].map(mindlin);
             vec![a, b, coulomb, Tangential::None {}]
         }
-        Normal::Hooke { .. } => {
+        Some(_) => {
             vec![Tangential::Spring { ratio: 0.3, damping: 0.5, cohesion: 0.01 }, coulomb, Tangential::None {}]
         }
     }
@@ -78,14 +83,19 @@ fn cohesions() -> Vec<Cohesion> {
 fn refused(c: &Contact) -> bool {
     let spring = matches!(c.tangential, Tangential::Mindlin { .. } | Tangential::Spring { .. });
     let needs_spring = matches!(c.rolling, Rolling::Epsd2 {}) || matches!(c.twisting, Twisting::Spring {});
-    let hooke = matches!(c.normal, Normal::Hooke { .. });
-    needs_spring && !spring || hooke && matches!(c.cohesion, Cohesion::Jkr {})
+    let told = c.normal.stiffness().is_some();
+    needs_spring && !spring || told && matches!(c.cohesion, Cohesion::Jkr {})
+}
+
+/// Whether its bodies may hold each other.
+pub fn attracts(c: &Contact) -> bool {
+    !matches!(c.cohesion, Cohesion::None {}) || !c.normal.elastic()
 }
 
 /// Every stack, with the number of choices in which it differs from the first of its normal force.
 fn stacks() -> Vec<(usize, Contact)> {
     let mut stacks = Vec::new();
-    for normal in [Normal::Hertz {}, Normal::Hooke { stiffness: 1e5 }] {
+    for normal in normals() {
         for (d, damping) in dampings().into_iter().enumerate() {
             for (a, attraction) in [false, true].into_iter().enumerate() {
                 for (t, tangential) in tangentials(&normal).into_iter().enumerate() {
@@ -128,10 +138,11 @@ pub static PAIRS: LazyLock<Vec<Subject>> =
 pub fn subject(contact: &Contact) -> Subject {
     static KNOWN: LazyLock<Vec<(Normal, Damping, bool, f64)>> = LazyLock::new(|| {
         let mut known = Vec::new();
-        for base in [hertz(), hooke(1e5)] {
+        for normal in normals() {
             for damping in dampings() {
                 for attraction in [false, true] {
-                    let contact = Contact { damping: damping.clone(), attraction, ..base.clone() };
+                    let (normal, damping) = (normal.clone(), damping.clone());
+                    let contact = Contact { normal, damping, attraction, ..hertz() };
                     let mut pair = constants();
                     Law::new(&contact).prepare(&mut pair);
                     known.push((contact.normal, contact.damping, attraction, pair.damping));

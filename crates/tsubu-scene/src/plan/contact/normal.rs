@@ -25,4 +25,12 @@ impl Normal {
             Self::Hooke { stiffness } => Some(stiffness),
         }
     }
+
+    /// Whether it gives back what it takes and never pulls: what it loses is then a matter of the restitution, which every method
+    /// knows.
+    pub const fn elastic(&self) -> bool {
+        match self {
+            Self::Hertz {} | Self::Hooke { .. } => true,
+        }
+    }
 }

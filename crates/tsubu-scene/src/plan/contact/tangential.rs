@@ -33,7 +33,7 @@ variants! {
         }
 
         Spring "spring"
-        "Linear spring with history and a dashpot that slide at the friction limit, with cohesion between grains (Cundall and Strack 1979; Osada 2004); with `normal.hooke`" {
+        "Linear spring with history and a dashpot that slide at the friction limit, with cohesion between grains (Cundall and Strack 1979; Osada 2004); not with `normal.hertz`" {
             /// k_t over the stiffness of the normal force [-].
             ratio: f64 = Key::new("ratio", Kind::Quantity(&NUMBER), "Tangential over normal stiffness")
                 .default("0.2857142857142857")
