@@ -28,6 +28,7 @@ mod orifice;
 mod outlet;
 mod pile_stress;
 mod pile_twin;
+mod plastic;
 mod random_loads;
 mod recorded;
 mod registry;

@@ -4,8 +4,8 @@ use crate::case::{Case, Judged};
 use crate::{
     bedload, brazil_nut, chung_ooi_2011, chute, cl_ca_2001, cohesion, common_test, contact, cooling, damper_2003, drop,
     drum, drum_regimes, film, held, host, impact_damper, lattice_grain, lattice_review, lump, open_dem_benchmark,
-    orifice, outlet, pile_stress, pile_twin, random_loads, rheology, rolling, sediment_2004, shapes, sieving, silo,
-    spin_in_water, stack, voids, water,
+    orifice, outlet, pile_stress, pile_twin, plastic, random_loads, rheology, rolling, sediment_2004, shapes, sieving,
+    silo, spin_in_water, stack, voids, water,
 };
 
 /// All cases, in the order they are listed and run.
@@ -23,6 +23,7 @@ pub static CASES: &[Case] = &[
     case("three-spheres", "contact", 1, "a small sphere held by friction, any size ratio", held::three_spheres),
     case("stacked", "contact", 1, "two spheres pressed between planes", stack::stacked),
     case("pull-off", "contact", 5, "pull-off forces of DMT and JKR", cohesion::pull_off),
+    case("dent", "contact", 2, "impacts that yield and hold on, by Luding's law", plastic::dent),
     case("slide-to-roll", "rolling", 1, "a sliding grain comes to roll", rolling::slide_to_roll),
     case("incline", "rolling", 1, "rolling and sliding down a slope", rolling::incline),
     case("spin-down", "rolling", 1, "torques of rolling resistance", rolling::spin_down),

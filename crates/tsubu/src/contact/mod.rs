@@ -35,6 +35,7 @@ mod hertz;
 mod hooke;
 mod jkr;
 mod lubrication;
+mod luding;
 mod mindlin;
 mod rolling_constant;
 mod rolling_spring;
@@ -75,6 +76,12 @@ fn normal(normal: &Normal) -> Box<dyn Part> {
     match *normal {
         Normal::Hertz {} => Box::new(hertz::Hertz),
         Normal::Hooke { stiffness } => Box::new(hooke::Hooke { stiffness }),
+        Normal::Luding { stiffness, unloading_ratio, adhesion_ratio, plasticity_depth } => Box::new(luding::Luding {
+            stiffness,
+            unloading: unloading_ratio,
+            adhesion: adhesion_ratio,
+            depth: plasticity_depth,
+        }),
     }
 }
 
@@ -148,6 +155,7 @@ fn film(contact: &Contact) -> Chosen {
 pub const ABOUT: &[&About] = &[
     &hertz::ABOUT,
     &hooke::ABOUT,
+    &luding::ABOUT,
     &viscous::SQRT,
     &viscous::QUARTER,
     &viscous::LINEAR,

@@ -6,6 +6,7 @@ mod cycle;
 mod film;
 mod frame;
 mod impact;
+mod luding;
 mod oblique;
 mod rolling;
 mod row;

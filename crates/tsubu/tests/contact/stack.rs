@@ -32,7 +32,9 @@ pub fn mindlin(form: MindlinForm) -> Tangential {
 
 /// An example of each normal force.
 pub fn normals() -> Vec<Normal> {
-    vec![Normal::Hertz {}, Normal::Hooke { stiffness: 1e5 }]
+    let (stiffness, unloading_ratio, adhesion_ratio, plasticity_depth) = (1e5, 4.0, 1.5, 0.05);
+    let luding = Normal::Luding { stiffness, unloading_ratio, adhesion_ratio, plasticity_depth };
+    vec![Normal::Hertz {}, Normal::Hooke { stiffness }, luding]
 }
 
 fn dampings() -> Vec<Damping> {

@@ -111,6 +111,21 @@ fn laws_of_pairs_are_noted() {
     assert_eq!(keys, ["material-pair.0.contact.cohesion"]);
 }
 
+/// The automaton knows restitution alone: a law that yields and holds on would have been read as Hooke's without a word.
+#[test]
+fn a_law_that_yields_is_noted() {
+    let mut plan = plan(50, LatticeMode::Extended);
+    let noted = |plan: &Plan| {
+        let engine = LatticeEngine::new(plan, &Hosts::default()).expect("a good plan");
+        engine.notes().iter().any(|note| note.key == "contact.normal")
+    };
+    plan.contact.normal = Normal::Hooke { stiffness: 1e4 };
+    assert!(!noted(&plan));
+    let (stiffness, unloading_ratio, adhesion_ratio, plasticity_depth) = (1e4, 5.0, 0.0, 0.05);
+    plan.contact.normal = Normal::Luding { stiffness, unloading_ratio, adhesion_ratio, plasticity_depth };
+    assert!(noted(&plan));
+}
+
 /// A box that leaves its grid stops the run and says which key to change.
 #[test]
 fn head_room_is_named() {
