@@ -1,123 +1,21 @@
 //! What is wrong with a mesh, or at least worth knowing: triangles without area, holes, flipped neighbours.
 
-use crate::plan::Vector;
-use std::collections::{BTreeMap, HashMap, HashSet};
-use std::fmt;
+mod diagnosis;
+mod rims;
+mod weld;
 
-/// Places that are told; of the rest only the number.
-const TOLD: usize = 3;
+pub use diagnosis::{Diagnosis, Found};
+
+use crate::plan::Vector;
+use rims::Rims;
+use std::collections::{HashMap, HashSet};
+use weld::weld;
+
 /// Twice the area over the square of the longest edge below which a triangle is a line: what single precision leaves of
 /// corners that were meant to be on one.
 const FLAT: f64 = 1e-10;
-/// Distance over the size of the mesh within which corners are one corner.
-const WELD: f64 = 1e-9;
 /// Size of a rim over the size of the mesh below which it is rather a hole than an opening.
 const SMALL: f64 = 0.02;
-
-/// How often something was found, and where the first few are.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Found {
-    /// How often.
-    pub count: usize,
-    /// Where [m]: middles of triangles or edges, the first few.
-    pub places: Vec<Vector>,
-}
-
-impl Found {
-    fn add(&mut self, place: Vector) {
-        self.count += 1;
-        if self.places.len() < TOLD {
-            self.places.push(place);
-        }
-    }
-
-    /// Whether there is none.
-    pub const fn is_empty(&self) -> bool {
-        self.count == 0
-    }
-}
-
-/// "3, the first at (0, 1, 2)".
-impl fmt::Display for Found {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}", self.count)?;
-        let [x, y, z] = match self.places.first() {
-            Some(place) if place.iter().all(|x| x.is_finite()) => place.map(short),
-            _ => return Ok(()),
-        };
-        let first = if self.count > 1 { "the first " } else { "" };
-        write!(formatter, ", {first}at ({x}, {y}, {z}) m")
-    }
-}
-
-/// Six digits are enough to find a place.
-fn short(x: f64) -> f64 {
-    format!("{x:.5e}").parse().unwrap_or(x)
-}
-
-/// What was found in a mesh.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Diagnosis {
-    /// Number of triangles.
-    pub triangles: usize,
-    /// Number of different corners.
-    pub corners: usize,
-    /// From the smallest to the largest coordinate along each axis [m].
-    pub extent: Vector,
-    /// Triangles with a corner that is no finite number.
-    pub not_finite: Found,
-    /// Triangles without area.
-    pub degenerate: Found,
-    /// Triangles that are there more than once.
-    pub duplicated: Found,
-    /// Edges with one triangle: the rims of holes, or of an open mesh.
-    pub open_edges: Found,
-    /// Lines that the open edges make.
-    pub rims: usize,
-    /// Rims that look as if they were meant: closed lines of more than three edges (a triangle that is missing has three)
-    /// which are not small beside the mesh.
-    pub openings: usize,
-    /// Edges that more than two triangles share.
-    pub crowded_edges: Found,
-    /// Edges whose two triangles go round the same way, so that their normals are on different sides.
-    pub flipped_edges: Found,
-}
-
-impl Diagnosis {
-    /// Whether nothing at all was found: a closed surface with all normals on one side.
-    pub const fn is_clean(&self) -> bool {
-        self.not_finite.is_empty()
-            && self.degenerate.is_empty()
-            && self.duplicated.is_empty()
-            && self.open_edges.is_empty()
-            && self.crowded_edges.is_empty()
-            && self.flipped_edges.is_empty()
-    }
-}
-
-impl fmt::Display for Diagnosis {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{} triangles, {} corners", self.triangles, self.corners)?;
-        if self.is_clean() {
-            return write!(formatter, "; closed, all normals on one side");
-        }
-        let rims = if self.rims == 1 { "1 rim".to_string() } else { format!("{} rims", self.rims) };
-        let open = format!("open along {rims}: edges with one triangle");
-        for (what, found) in [
-            ("triangles with corners that are no finite numbers", &self.not_finite),
-            ("triangles without area", &self.degenerate),
-            ("triangles that are there twice", &self.duplicated),
-            (open.as_str(), &self.open_edges),
-            ("edges that more than two triangles share", &self.crowded_edges),
-            ("edges where the normal changes sides", &self.flipped_edges),
-        ] {
-            if !found.is_empty() {
-                write!(formatter, "; {what}: {found}")?;
-            }
-        }
-        Ok(())
-    }
-}
 
 /// Looks at everything. An open mesh is no mistake: hoppers are open.
 pub fn diagnose(triangles: &[[Vector; 3]]) -> Diagnosis {
@@ -217,96 +115,6 @@ fn length([low, high]: [Vector; 2]) -> Vector {
 
 fn largest(extent: Vector) -> f64 {
     extent.into_iter().fold(0.0, f64::max)
-}
-
-/// Numbers the corners; those nearer to each other than rounding are one. `None` for triangles that are not finite.
-fn weld(triangles: &[[Vector; 3]], size: f64) -> (Vec<Option<[usize; 3]>>, usize) {
-    let reach = if size.is_finite() { WELD * size } else { 0.0 };
-    let mut known: HashMap<[i64; 3], Vec<(Vector, usize)>> = HashMap::new();
-    let mut count = 0;
-    let mut number = |corner: Vector| {
-        // Cells are wider than the reach both ways, so that what is near is in one of two cells an axis; whatever rounding
-        // does, its own cell is one of them, because rounding keeps the order of numbers.
-        let cell = |x: f64| if reach > 0.0 { (x / (4.0 * reach)).floor() as i64 } else { 0 };
-        let [low, high] = [-reach, reach].map(|step| corner.map(|x| cell(x + step)));
-        for steps in 0..8 {
-            if (0..3).any(|i| steps >> i & 1 == 1 && low[i] == high[i]) {
-                continue;
-            }
-            let key = [0, 1, 2].map(|i| if steps >> i & 1 == 0 { low[i] } else { high[i] });
-            let near = |other: &&(Vector, usize)| (0..3).all(|i| (other.0[i] - corner[i]).abs() <= reach);
-            if let Some((_, number)) = known.get(&key).and_then(|there| there.iter().find(near)) {
-                return *number;
-            }
-        }
-        known.entry(corner.map(cell)).or_default().push((corner, count));
-        count += 1;
-        count - 1
-    };
-    let numbered = triangles
-        .iter()
-        .map(|triangle| triangle.iter().flatten().all(|x| x.is_finite()).then(|| triangle.map(&mut number)))
-        .collect();
-    (numbered, count)
-}
-
-/// Open edges that share corners make one rim.
-struct Rims {
-    parent: Vec<usize>,
-    /// Open edges at each corner.
-    edges_at: Vec<usize>,
-    /// Each open edge by a corner, and its ends.
-    edges: Vec<(usize, [Vector; 2])>,
-}
-
-/// One of them.
-struct Rim {
-    edges: usize,
-    /// Every corner has two edges.
-    closed: bool,
-    ends: [Vector; 2],
-    /// Its largest extent.
-    size: f64,
-}
-
-impl Rims {
-    fn new(corners: usize) -> Self {
-        Self { parent: (0..corners).collect(), edges_at: vec![0; corners], edges: Vec::new() }
-    }
-
-    fn root(&mut self, mut corner: usize) -> usize {
-        while self.parent[corner] != corner {
-            self.parent[corner] = self.parent[self.parent[corner]];
-            corner = self.parent[corner];
-        }
-        corner
-    }
-
-    fn join(&mut self, [a, b]: [usize; 2], edge: [Vector; 2]) {
-        self.edges.push((a, edge));
-        self.edges_at[a] += 1;
-        self.edges_at[b] += 1;
-        let (a, b) = (self.root(a), self.root(b));
-        self.parent[a] = b;
-    }
-
-    fn all(&mut self) -> Vec<Rim> {
-        let mut rims: BTreeMap<usize, Rim> = BTreeMap::new();
-        for (corner, edge) in std::mem::take(&mut self.edges) {
-            let root = self.root(corner);
-            let rim = rims.entry(root).or_insert(Rim { edges: 0, closed: true, ends: NO_ENDS, size: 0.0 });
-            rim.edges += 1;
-            rim.ends = edge.into_iter().fold(rim.ends, wider);
-            rim.size = largest(length(rim.ends));
-        }
-        for corner in 0..self.parent.len() {
-            let root = self.root(corner);
-            if let Some(rim) = rims.get_mut(&root) {
-                rim.closed &= self.edges_at[corner] == 2;
-            }
-        }
-        rims.into_values().collect()
-    }
 }
 
 #[cfg(test)]

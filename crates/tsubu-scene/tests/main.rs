@@ -2,12 +2,14 @@
 
 /// `--set` and programmatic changes.
 mod changes;
-/// Grains and meshes from files.
+/// Grains from files, and what all files have in common.
 mod files;
 /// What is too long, too large or no file.
 mod limits;
 /// What scenes mean: values, defaults, choices.
 mod meaning;
+/// Meshes from files.
+mod mesh_files;
 /// What a user reads when a scene is wrong; snapshots of whole messages.
 mod messages;
 /// Contact laws of pairs of materials.

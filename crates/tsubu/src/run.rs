@@ -1,70 +1,27 @@
 //! One run: from a scene to a run folder.
 
+mod error;
+mod measured;
 mod resume;
 
+pub use error::RunError;
+
 use crate::check;
-use crate::engine::{self, Engine, Fault, OpenError};
+use crate::engine::{self, Engine};
 use crate::interrupt::Watcher;
 use crate::ledger::{Account, Energies, Ledger};
 use crate::methods;
 use crate::partner::Hosts;
 use crate::scene_files;
-use crate::watch::means::Means;
 use crate::watch::{Trigger, Watches};
+use measured::Measured;
 use std::path::Path;
 use std::time::{Duration, Instant};
-use tsubu_frame::state::MissingSection;
 use tsubu_frame::{
-    CheckpointError, Claim, Existing, FileError, Formats, FrameWriter, Header, History, Mark, ResultValue, RunFolder,
-    State, Status, Summary, checkpoint,
+    Claim, Existing, FileError, Formats, FrameWriter, Header, History, Mark, ResultValue, RunFolder, State, Status,
+    Summary, checkpoint,
 };
 use tsubu_scene::{Plan, Scene};
-
-/// Why there is no result.
-#[derive(Debug, thiserror::Error)]
-pub enum RunError {
-    /// The scene cannot be run by this method, or its grains did not settle; nothing was written.
-    #[error(transparent)]
-    Open(OpenError),
-    /// A file or folder.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// A checkpoint that cannot be gone on from.
-    #[error(transparent)]
-    Checkpoint(#[from] CheckpointError),
-    /// A run that would be over before it begins.
-    #[error(
-        "the run has no step: `duration` = {duration} s is less than half of the time step, {dt} s\n\
-         hint: raise `duration`, or shorten the time step"
-    )]
-    NoStep {
-        /// Duration of the scene [s].
-        duration: f64,
-        /// Time step [s].
-        dt: f64,
-    },
-    /// A checkpoint of another scene, or of another version.
-    #[error("{0}\nhint: run without `--resume` into another folder, or with `--overwrite`")]
-    NotThisScene(String),
-    /// The run went wrong; what was computed so far is in the folder.
-    #[error("{0}")]
-    Fault(#[from] Fault),
-}
-
-impl From<OpenError> for RunError {
-    fn from(error: OpenError) -> Self {
-        match error {
-            OpenError::Running(fault) => Self::Fault(fault),
-            other => Self::Open(other),
-        }
-    }
-}
-
-impl From<MissingSection> for RunError {
-    fn from(error: MissingSection) -> Self {
-        Self::NotThisScene(error.to_string())
-    }
-}
 
 /// Runs a scene to its end, or until it is interrupted, into `folder`.
 pub fn run(scene: &Scene, folder: &Path, existing: Existing, watcher: &Watcher) -> Result<Summary, RunError> {
@@ -411,73 +368,4 @@ pub(crate) fn judge(plan: &Plan, summary: &mut Summary) {
 /// Number of the step that ends nearest to `time`.
 fn step_of(time: f64, dt: f64) -> u64 {
     (time / dt).round() as u64
-}
-
-/// What every scene has to tell of itself, with its unit.
-const SEEN: [(&str, &str); 3] = [("kinetic energy", "J"), ("centre of mass height", "m"), ("contacts", "-")];
-
-/// What is measured at every row of the history.
-#[derive(Default)]
-struct Measured {
-    /// Of [`SEEN`].
-    seen: Means,
-    rows: f64,
-    contacts: f64,
-    /// Per host: sum, sum of squares, largest absolute value of the displacement.
-    hosts: Vec<[f64; 3]>,
-}
-
-impl Measured {
-    fn new(hosts: &Hosts) -> Self {
-        Self { hosts: vec![[0.0; 3]; hosts.list.len()], ..Self::default() }
-    }
-
-    fn take(&mut self, hosts: &Hosts, contacts: usize, seen: [f64; 3]) {
-        self.seen.take(seen.into_iter());
-        self.rows += 1.0;
-        self.contacts += contacts as f64;
-        for (sums, host) in self.hosts.iter_mut().zip(&hosts.list) {
-            let z = host.displacement();
-            *sums = [sums[0] + z, sums[1] + z * z, sums[2].max(z.abs())];
-        }
-    }
-
-    fn tell(&self, last: [f64; 3], summary: &mut Summary) {
-        let means = self.seen.get().zip(self.seen.spreads()).zip(last);
-        for ((name, unit), ((mean, spread), last)) in SEEN.into_iter().zip(means) {
-            summary.give(name, unit, mean);
-            summary.give(format!("{name} spread"), unit, spread);
-            summary.give(format!("{name} final"), unit, last);
-        }
-    }
-
-    fn results(&self, hosts: &Hosts, summary: &mut Summary) {
-        for (sums, name) in self.hosts.iter().zip(hosts.names()) {
-            let mean = sums[0] / self.rows;
-            let variance = (sums[1] / self.rows - mean * mean).max(0.0);
-            summary.give(format!("host {name} rms displacement"), "m", variance.sqrt());
-            summary.give(format!("host {name} peak displacement"), "m", sums[2]);
-            summary.give(format!("host {name} mean displacement"), "m", mean);
-        }
-    }
-
-    fn save(&self, state: &mut State) {
-        let mut values = vec![self.rows, self.contacts];
-        values.extend(self.hosts.iter().flatten());
-        state.put_real("run.measured", values);
-        state.put_real("run.seen", self.seen.numbers());
-    }
-
-    fn load(&mut self, state: &State) -> Result<(), MissingSection> {
-        let values = state.real("run.measured")?;
-        if values.len() != 2 + 3 * self.hosts.len() {
-            return Err(MissingSection { name: "run.measured".to_owned(), kind: "real" });
-        }
-        self.seen = Means::from_numbers(state.real("run.seen")?);
-        (self.rows, self.contacts) = (values[0], values[1]);
-        for (sums, v) in self.hosts.iter_mut().zip(values[2..].chunks_exact(3)) {
-            sums.copy_from_slice(v);
-        }
-        Ok(())
-    }
 }

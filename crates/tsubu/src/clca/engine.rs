@@ -8,15 +8,11 @@ use super::bed::{Bed, Kind, Motion, NOWHERE};
 use super::build::{Built, OFFERED, Stream, build, moves};
 use super::order::{Past, Pull};
 use super::passive::{Passive, Pusher};
-use super::place::somewhere;
 use crate::engine::{Engine, Fault, Note, Refusal};
 use crate::lattice::direction::{Direction, Vector};
-use crate::lattice::grid::{EMPTY, WALL};
 use crate::lattice::stage::Stage;
 use crate::ledger::{Account, Energies, Ledger};
-use crate::motion::value_and_rate;
 use crate::partner::Hosts;
-use crate::random::Purpose;
 use crate::view::{Columns, Contacts, View, Wants};
 use crate::wall::Wall;
 use glam::DVec3;
@@ -25,9 +21,6 @@ use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, State};
 use tsubu_scene::plan::{GrainMotion, GravitySwitch, Plan, Removal, Signal};
 
-/// Attempts to find a free place for a grain of a stream in a step; the others wait for the next.
-const ATTEMPTS: u64 = 40;
-
 /// CL-CA of a plan.
 #[derive(Clone, Debug)]
 pub struct ClCaEngine {
@@ -35,17 +28,17 @@ pub struct ClCaEngine {
     pub(super) stage: Stage,
     pub(super) walls: Vec<Wall>,
     notes: Vec<Note>,
-    dt: f64,
+    pub(super) dt: f64,
     /// Downward acceleration [m/s^2].
-    gravity: f64,
+    pub(super) gravity: f64,
     switch: Option<GravitySwitch>,
     pub(super) rule: Rule,
-    streams: Vec<Stream>,
-    removal: Vec<Removal>,
+    pub(super) streams: Vec<Stream>,
+    pub(super) removal: Vec<Removal>,
     /// Groups that move as told: number, direction, displacement.
-    driven: Vec<(u32, DVec3, Signal)>,
+    pub(super) driven: Vec<(u32, DVec3, Signal)>,
     /// Where the driven grains were drawn.
-    drawn: Vec<u32>,
+    pub(super) drawn: Vec<u32>,
 }
 
 /// The rule by which grains move.
@@ -108,67 +101,6 @@ impl ClCaEngine {
         }
     }
 
-    /// Paints the lattice anew: rims, walls that stand at `time`, frozen grains, and under the active rule all others.
-    fn paint(&mut self, time: f64) {
-        self.bed.grid = self.stage.grid();
-        for wall in self.walls.iter_mut().filter(|wall| !moves(wall)) {
-            wall.stand_or_go(time);
-            self.stage.paint(&mut self.bed.grid, wall);
-        }
-        let driven = |bed: &Bed, grain: usize| self.driven.iter().any(|d| d.0 == bed.kind(grain).group);
-        for grain in 0..self.bed.len() {
-            if self.bed.grains.cell[grain] == NOWHERE || driven(&self.bed, grain) {
-                continue;
-            }
-            match (&self.rule, self.bed.kind(grain).free) {
-                (_, false) => self.bed.paint(grain, WALL),
-                (Rule::Active(_), true) => self.bed.paint(grain, grain as i32),
-                (Rule::Passive(..), true) => {}
-            }
-        }
-        if let Rule::Active(active) = &mut self.rule {
-            active.wake_all(&self.bed);
-        }
-    }
-
-    /// Brings walls that move, and driven grains, to where they are after `step` steps.
-    fn place_movers(&mut self, step: u64) {
-        let Rule::Passive(_, pushers, last) = &mut self.rule else { return };
-        let (time, before) = (step as f64 * self.dt, step.saturating_sub(1) as f64 * self.dt);
-        for pusher in pushers {
-            let wall = &self.walls[pusher.wall];
-            let (now, then) = (shift(wall, &self.stage, time), shift(wall, &self.stage, before));
-            pusher.moved = Vector { h: now.h - then.h, k: now.k - then.k };
-            let grid = &self.bed.grid;
-            let count = grid.columns() * grid.rows();
-            if wall.goes_by(time) {
-                pusher.cells.clear();
-                pusher.cells.resize(count, false);
-            } else if pusher.cells.is_empty() || now != then {
-                pusher.stand(now, || {
-                    let mut cells = vec![false; count];
-                    self.stage.covered(grid, wall, now, |cell| cells[cell] = true);
-                    cells
-                });
-            }
-        }
-        last.clear();
-        last.resize(self.bed.len(), Vector::default());
-        for (group, direction, signal) in &self.driven {
-            let at = |time: f64| self.stage.vector(*direction * value_and_rate(signal, time).0);
-            let (now, then) = (at(time), at(before));
-            for (grain, last) in last.iter_mut().enumerate() {
-                if self.bed.kind(grain).group == *group {
-                    let drawn = self.bed.vector(self.drawn[grain] as usize).plus(now);
-                    if let Some(cell) = self.stage.cell(&self.bed.grid, self.stage.place(drawn)) {
-                        self.bed.grains.cell[grain] = cell as u32;
-                    }
-                    *last = Vector { h: now.h - then.h, k: now.k - then.k };
-                }
-            }
-        }
-    }
-
     fn step(&mut self, ledger: &mut Ledger) {
         let step = self.bed.step;
         let time = step as f64 * self.dt;
@@ -212,54 +144,9 @@ impl ClCaEngine {
     }
 
     /// Kinetic energy at the speed of the last step [J].
-    fn kinetic(&self) -> f64 {
+    pub(super) fn kinetic(&self) -> f64 {
         let speed = self.stage.spacing / self.dt;
         self.of_kinds(|kind, motion| 0.5 * kind.mass * motion.moving as f64 * speed * speed)
-    }
-
-    /// Grains of streams come in where there is room.
-    fn arrive(&mut self, time: f64, ledger: &mut Ledger) {
-        for stream in &mut self.streams {
-            let due = ((time - stream.from) * stream.rate + 1.0).max(0.0) as usize;
-            while stream.placed < due.min(stream.grains.len()) {
-                let (grain, look) = (stream.grains[stream.placed], self.bed.step);
-                let found = somewhere(&self.bed, grain, &stream.region, &self.stage, Purpose::Stream, look, ATTEMPTS);
-                let Some(cell) = found else { break };
-                self.bed.add(grain.kind, cell, grain.id);
-                stream.placed += 1;
-                let weight = self.bed.kinds[grain.kind].mass * self.gravity;
-                ledger.post(Account::Exchange, weight * self.stage.place(self.bed.vector(cell)).z);
-            }
-        }
-    }
-
-    /// Grains in removal regions go.
-    fn leave(&mut self, ledger: &mut Ledger) {
-        if self.removal.is_empty() {
-            return;
-        }
-        let inside = |grain: &usize| {
-            let position = self.position(*grain);
-            self.bed.kind(*grain).free && self.removal.iter().any(|removal| removal.takes(position.to_array()))
-        };
-        let leaving: Vec<usize> = self.bed.present().filter(inside).collect();
-        for &grain in &leaving {
-            let height = self.position(grain).z;
-            let (kinetic, momentum) = (self.kinetic(), self.momentum());
-            if let Rule::Active(_) = self.rule {
-                self.bed.paint(grain, EMPTY);
-            }
-            self.bed.remove(grain);
-            let taken = self.bed.kind(grain).mass * self.gravity * height + kinetic - self.kinetic();
-            ledger.post(Account::Exchange, -taken);
-            let now = self.momentum();
-            for (axis, impulse) in ledger.exchange_impulse.iter_mut().enumerate() {
-                *impulse += now[axis] - momentum[axis];
-            }
-        }
-        if let (Rule::Active(active), false) = (&mut self.rule, leaving.is_empty()) {
-            active.wake_all(&self.bed);
-        }
     }
 
     /// Reference point of a grain [m].
@@ -281,12 +168,6 @@ impl ClCaEngine {
     pub(super) fn radius(&self, grain: usize) -> f64 {
         0.5 * self.bed.kind(grain).shape.diameter() * self.stage.spacing
     }
-}
-
-/// How far a wall that is moved as told has come since time 0, in whole steps of the lattice.
-pub(super) fn shift(wall: &Wall, stage: &Stage, time: f64) -> Vector {
-    let moved = |time: f64| wall.mover.displacement(time, &Hosts::default()).0;
-    stage.vector(moved(time) - moved(0.0))
 }
 
 impl Engine for ClCaEngine {

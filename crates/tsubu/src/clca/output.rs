@@ -1,7 +1,8 @@
 //! What those who look on see of CL-CA beside the grains: pairs, and walls where the lattice has them.
 
 use super::bed::Bed;
-use super::engine::{ClCaEngine, Rule, shift};
+use super::engine::{ClCaEngine, Rule};
+use super::movers::shift;
 use super::passive::{Body, Shared};
 use crate::engine::Engine;
 use crate::lattice::direction::Direction;

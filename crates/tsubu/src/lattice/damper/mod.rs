@@ -13,10 +13,12 @@
 //! turns or moves (`stale`); oblique flyers, and whoever is next to the floor or the ceiling, are looked at every step. Balls
 //! that rest on the floor, straight or in columns, are one body (`rest`).
 //!
-//! Books are kept in whole numbers: twice the energy over m u^2, and momentum over m u in the basis of
+//! Books are kept in whole numbers (`books`): twice the energy over m u^2, and momentum over m u in the basis of
 //! [`Vector`].
 
 pub mod ball_collision;
+mod ball_set;
+mod books;
 pub mod box_motion;
 pub mod gravity;
 pub mod movement;
@@ -27,6 +29,8 @@ use super::direction::{Direction, Vector};
 use super::fixed::{Restitution, Scale};
 use super::grid::Grid;
 use crate::about::About;
+use ball_set::BallSet;
+pub(crate) use books::Beyond;
 use tsubu_scene::plan::{Collision, ObliqueGravity};
 
 pub(crate) const ABOUT: About = About {
@@ -62,18 +66,6 @@ pub struct Rules {
     pub wall: Restitution,
     /// Seed of the random numbers.
     pub seed: u64,
-}
-
-/// Half of what whole numbers hold: what a run adds to the energy of its beginning has as much room again.
-const MOST: f64 = (1_u64 << 62) as f64;
-
-/// What is beyond the automaton.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Beyond {
-    /// A ball moves more than a cell a step.
-    Cell,
-    /// Whole numbers cannot hold its books.
-    Books,
 }
 
 /// What happened in one step, in whole numbers.
@@ -153,9 +145,9 @@ pub struct Damper {
     pull: Vec<i64>,
     pull_of: [i64; 6],
     oblique_count: [i64; 6],
-    oblique: Bits,
-    stale: Bits,
-    hit: Bits,
+    oblique: BallSet,
+    stale: BallSet,
+    hit: BallSet,
     pairs: Vec<ball_collision::Pair>,
     movers: Vec<usize>,
     cluster: Vec<usize>,
@@ -164,48 +156,6 @@ pub struct Damper {
     lot: (u64, u64),
     /// So many collide in this step that all balls will be looked at again.
     crowded: bool,
-}
-
-/// A set of balls.
-#[derive(Clone, Debug, Default)]
-struct Bits(Vec<u64>);
-
-impl Bits {
-    fn new(count: usize) -> Self {
-        Self(vec![0; count.div_ceil(64)])
-    }
-
-    #[inline]
-    fn insert(&mut self, i: usize) {
-        self.0[i / 64] |= 1 << (i % 64);
-    }
-
-    #[inline]
-    fn remove(&mut self, i: usize) {
-        self.0[i / 64] &= !(1 << (i % 64));
-    }
-
-    #[inline]
-    fn contains(&self, i: usize) -> bool {
-        self.0[i / 64] >> (i % 64) & 1 == 1
-    }
-
-    #[inline]
-    fn clear(&mut self) {
-        // A word or two: cheaper one by one than by a call.
-        for word in &mut self.0 {
-            if *word != 0 {
-                *word = 0;
-            }
-        }
-    }
-
-    fn fill(&mut self, count: usize) {
-        for (w, word) in self.0.iter_mut().enumerate() {
-            let left = count - 64 * w;
-            *word = if left >= 64 { u64::MAX } else { (1 << left) - 1 };
-        }
-    }
 }
 
 /// A ball as it is put into the box: column (1 is the leftmost), row (0 is the lowest), direction and speed.
@@ -251,9 +201,9 @@ impl Damper {
             pull: vec![0; n],
             pull_of,
             oblique_count: [0; 6],
-            oblique: Bits::new(n),
-            stale: Bits::new(n),
-            hit: Bits::new(n),
+            oblique: BallSet::new(n),
+            stale: BallSet::new(n),
+            hit: BallSet::new(n),
             pairs: Vec::with_capacity(6 * n),
             movers: Vec::with_capacity(n),
             cluster: Vec::with_capacity(n),
@@ -312,60 +262,6 @@ impl Damper {
         row - self.place.floor() < if self.resting[i] { self.rest.height[column] } else { self.place.rows }
     }
 
-    /// Velocity of a ball [speed units].
-    pub fn velocity(&self, i: usize) -> Vector {
-        if self.resting[i] { Direction::N.times(self.rest.speed) } else { self.direction[i].times(self.speed[i]) }
-    }
-
-    /// Where a ball is off its cell's centre [distance units].
-    pub fn offset(&self, i: usize) -> Vector {
-        if self.resting[i] {
-            Direction::N.times(self.stored[i] + self.rest.risen)
-        } else {
-            self.direction[i].times(self.stored[i])
-        }
-    }
-
-    /// Column and row of a ball; row 0 is the lowest of the box at level 0.
-    pub fn seat(&self, i: usize) -> (usize, i64) {
-        let (column, row) = self.grid.place(self.cell[i]);
-        (column, row as i64 - self.place.head as i64 - 1)
-    }
-
-    /// Total momentum [m u].
-    pub fn momentum(&self) -> Vector {
-        (0..self.balls()).fold(Vector::default(), |sum, i| sum.plus(self.velocity(i)))
-    }
-
-    /// Kinetic energy [m u^2 / 2].
-    pub fn kinetic(&self) -> i64 {
-        (0..self.balls()).map(|i| self.velocity(i).square4() / 4).sum()
-    }
-
-    /// Potential energy, from the centre of the lowest cell of an even column [m u^2 / 2]. The height is that at the time
-    /// of the velocity, z - v_z dt / 2, with which free flight conserves the energy exactly.
-    pub fn potential(&self) -> i64 {
-        let g = self.scale.gravity;
-        let energy = |i| {
-            let (column, row) = self.seat(i);
-            let half_cells = 2 * row + (column % 2) as i64;
-            g * (half_cells * self.scale.cell + self.offset(i).k) - g / 2 * self.velocity(i).k
-        };
-        (0..self.balls()).map(energy).sum()
-    }
-
-    /// Touching pairs, of balls and of balls with walls, now.
-    pub fn contacts(&self) -> usize {
-        let mut count = 0;
-        for i in 0..self.balls() {
-            for direction in Direction::ALL {
-                let other = self.grid.at(self.grid.neighbour(self.cell[i], self.odd[i], direction));
-                count += usize::from(other == super::grid::WALL || other > i as i32);
-            }
-        }
-        count
-    }
-
     /// Sets direction and speed of a ball that does not rest.
     #[inline]
     fn point(&mut self, i: usize, direction: Direction, speed: i64) {
@@ -419,29 +315,13 @@ impl Damper {
         }
     }
 
-    /// Whether every ball moves less than a cell a step, and whether whole numbers can hold the books: squares of speeds, and
-    /// heights up to the top of the grid.
-    pub(crate) fn within_reach(&self) -> Result<(), Beyond> {
-        let moving = self.speed.iter().chain([&self.rest.speed]);
-        if moving.clone().any(|speed| speed.unsigned_abs() > self.scale.cell.unsigned_abs()) {
-            return Err(Beyond::Cell);
-        }
-        let (gravity, cell) = (self.scale.gravity as f64, self.scale.cell as f64);
-        let balls = self.balls() as f64;
-        let kinetic: f64 = self.speed.iter().map(|speed| (*speed as f64).powi(2)).sum();
-        let shared = balls * (self.rest.speed as f64).powi(2);
-        let offsets: f64 = self.stored.iter().map(|stored| (*stored as f64).abs()).sum();
-        let height = balls * (self.grid.rows() as f64 * cell + (self.rest.risen as f64).abs()) + offsets;
-        if kinetic + shared + 2.0 * gravity * height < MOST { Ok(()) } else { Err(Beyond::Books) }
-    }
-
     /// Recomputes everything that follows from cells, directions, speeds, stored distances, rest flags and the box.
     pub(crate) fn rebuild(&mut self) {
         let n = self.balls();
         self.grid.paint_box(self.place.columns, self.place.floor(), self.place.rows);
         self.rest.height.fill(0);
         self.rest.count = 0;
-        self.oblique = Bits::new(n);
+        self.oblique = BallSet::new(n);
         self.oblique_count = [0; 6];
         for i in 0..n {
             self.grid.set(self.cell[i], i as i32);

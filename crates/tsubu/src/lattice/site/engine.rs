@@ -3,18 +3,19 @@
 //! What gravity gives to grains that hop, and what walls and collisions take, is one row, `lattice rules`, and a rule impulse: the
 //! books say how much the rules did, not why. It is found as what is left over, while every grain that comes or goes is posted.
 
-use super::ground::{Ground, NOBODY};
+mod contacts;
+mod invariants;
+mod sources;
+
+use super::ground::Ground;
 use super::start::Stream;
-use super::{ForceUnit, Link, Model, Seat, section};
+use super::{Model, Seat, section};
 use crate::engine::{Engine, Fault, Note};
-use crate::lattice::sheet::{OUT, WALL};
 use crate::ledger::{Account, Energies, Ledger};
 use crate::partner::Hosts;
-use crate::random::{Purpose, words};
-use crate::view::{Columns, Contact, Contacts, View, WallLoad, Wants};
-use crate::wall::{Outline, Wall};
+use crate::view::{Columns, Contacts, View, Wants};
+use crate::wall::Wall;
 use glam::DVec3;
-use std::collections::BTreeMap;
 use tsubu_frame::frame::Kind;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, State};
@@ -127,166 +128,6 @@ impl SiteEngine {
         ledger.set(Account::LatticeRules, self.opening.0 + ledger.flow(Account::Exchange) - energy);
         let made = momentum - self.opening.1 - DVec3::from_array(ledger.exchange_impulse);
         ledger.rule_impulse = made.to_array();
-    }
-
-    /// Walls whose time has come vanish from the lattice.
-    fn open_gates(&mut self, time: f64) {
-        if !self.scene.walls.iter().any(|wall| !wall.gone() && wall.goes_by(time)) {
-            return;
-        }
-        for wall in &mut self.scene.walls {
-            wall.stand_or_go(time);
-        }
-        let (cells, owner) = self.scene.ground.paint(&self.scene.walls, &self.scene.removal);
-        for (site, (&cell, &mine)) in cells.iter().zip(&owner).enumerate() {
-            if self.scene.owner[site] != NOBODY && mine == NOBODY && cell != WALL {
-                self.model.free(site, cell == OUT);
-            }
-        }
-        self.scene.owner = owner;
-    }
-
-    /// Grains of streams come in where there is room, from a site drawn at random on.
-    fn arrive(&mut self, time: f64, ledger: &mut Ledger) {
-        let mut came = Vec::new();
-        for Stream { first, count, sites, rate, from, placed } in &mut self.scene.streams {
-            let due = ((time - *from) * *rate + 1.0).max(0.0) as usize;
-            while *placed < due.min(*count) {
-                let grain = *first + *placed;
-                let [draw, ..] = words(self.scene.seed, Purpose::Stream, grain as u32, self.model.step());
-                let begin = ((u64::from(draw) * sites.len() as u64) >> 32) as usize;
-                let (before, after) = sites.split_at(begin);
-                let Some(seat) = after.iter().chain(before).find_map(|&site| self.model.enter(grain, site)) else {
-                    break;
-                };
-                came.push(seat);
-                *placed += 1;
-            }
-        }
-        self.present += came.len();
-        for seat in came {
-            self.exchange(1.0, &seat, ledger);
-        }
-    }
-
-    /// Takes note of the grains that went in the last step.
-    fn depart(&mut self, ledger: &mut Ledger) {
-        let gone = self.model.departed();
-        self.present -= gone.len();
-        for seat in gone {
-            self.exchange(-1.0, &seat, ledger);
-        }
-    }
-
-    /// Where every grain is, without the ends of a world that repeats itself; nowhere: it has not come yet, or is gone [m].
-    fn seated(&self) -> Vec<Option<DVec3>> {
-        let mut places = vec![None; self.scene.mass.len()];
-        let [x, _, z] = self.scene.ground.ends().map(|ends| ends.map_or(0.0, |[low, high]| high - low));
-        self.model.seats(&mut |Seat { grain, site, laps, .. }| {
-            let laps = DVec3::new(x * f64::from(laps[0]), 0.0, z * f64::from(laps[1]));
-            places[grain] = Some(self.scene.ground.point(site) + laps);
-        });
-        places
-    }
-
-    /// The first invariant that a step from the places `before` has broken: nobody comes from nowhere or is lost without an
-    /// outlet, nobody is twice or on a crowded site, nobody goes too far.
-    fn fault(&self, before: &[Option<DVec3>]) -> Option<String> {
-        let (most, reach) = self.model.limits();
-        let mut sites = vec![0; self.scene.ground.len()];
-        let mut count = 0;
-        self.model.seats(&mut |seat| {
-            sites[seat.site] += 1;
-            count += 1;
-        });
-        if count != self.present {
-            return Some(format!("{count} grains are there, not {}", self.present));
-        }
-        if let Some(site) = sites.iter().position(|count| *count > most) {
-            return Some(format!("{} grains on site {site}", sites[site]));
-        }
-        let now = self.seated();
-        if now.iter().flatten().count() != count {
-            return Some("a grain is in two places".to_owned());
-        }
-        let farthest = reach * self.scene.ground.spacing * (1.0 + 1e-9);
-        before.iter().zip(&now).enumerate().find_map(|(grain, pair)| match pair {
-            (Some(from), Some(to)) if from.distance(*to) > farthest => Some(format!("grain {grain}: {from} to {to}")),
-            (None, Some(to)) => Some(format!("grain {grain} comes from nowhere to {to}")),
-            (Some(from), None) if self.scene.removal.is_empty() => Some(format!("grain {grain} is lost at {from}")),
-            _ => None,
-        })
-    }
-
-    /// Newtons in the model's unit of force, for a grain.
-    fn newtons(&self, mass: f64) -> f64 {
-        match self.model.force_unit() {
-            ForceUnit::Newton => 1.0,
-            ForceUnit::Motion => mass * self.scene.ground.spacing / (self.dt * self.dt),
-        }
-    }
-
-    /// Forces between grains and on walls.
-    fn forces(&self, bodies: &[Body]) -> (Vec<Contact>, Vec<WallLoad>) {
-        let mut at = BTreeMap::new();
-        let mut index = 0;
-        self.model.seats(&mut |seat| {
-            at.insert(seat.site, index);
-            index += 1;
-        });
-        let mut loads = vec![WallLoad::default(); self.scene.walls.len()];
-        let mut contacts = Vec::new();
-        for Link { from, to, force } in self.model.links() {
-            let Some(&first) = at.get(&from) else { continue };
-            let force = self.newtons(self.scene.mass[bodies[first].grain]) * DVec3::new(force[0], 0.0, force[1]);
-            let centre = bodies[first].position;
-            let (second, wall, reach) = match at.get(&to) {
-                Some(&second) => (second, false, 1.0),
-                None if self.scene.owner[to] != NOBODY => (usize::from(self.scene.owner[to]), true, 0.5),
-                None => continue,
-            };
-            let between = reach * (self.scene.ground.point(to) - self.scene.ground.point(from));
-            let position = centre + 0.5 / reach * between;
-            if wall {
-                loads[second]
-                    .add(&WallLoad { force, torque: (position - self.scene.walls[second].pose.origin()).cross(force) });
-            }
-            let normal = between.normalize_or(DVec3::NEG_Z);
-            contacts.push(Contact {
-                first,
-                second,
-                wall,
-                position,
-                branch: between,
-                force: -force,
-                normal,
-                overlap: 0.0,
-            });
-        }
-        (contacts, loads)
-    }
-
-    /// Outlines of the walls that stand; endless planes as far as the lattice goes.
-    fn draw_walls(&self, frame: &mut Frame) {
-        let (mut number, mut position) = (Vec::new(), Vec::new());
-        let (middle, size) = self.scene.ground.inside();
-        let mut lines = 0;
-        for wall in self.scene.walls.iter().filter(|wall| !wall.gone()) {
-            let outline = match wall.lone_plane() {
-                Some((point, normal)) => {
-                    let half = 0.5 * (size * normal.cross(DVec3::Y)).length();
-                    Outline::of_plane(point, normal, middle, half, false)
-                }
-                None => wall.outline(),
-            };
-            for line in outline.lines {
-                number.extend(std::iter::repeat_n(lines, line.len()));
-                position.extend(line.iter().map(DVec3::to_array));
-                lines += 1;
-            }
-        }
-        frame.integer(Kind::Surface, "outline", "-", number);
-        frame.vector(Kind::Surface, "position", "m", position);
     }
 }
 

@@ -1,5 +1,6 @@
 //! A stream by itself.
 
+use super::step::logarithmic_mean;
 use super::*;
 
 fn stream(layers: usize, still: bool) -> Coupled {

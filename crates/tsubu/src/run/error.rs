@@ -1,0 +1,51 @@
+//! Why a run has no result.
+
+use crate::engine::{Fault, OpenError};
+use tsubu_frame::state::MissingSection;
+use tsubu_frame::{CheckpointError, FileError};
+
+/// Why there is no result.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The scene cannot be run by this method, or its grains did not settle; nothing was written.
+    #[error(transparent)]
+    Open(OpenError),
+    /// A file or folder.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A checkpoint that cannot be gone on from.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
+    /// A run that would be over before it begins.
+    #[error(
+        "the run has no step: `duration` = {duration} s is less than half of the time step, {dt} s\n\
+         hint: raise `duration`, or shorten the time step"
+    )]
+    NoStep {
+        /// Duration of the scene [s].
+        duration: f64,
+        /// Time step [s].
+        dt: f64,
+    },
+    /// A checkpoint of another scene, or of another version.
+    #[error("{0}\nhint: run without `--resume` into another folder, or with `--overwrite`")]
+    NotThisScene(String),
+    /// The run went wrong; what was computed so far is in the folder.
+    #[error("{0}")]
+    Fault(#[from] Fault),
+}
+
+impl From<OpenError> for RunError {
+    fn from(error: OpenError) -> Self {
+        match error {
+            OpenError::Running(fault) => Self::Fault(fault),
+            other => Self::Open(other),
+        }
+    }
+}
+
+impl From<MissingSection> for RunError {
+    fn from(error: MissingSection) -> Self {
+        Self::NotThisScene(error.to_string())
+    }
+}
