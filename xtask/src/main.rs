@@ -7,6 +7,8 @@ mod blocks;
 mod book;
 mod check;
 mod claims;
+#[cfg(test)]
+mod file_lengths;
 mod generate;
 mod guard;
 #[cfg(test)]

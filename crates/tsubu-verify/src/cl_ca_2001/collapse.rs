@@ -1,0 +1,167 @@
+//! C-F9 to F11: a bed that loses a side wall, by CL-CA, by DEM, and of grains that may turn.
+
+use super::super::beds::line;
+use super::super::bench::{Rig, at_least, between, refused};
+use glam::DVec3;
+use std::path::Path;
+use std::time::Instant;
+use tsubu_frame::Claim;
+use tsubu_scene::Scene;
+
+const SOURCE: &str = "Sakaguchi et al. (2001), figures 9 to 11: pictures";
+
+/// The scene of the collapse by a method, with changes; the wall on the right stays if `opened` is false.
+pub(super) fn collapsing(method: &str, opened: bool, changes: &[&str]) -> Result<Rig, String> {
+    let text = include_str!("../../../../scenes/collapse.toml");
+    let method = format!("method={method}");
+    let changes: Vec<String> = changes.iter().chain([&method.as_str()]).map(|change| (*change).to_owned()).collect();
+    let scene = Scene::parse("collapse", text, Path::new("."), &changes).map_err(|c| c.to_string())?;
+    let mut plan = scene.plan().clone();
+    // Looks are taken here.
+    plan.watch.clear();
+    plan.claim.clear();
+    if !opened && let Some(wall) = plan.walls.get_mut("right") {
+        wall.until = None;
+    }
+    Rig::of(plan, 1.0)
+}
+
+/// Grains that are elsewhere after `time` [s] more.
+pub(super) fn moved(rig: &mut Rig, time: f64, least: f64) -> Result<f64, String> {
+    let before = rig.vectors("position");
+    rig.until(rig.engine.time() + time)?;
+    let moved = before.iter().zip(rig.vectors("position")).filter(|(a, b)| a.distance(*b) > least);
+    Ok(moved.count() as f64)
+}
+
+/// Where the wall stood [m].
+const WALL: f64 = 86.6e-3;
+
+/// Of grains at places: how many are beyond the place of the wall [m], the front [mm], and the slope of the surface from
+/// there to the left [degrees].
+pub(in super::super) fn slope(grains: &[DVec3], wall: f64) -> (f64, f64, f64) {
+    let outside = grains.iter().filter(|p| p.x > wall).count() as f64;
+    let mut x: Vec<f64> = grains.iter().map(|p| p.x).collect();
+    x.sort_by(f64::total_cmp);
+    // The front is where 99 % of the grains are behind: single ones may roll on by DEM.
+    let front = x[x.len() * 99 / 100];
+    let bins = 30;
+    let width = front / bins as f64;
+    let mut surface = vec![f64::NEG_INFINITY; bins];
+    for p in grains {
+        let bin = (p.x / width) as usize;
+        if bin < bins {
+            surface[bin] = surface[bin].max(p.z);
+        }
+    }
+    // A straight line through the lower and middle part of the right flank: the last 60 % of the way.
+    let points: Vec<(f64, f64)> = (0..bins)
+        .filter(|bin| bin * 10 >= bins * 4 && surface[*bin].is_finite())
+        .map(|bin| ((bin as f64 + 0.5) * width, surface[bin]))
+        .collect();
+    (outside, 1e3 * front, -line(&points).0.atan().to_degrees())
+}
+
+/// C-F9 to F11: dropped, at rest, a side wall removed, at rest again.
+pub(in super::super) fn collapse(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let mut rig = collapsing("cl-ca", perturbation == 1.0, &[])?;
+    rig.until(0.5)?;
+    let mut claims = vec![between("initial: grains that still move", moved(&mut rig, 0.09, 1e-9)?, 0.0, 0.0, SOURCE)];
+    rig.until(0.62)?;
+    claims.push(at_least("middle: grains that move within 20 ms", moved(&mut rig, 0.02, 1e-9)?, 20.0, SOURCE));
+    rig.until(1.4)?;
+    claims.push(between("late: grains that still move", moved(&mut rig, 0.1, 1e-9)?, 0.0, 0.0, SOURCE));
+    let (outside, front, angle) = slope(&rig.vectors("position"), WALL);
+    claims.push(between("late: grains beyond the place of the wall", outside, 20.0, 270.0, SOURCE));
+    claims.push(between("late: front mm", front, 100.0, 300.0, SOURCE));
+    let lattice = "between nothing and the steepest side of the lattice, 60 degrees";
+    claims.push(between("late: slope degrees", angle, 20.0, 60.0, lattice));
+    let standing = {
+        let mut rig = collapsing("cl-ca", false, &[])?;
+        rig.until(1.4)?;
+        slope(&rig.vectors("position"), WALL).0
+    };
+    claims.push(between("control, the wall stays: grains beyond it", standing, 0.0, 0.0, "nothing else lets them out"));
+    Ok(claims)
+}
+
+/// C-F9 to F11 by CL-CA and by DEM, one after the other on one machine. Hexagons cannot turn, so their fair twins are discs
+/// that do not turn; discs that roll, freely or with resistance, stand beside them.
+pub(in super::super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let run = |method: &str, changes: &[&str]| -> Result<_, String> {
+        let mut rig = collapsing(method, perturbation == 1.0, changes)?;
+        let begun = Instant::now();
+        rig.until(1.6)?;
+        Ok((slope(&rig.vectors("position"), WALL), begun.elapsed().as_secs_f64()))
+    };
+    let (lattice, quick) = run("cl-ca", &[])?;
+    let (free, slow) = run("dem", &[])?;
+    let (locked, _) = run("dem", &["contact.rotation=false"])?;
+    let (rough, _) = run("dem", &["contact.rotation=false", "materials.aluminium.friction=0.5"])?;
+    let (rolling, _) = run("dem", &["contact.rolling.epsd={}", "materials.aluminium.rolling-friction=0.2"])?;
+    let source = "a hundredth of the time of its DEM twin, measured in one run";
+    let fair = "the fair twin: DEM of discs of the same areas that do not turn; a quarter either way";
+    let near = "the fair twin: DEM of discs of the same areas that do not turn; 10 degrees either way";
+    let gates = |name: &str, of: (f64, f64, f64), twin: (f64, f64, f64)| {
+        [
+            between(format!("way of the front, {name}"), (of.1 - 1e3 * WALL) / (twin.1 - 1e3 * WALL), 0.8, 1.25, fair),
+            between(format!("slope in degrees, {name}"), of.2 - twin.2, -10.0, 10.0, near),
+        ]
+    };
+    let turns = "the more grains turn, the farther and flatter they run out (Osada 2004, figures 19 and 23)";
+    let order = |more: &str, most: (f64, f64, f64), less: &str, least: (f64, f64, f64)| {
+        let way = (most.1 - 1e3 * WALL) / (least.1 - 1e3 * WALL);
+        [
+            at_least(format!("way of the front, {more} over {less}"), way, 1.2, turns),
+            at_least(format!("slope in degrees, {less} less {more}"), least.2 - most.2, 3.0, turns),
+        ]
+    };
+    let mut claims = vec![at_least("time of DEM over that of CL-CA", slow / quick, 100.0, source)];
+    claims.extend(gates("CL-CA against DEM without rotation", lattice, locked));
+    claims.extend(gates("CL-CA against DEM without rotation, friction 0.5", lattice, rough));
+    claims.push(refused("CL-CA against discs that roll freely", &gates("", lattice, free), 2));
+    claims.extend(order("discs that roll freely", free, "discs with resistance", rolling));
+    claims.extend(order("discs with resistance", rolling, "discs that do not turn", locked));
+    claims.push(refused("discs that do not turn for free ones", &order("", locked, "", free), 2));
+    Ok(claims)
+}
+
+/// The collapse of triangles that may turn by 60 degrees, against those that may not (C-7). DEM has no triangles; what turning
+/// does to discs says [`twin`].
+pub(in super::super) fn turning(perturbation: f64) -> Result<Vec<Claim>, String> {
+    // 6 and 21 points, for the 7 and 19 of the hexagons.
+    const TRIANGLES: &str = "cl-ca.shapes={ small = { polygon = { corners = [[0, 0], [0, 4], [2, 2]] } }, \
+                             large = { polygon = { corners = [[0, 0], [0, 10], [5, 5]] } } }";
+    let run = |shapes: &[&str], turning: bool| -> Result<_, String> {
+        let turning = format!("cl-ca.turning={}", turning && perturbation == 1.0);
+        let mut rig = collapsing("cl-ca", true, &[shapes, &[turning.as_str()]].concat())?;
+        rig.until(0.59)?;
+        let height = rig.engine.centre_of_mass()[2];
+        rig.until(1.4)?;
+        let (_, front, slope) = slope(&rig.vectors("position"), WALL);
+        Ok((height, front - 1e3 * WALL, slope))
+    };
+    let (stiff, turned) = (run(&[TRIANGLES], false)?, run(&[TRIANGLES], true)?);
+    let (hexagons, same) = (run(&[], false)?, run(&[], true)?);
+    let room = "grains that turn find room that others leave open";
+    let closer = |name: &str, turned: f64, stiff: f64| between(name, turned / stiff, 0.5, 0.95, room);
+    let pattern = "the lattice makes the slope, not whether grains turn: what comes out is close to what does not turn";
+    Ok(vec![
+        closer("height of the bed at rest, triangles that turn over those that do not", turned.0, stiff.0),
+        refused("hexagons, which look alike when turned", &[closer("", same.0, hexagons.0)], 1),
+        between(
+            "way of the front, triangles that turn over those that do not",
+            turned.1 / stiff.1,
+            0.75,
+            1.33,
+            pattern,
+        ),
+        between(
+            "slope in degrees, triangles that turn less those that do not",
+            turned.2 - stiff.2,
+            -10.0,
+            10.0,
+            pattern,
+        ),
+    ])
+}

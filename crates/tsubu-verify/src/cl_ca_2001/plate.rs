@@ -1,0 +1,123 @@
+//! C-x4: a plate pushed into a bed, and which grains carry it, beside DEM.
+
+use super::super::bench::{self, Rig, at_least, between, refused};
+use std::path::Path;
+use tsubu::view::{Contact, Contacts, Wants};
+use tsubu_frame::Claim;
+use tsubu_scene::Scene;
+
+/// When the plate has gone 1 mm into the bed of hexagons [s].
+pub(super) const PUSHED: f64 = 1.46;
+
+/// C-x4: shared points of a bed into which a plate has been pushed by 1 mm: some grains carry, most of them below the plate.
+pub(in super::super) fn plate(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let pushed = |plate: bool| -> Result<_, String> {
+        let mut plan = bench::plan(include_str!("../../../../studies/cl-ca-2001/plate.toml"))?;
+        if !plate {
+            plan.particles.retain(|name, _| name != "plate");
+            plan.cl_ca.rule = tsubu_scene::plan::ClCaRule::Passive;
+        }
+        let mut rig = Rig::of(plan, 1.0)?;
+        // The plate comes down at 50 mm/s from 116 mm and meets the bed at 1.44 s: it has gone 1 mm into it.
+        rig.until(PUSHED)?;
+        let Network { loads, carry, under } = network(&rig, Contacts::Places);
+        let source = "chain-like, not uniform";
+        Ok([
+            at_least("pairs that share points", loads.len() as f64, 20.0, source),
+            at_least("spread of shared points over their mean", scatter(&loads), 0.3, source),
+            between("share of grains that carry", carry, 0.02, 0.5, source),
+            at_least("of those, share below the plate", under, 0.45, "the plate covers 30 of 80 mm: 0.37 if all alike"),
+        ])
+    };
+    let mut claims = pushed(perturbation == 1.0)?.to_vec();
+    claims.push(refused("no plate", &pushed(false)?, 4));
+    Ok(claims)
+}
+
+/// What a bed hands on from grain to grain.
+struct Network {
+    /// Loads of pairs: forces [N], or shared points times the spacing [m].
+    loads: Vec<f64>,
+    /// Share of the grains with a load; of forces, one above their mean.
+    carry: f64,
+    /// Share of those that are below the plate.
+    under: f64,
+}
+
+fn network(rig: &Rig, contacts: Contacts) -> Network {
+    let view = rig.engine.view(Wants { contacts, ..Wants::GRAINS });
+    let load = |contact: &Contact| match contacts {
+        Contacts::Forces => -contact.force.dot(contact.normal),
+        _ => contact.overlap,
+    };
+    let pairs: Vec<(usize, usize, f64)> = view
+        .contacts
+        .iter()
+        .filter(|contact| !contact.wall && load(contact) > 0.0)
+        .map(|contact| (contact.first, contact.second, load(contact)))
+        .collect();
+    let loads: Vec<f64> = pairs.iter().map(|pair| pair.2).collect();
+    let least = if contacts == Contacts::Forces { loads.iter().sum::<f64>() / loads.len() as f64 } else { 0.0 };
+    let mut carries = vec![false; view.len()];
+    for (first, second, _) in pairs.iter().filter(|pair| pair.2 > least) {
+        (carries[*first], carries[*second]) = (true, true);
+    }
+    let all = carries.iter().filter(|carries| **carries).count() as f64;
+    let below = |grain: usize| (25e-3..55e-3).contains(&view.grains.position[grain].x);
+    let under = (0..view.len()).filter(|&grain| carries[grain] && below(grain)).count() as f64;
+    Network { loads, carry: all / view.len() as f64, under: under / all }
+}
+
+/// Standard deviation over mean.
+fn scatter(loads: &[f64]) -> f64 {
+    let n = loads.len() as f64;
+    let mean = loads.iter().sum::<f64>() / n;
+    (loads.iter().map(|load| (load - mean).powi(2)).sum::<f64>() / n).sqrt() / mean
+}
+
+/// C-x4 beside DEM: the forces of a bed of discs into which the same plate has been pushed as far.
+pub(in super::super) fn plate_twin(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let text = include_str!("../../../../studies/cl-ca-2001/plate.toml");
+    let at = |method: &str, time: Option<f64>, contacts: Contacts| -> Result<Network, String> {
+        let changes = [format!("method={method}")];
+        let scene = Scene::parse("plate", text, Path::new("."), &changes).map_err(|c| c.to_string())?;
+        let mut plan = scene.plan().clone();
+        if perturbation != 1.0 {
+            plan.particles.retain(|name, _| name != "plate");
+            plan.cl_ca.rule = tsubu_scene::plan::ClCaRule::Passive;
+        }
+        let mut rig = Rig::of(plan, 1.0)?;
+        if let Some(time) = time {
+            rig.until(time)?;
+        } else {
+            // A settled bed of discs is lower: 20 ms after the plate has met it.
+            rig.until(0.3)?;
+            while !met(&rig) && rig.engine.time() < 1.7 {
+                rig.until(rig.engine.time() + 1e-3)?;
+            }
+            rig.until(rig.engine.time() + 0.02)?;
+        }
+        Ok(network(&rig, contacts))
+    };
+    let lattice = at("cl-ca", Some(PUSHED), Contacts::Places)?;
+    let discs = at("dem", None, Contacts::Forces)?;
+    let broad = "forces of a pushed bed spread about as far as their mean (Radjai et al. 1996; Mueth et al. 1998)";
+    let strong = "forces above their mean run through chains, not through every grain (Radjai et al. 1996)";
+    let twin = "the same plate, pushed 1 mm into discs by DEM; a third either way";
+    let alike = |name: &str, spread: f64| between(name, spread / scatter(&discs.loads), 0.67, 1.5, twin);
+    Ok(vec![
+        between("DEM: spread of forces over their mean", scatter(&discs.loads), 0.6, 1.5, broad),
+        between("DEM: share of grains with more than the mean force", discs.carry, 0.05, 0.9, strong),
+        between("DEM: of those, share below the plate", discs.under, 0.37, 1.0, "0.37 if all alike"),
+        alike("spread of loads, CL-CA over DEM", scatter(&lattice.loads)),
+        refused("a network where all pairs carry alike", &[alike("", 0.0)], 1),
+        between("share of grains that carry, CL-CA over DEM", lattice.carry / discs.carry, 0.67, 1.5, twin),
+    ])
+}
+
+/// Whether a grain of the plate touches one of the bed.
+fn met(rig: &Rig) -> bool {
+    let view = rig.engine.view(Wants { contacts: Contacts::Places, ..Wants::GRAINS });
+    let group = |grain: usize| view.grains.group[grain];
+    view.contacts.iter().any(|c| !c.wall && c.overlap > 0.0 && group(c.first) != group(c.second))
+}

@@ -1,0 +1,142 @@
+//! C-x1 and C-x2: a shaken box, in which a large grain rises and rough walls make grains roll round.
+
+use super::super::bench::{Rig, at_least, between};
+use glam::DVec3;
+use tsubu_frame::Claim;
+
+/// A box of hexagons and triangles, mixed so that they do not crystallise, shaken by gravity that points up for 20 steps.
+fn shaken(more: &str, seed: u64, perturbation: f64) -> Result<Rig, String> {
+    let text = format!(
+        r#"
+        title = "shaken"
+        method = "cl-ca"
+        duration = 1e3
+        seed = {seed}
+        [materials.m]
+        density = 2700
+        young-modulus = 1e6
+        [particles.hexagons]
+        material = "m"
+        count = 200
+        diameter = 2.778e-3
+        start.random.region = {{ low = [4e-3, 18e-3], high = [56e-3, 115e-3] }}
+        [particles.triangles]
+        material = "m"
+        count = 200
+        diameter = 1.819e-3
+        start.random.region = {{ low = [4e-3, 18e-3], high = [56e-3, 115e-3] }}
+        [walls.box]
+        material = "m"
+        shape.box = {{ width = 60.6e-3, height = 140e-3, depth = 5e-3, floor-centre = [30.3e-3, 0] }}
+        [cl-ca]
+        spacing = 1e-3
+        shapes.triangles.points.at = [[0, 0], [0, 2], [1, 1]]
+        {more}
+        "#
+    );
+    Rig::new(&text, perturbation)
+}
+
+/// Steps of a cycle of shaking: gravity up, and down.
+const CYCLE: [u64; 2] = [20, 200];
+
+/// C-x1: how high a grain of some radius rises, and in how many cycles.
+pub(in super::super) fn rise(perturbation: f64) -> Result<Vec<Claim>, String> {
+    const SEEDS: u64 = 3;
+    const CYCLES: u64 = 200;
+    let source = "the large grain rises, a grain as small as the others does not";
+    let mut claims = Vec::new();
+    let mut times = Vec::new();
+    for radius in 1..=4 {
+        let drawn = if perturbation == 1.0 { radius } else { 1 };
+        let (mut height, mut time) = (0.0, 0.0);
+        for seed in 1..=SEEDS {
+            let more = format!(
+                r#"
+                gravity-switch = {{ up = {}, down = {} }}
+                shapes.intruder.hexagon.radius = {drawn}
+                [particles.intruder]
+                material = "m"
+                diameter = {:.6e}
+                start.at.position = [[30e-3, 8e-3]]
+                "#,
+                CYCLE[0],
+                CYCLE[1],
+                1e-3 * tsubu::clca::shape::Shape::hexagon(drawn).diameter()
+            );
+            let mut rig = shaken(&more, seed, 1.0)?;
+            let mut reached = CYCLES;
+            let mut share = 0.0;
+            for cycle in 0..CYCLES {
+                rig.steps(CYCLE[0] + CYCLE[1])?;
+                let places = rig.vectors("position");
+                // Groups come in the order of their names: hexagons, then the intruder.
+                let intruder = places[200].z;
+                let mut others: Vec<f64> =
+                    places.iter().enumerate().filter(|(id, _)| *id != 200).map(|(_, p)| p.z).collect();
+                others.sort_by(f64::total_cmp);
+                share = intruder / others[others.len() * 95 / 100];
+                if share > 0.8 {
+                    reached = reached.min(cycle);
+                }
+            }
+            height += share / SEEDS as f64;
+            time += reached as f64 / SEEDS as f64;
+        }
+        let name = format!("radius {radius}: height over that of the bed after {CYCLES} cycles");
+        claims.push(match radius {
+            1 => between(name, height, 0.0, 0.7, source),
+            2 => between(name, height, 0.1, 1.1, source),
+            _ => between(name, height, 0.75, 1.2, source),
+        });
+        times.push(time);
+    }
+    claims.push(at_least("cycles to the top, radius 2 over radius 4", times[1] / times[3], 1.5, source));
+    claims.push(at_least("cycles to the top, radius 1 over radius 4", times[0] / times[3], 2.0, source));
+    Ok(claims)
+}
+
+/// Mean rise per cycle [mm] in seven slices between the side walls, in the middle of the bed's height.
+fn rolls(rough: bool) -> Result<[f64; 7], String> {
+    const CYCLES: usize = 300;
+    let heights = (0..24).map(|k| 3e-3 + 5e-3 * f64::from(k));
+    let places = heights.flat_map(|z| [format!("[1.4e-3, {z:.4e}]"), format!("[58.4e-3, {z:.4e}]")]);
+    let bumps = format!(
+        "[particles.bumps]\nmaterial = \"m\"\ndiameter = 2.778e-3\nmotion.frozen = {{}}\nstart.at.position = [{}]\n",
+        places.collect::<Vec<_>>().join(", ")
+    );
+    let more = ["gravity-switch = { up = 60, down = 200 }\n", if rough { &bumps } else { "" }].concat();
+    let mut rig = shaken(&more, 1, 1.0)?;
+    let first = if rough { 48 } else { 0 };
+    let (mut sum, mut count) = ([0.0; 7], [0.0; 7]);
+    let free = |rig: &Rig| -> Vec<DVec3> { rig.vectors("position").split_off(first) };
+    // Bumps come first: groups are in the order of their names.
+    for cycle in 0..CYCLES {
+        let before = free(&rig);
+        rig.steps(260)?;
+        for (a, b) in before.iter().zip(free(&rig)) {
+            let slice = (a.x / 60.7e-3 * 7.0) as usize;
+            if cycle > CYCLES / 10 && (8e-3..28e-3).contains(&a.z) && slice < 7 {
+                sum[slice] += 1e3 * (b.z - a.z);
+                count[slice] += 1.0;
+            }
+        }
+    }
+    Ok(std::array::from_fn(|slice| if count[slice] > 0.0 { sum[slice] / count[slice] } else { 0.0 }))
+}
+
+/// C-x2: down along rough walls, up beside that; along smooth walls next to nothing.
+pub(in super::super) fn convection(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let source = "convection needs rough walls";
+    let rough = rolls(perturbation == 1.0)?;
+    let smooth = rolls(false)?;
+    let outer = |v: &[f64; 7]| 0.5 * (v[0] + v[6]);
+    let inner = |v: &[f64; 7]| 0.5 * (v[1] + v[5]);
+    let strength = |v: &[f64; 7]| inner(v) - outer(v);
+    Ok(vec![
+        between("rough walls: rise at the walls mm a cycle", outer(&rough), -5.0, -0.05, source),
+        between("rough walls: rise beside that mm a cycle", inner(&rough), 0.05, 5.0, source),
+        between("smooth walls: strength of the roll mm a cycle", strength(&smooth), -0.1, 0.1, source),
+        at_least("strength, rough over smooth", strength(&rough) / strength(&smooth).abs().max(0.02), 5.0, source),
+    ])
+}
