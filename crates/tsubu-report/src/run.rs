@@ -49,9 +49,10 @@ pub(crate) fn build(source: &mut Source) -> Report {
         remarks.push(Block::Note(Tone::Warning, warning.clone()));
     }
     report.section("To be noted", remarks);
+    // What happened is seen before it is drawn over time.
+    report.section("Grains", pictures);
     report.section("Motion", motion);
     report.section("Watches", watched);
-    report.section("Grains", pictures);
     report.section("Energy", energy);
     if let Some(summary) = &summary {
         if !summary.claims.is_empty() {

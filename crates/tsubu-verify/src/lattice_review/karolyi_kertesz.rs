@@ -17,10 +17,10 @@ fn heap(friction: f64, half: usize, count: usize) -> (Pile, Vec<u64>) {
     (0..=2 * half).for_each(|column| pile.set_wall(column, 0));
     let mut fell = Vec::new();
     for _ in 0..count {
-        let before = pile.gone()[0];
+        let before = pile.removed.len();
         pile.drop_at(half, (pile.height(half) + 10).min(3 * half - 1), 0);
         settle(&mut pile);
-        fell.push(pile.gone()[0] - before);
+        fell.push((pile.removed.len() - before) as u64);
     }
     (pile, fell)
 }

@@ -52,7 +52,7 @@ pub(super) fn overlap(plan: &Plan, pair: &Pair, lowest: &Kind) -> f64 {
 
 /// Longest step [s] at which the dashpot of a pair, and the film between them, is stable and resolved, with impacts at `speed` and `depth` the overlap at rest.
 pub(super) fn longest_step(pair: &Pair, speed: f64, depth: f64) -> f64 {
-    let longest = |number: f64, depth: f64| number * pair.mass / pair.dashpot(depth);
+    let longest = |number: f64, depth: f64| number * pair.mass / pair.damping_coefficient(depth);
     let film = IN_A_FILM * pair.mass / pair.film;
     longest(IN_A_BED, depth).min(longest(IN_AN_IMPACT, pair.largest_overlap(speed))).min(film)
 }

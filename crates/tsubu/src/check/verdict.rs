@@ -199,7 +199,7 @@ fn damping_stable(
         return;
     }
     let depth = pair.largest_overlap(speed);
-    let (eta, at_rest) = (pair.dashpot(depth), pair.dashpot(depth_at_rest));
+    let (eta, at_rest) = (pair.damping_coefficient(depth), pair.damping_coefficient(depth_at_rest));
     let (impact, bed) = (eta * dt / pair.mass, at_rest * dt / pair.mass);
     // A step that was chosen by one of the limits may lie on it.
     let within = |number: f64, limit: f64| number <= limit * (1.0 + 1e-9);

@@ -27,7 +27,7 @@ pub struct Kind {
 pub struct Grains {
     /// Number of the kind.
     pub kind: Vec<u16>,
-    /// Cell of the reference point; [`NOWHERE`] for grains that are gone.
+    /// Cell of the reference point; [`NOWHERE`] for grains that were removed.
     pub cell: Vec<u32>,
     /// Turned by that many times 60 degrees clockwise.
     pub turn: Vec<u8>,
@@ -39,7 +39,7 @@ pub struct Grains {
     pub id: Vec<u32>,
 }
 
-/// The cell of a grain that is gone.
+/// The cell of a grain that was removed.
 pub const NOWHERE: u32 = u32::MAX;
 
 /// What the grains of one kind do together in a step.
@@ -101,7 +101,7 @@ impl Bed {
         Self { grid, kinds, stencils, reach, grains: Grains::default(), motion, step: 0, seed, memory, moves: 0 }
     }
 
-    /// Number of grains, with those that are gone.
+    /// Number of grains, with those that were removed.
     pub fn len(&self) -> usize {
         self.grains.cell.len()
     }
@@ -195,7 +195,7 @@ impl Bed {
         self.moves += 1;
     }
 
-    /// A grain that is gone. Its cells are the caller's to clear.
+    /// Removes a grain. Its cells are the caller's to clear.
     pub fn remove(&mut self, grain: usize) {
         if let Some(direction) = self.grains.last[grain].take() {
             let motion = &mut self.motion[self.grains.kind[grain] as usize];

@@ -104,11 +104,11 @@ impl ClCaEngine {
     fn step(&mut self, ledger: &mut Ledger) {
         let step = self.bed.step;
         let time = step as f64 * self.dt;
-        if self.walls.iter().any(|wall| !moves(wall) && !wall.gone() && wall.goes_by(time)) {
+        if self.walls.iter().any(|wall| !moves(wall) && !wall.vanished() && wall.goes_by(time)) {
             self.paint(time);
         }
         let (kinetic, momentum) = (self.kinetic(), self.momentum());
-        self.arrive(time, ledger);
+        self.insert(time, ledger);
         self.place_movers(step + 1);
         let pull = self.pull(step);
         let before = if cfg!(debug_assertions) { self.bed.grains.cell.clone() } else { Vec::new() };
@@ -128,7 +128,7 @@ impl ClCaEngine {
         for (axis, impulse) in ledger.rule_impulse.iter_mut().enumerate() {
             *impulse += now[axis] - momentum[axis];
         }
-        self.leave(ledger);
+        self.remove(ledger);
     }
 
     /// The way gravity pulls in the step after `step`.

@@ -12,7 +12,7 @@ const ATTEMPTS: u64 = 40;
 
 impl ClCaEngine {
     /// Grains of streams come in where there is room.
-    pub(super) fn arrive(&mut self, time: f64, ledger: &mut Ledger) {
+    pub(super) fn insert(&mut self, time: f64, ledger: &mut Ledger) {
         for stream in &mut self.streams {
             let due = ((time - stream.from) * stream.rate + 1.0).max(0.0) as usize;
             while stream.placed < due.min(stream.grains.len()) {
@@ -28,7 +28,7 @@ impl ClCaEngine {
     }
 
     /// Grains in removal regions go.
-    pub(super) fn leave(&mut self, ledger: &mut Ledger) {
+    pub(super) fn remove(&mut self, ledger: &mut Ledger) {
         if self.removal.is_empty() {
             return;
         }
@@ -36,8 +36,8 @@ impl ClCaEngine {
             let position = self.position(*grain);
             self.bed.kind(*grain).free && self.removal.iter().any(|removal| removal.takes(position.to_array()))
         };
-        let leaving: Vec<usize> = self.bed.present().filter(inside).collect();
-        for &grain in &leaving {
+        let removed: Vec<usize> = self.bed.present().filter(inside).collect();
+        for &grain in &removed {
             let height = self.position(grain).z;
             let (kinetic, momentum) = (self.kinetic(), self.momentum());
             if let Rule::Active(_) = self.rule {
@@ -51,7 +51,7 @@ impl ClCaEngine {
                 *impulse += now[axis] - momentum[axis];
             }
         }
-        if let (Rule::Active(active), false) = (&mut self.rule, leaving.is_empty()) {
+        if let (Rule::Active(active), false) = (&mut self.rule, removed.is_empty()) {
             active.wake_all(&self.bed);
         }
     }

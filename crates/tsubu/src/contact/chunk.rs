@@ -85,8 +85,8 @@ pub struct Chunk {
     pub secant_stiffness: Column,
     /// Between parts: tangential stiffness at this overlap [N/m].
     pub tangential_stiffness: Column,
-    /// Between parts: local viscous coefficient of the normal damping [N.s/m], for tangential dashpots.
-    pub dashpot: Column,
+    /// Between parts: coefficient of the normal damping at this overlap [N.s/m], for tangential dashpots.
+    pub damping_coefficient: Column,
     /// Between parts: what attraction adds to the normal force before friction multiplies it [N], added to.
     pub pull_off: Column,
     /// Between parts: what friction multiplies [N]: normal force and pull-off, never below zero.
@@ -136,7 +136,7 @@ impl Chunk {
             contact_radius: ZERO,
             secant_stiffness: ZERO,
             tangential_stiffness: ZERO,
-            dashpot: ZERO,
+            damping_coefficient: ZERO,
             pull_off: ZERO,
             load: ZERO,
             normal_force: ZERO,

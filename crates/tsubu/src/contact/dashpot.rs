@@ -9,7 +9,7 @@ use multiversion::multiversion;
 pub(super) const RATE: About = About {
     key: "contact.damping.rate",
     formula: "f = c d', c = rate m*; with Hooke e = exp(-rate t_c / 2), t_c the damped contact time, if attraction is allowed",
-    symbols: "d' overlap rate [m/s], m* reduced mass [kg], rate [1/s], c [N.s/m]",
+    symbols: "d' overlap rate [m/s], m* effective mass [kg], rate [1/s], c [N.s/m]",
     limits: "the restitution is what comes out of it; the force jumps at first touch",
     reference: "the damping `mass_velocity` of LAMMPS; Silbert et al. 2001",
 };
@@ -84,7 +84,7 @@ pub(super) fn damp(chunk: &mut Chunk, attraction: bool, local: impl Fn(&Chunk, u
         let dashpot = if chunk.contact_radius[i] > 0.0 { local(chunk, i) } else { 0.0 };
         let elastic = chunk.normal_force[i];
         let total = most(elastic + dashpot * chunk.closing[i], least(elastic, ceiling));
-        chunk.dashpot[i] = dashpot;
+        chunk.damping_coefficient[i] = dashpot;
         chunk.normal_force[i] = total;
         chunk.damping_force[i] = total - elastic;
         // What is lost is whatever the contact takes from the motion beyond what it stores.

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 pub(super) const ABOUT: About = About {
     key: "contact.cohesion.dmt",
     formula: "f_n = f_Hertz - F_c, F_c = 4 pi gamma R*; friction sees f_n + 2 F_c; stored less F_c d",
-    symbols: "gamma surface energy of one face [J/m^2] (work of adhesion 2 gamma), R* reduced radius [m], d overlap [m]",
+    symbols: "gamma surface energy of one face [J/m^2] (work of adhesion 2 gamma), R* effective radius [m], d overlap [m]",
     limits: "no attraction before touch and after parting; for R* gamma^2 / (E*^2 z^3) well below 1, z the range of the forces",
     reference: "Derjaguin, Muller, Toporov 1975; friction as Thornton 1991",
 };

@@ -9,7 +9,7 @@ use multiversion::multiversion;
 pub(super) const ABOUT: About = About {
     key: "contact.normal.hertz",
     formula: "f_n = k d^(3/2), k = (4/3) E* sqrt(R*); radius of contact a = sqrt(R* d); stored (2/5) k d^(5/2)",
-    symbols: "d overlap [m], E* reduced modulus [Pa], R* reduced radius [m], k [N/m^1.5], a [m]",
+    symbols: "d overlap [m], E* effective modulus [Pa], R* effective radius [m], k [N/m^1.5], a [m]",
     limits: "small overlaps (d below about 1 % of the diameter), no adhesion, no plasticity",
     reference: "Hertz 1882; Komatsuzaki 2003, eqs. (3), (5), (6)",
 };

@@ -9,7 +9,7 @@ use multiversion::multiversion;
 pub(super) const ABOUT: About = About {
     key: "contact.normal.hooke",
     formula: "f_n = k d; radius of contact a = sqrt(R* d); stored (1/2) k d^2; contact time pi sqrt(m*/k)",
-    symbols: "d overlap [m], k [N/m], m* reduced mass [kg], R* reduced radius [m], a [m]",
+    symbols: "d overlap [m], k [N/m], m* effective mass [kg], R* effective radius [m], a [m]",
     limits: "k is a choice, not a material constant",
     reference: "Cundall and Strack 1979; Osada 2004, eq. (1)",
 };

@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 pub(super) const ABOUT: About = About {
     key: "contact.film.lubrication",
     formula: "f_n = 6 pi mu R*^2 h'/max(h, h_r) for 0 < h < reach, its mean over a time step",
-    symbols: "h gap, -h' the rate at which it grows [m, m/s], h_r roughness [m], R* reduced radius [m], mu viscosity [Pa.s]",
+    symbols: "h gap, -h' the rate at which it grows [m, m/s], h_r roughness [m], R* effective radius [m], mu viscosity [Pa.s]",
     limits: "h small against R*; no cavity on parting, no shear of the film, no give of the faces (elastohydrodynamics); ends at touch, \
 as contacts softer than nature's would last too long in it; friction does not see it; it is there above a surface too",
     reference: "Reynolds 1886; Jeffrey and Onishi 1984; roughness as Joseph, Zenit, Hunt, Rosenwinkel 2001, Izard et al. 2014",

@@ -11,7 +11,7 @@ use tsubu_scene::plan::MindlinForm;
 pub(super) const INCREMENTAL: About = About {
     key: "contact.tangential.mindlin",
     formula: "dF = -k_t v_t dt, F scaled down with k_t on unloading, |F + F_dashpot| <= mu f_n; k_t = 8 G* a",
-    symbols: "F spring force [N], v_t slip velocity [m/s], G* reduced shear modulus [Pa], a contact radius [m], mu [-]",
+    symbols: "F spring force [N], v_t slip velocity [m/s], G* effective shear modulus [Pa], a contact radius [m], mu [-]",
     limits: "no micro-slip inside the contact disc; contacts that turn about their normal do not turn F",
     reference: "Mindlin and Deresiewicz 1953; Thornton, Cummins, Cleary 2013",
 };
@@ -19,7 +19,7 @@ pub(super) const INCREMENTAL: About = About {
 pub(super) const SECANT: About = About {
     key: "contact.tangential.mindlin.form.secant",
     formula: "F = -k_t(d) x, x the slip since first touch, cut so that |F + F_dashpot| <= mu f_n; k_t = 8 G* a",
-    symbols: "x slip [m], d overlap [m], G* reduced shear modulus [Pa], a contact radius [m], mu [-]",
+    symbols: "x slip [m], d overlap [m], G* effective shear modulus [Pa], a contact radius [m], mu [-]",
     limits: "pressing a sheared contact makes energy out of nothing; for comparison with codes that use it",
     reference: "the form behind the curves of Chung and Ooi 2011",
 };
@@ -70,7 +70,7 @@ impl Part for Mindlin {
 fn rows(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, growth: f64) {
     tangential(chunk, held, dt, |c, i| Strength {
         stiffness: 8.0 * c.shear_modulus[i] * c.contact_radius[i],
-        dashpot: c.dashpot[i] * c.shear_damping[i],
+        dashpot: c.damping_coefficient[i] * c.shear_damping[i],
         cap: c.friction[i] * c.load[i],
         growth,
     });

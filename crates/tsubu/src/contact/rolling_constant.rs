@@ -8,7 +8,7 @@ use multiversion::multiversion;
 pub(super) const ABOUT: About = About {
     key: "contact.rolling.constant",
     formula: "M = -mu_r R* f_n w / max(|w|, v_eps / R*, w_dt), w_dt = 5 mu_r f_n dt / (m* R*)",
-    symbols: "w relative spin without its normal part [rad/s], R* reduced radius [m], mu_r [-], v_eps [m/s], m* [kg]",
+    symbols: "w relative spin without its normal part [rad/s], R* effective radius [m], mu_r [-], v_eps [m/s], m* [kg]",
     limits: "does not hold a slope at rest: below v_eps the grain creeps; w_dt keeps a step from turning the rolling",
     reference: "model A of Ai, Chen, Rotter, Ooi 2011",
 };

@@ -9,7 +9,7 @@ use multiversion::multiversion;
 pub(super) const ABOUT: About = About {
     key: "contact.rolling.viscous",
     formula: "M = -min(C mu_r R* f_n R*, I / (2 dt)) w, I = 2/5 m* R*^2",
-    symbols: "w relative spin without its normal part [rad/s], C [s/m], mu_r [-], R* reduced radius [m], m* [kg]",
+    symbols: "w relative spin without its normal part [rad/s], C [s/m], mu_r [-], R* effective radius [m], m* [kg]",
     limits: "holds no slope at rest; the second limit keeps a step from turning the rolling",
     reference: "model B of Ai, Chen, Rotter, Ooi 2011",
 };

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 pub(super) const ABOUT: About = About {
     key: "contact.cohesion.sjkr",
     formula: "f_n = f_elastic - C A, A = 2 pi R* d; friction sees f_n + C A; stored less C pi R* d^2",
-    symbols: "C the materials' cohesion [Pa], R* reduced radius [m], d overlap [m]",
+    symbols: "C the materials' cohesion [Pa], R* effective radius [m], d overlap [m]",
     limits: "no theory of adhesion: the same C binds a softer material more strongly, as d is larger; nothing at d = 0",
     reference: "the cohesion models sjkr, sjkr2 of LIGGGHTS, for overlaps small against the radii",
 };

@@ -8,7 +8,7 @@ use glam::DVec3;
 /// Keeps divisions finite where nothing touches; squares of forces below 1e-100 N are lost in it.
 pub(super) const TINY: f64 = 1e-200;
 
-/// Largest share of the reduced mass (of the reduced inertia in rolling) that a tangential dashpot may hold per time step:
+/// Largest share of the effective mass (of the effective inertia in rolling) that a tangential dashpot may hold per time step:
 /// c dt <= 0.05 m*, decision 0014.
 ///
 /// A grain between 12 others is turned by all their dashpots, two thirds of each, and twice where neighbours turn alike:

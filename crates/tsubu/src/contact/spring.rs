@@ -55,7 +55,7 @@ impl Part for Spring {
 fn rows(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, ratio: f64, cohesion: f64) {
     tangential(chunk, held, dt, |c, i| Strength {
         stiffness: ratio * c.secant_stiffness[i],
-        dashpot: c.dashpot[i] * c.shear_damping[i],
+        dashpot: c.damping_coefficient[i] * c.shear_damping[i],
         cap: if c.contact_radius[i] > 0.0 { c.friction[i] * c.load[i] + cohesion } else { 0.0 },
         growth: 1.0,
     });

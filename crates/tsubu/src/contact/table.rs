@@ -86,8 +86,8 @@ impl Pair {
         (force / self.stiffness).powf(1.0 / self.constants.exponent)
     }
 
-    /// Dashpot at an overlap [N.s/m]: c d^q.
-    pub fn dashpot(&self, depth: f64) -> f64 {
+    /// Damping coefficient at an overlap [N.s/m]: c d^q.
+    pub fn damping_coefficient(&self, depth: f64) -> f64 {
         self.damping * depth.powf(self.damping_exponent)
     }
 }
@@ -175,12 +175,12 @@ impl Table {
 
     /// Two bodies, given as (material, radius [m], mass [kg]); infinite radius and mass for walls.
     pub fn pair(&self, a: (u32, f64, f64), b: (u32, f64, f64)) -> Pair {
-        let reduced = |x: f64, y: f64| 1.0 / (1.0 / x + 1.0 / y);
+        let of_pair = |x: f64, y: f64| 1.0 / (1.0 / x + 1.0 / y);
         let index = self.index(a.0, b.0);
         let mut pair = Pair {
             constants: *self.constants(index),
-            radius: reduced(a.1, b.1),
-            mass: reduced(a.2, b.2),
+            radius: of_pair(a.1, b.1),
+            mass: of_pair(a.2, b.2),
             ..Pair::default()
         };
         self.laws[self.law(index)].judge(&mut pair);
@@ -192,10 +192,10 @@ fn combine(m: &Material, n: &Material, found: Option<&MaterialPair>) -> Constant
     let mix = |told: Option<f64>, x: f64, y: f64| told.unwrap_or_else(|| (x * y).sqrt());
     let plane_modulus = |m: &Material| m.young_modulus / (1.0 - m.poisson_ratio * m.poisson_ratio);
     let shear = |m: &Material| m.young_modulus / (2.0 * (1.0 + m.poisson_ratio) * (2.0 - m.poisson_ratio));
-    let reduced = |x: f64, y: f64| 1.0 / (1.0 / x + 1.0 / y);
+    let of_pair = |x: f64, y: f64| 1.0 / (1.0 / x + 1.0 / y);
     Constants {
-        effective_modulus: reduced(plane_modulus(m), plane_modulus(n)),
-        shear_modulus: reduced(shear(m), shear(n)),
+        effective_modulus: of_pair(plane_modulus(m), plane_modulus(n)),
+        shear_modulus: of_pair(shear(m), shear(n)),
         restitution: mix(found.and_then(|p| p.restitution), m.restitution, n.restitution),
         friction: mix(found.and_then(|p| p.friction), m.friction, n.friction),
         rolling: mix(found.and_then(|p| p.rolling_friction), m.rolling_friction, n.rolling_friction),

@@ -52,8 +52,10 @@ fn rows(chunk: &mut Chunk, [held, was]: &mut [Column; 2], dt: f64) {
     for i in 0..chunk.rows() {
         let (twist, cap) = (chunk.twist[i], limit(chunk, i));
         let half = 0.5 * (chunk.contact_radius[i] * chunk.contact_radius[i]);
-        let (stiffness, dashpot) =
-            (chunk.tangential_stiffness[i] * half, bearable(chunk.dashpot[i] * half, inertia(chunk, i), dt));
+        let (stiffness, dashpot) = (
+            chunk.tangential_stiffness[i] * half,
+            bearable(chunk.damping_coefficient[i] * half, inertia(chunk, i), dt),
+        );
         let before = 0.5 * held[i] * held[i] * was[i];
         let within = |torque: f64| most(least(torque, cap), -cap);
         let spring = within(held[i] * least(stiffness * was[i], 1.0) - twist * (stiffness * dt));

@@ -20,7 +20,7 @@ pub(super) const SQRT: About = About {
 pub(super) const QUARTER: About = About {
     key: "contact.damping.quarter",
     formula: "f = a sqrt(m* k) d^(1/4) d', a = -sqrt(5) ln e / sqrt(pi^2 + ln^2 e) when attraction is allowed",
-    symbols: "d overlap [m], d' overlap rate [m/s], m* reduced mass [kg], k [N/m^1.5]",
+    symbols: "d overlap [m], d' overlap rate [m/s], m* effective mass [kg], k [N/m^1.5]",
     limits: "with attraction cut, a is found numerically so that e comes back; with Hooke e is met at 1 m/s only",
     reference: "Tsuji, Tanaka, Ishida 1992; Antypov and Elliott 2011",
 };
@@ -28,7 +28,7 @@ pub(super) const QUARTER: About = About {
 pub(super) const LINEAR: About = About {
     key: "contact.damping.linear",
     formula: "f = c d'; with Hooke c = 2 z sqrt(m* k), z = -ln e / sqrt(pi^2 + ln^2 e) when attraction is allowed",
-    symbols: "d' overlap rate [m/s], m* reduced mass [kg], k [N/m], c [N.s/m]",
+    symbols: "d' overlap rate [m/s], m* effective mass [kg], k [N/m], c [N.s/m]",
     limits: "the force jumps at first touch; with Hertz the restitution is met at the reference speed only",
     reference: "Cundall and Strack 1979",
 };

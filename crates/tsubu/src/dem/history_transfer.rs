@@ -203,7 +203,7 @@ impl Lookup<'_> {
             let own = i % BLOCK as u32;
             let key = Key::Wall(WallKey { own, wall: contact.second, patch: contact.patch });
             let wall = self.walls.get(contact.second as usize)?;
-            return (!wall.gone()).then_some((i / BLOCK as u32, key, false));
+            return (!wall.vanished()).then_some((i / BLOCK as u32, key, false));
         }
         let j = self.index(contact.second)?;
         let found = |(block, k), turned| (block, Key::Pair(k), turned);

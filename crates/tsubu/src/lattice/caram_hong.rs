@@ -195,7 +195,7 @@ impl CaramHong {
                         self.bits.grain[cell] |= bit;
                         self.bits.hole[cell] &= !bit;
                     } else {
-                        self.sheet.gone.push((grain, to));
+                        self.sheet.removed.push((grain, to));
                     }
                 }
             }

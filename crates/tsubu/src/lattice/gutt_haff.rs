@@ -40,8 +40,8 @@ pub struct Grain {
     pub velocity: [f64; 2],
     /// Position less that of the node, in spacings.
     pub offset: [f64; 2],
-    /// It has left through an outlet.
-    pub gone: bool,
+    /// It was removed by an outlet.
+    pub removed: bool,
 }
 
 /// What a wall node got from a grain, in masses times spacings a step.
@@ -76,8 +76,8 @@ pub struct LatticeGrains {
     pub contacts: usize,
     /// Nodes on which grains vanish; none if it is empty.
     pub outlet: Vec<bool>,
-    /// Grains that have gone since somebody took note.
-    pub left: Vec<usize>,
+    /// Grains that were removed since somebody took note.
+    pub removed: Vec<usize>,
     wants: Vec<Option<(Direction, f64)>>,
 }
 
@@ -112,14 +112,14 @@ impl LatticeGrains {
         }
         let wants = vec![None; grains.len()];
         let (pushes, outlet) = (Vec::new(), Vec::new());
-        Self { grid, grains, gravity, restitution, seed, step: 0, pushes, contacts: 0, outlet, left: Vec::new(), wants }
+        Self { grid, grains, gravity, restitution, seed, step: 0, pushes, contacts: 0, outlet, removed: Vec::new(), wants }
     }
 
     /// One step.
     pub fn advance(&mut self) -> Result<(), TooFast> {
         self.pushes.clear();
         self.contacts = 0;
-        for (number, grain) in self.grains.iter_mut().enumerate().filter(|(_, grain)| !grain.gone) {
+        for (number, grain) in self.grains.iter_mut().enumerate().filter(|(_, grain)| !grain.removed) {
             add(&mut grain.offset, 1.0, grain.velocity);
             grain.offset[1] -= 0.5 * self.gravity;
             grain.velocity[1] -= self.gravity;
@@ -132,7 +132,7 @@ impl LatticeGrains {
             self.collide(set);
         }
         for grain in 0..self.grains.len() {
-            if !self.grains[grain].gone {
+            if !self.grains[grain].removed {
                 self.meet_walls(grain);
             }
         }
@@ -159,7 +159,7 @@ impl LatticeGrains {
         for first in 0..self.grains.len() {
             let node = self.grains[first].node;
             let (column, row) = self.grid.place(node);
-            if (if set < 2 { row } else { column }) % 2 != set % 2 || self.grains[first].gone {
+            if (if set < 2 { row } else { column }) % 2 != set % 2 || self.grains[first].removed {
                 continue;
             }
             let ahead = self.grid.at(self.grid.neighbour(node, column, direction));
@@ -223,7 +223,7 @@ impl LatticeGrains {
     fn jump(&mut self) {
         for (grain, want) in self.grains.iter().zip(&mut self.wants) {
             *want = None;
-            if grain.gone || dot(grain.offset, grain.offset) <= 0.25 {
+            if grain.removed || dot(grain.offset, grain.offset) <= 0.25 {
                 continue;
             }
             let column = self.grid.place(grain.node).0;
@@ -243,9 +243,9 @@ impl LatticeGrains {
                 let to = self.grid.neighbour(node, self.grid.place(node).0, direction);
                 self.grid.set(node, EMPTY);
                 self.grains[number].node = to;
-                self.grains[number].gone = self.outlet.get(to) == Some(&true);
-                if self.grains[number].gone {
-                    self.left.push(number);
+                self.grains[number].removed = self.outlet.get(to) == Some(&true);
+                if self.grains[number].removed {
+                    self.removed.push(number);
                 } else {
                     self.grid.set(to, number as i32);
                 }
@@ -275,7 +275,7 @@ impl LatticeGrains {
     /// Momentum of the grains, in masses times spacings a step.
     pub fn momentum(&self) -> [f64; 2] {
         let mut sum = [0.0; 2];
-        for grain in self.grains.iter().filter(|grain| !grain.gone) {
+        for grain in self.grains.iter().filter(|grain| !grain.removed) {
             add(&mut sum, 1.0, grain.velocity);
         }
         sum

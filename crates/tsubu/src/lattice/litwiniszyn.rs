@@ -99,7 +99,7 @@ impl Litwiniszyn {
             };
             let grain = std::mem::replace(&mut cells[next], EMPTY);
             if here == outlet {
-                self.sheet.gone.push((grain, here));
+                self.sheet.removed.push((grain, here));
             } else {
                 cells[here] = grain;
             }

@@ -133,7 +133,7 @@ impl Chute {
         if self.sheet.cells[to] == EMPTY {
             self.sheet.cells[to] = cell;
         } else {
-            self.sheet.gone.push((cell, to));
+            self.sheet.removed.push((cell, to));
         }
         self.trail.moves(cell, self.step, [2 * way[0] as i32, way[1] as i32]);
     }

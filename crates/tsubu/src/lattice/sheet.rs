@@ -18,7 +18,7 @@ pub enum Layout {
 pub const EMPTY: i32 = -1;
 /// The site belongs to a wall.
 pub const WALL: i32 = -2;
-/// Grains that come here are gone: an outlet.
+/// Grains that come here are removed: an outlet.
 pub const OUT: i32 = -3;
 
 /// Height of a row of the triangular lattice over the spacing: sqrt(3)/2.
@@ -32,14 +32,14 @@ pub struct Sheet {
     rows: usize,
     /// A grain's number, [`EMPTY`], [`WALL`] or [`OUT`].
     pub cells: Vec<i32>,
-    /// Grains that have gone out since somebody took note, each with its outlet.
-    pub gone: Vec<(i32, usize)>,
+    /// Grains that were removed since somebody took note, each with its outlet.
+    pub removed: Vec<(i32, usize)>,
 }
 
 impl Sheet {
     /// Empty sites within a rim of walls; the rim counts.
     pub fn new(layout: Layout, columns: usize, rows: usize) -> Self {
-        let mut sheet = Self { layout, columns, rows, cells: vec![WALL; columns * rows], gone: Vec::new() };
+        let mut sheet = Self { layout, columns, rows, cells: vec![WALL; columns * rows], removed: Vec::new() };
         for row in 1..rows - 1 {
             for column in 1..columns - 1 {
                 let site = sheet.index(column, row);

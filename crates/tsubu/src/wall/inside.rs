@@ -25,7 +25,7 @@ impl Wall {
     pub fn encloses(&self, point: DVec3, down: DVec3) -> Option<bool> {
         let own = self.pose.to_own(point);
         match &self.surface {
-            _ if self.gone() => None,
+            _ if self.vanished() => None,
             Surface::Frustum(frustum) => frustum.encloses(own),
             Surface::Shell(shell) => Some(own.distance(shell.centre) < shell.radius),
             Surface::Mesh(mesh) if mesh.closed => Some(mesh.holds(own)),
@@ -38,7 +38,7 @@ impl Wall {
     pub fn catches(&self, point: DVec3, down: DVec3) -> Option<bool> {
         let (own, fall) = (self.pose.to_own(point), self.pose.to_own(point + down) - self.pose.to_own(point));
         match &self.surface {
-            _ if self.gone() || down == DVec3::ZERO => None,
+            _ if self.vanished() || down == DVec3::ZERO => None,
             Surface::Frustum(frustum) => frustum.catches(own, fall),
             Surface::Mesh(mesh) if !mesh.closed => mesh.catches(own, fall, &self.across(down)),
             Surface::Shell(_) | Surface::Mesh(_) | Surface::HalfSpaces { .. } => None,
@@ -48,7 +48,7 @@ impl Wall {
     /// Whether straight below a point there is any of a curved wall or a mesh.
     pub fn lies_below(&self, point: DVec3, down: DVec3) -> bool {
         match &self.surface {
-            _ if self.gone() => false,
+            _ if self.vanished() => false,
             Surface::Mesh(mesh) => {
                 let fall = self.pose.to_own(point + down) - self.pose.to_own(point);
                 !mesh.crossings(self.pose.to_own(point), fall).is_empty()

@@ -74,7 +74,7 @@ pub struct Wall {
     /// When it vanishes [s].
     pub until: Option<f64>,
     /// Whether it has vanished: nothing touches it then, and nobody sees it.
-    gone: bool,
+    vanished: bool,
     outline: Outline,
     /// In the plane y is an exact zero, whatever rounding says.
     in_plane: bool,
@@ -104,7 +104,7 @@ impl Wall {
             mover,
             turning,
             until: plan.until,
-            gone: false,
+            vanished: false,
             outline,
             in_plane: dimension == 2,
         };
@@ -126,8 +126,8 @@ impl Wall {
     }
 
     /// Whether it has vanished.
-    pub fn gone(&self) -> bool {
-        self.gone
+    pub fn vanished(&self) -> bool {
+        self.vanished
     }
 
     /// Whether it should have vanished at `time` [s]. The end of the step that reaches the moment counts, whatever
@@ -138,12 +138,12 @@ impl Wall {
 
     /// Makes it vanish, or brings it back, as `time` [s] wants. Candidates must be found again after that.
     pub fn stand_or_go(&mut self, time: f64) {
-        self.gone = self.goes_by(time);
+        self.vanished = self.goes_by(time);
     }
 
     /// Puts the elements whose distance from a point is below `reach` [m] into `out`, ascending.
     pub fn near(&self, centre: DVec3, reach: f64, out: &mut Vec<u32>) {
-        if self.gone {
+        if self.vanished {
             out.clear();
             return;
         }
@@ -276,7 +276,7 @@ impl Wall {
     /// Point and normal of a plane that stands alone: it has no end, and is drawn as large as the rest of a picture.
     pub fn lone_plane(&self) -> Option<(DVec3, DVec3)> {
         match &self.surface {
-            Surface::HalfSpaces { planes, .. } if planes.len() == 1 && !self.gone => {
+            Surface::HalfSpaces { planes, .. } if planes.len() == 1 && !self.vanished => {
                 Some((self.pose.to_world(planes[0].point), self.pose.direction(planes[0].normal)))
             }
             _ => None,
@@ -285,7 +285,7 @@ impl Wall {
 
     /// Lines and triangles for pictures, where they are now.
     pub fn outline(&self) -> Outline {
-        if self.gone { Outline::default() } else { self.outline.placed(&self.pose) }
+        if self.vanished { Outline::default() } else { self.outline.placed(&self.pose) }
     }
 
     /// Writes the state of a servo or body into a checkpoint; other walls have none.

@@ -156,7 +156,7 @@ impl Coupled {
     /// stands. Begun within a bed it would be torn down by the grains at once.
     fn begin(&mut self) {
         let (n, h) = (self.layers.len(), self.layers.thickness);
-        let bed = self.layers.porosity.iter().rposition(|open| *open < FILLED).map_or(0, |k| k + 1);
+        let bed = self.layers.porosity.iter().rposition(|porosity| *porosity < FILLED).map_or(0, |k| k + 1);
         let law = |k: usize| {
             let z = (k as f64 + 0.5 - bed as f64) * h;
             if k < bed { 0.0 } else { ((z / self.rough).ln() / karman()).max(0.0) }
@@ -221,7 +221,7 @@ impl Coupled {
 
     /// The first layer over the highest one that leaves less than this share to the water.
     fn above(&self, share: f64) -> usize {
-        self.layers.porosity.iter().rposition(|open| *open < share).map_or(0, |k| k + 1)
+        self.layers.porosity.iter().rposition(|porosity| *porosity < share).map_or(0, |k| k + 1)
     }
 
     /// The first layer over the bed, which ends with the highest layer that grains fill by three tenths, half of what a packing has.

@@ -126,7 +126,11 @@ fn the_verdict_hears_what_the_rows_do() {
                 let force = pair.stiffness * d.powf(pair.constants.exponent);
                 let dashpot = pair.damping * d.powf(pair.damping_exponent);
                 assert!((chunk.normal_force[i] / force - 1.0).abs() < 1e-13, "{force}");
-                assert!((chunk.dashpot[i] / dashpot - 1.0).abs() < 1e-13, "{:?}: {dashpot}", subject.contact);
+                assert!(
+                    (chunk.damping_coefficient[i] / dashpot - 1.0).abs() < 1e-13,
+                    "{:?}: {dashpot}",
+                    subject.contact
+                );
             }
         }
     }
@@ -170,7 +174,7 @@ fn stiffness_of_the_damper_paper() {
         assert!((pair.damping / damping - 1.0).abs() < 1e-3, "{}", pair.damping);
         assert!((pair.largest_overlap(1.0) / (overlap * 1e-6) - 1.0).abs() < 1e-3);
         assert!((pair.contact_time(1.0) / (time * 1e-4) - 1.0).abs() < 1e-3);
-        // The control: the radius of one ball where the reduced one belongs.
+        // The control: the radius of one ball where the effective one belongs.
         assert!((subject.pair(2.0 * radius, mass).stiffness / stiffness - 1.0).abs() > 1e-2);
     }
 }

@@ -10,7 +10,7 @@ use tsubu_scene::plan::{Contact, Normal};
 const K1: f64 = 1e5;
 const RATIO: f64 = 5.0;
 const PHI: f64 = 0.05;
-/// Reduced radius of the passes [m].
+/// Effective radius of the passes [m].
 const RADIUS: f64 = 1.5e-3;
 
 fn law(adhesion_ratio: f64) -> Subject {

@@ -54,7 +54,7 @@ impl Subject {
         (self.spoil)(chunk);
     }
 
-    /// Two bodies of reduced radius and mass, as the verdict on the time step sees them.
+    /// Two bodies of effective radius and mass, as the verdict on the time step sees them.
     pub fn pair(&self, radius: f64, mass: f64) -> Pair {
         let mut pair = Pair { constants: self.constants, radius, mass, ..Pair::default() };
         self.law.judge(&mut pair);

@@ -86,7 +86,7 @@ fn the_tangential_dashpot_is_as_told() {
         subject.apply(&mut chunk, 1e-12);
         let dashpot = -(chunk.tangential_force[1][0] + chunk.tangential_stiffness[0] * 1e-15) / 1e-3;
         let equal = (chunk.tangential_stiffness[0] / (1.5 * chunk.secant_stiffness[0])).sqrt();
-        let expected = told.unwrap_or(equal) * chunk.dashpot[0];
+        let expected = told.unwrap_or(equal) * chunk.damping_coefficient[0];
         assert!((dashpot / expected - 1.0).abs() < 1e-6, "{dashpot} {expected}");
     }
 }

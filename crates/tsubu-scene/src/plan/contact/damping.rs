@@ -28,9 +28,9 @@ variants! {
         }
 
         Rate "rate"
-        "A dashpot in proportion to the reduced mass, one rate of decay for all sizes, whatever the restitution (`mass_velocity` of other codes)" {
-            /// Damping coefficient over reduced mass [1/s].
-            rate: f64 = Key::new("rate", Kind::Quantity(&RATE), "Damping coefficient over reduced mass").at_least(0.0),
+        "A dashpot in proportion to the effective mass, one rate of decay for all sizes, whatever the restitution (`mass_velocity` of other codes)" {
+            /// Damping coefficient over effective mass [1/s].
+            rate: f64 = Key::new("rate", Kind::Quantity(&RATE), "Damping coefficient over effective mass").at_least(0.0),
         }
 
         Dashpot "dashpot" "One dashpot for all contacts, whatever the restitution (Osada 2004)" {

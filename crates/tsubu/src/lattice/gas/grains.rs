@@ -158,7 +158,7 @@ impl Grains {
         free
     }
 
-    /// Takes everybody from a site who is there; on walls nobody is gone.
+    /// Takes everybody from a site who is there; on walls nobody is removed.
     pub fn clear(&mut self, site: usize) {
         if self.wall[site] > 0 {
             return;

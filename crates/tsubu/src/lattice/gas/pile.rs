@@ -67,10 +67,8 @@ pub struct Pile {
     flyers: Vec<Flyer>,
     /// Kind of every grain by its number.
     kinds: Vec<u32>,
-    /// Grains that left the lattice, by kind.
-    gone: Vec<u64>,
-    /// Grains that left the lattice or were cleared since somebody took note, and from where.
-    pub departed: Vec<(u32, Place)>,
+    /// Grains that left the lattice or were cleared, removed since somebody took note, and from where.
+    pub removed: Vec<(u32, Place)>,
     /// Grains at rest that were knocked loose or lost their ground.
     loosened: u64,
     /// How often each grain has crossed the high end of a periodic x, less how often the low one.
@@ -78,12 +76,11 @@ pub struct Pile {
 }
 
 impl Pile {
-    /// An empty lattice without walls; grains that leave it at open sides or below are gone.
+    /// An empty lattice without walls; grains that leave it at open sides or below are removed.
     pub fn new(sites: Sites, habits: Habits, seed: u64) -> Self {
         let (rest, taken) = (vec![NOBODY; sites.count()], vec![0; sites.count()]);
-        let gone = vec![0; habits.friction.len()];
         let (flyers, kinds, laps) = (Vec::new(), Vec::new(), Vec::new());
-        Self { sites, habits, seed, step: 0, rest, taken, flyers, kinds, gone, departed: Vec::new(), loosened: 0, laps }
+        Self { sites, habits, seed, step: 0, rest, taken, flyers, kinds, removed: Vec::new(), loosened: 0, laps }
     }
 
     /// Makes a site a wall.
@@ -183,19 +180,19 @@ impl Pile {
 
     /// Takes everybody from some sites who is there; on walls nobody is.
     pub fn clear(&mut self, sites: &[bool]) {
-        let Self { sites: lattice, taken, departed, .. } = self;
+        let Self { sites: lattice, taken, removed, .. } = self;
         self.flyers.retain(|flyer| {
             let site = lattice.index(flyer.column as usize, flyer.row as usize);
             if sites[site] {
                 taken[site] &= !(1 << flyer.way);
-                departed.push((flyer.who, Place { site, way: Some(Direction::from_index(usize::from(flyer.way))) }));
+                removed.push((flyer.who, Place { site, way: Some(Direction::from_index(usize::from(flyer.way))) }));
             }
             !sites[site]
         });
         for site in (0..sites.len()).filter(|site| sites[*site]) {
             if self.rest[site] < WALL {
                 if self.rest[site] != NOBODY {
-                    self.departed.push((self.rest[site], Place { site, way: None }));
+                    self.removed.push((self.rest[site], Place { site, way: None }));
                 }
                 self.rest[site] = NOBODY;
                 let (column, row) = self.sites.place(site);
@@ -212,11 +209,6 @@ impl Pile {
     /// Number of grains that fly.
     pub fn flying(&self) -> usize {
         self.flyers.len()
-    }
-
-    /// Grains that left, by kind.
-    pub fn gone(&self) -> &[u64] {
-        &self.gone
     }
 
     /// How many grains at rest have been knocked loose or have lost their ground so far.
@@ -253,7 +245,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Grains that were dropped rest, fly, or are gone; who rests lies on something.
+        /// Grains that were dropped rest, fly, or are removed; who rests lies on something.
         #[test]
         fn grains_are_kept(g in 0.1..1.0_f64, d in 0.3..1.0_f64, rough in 0.0..0.9_f64, edge in 0_usize..6) {
             let habits = Habits { gravity: g, dissipation: d, friction: vec![0.1, rough] };
@@ -263,7 +255,7 @@ mod tests {
             for step in 0..400 {
                 dropped += u64::from(pile.drop_at(10 + step % 12, 55, step as u32 % 2));
                 pile.step();
-                prop_assert_eq!(pile.grains() + pile.gone().iter().sum::<u64>(), dropped);
+                prop_assert_eq!(pile.grains() + pile.removed.len() as u64, dropped);
             }
         }
 

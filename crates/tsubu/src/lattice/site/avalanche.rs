@@ -66,9 +66,9 @@ impl Model for Avalanche {
         (REST + 1, f64::INFINITY)
     }
 
-    fn departed(&mut self) -> Vec<Seat> {
-        let departed = std::mem::take(&mut self.pile.departed);
-        departed.into_iter().map(|(grain, place)| self.seat(grain as usize, place)).collect()
+    fn removed(&mut self) -> Vec<Seat> {
+        let removed = std::mem::take(&mut self.pile.removed);
+        removed.into_iter().map(|(grain, place)| self.seat(grain as usize, place)).collect()
     }
 
     fn enter(&mut self, grain: usize, site: usize) -> Option<Seat> {

@@ -160,10 +160,10 @@ impl Engine for SiteEngine {
         for _ in 0..steps {
             let time = self.time();
             self.open_gates(time);
-            self.arrive(time, ledger);
+            self.insert(time, ledger);
             let before = if cfg!(debug_assertions) { self.seated() } else { Vec::new() };
             self.model.advance().map_err(|text| Fault::Lattice { step: self.model.step(), time, text })?;
-            self.depart(ledger);
+            self.remove(ledger);
             debug_assert_eq!(self.fault(&before), None, "step {}", self.model.step());
             for host in &mut hosts.list {
                 host.runge_kutta(time, self.dt, 0.0, ledger);

@@ -20,13 +20,13 @@ pub struct Fhp {
     /// Whether walls mirror.
     smooth: bool,
     /// Those who have vanished since somebody asked.
-    gone: Vec<Seat>,
+    removed: Vec<Seat>,
 }
 
 impl Fhp {
     /// A gas with the particles of `numbers`, on whose walls nobody is yet.
     pub fn new(gas: Gas, sites: Sites, numbers: Numbers, outlets: Vec<usize>, smooth: bool) -> Self {
-        let mut fhp = Self { gas, sites, numbers, outlets, smooth, gone: Vec::new() };
+        let mut fhp = Self { gas, sites, numbers, outlets, smooth, removed: Vec::new() };
         fhp.fill();
         fhp
     }
@@ -55,7 +55,7 @@ impl Model for Fhp {
         for &site in &self.outlets {
             let (column, row) = self.sites.place(site);
             if self.numbers.state(site) != 0 && !self.gas.is_wall(column, row) {
-                seats_at(&self.numbers, site, &mut |seat| self.gone.push(seat));
+                seats_at(&self.numbers, site, &mut |seat| self.removed.push(seat));
                 self.gas.set_site(column, row, 0);
                 self.numbers.clear(site);
             }
@@ -90,8 +90,8 @@ impl Model for Fhp {
         (SLOTS, 1.0)
     }
 
-    fn departed(&mut self) -> Vec<Seat> {
-        std::mem::take(&mut self.gone)
+    fn removed(&mut self) -> Vec<Seat> {
+        std::mem::take(&mut self.removed)
     }
 
     fn enter(&mut self, grain: usize, site: usize) -> Option<Seat> {

@@ -18,7 +18,7 @@ pub struct GrainGas {
     /// Sites where grains vanish, unless they are wall.
     outlets: Vec<usize>,
     /// Those who have vanished since somebody asked.
-    gone: Vec<Seat>,
+    removed: Vec<Seat>,
 }
 
 /// Grains at rest that wait at a site for a place.
@@ -31,7 +31,7 @@ fn waiting_seats(Surplus { site, count, who }: &Surplus, numbers: &Numbers, each
 impl GrainGas {
     /// Grains with numbers; those to be aligned have axes.
     pub fn new(grains: Grains, alignment: Option<Alignment>, outlets: Vec<usize>) -> Self {
-        Self { grains, alignment, outlets, gone: Vec::new() }
+        Self { grains, alignment, outlets, removed: Vec::new() }
     }
 
     /// Takes note of those on an outlet, unless it is wall.
@@ -40,13 +40,13 @@ impl GrainGas {
         if self.grains.is_wall(column, row) {
             return;
         }
-        let mut gone = std::mem::take(&mut self.gone);
+        let mut removed = std::mem::take(&mut self.removed);
         let numbers = self.numbers();
-        fhp::seats_at(&numbers, site, &mut |seat| gone.push(seat));
+        fhp::seats_at(&numbers, site, &mut |seat| removed.push(seat));
         for waiting in self.grains.surplus().iter().filter(|waiting| waiting.site as usize == site) {
-            waiting_seats(waiting, &numbers, &mut |seat| gone.push(seat));
+            waiting_seats(waiting, &numbers, &mut |seat| removed.push(seat));
         }
-        self.gone = gone;
+        self.removed = removed;
     }
 
     /// Who is who; nobody where nobody has a number.
@@ -100,8 +100,8 @@ impl Model for GrainGas {
         (usize::MAX, f64::INFINITY)
     }
 
-    fn departed(&mut self) -> Vec<Seat> {
-        std::mem::take(&mut self.gone)
+    fn removed(&mut self) -> Vec<Seat> {
+        std::mem::take(&mut self.removed)
     }
 
     fn enter(&mut self, grain: usize, site: usize) -> Option<Seat> {

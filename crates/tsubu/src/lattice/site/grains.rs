@@ -28,13 +28,13 @@ impl Model for LatticeGrains {
     }
 
     fn seats(&self, each: &mut dyn FnMut(Seat)) {
-        for grain in (0..self.grains.len()).filter(|grain| !self.grains[*grain].gone) {
+        for grain in (0..self.grains.len()).filter(|grain| !self.grains[*grain].removed) {
             each(seat(&self.grains, grain));
         }
     }
 
-    fn departed(&mut self) -> Vec<Seat> {
-        std::mem::take(&mut self.left).into_iter().map(|grain| seat(&self.grains, grain)).collect()
+    fn removed(&mut self) -> Vec<Seat> {
+        std::mem::take(&mut self.removed).into_iter().map(|grain| seat(&self.grains, grain)).collect()
     }
 
     fn free(&mut self, site: usize, outlet: bool) {
@@ -61,7 +61,7 @@ impl Model for LatticeGrains {
 
     fn save(&self, state: &mut State) {
         state.put_integer("nodes.step", vec![self.step as i64, self.contacts as i64]);
-        let nodes = self.grains.iter().map(|g| if g.gone { -1 } else { g.node as i64 });
+        let nodes = self.grains.iter().map(|g| if g.removed { -1 } else { g.node as i64 });
         state.put_integer("nodes.node", nodes.collect::<Vec<_>>());
         let numbers = self.grains.iter().flat_map(|g| [g.velocity[0], g.velocity[1], g.offset[0], g.offset[1]]);
         state.put_real("nodes.motion", numbers.collect::<Vec<_>>());
@@ -76,14 +76,14 @@ impl Model for LatticeGrains {
         if motion.len() != 4 * count || nodes.iter().any(|node| !(-1..cells).contains(node)) {
             return Err(wrong("nodes.node"));
         }
-        for grain in self.grains.iter().filter(|grain| !grain.gone) {
+        for grain in self.grains.iter().filter(|grain| !grain.removed) {
             self.grid.set(grain.node, EMPTY);
         }
         for (index, grain) in self.grains.iter_mut().enumerate() {
             let m = &motion[4 * index..];
             (grain.velocity, grain.offset) = ([m[0], m[1]], [m[2], m[3]]);
-            grain.gone = nodes[index] < 0;
-            if !grain.gone {
+            grain.removed = nodes[index] < 0;
+            if !grain.removed {
                 grain.node = nodes[index] as usize;
                 self.grid.set(grain.node, index as i32);
             }

@@ -64,10 +64,10 @@ impl<H: Hopping> Model for H {
         (1, self.reach())
     }
 
-    fn departed(&mut self) -> Vec<Seat> {
-        let gone = std::mem::take(&mut self.parts().0.gone);
+    fn removed(&mut self) -> Vec<Seat> {
+        let removed = std::mem::take(&mut self.parts().0.removed);
         let (_, trail, step) = self.seen();
-        gone.into_iter().map(|(grain, site)| seat::<H>(grain as usize, site, trail, step)).collect()
+        removed.into_iter().map(|(grain, site)| seat::<H>(grain as usize, site, trail, step)).collect()
     }
 
     fn save(&self, state: &mut State) {

@@ -59,7 +59,7 @@ pub trait Model: Send {
     /// Calls for every grain that is there.
     fn seats(&self, each: &mut dyn FnMut(Seat));
 
-    /// A wall has gone from a site, which is an outlet where grains are removed.
+    /// A wall has vanished from a site, which is an outlet where grains are removed.
     fn free(&mut self, site: usize, outlet: bool);
 
     /// The most grains that a site holds, and how far one goes in a step at most [spacings].
@@ -72,8 +72,8 @@ pub trait Model: Send {
         None
     }
 
-    /// The grains that have gone since the last call, as they were when they went.
-    fn departed(&mut self) -> Vec<Seat>;
+    /// The grains that were removed since the last call, as they were then.
+    fn removed(&mut self) -> Vec<Seat>;
 
     /// The way that an elongated grain lies: a unit vector, to the right and up.
     fn axis(&self, _grain: usize) -> Option<[f64; 2]> {

@@ -34,7 +34,7 @@ impl Model for Stack {
         }
     }
 
-    fn departed(&mut self) -> Vec<Seat> {
+    fn removed(&mut self) -> Vec<Seat> {
         Vec::new()
     }
 

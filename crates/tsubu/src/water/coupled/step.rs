@@ -80,8 +80,8 @@ impl Coupled {
         let n = self.layers.len();
         let h = self.layers.thickness;
         let bed = self.above(DENSE);
-        let mixing = |open: f64| (1.0 - (1.0 - open) / PACKED).max(0.0) * h;
-        let depth: f64 = self.layers.porosity[bed..].iter().map(|open| mixing(*open)).sum();
+        let mixing = |porosity: f64| (1.0 - (1.0 - porosity) / PACKED).max(0.0) * h;
+        let depth: f64 = self.layers.porosity[bed..].iter().map(|porosity| mixing(*porosity)).sum();
         let mut below = 0.0;
         let mut last = 0.0;
         for k in 0..n {

@@ -37,8 +37,7 @@ impl Pile {
         if self.room(column, row, way) {
             let Some((c, r)) = self.sites.neighbour(column, row, way) else {
                 if way.k() < 0 || way.h() != 0 {
-                    self.gone[kind] += 1;
-                    self.departed.push((who, Place { site, way: Some(way) }));
+                    self.removed.push((who, Place { site, way: Some(way) }));
                     return;
                 }
                 return self.turn(column, row, &[Direction::S], who);

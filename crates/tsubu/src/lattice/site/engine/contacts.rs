@@ -64,7 +64,7 @@ impl SiteEngine {
         let (mut number, mut position) = (Vec::new(), Vec::new());
         let (middle, size) = self.scene.ground.inside();
         let mut lines = 0;
-        for wall in self.scene.walls.iter().filter(|wall| !wall.gone()) {
+        for wall in self.scene.walls.iter().filter(|wall| !wall.vanished()) {
             let outline = match wall.lone_plane() {
                 Some((point, normal)) => {
                     let half = 0.5 * (size * normal.cross(DVec3::Y)).length();

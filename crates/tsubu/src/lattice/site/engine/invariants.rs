@@ -5,7 +5,7 @@ use crate::lattice::site::Seat;
 use glam::DVec3;
 
 impl SiteEngine {
-    /// Where every grain is, without the ends of a world that repeats itself; nowhere: it has not come yet, or is gone [m].
+    /// Where every grain is, without the ends of a world that repeats itself; nowhere: it has not come yet, or was removed [m].
     pub(super) fn seated(&self) -> Vec<Option<DVec3>> {
         let mut places = vec![None; self.scene.mass.len()];
         let [x, _, z] = self.scene.ground.ends().map(|ends| ends.map_or(0.0, |[low, high]| high - low));

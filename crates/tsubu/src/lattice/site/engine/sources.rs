@@ -10,7 +10,7 @@ use crate::random::{Purpose, words};
 impl SiteEngine {
     /// Walls whose time has come vanish from the lattice.
     pub(super) fn open_gates(&mut self, time: f64) {
-        if !self.scene.walls.iter().any(|wall| !wall.gone() && wall.goes_by(time)) {
+        if !self.scene.walls.iter().any(|wall| !wall.vanished() && wall.goes_by(time)) {
             return;
         }
         for wall in &mut self.scene.walls {
@@ -26,7 +26,7 @@ impl SiteEngine {
     }
 
     /// Grains of streams come in where there is room, from a site drawn at random on.
-    pub(super) fn arrive(&mut self, time: f64, ledger: &mut Ledger) {
+    pub(super) fn insert(&mut self, time: f64, ledger: &mut Ledger) {
         let mut came = Vec::new();
         for Stream { first, count, sites, rate, from, placed } in &mut self.scene.streams {
             let due = ((time - *from) * *rate + 1.0).max(0.0) as usize;
@@ -48,11 +48,11 @@ impl SiteEngine {
         }
     }
 
-    /// Takes note of the grains that went in the last step.
-    pub(super) fn depart(&mut self, ledger: &mut Ledger) {
-        let gone = self.model.departed();
-        self.present -= gone.len();
-        for seat in gone {
+    /// Takes note of the grains that were removed in the last step.
+    pub(super) fn remove(&mut self, ledger: &mut Ledger) {
+        let removed = self.model.removed();
+        self.present -= removed.len();
+        for seat in removed {
             self.exchange(-1.0, &seat, ledger);
         }
     }
