@@ -18,7 +18,8 @@ const PICTURES: usize = 8;
 const IN_SPACE: usize = 3;
 /// An animation of more pictures is heavier than a mail takes.
 const MOST_FRAMES: usize = 60;
-const ANIMATION_HEIGHT: f64 = 420.0;
+/// A picture is no taller than that, where its legend leaves it room [pixels].
+const HEIGHT: f64 = 420.0;
 /// Time a page may take for its animation sets the number of grains in it.
 const MOST_ANIMATED: usize = 200_000;
 
@@ -70,10 +71,10 @@ fn draw(source: &mut Source, history: Option<&Table>, found: &[Snapshot], stem: 
     let columns = if wide(&panels) { 4 } else { PICTURES };
     let columns = if panels.iter().any(|p| p.balls.space) { IN_SPACE } else { columns };
     let mut blocks = vec![source.drawing(&format!("{stem}strip"), strip(&panels, &look, columns), &caption)];
-    blocks.extend(told_apart(source, found, stem)?);
     if found.len() > 2 && panels.iter().all(|p| p.balls.centres.len() <= MOST_ANIMATED) {
         blocks.extend(animated(source, found, resolved.is_some(), stem)?);
     }
+    blocks.extend(told_apart(source, found, stem)?);
     Ok(blocks)
 }
 
@@ -87,7 +88,8 @@ fn told_apart(source: &mut Source, found: &[Snapshot], stem: &str) -> Result<Vec
         let (low, high) = balls.range();
         if balls.space && high > 1.02 * low && balls.values.len() == balls.centres.len() {
             let caption = format!("The last moment, t = {} s, by {name}.", short(frame.time));
-            let bytes = raster::picture(&balls, &look, 640).to_png();
+            let width = width(common(std::slice::from_ref(&balls), &look).window);
+            let bytes = raster::picture(&balls, &look, width).to_png();
             source.files.push((format!("figures/{stem}{name}.png"), bytes.clone()));
             blocks.push(Block::Picture { media: "image/png", bytes, caption });
         }
@@ -160,6 +162,12 @@ fn wide(panels: &[Panel]) -> bool {
     look.window.is_none_or(|w| (w[2] - w[0]) > 0.6 * (w[3] - w[1]))
 }
 
+/// Width of the picture of a window [pixels]: a tall vessel fits on a screen, a long bed on the page.
+fn width(window: Option<[f64; 4]>) -> u32 {
+    let shape = window.map_or(1.0, |w| (w[2] - w[0]) / (w[3] - w[1]));
+    (HEIGHT * shape).clamp(290.0, 600.0) as u32
+}
+
 fn animated(source: &mut Source, found: &[Snapshot], periodic: bool, stem: &str) -> Result<Option<Block>, FileError> {
     let chosen: Vec<usize> = if periodic {
         (found.len().saturating_sub(MOST_FRAMES)..found.len()).collect()
@@ -183,8 +191,7 @@ fn animated(source: &mut Source, found: &[Snapshot], periodic: bool, stem: &str)
         }
     }
     let look = common(&series, &look);
-    let shape = look.window.map_or(1.0, |w| (w[2] - w[0]) / (w[3] - w[1]));
-    let width = (ANIMATION_HEIGHT * shape).clamp(290.0, 600.0) as u32;
+    let width = width(look.window);
     let pictures: Vec<_> = series.iter().map(|b| raster::picture(b, &look, width)).collect();
     let Ok(bytes) = animation::gif(&pictures, 15.0) else { return Ok(None) };
     source.files.push((format!("figures/{stem}animation.gif"), bytes.clone()));

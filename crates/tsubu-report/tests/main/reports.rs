@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use tsubu_frame::{Claim, Formats, FrameWriter};
+use tsubu_frame::{Claim, Formats, Frame, FrameWriter, Kind};
 use tsubu_report::page::{Block, Report, Tone};
 use tsubu_report::{ReportError, build, report};
 
@@ -63,6 +63,33 @@ fn a_run_is_told_whole() {
     let report = build(dir.path()).unwrap();
     // Charts once came first, and the grains below the second screen, where nobody looked for them.
     assert_eq!(titles(&report), ["To be noted", "Grains", "Motion", "Energy", "Claims", "Results", "Cost", "Scene"]);
+}
+
+/// Once the picture of a hopper by its grains' sizes was three screens tall, and the animation stood below it.
+#[test]
+fn a_tall_vessel_fits_on_a_screen() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::run(dir.path(), "dem", 0);
+    let mut frames = FrameWriter::create(dir.path(), Formats::default());
+    for step in 0..3_u32 {
+        let at = |i: u32| [i % 2, i / 2 % 2, i / 4].map(|n| 0.01 * f64::from(n));
+        let mut frame = Frame { time: f64::from(step), step: u64::from(step), ..Frame::default() };
+        frame.vector(Kind::Grain, "position", "m", (0..32).map(at).collect::<Vec<_>>());
+        frame.vector(Kind::Grain, "velocity", "m/s", vec![[0.0; 3]; 32]);
+        frame.scalar(Kind::Grain, "radius", "m", (0..32).map(|i| 0.004 + 0.001 * f64::from(i % 2)).collect::<Vec<_>>());
+        frame.integer(Kind::Grain, "id", "-", (0..32).collect::<Vec<_>>());
+        frames.write(&frame).unwrap();
+    }
+    let report = build(dir.path()).unwrap();
+    let grains = report.sections.iter().find(|section| section.title == "Grains").unwrap();
+    let [Block::Drawing { .. }, Block::Picture { media: "image/gif", .. }, Block::Picture { bytes, .. }] =
+        grains.blocks.as_slice()
+    else {
+        panic!("a strip, an animation, and a picture by size")
+    };
+    // Width and height stand at the head of a PNG.
+    let [wide, high] = [16, 20].map(|at| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap()));
+    assert!(wide == 290 && high < 1000, "{wide} x {high}");
 }
 
 #[test]

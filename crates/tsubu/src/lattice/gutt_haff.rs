@@ -112,7 +112,19 @@ impl LatticeGrains {
         }
         let wants = vec![None; grains.len()];
         let (pushes, outlet) = (Vec::new(), Vec::new());
-        Self { grid, grains, gravity, restitution, seed, step: 0, pushes, contacts: 0, outlet, removed: Vec::new(), wants }
+        Self {
+            grid,
+            grains,
+            gravity,
+            restitution,
+            seed,
+            step: 0,
+            pushes,
+            contacts: 0,
+            outlet,
+            removed: Vec::new(),
+            wants,
+        }
     }
 
     /// One step.
