@@ -15,6 +15,7 @@ mod guard;
 mod imports;
 mod race;
 mod shell;
+mod spelling;
 mod test;
 mod variants;
 
@@ -23,10 +24,11 @@ use std::process::ExitCode;
 const HELP: &str = "\
 cargo xtask CHORE
 
-  check [--no-test]   what must pass before a change goes in: format, lints, documentation, generated pages, all
+  check [--no-test]   what must pass before a change goes in: format, spelling, lints, documentation, generated pages, all
                       tests, every scene in ten ways for a moment, a minute of the guards
   test                all tests; with Python 3, also those that read written frames back with VTK
   gen [--check]       write the generated pages and tables, or only say which are out of date
+  spelling            look for misspelt words in all texts, where there is a Python 3
   book                build the book, where there is an mdbook
   claims [NAME]...    run verification cases (without names all quick ones) and keep what they claim
   fuzz [--seed N] [--seconds S] [--cases N] [--only KIND] [--case N]
@@ -54,6 +56,7 @@ fn main() -> ExitCode {
         ["gen"] => generate::write(),
         ["gen", "--check"] => generate::check(),
         ["claims", names @ ..] => claims::claims(names),
+        ["spelling"] => spelling::check(),
         ["book"] => book::book(),
         ["fuzz", rest @ ..] => guard::guard("fuzz", rest),
         ["variants", rest @ ..] => variants::chore(rest),

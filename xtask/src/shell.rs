@@ -50,3 +50,19 @@ pub fn output(arguments: &[&str]) -> Result<String, String> {
 pub fn succeeds(mut command: Command) -> bool {
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|s| s.success())
 }
+
+/// A Python with a package, which it has if it can run `import`: the system's, or one in an environment of our own under `target/`.
+pub fn python_with(package: &str, import: &str) -> Option<String> {
+    let has = |python: &str| succeeds(command(python, &["-c", import]));
+    if has("python3") {
+        return Some("python3".to_owned());
+    }
+    let name = package.split('=').next().unwrap_or(package);
+    let home = root().join("target").join(name);
+    let python = home.join("bin/python3").to_str()?.to_owned();
+    if !has(&python) {
+        run(command("python3", &["-m", "venv", home.to_str()?])).ok()?;
+        run(command(&python, &["-m", "pip", "install", "--quiet", "--disable-pip-version-check", package])).ok()?;
+    }
+    has(&python).then_some(python)
+}
