@@ -150,7 +150,7 @@ fn floor_load(rows: usize, restitution: f64) -> Result<(f64, f64), String> {
             continue;
         }
         for push in &model.pushes {
-            let column = model.grid.place(push.node).0;
+            let column = model.grid.column_and_row(push.node).0;
             all -= push.impulse[1];
             floor -= if (1..=10).contains(&column) { push.impulse[1] } else { 0.0 };
         }

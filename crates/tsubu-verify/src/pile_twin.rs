@@ -220,7 +220,7 @@ fn piled(size: usize, tangent: f64, rule: Rule, seed: u64, perturbation: f64) ->
     for site in 0..sheet.cells.len() {
         let [x, z] = sheet.point(site);
         let inside = z >= low - 1e-9 && (x - axis).abs() < 0.5 * size as f64 - (z - low) / tangent;
-        if inside && (1..rows - 1).contains(&sheet.place(site).1) {
+        if inside && (1..rows - 1).contains(&sheet.column_and_row(site).1) {
             sheet.cells[site] = grains.len() as i32;
             grains.push([x - axis, z - low, 1.0]);
         }

@@ -24,7 +24,7 @@ fn bed(ratio: f64, moves: Moves) -> (Chute, Vec<bool>) {
 /// Grains and their rows.
 fn seats(chute: &Chute) -> impl Iterator<Item = (usize, usize)> + '_ {
     let cells = chute.sheet.cells.iter().enumerate();
-    cells.filter_map(|(site, &cell)| Some((usize::try_from(cell).ok()?, chute.sheet.place(site).1)))
+    cells.filter_map(|(site, &cell)| Some((usize::try_from(cell).ok()?, chute.sheet.column_and_row(site).1)))
 }
 
 /// Logarithm of n/(1-n) and of the speed against the row, as slopes, both over -1/h of the closed form.

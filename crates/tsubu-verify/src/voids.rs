@@ -66,7 +66,7 @@ fn caram_hong(sheet: &Sheet, chances: Chances, beds: u64, voids: usize) -> Vec<f
         while left > 0 {
             model.advance(&mut |site| {
                 passed[site] += 1.0;
-                left = left.saturating_sub(usize::from(sheet.place(site).1 == 1));
+                left = left.saturating_sub(usize::from(sheet.column_and_row(site).1 == 1));
             });
         }
     }

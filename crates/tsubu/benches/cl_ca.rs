@@ -11,7 +11,7 @@
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use std::time::Duration;
 use tsubu::clca::active::Active;
-use tsubu::clca::bed::{Bed, Kind};
+use tsubu::clca::bed::{Bed, GrainKind};
 use tsubu::clca::order::Pull;
 use tsubu::clca::shape::Shape;
 use tsubu::lattice::grid::Grid;
@@ -25,7 +25,7 @@ fn bed(count: usize) -> Bed {
     let (columns, rows) = (6 * across + 16, 8 * across + 32);
     let mut grid = Grid::new(columns, rows);
     grid.paint_box(columns - 2, 1, rows - 2);
-    let kind = |group: u32, radius: usize| Kind {
+    let kind = |group: u32, radius: usize| GrainKind {
         group,
         shape: Shape::hexagon(radius),
         stencil: 0,

@@ -181,7 +181,7 @@ impl View<'_> {
     }
 
     /// Centre of a grain between the periodic ends.
-    pub fn place(&self, i: usize) -> DVec3 {
+    pub fn position(&self, i: usize) -> DVec3 {
         self.put(self.grains.position[i])
     }
 

@@ -7,7 +7,7 @@
 //! A grain that cannot move sleeps until a point beside it is left, so a step costs only what moves. Many movers of one rank take
 //! their turns in strips of the lattice, side by side; ties are then drawn within a strip.
 
-use super::bed::{Bed, Grains, Kind, NOWHERE};
+use super::bed::{Bed, GrainKind, Grains, NOWHERE};
 use super::order::{Pull, rank};
 use super::shape::Stencil;
 use super::strips::{Strips, Window};
@@ -110,7 +110,7 @@ impl Active {
         self.list.clear();
         let strips = Strips::new(bed, turns.len());
         turns.par_iter_mut().with_min_len(WORTH_A_THREAD).for_each(|turn| {
-            let strip = strips.of(bed.grid.place(bed.grains.cell[turn.grain as usize] as usize).0);
+            let strip = strips.of(bed.grid.column_and_row(bed.grains.cell[turn.grain as usize] as usize).0);
             turn.key |= (strips.turn(strip) as u64) << PARITY | (strip as u64) << STRIP;
         });
         turns.par_sort_unstable_by_key(|turn| (turn.key, turn.grain));
@@ -192,7 +192,7 @@ struct Movers<'a> {
     numbering: Numbering,
     /// As they were at the beginning of the step: nobody takes two turns.
     grains: &'a Grains,
-    kinds: &'a [Kind],
+    kinds: &'a [GrainKind],
     stencils: &'a [Stencil],
 }
 
@@ -221,7 +221,7 @@ impl<'a> Movers<'a> {
         outcome
     }
 
-    fn kind(&self, grain: usize) -> &'a Kind {
+    fn kind(&self, grain: usize) -> &'a GrainKind {
         &self.kinds[self.grains.kind[grain] as usize]
     }
 
@@ -234,7 +234,11 @@ impl<'a> Movers<'a> {
         if turned >= kind.orientations {
             turned -= kind.orientations;
         }
-        Stand { cell, odd: self.numbering.place(cell).0 & 1, stencil: &self.stencils[kind.stencil + turned as usize] }
+        Stand {
+            cell,
+            odd: self.numbering.column_and_row(cell).0 & 1,
+            stencil: &self.stencils[kind.stencil + turned as usize],
+        }
     }
 
     /// Turns the points of a grain.
@@ -252,7 +256,7 @@ impl<'a> Movers<'a> {
         let against = [pull.straight, pull.sides[0], pull.sides[1]].map(Direction::opposite);
         for &offset in &here.stencil.behind[here.odd][direction as usize] {
             let left = here.cell.wrapping_add_signed(offset);
-            let odd = self.numbering.place(left).0 & 1;
+            let odd = self.numbering.column_and_row(left).0 & 1;
             for d in against {
                 let owner = window.at(self.numbering.neighbour(left, odd, d));
                 if owner >= 0 {

@@ -7,7 +7,7 @@ use crate::lattice::grid::{EMPTY, Grid, WALL};
 
 /// What grains of one group and shape have in common.
 #[derive(Clone, Debug)]
-pub struct Kind {
+pub struct GrainKind {
     /// Number of the group.
     pub group: u32,
     /// The shape as drawn.
@@ -57,7 +57,7 @@ pub struct Bed {
     /// Walls, and under the active rule the numbers of grains.
     pub grid: Grid,
     /// Kinds of grains.
-    pub kinds: Vec<Kind>,
+    pub kinds: Vec<GrainKind>,
     /// What moves do, for every shape and orientation.
     pub stencils: Vec<Stencil>,
     /// Columns to either side of a grain that a look at its neighbours can reach.
@@ -78,7 +78,7 @@ pub struct Bed {
 
 impl Bed {
     /// No grains yet. `kinds` come without numbers of stencils and orientations, which are found here.
-    pub fn new(grid: Grid, mut kinds: Vec<Kind>, seed: u64, memory: u32) -> Self {
+    pub fn new(grid: Grid, mut kinds: Vec<GrainKind>, seed: u64, memory: u32) -> Self {
         let mut stencils = Vec::new();
         let mut widest = 0;
         for kind in &mut kinds {
@@ -118,7 +118,7 @@ impl Bed {
 
     /// Kind of a grain.
     #[inline]
-    pub fn kind(&self, grain: usize) -> &Kind {
+    pub fn kind(&self, grain: usize) -> &GrainKind {
         &self.kinds[self.grains.kind[grain] as usize]
     }
 
@@ -131,12 +131,12 @@ impl Bed {
     /// Parity of the column of a cell.
     #[inline]
     pub fn odd(&self, cell: usize) -> usize {
-        self.grid.place(cell).0 & 1
+        self.grid.column_and_row(cell).0 & 1
     }
 
     /// Where a cell lies, in columns and half cells.
     pub fn vector(&self, cell: usize) -> Vector {
-        Vector { h: self.grid.place(cell).0 as i64, k: self.grid.half_height(cell) }
+        Vector { h: self.grid.column_and_row(cell).0 as i64, k: self.grid.half_height(cell) }
     }
 
     /// Cells of a shape whose reference point is in `cell`.
@@ -146,7 +146,7 @@ impl Bed {
 
     /// Whether a grain of a kind, not turned, fits into a cell: all its points are on the lattice and empty.
     pub fn fits(&self, kind: usize, cell: usize) -> bool {
-        let (column, row) = self.grid.place(cell);
+        let (column, row) = self.grid.column_and_row(cell);
         let here = Vector { h: column as i64, k: 2 * row as i64 + (column as i64 & 1) };
         let inside = |p: &Vector| {
             let (h, k) = (here.h + p.h, here.k + p.k);

@@ -1,6 +1,6 @@
 //! From a plan to grains on a lattice: what CL-CA honours, what it approximates and by how much, and what it refuses.
 
-use super::bed::{Bed, Kind};
+use super::bed::{Bed, GrainKind};
 use super::place::{self, Grain};
 use super::shape::{Shape, polygon};
 use crate::check;
@@ -30,12 +30,12 @@ pub(super) struct Built {
     /// Whether bodies push.
     pub passive: bool,
     /// Every grain of groups that come later, by group.
-    pub streams: Vec<Stream>,
+    pub streams: Vec<GrainStream>,
 }
 
 /// A group that comes in one by one.
 #[derive(Clone, Debug)]
-pub(super) struct Stream {
+pub(super) struct GrainStream {
     pub grains: Vec<Grain>,
     pub region: plan::Region,
     /// Grains per second.
@@ -143,11 +143,11 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
     }
     let streams = plan.particles.values().zip(grains).filter_map(|(group, grains)| match &group.start {
         Start::Stream { region, rate, from, .. } => {
-            Some(Stream { grains, region: region.clone(), rate: *rate, from: *from, placed: 0 })
+            Some(GrainStream { grains, region: region.clone(), rate: *rate, from: *from, placed: 0 })
         }
         _ => None,
     });
-    let streams: Vec<Stream> = streams.collect();
+    let streams: Vec<GrainStream> = streams.collect();
     if moved.is_empty() {
         remark_removal(removal, &stage, &bed, &walls, &streams, &mut remarks);
     }
@@ -160,7 +160,7 @@ fn remark_removal(
     stage: &Stage,
     bed: &Bed,
     walls: &[Wall],
-    streams: &[Stream],
+    streams: &[GrainStream],
     remarks: &mut Remarks,
 ) {
     if removal.is_empty() {
@@ -174,15 +174,15 @@ fn remark_removal(
         size: [stage.columns, stage.rows],
         periodic: [false; 2],
         open: &|column, row| grid.at(grid.index(column, row)) != WALL,
-        point: &|column, row| stage.place(bed.vector(grid.index(column, row))),
+        point: &|column, row| stage.position(bed.vector(grid.index(column, row))),
         spacing: stage.spacing,
     };
     let grains = bed.present().map(|grain| bed.grains.cell[grain] as usize);
-    let middle = |stream: &Stream| {
+    let middle = |stream: &GrainStream| {
         let (low, high) = (DVec3::from_array(stream.region.low), DVec3::from_array(stream.region.high));
         stage.cell(grid, 0.5 * (low + high))
     };
-    let begin = grains.chain(streams.iter().filter_map(middle)).map(|cell| grid.place(cell));
+    let begin = grains.chain(streams.iter().filter_map(middle)).map(|cell| grid.column_and_row(cell));
     reach::remark(removal, &ways, begin, remarks);
 }
 
@@ -295,9 +295,14 @@ fn automatic_spacing(plan: &Plan, shapes: &[Option<Shape>]) -> f64 {
 }
 
 /// Kinds of grains, and the grains of every group with their kinds.
-fn kinds(plan: &Plan, shapes: &[Option<Shape>], spacing: f64, remarks: &mut Remarks) -> (Vec<Kind>, Vec<Vec<Grain>>) {
+fn kinds(
+    plan: &Plan,
+    shapes: &[Option<Shape>],
+    spacing: f64,
+    remarks: &mut Remarks,
+) -> (Vec<GrainKind>, Vec<Vec<Grain>>) {
     let hexagons: Vec<f64> = (0..=LARGEST_RADIUS).map(|radius| Shape::hexagon(radius).diameter() * spacing).collect();
-    let mut kinds: Vec<Kind> = Vec::new();
+    let mut kinds: Vec<GrainKind> = Vec::new();
     let mut all = Vec::new();
     let mut id = 0;
     for (number, ((name, group), drawn)) in plan.particles.iter().zip(shapes).enumerate() {
@@ -319,7 +324,7 @@ fn kinds(plan: &Plan, shapes: &[Option<Shape>], spacing: f64, remarks: &mut Rema
                 let mass = sizes::mass(group, if drawn.is_some() { diameter } else { shape.diameter() * spacing });
                 // Grains that are all equal keep the mass they were given.
                 let mass = if matches!(group.size, plan::Size::Equal {}) { group.mass } else { mass };
-                kinds.push(Kind { group: number as u32, shape, stencil: 0, orientations: 1, mass, free });
+                kinds.push(GrainKind { group: number as u32, shape, stencil: 0, orientations: 1, mass, free });
                 kinds.len() - 1
             });
             own.push(Grain { id, kind });

@@ -4,8 +4,8 @@
 //! `lattice rules`, and as rule impulse: the books say how much energy the rules took, not why.
 
 use super::active::Active;
-use super::bed::{Bed, Kind, Motion, NOWHERE};
-use super::build::{Built, OFFERED, Stream, build, moves};
+use super::bed::{Bed, GrainKind, Motion, NOWHERE};
+use super::build::{Built, GrainStream, OFFERED, build, moves};
 use super::order::{Past, Pull};
 use super::passive::{Passive, Pusher};
 use crate::engine::{Engine, Fault, Note, Refusal};
@@ -33,7 +33,7 @@ pub struct ClCaEngine {
     pub(super) gravity: f64,
     switch: Option<GravitySwitch>,
     pub(super) rule: Rule,
-    pub(super) streams: Vec<Stream>,
+    pub(super) streams: Vec<GrainStream>,
     pub(super) removal: Vec<Removal>,
     /// Groups that move as told: number, direction, displacement.
     pub(super) driven: Vec<(u32, DVec3, Signal)>,
@@ -139,7 +139,7 @@ impl ClCaEngine {
         })
     }
 
-    fn of_kinds(&self, value: impl Fn(&Kind, &Motion) -> f64) -> f64 {
+    fn of_kinds(&self, value: impl Fn(&GrainKind, &Motion) -> f64) -> f64 {
         self.bed.kinds.iter().zip(&self.bed.motion).map(|(kind, motion)| value(kind, motion)).sum()
     }
 
@@ -151,7 +151,7 @@ impl ClCaEngine {
 
     /// Reference point of a grain [m].
     pub(super) fn position(&self, grain: usize) -> DVec3 {
-        self.stage.place(self.bed.vector(self.bed.grains.cell[grain] as usize))
+        self.stage.position(self.bed.vector(self.bed.grains.cell[grain] as usize))
     }
 
     /// Velocity in the last step [m/s].

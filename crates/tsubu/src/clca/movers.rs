@@ -63,7 +63,7 @@ impl ClCaEngine {
             for (grain, last) in last.iter_mut().enumerate() {
                 if self.bed.kind(grain).group == *group {
                     let drawn = self.bed.vector(self.drawn[grain] as usize).plus(now);
-                    if let Some(cell) = self.stage.cell(&self.bed.grid, self.stage.place(drawn)) {
+                    if let Some(cell) = self.stage.cell(&self.bed.grid, self.stage.position(drawn)) {
                         self.bed.grains.cell[grain] = cell as u32;
                     }
                     *last = Vector { h: now.h - then.h, k: now.k - then.k };

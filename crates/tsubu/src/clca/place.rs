@@ -116,7 +116,7 @@ fn at(key: &str, position: &[[f64; 3]], own: &[Grain], stage: &Stage, bed: &mut 
             );
             continue;
         };
-        farthest = farthest.max((stage.place(bed.vector(cell)) - point).length());
+        farthest = farthest.max((stage.position(bed.vector(cell)) - point).length());
         bed.add(grain.kind, cell, grain.id);
     }
     if farthest > 1e-6 * stage.spacing {

@@ -22,7 +22,7 @@ impl ClCaEngine {
                 self.bed.add(grain.kind, cell, grain.id);
                 stream.placed += 1;
                 let weight = self.bed.kinds[grain.kind].mass * self.gravity;
-                ledger.post(Account::Exchange, weight * self.stage.place(self.bed.vector(cell)).z);
+                ledger.post(Account::Exchange, weight * self.stage.position(self.bed.vector(cell)).z);
             }
         }
     }

@@ -22,7 +22,7 @@ const ATTEMPTS: u64 = 40;
 
 /// A group that comes in one by one.
 #[derive(Clone, Debug)]
-struct Stream {
+struct GrainStream {
     name: String,
     group: Particles,
     number: usize,
@@ -55,7 +55,7 @@ struct Drain {
 #[derive(Clone, Debug)]
 pub(super) struct Sources {
     plan: Plan,
-    streams: Vec<Stream>,
+    streams: Vec<GrainStream>,
     removal: Vec<Drain>,
     driven: Vec<Driven>,
     /// Grains are numbered below this, those that are yet to come included.
@@ -71,7 +71,7 @@ impl Sources {
             if let Start::Stream { region, .. } = &group.start {
                 let material = table.material(&group.material);
                 let gravity = DVec3::from_array(plan.gravity);
-                streams.push(Stream {
+                streams.push(GrainStream {
                     name: name.clone(),
                     group: group.clone(),
                     number,

@@ -29,7 +29,7 @@ pub(super) struct Built {
 }
 
 /// The balls' common properties.
-struct Kind<'a> {
+struct BallKind<'a> {
     material: &'a str,
     diameter: f64,
     mass: f64,
@@ -141,13 +141,13 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
 }
 
 /// The one kind of ball.
-fn kind<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Option<Kind<'a>> {
+fn kind<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Option<BallKind<'a>> {
     let mut groups = plan.particles.iter();
     let Some((first_name, first)) = groups.next() else {
         // An empty box is what every response curve is compared with; cells still need a size.
         let wall = plan.walls.values().next()?;
         let Shape::Box { width, .. } = wall.shape else { return None };
-        return Some(Kind { material: &wall.material, diameter: width / 10.0, mass: 0.0, count: 0 });
+        return Some(BallKind { material: &wall.material, diameter: width / 10.0, mass: 0.0, count: 0 });
     };
     let mut count = first.count;
     for (name, group) in &plan.particles {
@@ -172,7 +172,7 @@ fn kind<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Option<Kind<'a>> {
         }
         count += group.count;
     }
-    Some(Kind { material: &first.material, diameter: first.diameter, mass: first.mass, count })
+    Some(BallKind { material: &first.material, diameter: first.diameter, mass: first.mass, count })
 }
 
 /// What a group may say that cells cannot follow.
@@ -217,7 +217,7 @@ fn remark_contact(contact: &plan::Contact, pair: Option<(usize, &plan::Contact)>
 }
 
 /// Units, and whether whole numbers can hold them.
-fn scale(kind: &Kind, gravity: f64, lattice: &plan::Lattice, remarks: &mut Remarks) -> Scale {
+fn scale(kind: &BallKind, gravity: f64, lattice: &plan::Lattice, remarks: &mut Remarks) -> Scale {
     let dt = lattice.time_step;
     if dt.is_nan() || dt <= 0.0 {
         remarks.refuse("lattice.time-step", "it must be positive; the automaton of Komatsuzaki (2003) uses \"0.1 ms\"");
@@ -235,7 +235,7 @@ fn scale(kind: &Kind, gravity: f64, lattice: &plan::Lattice, remarks: &mut Remar
     scale
 }
 
-fn rules(plan: &Plan, casing: &Casing, kind: &Kind, seed: u64, scale: &Scale) -> Rules {
+fn rules(plan: &Plan, casing: &Casing, kind: &BallKind, seed: u64, scale: &Scale) -> Rules {
     let plan::Lattice {
         mode,
         time_step: _,

@@ -72,7 +72,7 @@ impl Bits {
         let empty = || vec![0; words * sheet.rows()];
         let mut bits = Self { words, grain: empty(), hole: empty(), out: empty() };
         for (site, cell) in sheet.cells.iter().enumerate() {
-            let (column, row) = sheet.place(site);
+            let (column, row) = sheet.column_and_row(site);
             let (word, bit) = (row * words + column / 64, 1 << (column % 64));
             match *cell {
                 EMPTY => bits.hole[word] |= bit,

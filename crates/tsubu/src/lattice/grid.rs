@@ -22,7 +22,7 @@ pub struct Numbering {
 impl Numbering {
     /// Column and row of a cell.
     #[inline]
-    pub fn place(&self, cell: usize) -> (usize, usize) {
+    pub fn column_and_row(&self, cell: usize) -> (usize, usize) {
         (cell / self.rows, cell % self.rows)
     }
 
@@ -74,8 +74,8 @@ impl Grid {
 
     /// Column and row of a cell.
     #[inline]
-    pub fn place(&self, cell: usize) -> (usize, usize) {
-        self.numbering.place(cell)
+    pub fn column_and_row(&self, cell: usize) -> (usize, usize) {
+        self.numbering.column_and_row(cell)
     }
 
     /// What is in a cell.
@@ -110,7 +110,7 @@ impl Grid {
     /// Height of a cell's centre over that of row 0 in even columns, in half cells.
     #[inline]
     pub fn half_height(&self, cell: usize) -> i64 {
-        let (column, row) = self.place(cell);
+        let (column, row) = self.column_and_row(cell);
         (2 * row + column % 2) as i64
     }
 
@@ -145,11 +145,11 @@ mod tests {
             let cell = grid.index(column, 4);
             for direction in Direction::ALL {
                 let other = grid.neighbour(cell, column, direction);
-                let x = (grid.place(other).0 as f64 - column as f64) * COLUMN_SPACING;
+                let x = (grid.column_and_row(other).0 as f64 - column as f64) * COLUMN_SPACING;
                 let z = 0.5 * (grid.half_height(other) - grid.half_height(cell)) as f64;
                 let unit = direction.unit();
                 assert!((x - unit[0]).abs() < 1e-12 && (z - unit[2]).abs() < 1e-12, "{direction:?} {x} {z}");
-                let odd = grid.place(other).0;
+                let odd = grid.column_and_row(other).0;
                 assert_eq!(grid.neighbour(other, odd, direction.opposite()), cell);
             }
         }

@@ -170,7 +170,7 @@ impl LatticeGrains {
         let normal = along(direction);
         for first in 0..self.grains.len() {
             let node = self.grains[first].node;
-            let (column, row) = self.grid.place(node);
+            let (column, row) = self.grid.column_and_row(node);
             if (if set < 2 { row } else { column }) % 2 != set % 2 || self.grains[first].removed {
                 continue;
             }
@@ -204,7 +204,7 @@ impl LatticeGrains {
     /// The collisions of one grain with the walls around it, the most head-on first.
     fn meet_walls(&mut self, number: usize) {
         let node = self.grains[number].node;
-        let column = self.grid.place(node).0;
+        let column = self.grid.column_and_row(node).0;
         for round in 0..Direction::ALL.len() {
             let grain = &self.grains[number];
             let mut next = None;
@@ -238,7 +238,7 @@ impl LatticeGrains {
             if grain.removed || dot(grain.offset, grain.offset) <= 0.25 {
                 continue;
             }
-            let column = self.grid.place(grain.node).0;
+            let column = self.grid.column_and_row(grain.node).0;
             for direction in Direction::ALL {
                 let way = dot(grain.offset, along(direction));
                 let better = want.is_none_or(|(_, best)| way > best);
@@ -252,7 +252,7 @@ impl LatticeGrains {
         for number in goes {
             if let Some((direction, _)) = self.wants[number] {
                 let node = self.grains[number].node;
-                let to = self.grid.neighbour(node, self.grid.place(node).0, direction);
+                let to = self.grid.neighbour(node, self.grid.column_and_row(node).0, direction);
                 self.grid.set(node, EMPTY);
                 self.grains[number].node = to;
                 self.grains[number].removed = self.outlet.get(to) == Some(&true);
@@ -270,8 +270,8 @@ impl LatticeGrains {
     fn wins(&self, number: usize) -> bool {
         let Some((direction, way)) = self.wants[number] else { return false };
         let node = self.grains[number].node;
-        let to = self.grid.neighbour(node, self.grid.place(node).0, direction);
-        let column = self.grid.place(to).0;
+        let to = self.grid.neighbour(node, self.grid.column_and_row(node).0, direction);
+        let column = self.grid.column_and_row(to).0;
         Direction::ALL.into_iter().all(|other| {
             let rival = self.grid.at(self.grid.neighbour(to, column, other));
             let Ok(rival) = usize::try_from(rival) else { return true };

@@ -67,13 +67,13 @@ impl Sheet {
 
     /// Column and row of a site.
     #[inline]
-    pub fn place(&self, site: usize) -> (usize, usize) {
+    pub fn column_and_row(&self, site: usize) -> (usize, usize) {
         (site % self.columns, site / self.columns)
     }
 
     /// Where a site is, in spacings from the first site of row 0: to the right, and up.
     pub fn point(&self, site: usize) -> [f64; 2] {
-        let (column, row) = self.place(site);
+        let (column, row) = self.column_and_row(site);
         match self.layout {
             Layout::Triangular => [column as f64 + 0.5 * (row % 2) as f64, ROW_SPACING * row as f64],
             Layout::Square => [column as f64, row as f64],

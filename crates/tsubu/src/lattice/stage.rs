@@ -52,7 +52,7 @@ impl Stage {
     }
 
     /// A place of the lattice, in columns and half cells from the origin [m].
-    pub fn place(&self, at: Vector) -> DVec3 {
+    pub fn position(&self, at: Vector) -> DVec3 {
         self.origin + self.step(at)
     }
 
@@ -84,7 +84,10 @@ impl Stage {
     pub fn inside(&self) -> (DVec3, DVec3) {
         let (columns, rows) = (self.columns as i64, self.rows as i64);
         let rims = 2 * RIM as i64;
-        (self.place(Vector { h: columns / 2, k: rows }), self.step(Vector { h: columns - rims, k: 2 * (rows - rims) }))
+        (
+            self.position(Vector { h: columns / 2, k: rows }),
+            self.step(Vector { h: columns - rims, k: 2 * (rows - rims) }),
+        )
     }
 
     /// All points but the rims.
@@ -120,7 +123,7 @@ impl Stage {
             for row in 0..self.rows {
                 let cell = grid.index(column, row);
                 let at = Vector { h: column as i64, k: grid.half_height(cell) };
-                let point = self.place(at) - moved;
+                let point = self.position(at) - moved;
                 wall.near(point, self.spacing, &mut near);
                 if near.iter().any(|&element| wall.nearest(element, point).distance < reach) {
                     call(cell);
@@ -207,10 +210,10 @@ mod tests {
         assert_eq!((stage.columns, stage.rows), (132, 72));
         let grid = stage.grid();
         for at in [Vector { h: 20, k: 40 }, Vector { h: 21, k: 41 }, Vector { h: 57, k: 63 }] {
-            let place = stage.place(at) + DVec3::new(0.2, 0.0, -0.3);
+            let place = stage.position(at) + DVec3::new(0.2, 0.0, -0.3);
             assert_eq!(stage.vector(place - stage.origin), at);
             let cell = stage.cell(&grid, place).expect("inside");
-            assert_eq!((grid.place(cell).0 as i64, grid.half_height(cell)), (at.h, at.k));
+            assert_eq!((grid.column_and_row(cell).0 as i64, grid.half_height(cell)), (at.h, at.k));
         }
         assert!(Stage::new(&region, 200.0).is_none());
         assert!(stage.cell(&grid, DVec3::new(-50.0, 0.0, 0.0)).is_none());

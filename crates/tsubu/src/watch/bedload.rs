@@ -147,7 +147,7 @@ impl Watch for Bedload {
             }
             let (r, u) = (g.radius[i], g.velocity[i][self.axis]);
             let (now, before) = self.moves(g.id[i], g.velocity[i].length());
-            if !self.region.holds(view.place(i)) {
+            if !self.region.holds(view.position(i)) {
                 continue;
             }
             let volume = self.volume(r);

@@ -135,7 +135,7 @@ impl CoarseGrain {
     }
 
     fn row(&self, k: usize) -> Vec<f64> {
-        let (place, cell) = (self.points.place(k), &self.cells[k]);
+        let (place, cell) = (self.points.position(k), &self.cells[k]);
         let mut row: Vec<f64> = self.varies.iter().map(|&a| place[a]).collect();
         row.push(cell.density);
         row.extend(self.axes.iter().map(|&a| cell.velocity()[a]));

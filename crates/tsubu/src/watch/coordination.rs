@@ -70,7 +70,7 @@ impl Watch for Coordination {
     }
 
     fn take(&mut self, view: &View) -> Sample {
-        let seen: Vec<bool> = (0..view.len()).map(|i| view.free(i) && self.region.holds(view.place(i))).collect();
+        let seen: Vec<bool> = (0..view.len()).map(|i| view.free(i) && self.region.holds(view.position(i))).collect();
         let own = || (0..view.len()).filter(|&i| seen[i]);
         let all = view.touching(self.walls);
         let stripped = self.stripped(view);

@@ -32,7 +32,7 @@ impl Points {
     }
 
     /// Where a point is; zero along axes that fields do not vary along.
-    pub fn place(&self, k: usize) -> DVec3 {
+    pub fn position(&self, k: usize) -> DVec3 {
         let [nx, ny, _] = self.count;
         let index = DVec3::new((k % nx) as f64, (k / nx % ny) as f64, (k / (nx * ny)) as f64);
         self.low + index * self.step

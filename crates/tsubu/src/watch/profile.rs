@@ -100,7 +100,7 @@ impl Profile {
         let a = self.axis.index();
         let flat = self.axes.len() == 2;
         for i in 0..view.len() {
-            let (p, r) = (view.place(i), view.grains.radius[i]);
+            let (p, r) = (view.position(i), view.grains.radius[i]);
             if !self.region.holds_but(p, &[a]) {
                 continue;
             }

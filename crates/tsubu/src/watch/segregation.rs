@@ -50,7 +50,7 @@ impl Watch for Segregation {
         let (mut number, mut mass, mut moment) = ([0.0; 2], [0.0; 2], [0.0; 2]);
         for i in 0..view.len() {
             let Some(k) = self.groups.iter().position(|group| *group == view.grains.group[i]) else { continue };
-            let p = view.place(i);
+            let p = view.position(i);
             if !view.free(i) || !self.region.holds(p) {
                 continue;
             }

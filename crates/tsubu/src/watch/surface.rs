@@ -32,7 +32,7 @@ impl Surface {
     pub fn columns(&self, view: &View, counts: impl Fn(usize) -> bool) -> Vec<(f64, f64)> {
         let mut columns: Vec<(f64, f64)> = (0..self.bins).map(|k| (self.middle(k), f64::NAN)).collect();
         for i in (0..view.len()).filter(|&i| counts(i)) {
-            let p = view.place(i);
+            let p = view.position(i);
             if self.region.holds(p) {
                 let k = (p[self.axis.index()] - self.low) / self.width * self.bins as f64;
                 let height = &mut columns[(k as usize).min(self.bins - 1)].1;

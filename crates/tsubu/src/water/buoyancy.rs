@@ -1,6 +1,6 @@
 //! Buoyancy.
 
-use super::{Kind, Parcel, Part};
+use super::{Parcel, Part, WorkKind};
 use crate::about::About;
 use glam::DVec3;
 use multiversion::multiversion;
@@ -46,8 +46,8 @@ impl Part for Buoyancy {
         self.about
     }
 
-    fn kind(&self) -> Kind {
-        Kind::Pressure
+    fn kind(&self) -> WorkKind {
+        WorkKind::Pressure
     }
 
     fn apply(&self, parcel: &mut Parcel) {

@@ -1,6 +1,6 @@
 //! Drag.
 
-use super::{Kind, Parcel, Part, hindrance};
+use super::{Parcel, Part, WorkKind, hindrance};
 use crate::about::About;
 use multiversion::multiversion;
 use std::f64::consts::PI;
@@ -75,8 +75,8 @@ impl Part for Drag {
         }
     }
 
-    fn kind(&self) -> Kind {
-        Kind::Relative
+    fn kind(&self) -> WorkKind {
+        WorkKind::Relative
     }
 
     fn apply(&self, parcel: &mut Parcel) {

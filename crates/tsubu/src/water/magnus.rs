@@ -1,6 +1,6 @@
 //! Lift by spin.
 
-use super::{Kind, Parcel, Part};
+use super::{Parcel, Part, WorkKind};
 use crate::about::About;
 use multiversion::multiversion;
 use std::f64::consts::PI;
@@ -46,8 +46,8 @@ impl Part for Magnus {
         if self.oesterle_dinh { &OESTERLE_DINH } else { &MAGNUS }
     }
 
-    fn kind(&self) -> Kind {
-        Kind::Relative
+    fn kind(&self) -> WorkKind {
+        WorkKind::Relative
     }
 
     fn rotates(&self) -> bool {

@@ -26,7 +26,7 @@ pub use fluctuation::{Fluctuation, Gust};
 pub use layers::Layers;
 pub(crate) use parcel::LayerReaction;
 pub use parcel::{Parcel, WaterPowers};
-pub use part::{Kind, Part};
+pub use part::{Part, WorkKind};
 pub use stream::Stream;
 
 use crate::about::About;
@@ -159,9 +159,9 @@ impl Water {
         parcel.begin(f64::INFINITY);
         parcel.flow[0][0] = speed;
         parcel.slip();
-        for part in self.parts.iter().filter(|part| part.kind() == Kind::Relative) {
+        for part in self.parts.iter().filter(|part| part.kind() == WorkKind::Relative) {
             part.apply(&mut parcel);
-            parcel.post(Kind::Relative, &mut WaterPowers::default());
+            parcel.post(WorkKind::Relative, &mut WaterPowers::default());
         }
         parcel.total(0).length()
     }
@@ -191,9 +191,9 @@ impl Water {
         parcel.begin(f64::INFINITY);
         parcel.flow_spin[0][0] = spin;
         parcel.turn();
-        for part in self.parts.iter().filter(|part| part.kind() == Kind::Turning) {
+        for part in self.parts.iter().filter(|part| part.kind() == WorkKind::Turning) {
             part.apply(&mut parcel);
-            parcel.post(Kind::Turning, &mut WaterPowers::default());
+            parcel.post(WorkKind::Turning, &mut WaterPowers::default());
         }
         parcel.total_torque(0).length()
     }

@@ -1,6 +1,6 @@
 //! A parcel: up to 128 grains in water as plain columns.
 
-use super::part::Kind;
+use super::part::WorkKind;
 use crate::contact::chunk::{Column, ROWS, ZERO};
 use crate::state::sphere;
 use glam::DVec3;
@@ -218,24 +218,26 @@ impl Parcel {
     }
 
     /// Adds the force or torque of a part to the total, and its work to the powers.
-    pub(super) fn post(&mut self, kind: Kind, powers: &mut WaterPowers) {
+    pub(super) fn post(&mut self, kind: WorkKind, powers: &mut WaterPowers) {
         let n = self.rows();
         let [x, y, z, with_grain, with_flow] = match kind {
-            Kind::Pressure | Kind::Relative => post(n, &self.force, &mut self.total, [&self.velocity, &self.flow]),
-            Kind::Turning => post(n, &self.torque, &mut self.total_torque, [&self.spin, &self.flow_spin]),
+            WorkKind::Pressure | WorkKind::Relative => {
+                post(n, &self.force, &mut self.total, [&self.velocity, &self.flow])
+            }
+            WorkKind::Turning => post(n, &self.torque, &mut self.total_torque, [&self.spin, &self.flow_spin]),
         };
         match kind {
-            Kind::Pressure => {
+            WorkKind::Pressure => {
                 powers.pressure += with_grain;
                 powers.carried += with_flow;
             }
-            Kind::Relative | Kind::Turning => {
-                let stream = if kind == Kind::Turning { &mut powers.spin_work } else { &mut powers.stream };
+            WorkKind::Relative | WorkKind::Turning => {
+                let stream = if kind == WorkKind::Turning { &mut powers.spin_work } else { &mut powers.stream };
                 *stream += with_flow;
                 powers.lost += with_flow - with_grain;
             }
         }
-        if kind != Kind::Turning {
+        if kind != WorkKind::Turning {
             powers.force += DVec3::new(x, y, z);
         }
     }

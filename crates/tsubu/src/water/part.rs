@@ -5,7 +5,7 @@ use crate::about::About;
 
 /// What becomes of the work of a force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum WorkKind {
     /// All of it is the grain's: pressure.
     Pressure,
     /// It goes with the motion relative to the water: to a grain that goes along with the stream it does the stream's work,
@@ -24,11 +24,11 @@ pub trait Part: Send + Sync + std::fmt::Debug {
     fn about(&self) -> &'static About;
 
     /// What becomes of its work.
-    fn kind(&self) -> Kind;
+    fn kind(&self) -> WorkKind;
 
     /// Whether it reads spins, of the grains or of the water, or writes a torque.
     fn rotates(&self) -> bool {
-        self.kind() == Kind::Turning
+        self.kind() == WorkKind::Turning
     }
 
     /// Writes the force or torque on every grain of the parcel.

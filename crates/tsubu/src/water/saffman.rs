@@ -1,6 +1,6 @@
 //! Lift by shear.
 
-use super::{Kind, Parcel, Part};
+use super::{Parcel, Part, WorkKind};
 use crate::about::About;
 use multiversion::multiversion;
 use tsubu_scene::plan;
@@ -49,8 +49,8 @@ impl Part for Saffman {
         if self.mei { &SAFFMAN_MEI } else { &SAFFMAN }
     }
 
-    fn kind(&self) -> Kind {
-        Kind::Relative
+    fn kind(&self) -> WorkKind {
+        WorkKind::Relative
     }
 
     fn rotates(&self) -> bool {

@@ -1,6 +1,6 @@
 //! Torque on spin.
 
-use super::{Kind, Parcel, Part};
+use super::{Parcel, Part, WorkKind};
 use crate::about::About;
 use multiversion::multiversion;
 use std::f64::consts::PI;
@@ -50,8 +50,8 @@ impl Part for Torque {
         }
     }
 
-    fn kind(&self) -> Kind {
-        Kind::Turning
+    fn kind(&self) -> WorkKind {
+        WorkKind::Turning
     }
 
     fn apply(&self, parcel: &mut Parcel) {

@@ -25,7 +25,7 @@ fn strewn(layout: Layout, columns: usize, rows: usize, coins: &[u8], full: u8) -
                 }
                 _ => EMPTY,
             };
-        } else if sheet.place(site).1 == 0 && coin < 85 {
+        } else if sheet.column_and_row(site).1 == 0 && coin < 85 {
             sheet.cells[site] = OUT;
         }
     }
@@ -156,7 +156,7 @@ proptest! {
             prop_assert!((now[1] + walls[1] + weight - then[1]).abs() < 1e-10);
             for (number, (old, new)) in before.grains.iter().zip(&model.grains).enumerate() {
                 prop_assert_eq!(model.grid.at(new.node), number as i32);
-                let column = model.grid.place(old.node).0;
+                let column = model.grid.column_and_row(old.node).0;
                 let near = Direction::ALL.map(|d| model.grid.neighbour(old.node, column, d));
                 prop_assert!(old.node == new.node || near.contains(&new.node));
             }

@@ -1,6 +1,6 @@
 //! The box of a scene for the automaton: what wall it is, who moves it, and how many cells it has.
 
-use super::Kind;
+use super::BallKind;
 use crate::lattice::damper::BoxPlace;
 use crate::lattice::grid::COLUMN_SPACING;
 use crate::lattice::remarks::Remarks;
@@ -77,7 +77,7 @@ pub(super) fn casing<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Option<Casing
 /// Whoever moves the box must move it up and down.
 pub(super) fn check_carrier(
     casing: &Casing,
-    kind: &Kind,
+    kind: &BallKind,
     hosts: &BTreeMap<String, plan::Host>,
     lattice: &plan::Lattice,
     remarks: &mut Remarks,
@@ -119,7 +119,7 @@ pub(super) fn check_carrier(
 }
 
 /// Whole columns and rows for the box, and room for it to move.
-pub(super) fn place(casing: &Casing, kind: &Kind, lattice: &plan::Lattice, remarks: &mut Remarks) -> BoxPlace {
+pub(super) fn place(casing: &Casing, kind: &BallKind, lattice: &plan::Lattice, remarks: &mut Remarks) -> BoxPlace {
     let d = kind.diameter;
     let columns = (casing.width / d).round() as usize;
     let rows = (casing.height / d).round() as usize;

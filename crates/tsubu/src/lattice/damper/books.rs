@@ -34,7 +34,7 @@ impl Damper {
 
     /// Column and row of a ball; row 0 is the lowest of the box at level 0.
     pub fn seat(&self, i: usize) -> (usize, i64) {
-        let (column, row) = self.grid.place(self.cell[i]);
+        let (column, row) = self.grid.column_and_row(self.cell[i]);
         (column, row as i64 - self.place.head as i64 - 1)
     }
 

@@ -255,7 +255,7 @@ impl Damper {
 
     /// Whether a ball is inside the box, and in the stack of its column if it rests.
     fn has_seat(&self, i: usize) -> bool {
-        let (column, row) = self.grid.place(self.cell[i]);
+        let (column, row) = self.grid.column_and_row(self.cell[i]);
         if !(1..=self.place.columns).contains(&column) || row < self.place.floor() {
             return false;
         }
@@ -325,7 +325,7 @@ impl Damper {
         self.oblique_count = [0; 6];
         for i in 0..n {
             self.grid.set(self.cell[i], i as i32);
-            let column = self.grid.place(self.cell[i]).0;
+            let column = self.grid.column_and_row(self.cell[i]).0;
             self.odd[i] = column % 2;
             self.point(i, self.direction[i], self.speed[i]);
             if self.resting[i] {

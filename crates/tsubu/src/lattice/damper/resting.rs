@@ -79,7 +79,7 @@ impl Damper {
 
     /// Lets a resting ball and all above it in its column go, with the velocity they have.
     pub(super) fn release_above(&mut self, i: usize) {
-        let (column, row) = self.grid.place(self.cell[i]);
+        let (column, row) = self.grid.column_and_row(self.cell[i]);
         let keep = row - self.place.floor();
         let first = self.cell[i];
         let count = self.rest.height[column] - keep;

@@ -57,7 +57,7 @@ impl Damper {
 
     /// An oblique ball looks into a wall.
     pub(super) fn hit_wall_ahead(&mut self, i: usize, wall: i64) {
-        let (column, _) = self.grid.place(self.ahead[i]);
+        let (column, _) = self.grid.column_and_row(self.ahead[i]);
         if column == 0 || column > self.place.columns {
             self.hit_side(i, wall);
         } else {

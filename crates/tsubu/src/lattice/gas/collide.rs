@@ -81,7 +81,7 @@ fn three<T: Bits>(n: [T; SLOTS], turn: T) -> [T; SLOTS] {
     for i in 0..6 {
         m[i] = n[i] ^ n[REST];
     }
-    let seen = Seen { low: eighths(m[0], m[1], m[2]), high: eighths(m[3], m[4], m[5]) };
+    let seen = StateBits { low: eighths(m[0], m[1], m[2]), high: eighths(m[3], m[4], m[5]) };
     let mut alone = [T::NONE; 3];
     for (a, alone) in alone.iter_mut().enumerate() {
         *alone = seen.is(bit(a) | bit(a + 3)) | seen.is(63 ^ bit(a) ^ bit(a + 3));
@@ -107,12 +107,12 @@ fn three<T: Bits>(n: [T; SLOTS], turn: T) -> [T; SLOTS] {
 }
 
 /// Which of 64 states sites are in.
-struct Seen<T> {
+struct StateBits<T> {
     low: [T; 8],
     high: [T; 8],
 }
 
-impl<T: Bits> Seen<T> {
+impl<T: Bits> StateBits<T> {
     /// The sites in one state.
     #[inline(always)]
     fn is(&self, state: usize) -> T {

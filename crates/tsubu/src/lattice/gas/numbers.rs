@@ -127,7 +127,7 @@ mod tests {
             let mut numbers = Numbers::new(sites, gas.mass() as usize);
             let mut count = 0;
             for site in 0..sites.count() {
-                let (column, row) = sites.place(site);
+                let (column, row) = sites.column_and_row(site);
                 for slot in (0..SLOTS).filter(|slot| gas.site(column, row) >> slot & 1 == 1) {
                     numbers.set(site, slot, count);
                     count += 1;
@@ -136,7 +136,7 @@ mod tests {
             let places = |numbers: &Numbers| {
                 let mut places = vec![None; count as usize];
                 for site in 0..sites.count() {
-                    let (column, row) = sites.place(site);
+                    let (column, row) = sites.column_and_row(site);
                     for who in numbers.at(site).into_iter().filter(|who| *who != NOBODY) {
                         let [x, z] = numbers.laps[who as usize].map(i64::from);
                         let at = Vector { h: column as i64 + 20 * x, k: (2 * row + column % 2) as i64 + 66 * z };
@@ -150,7 +150,7 @@ mod tests {
                 gas.step();
                 numbers.follow(&gas);
                 for site in 0..sites.count() {
-                    let (column, row) = sites.place(site);
+                    let (column, row) = sites.column_and_row(site);
                     assert_eq!(numbers.state(site), gas.site(column, row));
                 }
                 for (from, to) in before.into_iter().zip(places(&numbers)) {

@@ -92,7 +92,7 @@ impl Pile {
     pub fn free(&mut self, site: usize) {
         if self.rest[site] == WALL {
             self.rest[site] = NOBODY;
-            let (column, row) = self.sites.place(site);
+            let (column, row) = self.sites.column_and_row(site);
             self.fall_from_above(column, row);
         }
     }
@@ -127,7 +127,7 @@ impl Pile {
 
     /// Lets an announced grain go at a site, downward; false if somebody is there.
     pub fn release(&mut self, site: usize, who: u32) -> bool {
-        let (column, row) = self.sites.place(site);
+        let (column, row) = self.sites.column_and_row(site);
         let free = self.is_open(column, row);
         if free {
             self.launch(column, row, Direction::S, who);
@@ -143,7 +143,7 @@ impl Pile {
 
     /// Puts an announced grain to rest on a site, or lets it go if there is no ground below; from the lowest up.
     pub fn lay(&mut self, site: usize, who: u32) {
-        let (column, row) = self.sites.place(site);
+        let (column, row) = self.sites.column_and_row(site);
         self.stop(column, row, who);
     }
 
@@ -168,7 +168,7 @@ impl Pile {
         for (who, place) in places.iter().enumerate() {
             match *place {
                 Some(Place { site, way: Some(way) }) => {
-                    let (column, row) = self.sites.place(site);
+                    let (column, row) = self.sites.column_and_row(site);
                     self.launch(column, row, way, who as u32);
                 }
                 Some(Place { site, way: None }) => self.rest[site] = who as u32,
@@ -195,7 +195,7 @@ impl Pile {
                     self.removed.push((self.rest[site], Place { site, way: None }));
                 }
                 self.rest[site] = NOBODY;
-                let (column, row) = self.sites.place(site);
+                let (column, row) = self.sites.column_and_row(site);
                 self.fall_from_above(column, row);
             }
         }

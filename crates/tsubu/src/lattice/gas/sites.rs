@@ -41,7 +41,7 @@ impl Sites {
 
     /// Column and row of a site.
     #[inline]
-    pub fn place(&self, site: usize) -> (usize, usize) {
+    pub fn column_and_row(&self, site: usize) -> (usize, usize) {
         (site / self.rows, site % self.rows)
     }
 
@@ -84,7 +84,7 @@ impl Sites {
 
     /// The walls beside a site, and how each [mirrors](Self::mirror).
     pub fn walls_beside(&self, site: usize, wall: impl Fn(usize) -> bool) -> Vec<(usize, usize, Option<usize>)> {
-        let (column, row) = self.place(site);
+        let (column, row) = self.column_and_row(site);
         let beside = Direction::ALL.into_iter().filter_map(|way| self.neighbour(column, row, way));
         let walls = beside.filter(|(c, r)| wall(self.index(*c, *r)));
         walls.map(|(c, r)| (c, r, self.mirror(c, r, &wall))).collect()
@@ -119,7 +119,7 @@ mod tests {
                 assert_eq!(there, back.map(|lap| -lap));
                 if there == [0, 0] {
                     let cell = grid.neighbour(grid.index(column, row), column, way);
-                    assert_eq!(grid.place(cell), (c, r));
+                    assert_eq!(grid.column_and_row(cell), (c, r));
                 } else {
                     assert!(sites.edge().any(|site| site == (column, row)));
                     assert_eq!(Sites::new(6, 9, [false, false]).neighbour(column, row, way), None);

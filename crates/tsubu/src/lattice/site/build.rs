@@ -189,7 +189,7 @@ fn remark_removal(
     ground: &Ground,
     walls: &[Wall],
     cells: &[i32],
-    streams: &[start::Stream],
+    streams: &[start::GrainStream],
     remarks: &mut Remarks,
 ) {
     let staying: Vec<Wall> = walls.iter().filter(|wall| wall.until.is_none()).cloned().collect();
@@ -204,7 +204,7 @@ fn remark_removal(
     };
     let grains = (0..cells.len()).filter(|site| cells[*site] >= 0);
     let begin = grains.chain(streams.iter().flat_map(|stream| stream.sites.iter().copied()));
-    reach::remark(removal, &ways, begin.map(|site| ground.place(site % ground.len())), remarks);
+    reach::remark(removal, &ways, begin.map(|site| ground.column_and_row(site % ground.len())), remarks);
 }
 
 /// What the method makes of the contact law.

@@ -8,7 +8,7 @@ mod invariants;
 mod sources;
 
 use super::ground::Ground;
-use super::start::Stream;
+use super::start::GrainStream;
 use super::{Model, Seat, section};
 use crate::engine::{Engine, Fault, Note};
 use crate::ledger::{Account, Energies, Ledger};
@@ -38,7 +38,7 @@ pub(super) struct Scene {
     /// Gravity as drawn [m/s^2].
     pub gravity: DVec3,
     /// Grains that come in later.
-    pub streams: Vec<Stream>,
+    pub streams: Vec<GrainStream>,
     /// Seed of the places where they do.
     pub seed: u64,
 }

@@ -39,7 +39,7 @@ impl Fhp {
     /// Gives the gas the particles of the numbers.
     fn fill(&mut self) {
         for site in 0..self.sites.count() {
-            let (column, row) = self.sites.place(site);
+            let (column, row) = self.sites.column_and_row(site);
             let state = self.numbers.state(site);
             if state != self.gas.site(column, row) {
                 self.gas.set_site(column, row, state);
@@ -53,7 +53,7 @@ impl Model for Fhp {
         self.gas.step();
         self.numbers.follow(&self.gas);
         for &site in &self.outlets {
-            let (column, row) = self.sites.place(site);
+            let (column, row) = self.sites.column_and_row(site);
             if self.numbers.state(site) != 0 && !self.gas.is_wall(column, row) {
                 seats_at(&self.numbers, site, &mut |seat| self.removed.push(seat));
                 self.gas.set_site(column, row, 0);
@@ -73,10 +73,10 @@ impl Model for Fhp {
 
     fn free(&mut self, site: usize, _outlet: bool) {
         let Self { gas, sites, smooth, .. } = self;
-        let (column, row) = sites.place(site);
+        let (column, row) = sites.column_and_row(site);
         gas.free(column, row);
         let is_wall = |site: usize| {
-            let (column, row) = sites.place(site);
+            let (column, row) = sites.column_and_row(site);
             gas.is_wall(column, row)
         };
         if *smooth {
@@ -95,7 +95,7 @@ impl Model for Fhp {
     }
 
     fn enter(&mut self, grain: usize, site: usize) -> Option<Seat> {
-        let (column, row) = self.sites.place(site);
+        let (column, row) = self.sites.column_and_row(site);
         let state = self.numbers.state(site);
         let free = state >> Direction::S as u8 & 1 == 0 && !self.gas.is_wall(column, row);
         if free {

@@ -82,7 +82,7 @@ pub(super) fn model(
             board.walls().for_each(|(column, row)| pile.set_wall(column, row));
             scene.group.iter().for_each(|kind| _ = pile.announce(*kind));
             let mut laid: Vec<_> = board.seats().collect();
-            laid.sort_by_key(|(site, ..)| board.sites.place(*site).1);
+            laid.sort_by_key(|(site, ..)| board.sites.column_and_row(*site).1);
             for (site, _, grain) in laid {
                 pile.lay(site, grain);
             }
@@ -131,7 +131,7 @@ impl<'a> Board<'a> {
     }
 
     fn walls(&self) -> impl Iterator<Item = (usize, usize)> {
-        (0..self.sites.count()).filter(|site| self.is_wall(*site)).map(|site| self.sites.place(site))
+        (0..self.sites.count()).filter(|site| self.is_wall(*site)).map(|site| self.sites.column_and_row(site))
     }
 
     /// Site, slot and number of every grain. The first layer is that of rest, if there is one.

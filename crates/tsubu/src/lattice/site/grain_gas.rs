@@ -36,7 +36,7 @@ impl GrainGas {
 
     /// Takes note of those on an outlet, unless it is wall.
     fn note_gone(&mut self, site: usize) {
-        let (column, row) = self.grains.sites.place(site);
+        let (column, row) = self.grains.sites.column_and_row(site);
         if self.grains.is_wall(column, row) {
             return;
         }
@@ -87,7 +87,7 @@ impl Model for GrainGas {
         grains.free(site);
         let sites = grains.sites;
         let is_wall = |site: usize| {
-            let (column, row) = sites.place(site);
+            let (column, row) = sites.column_and_row(site);
             grains.is_wall(column, row)
         };
         for (column, row, mirror) in sites.walls_beside(site, is_wall) {

@@ -105,7 +105,7 @@ impl Ground {
 
     /// Whether a site is on the rim.
     fn on_rim(&self, site: usize) -> bool {
-        let (column, row) = self.place(site);
+        let (column, row) = self.column_and_row(site);
         let end = |at: usize, size: usize, axis: usize| !self.periodic[axis] && (at == 0 || at + 1 == size);
         end(column, self.columns, 0) || end(row, self.rows, 1)
     }
@@ -121,7 +121,7 @@ impl Ground {
     }
 
     /// Column and row of a site.
-    pub fn place(&self, site: usize) -> (usize, usize) {
+    pub fn column_and_row(&self, site: usize) -> (usize, usize) {
         match self.sites {
             Sites::Level(_) => (site % self.columns, site / self.columns),
             Sites::Upright => (site / self.rows, site % self.rows),
@@ -138,7 +138,7 @@ impl Ground {
 
     /// Centre of a site [m].
     pub fn point(&self, site: usize) -> DVec3 {
-        let (column, row) = self.place(site);
+        let (column, row) = self.column_and_row(site);
         let (c, r) = (column as f64, row as f64);
         let [x, z] = match self.sites {
             Sites::Level(Layout::Triangular) => [c + 0.5 * (row % 2) as f64, ROW_SPACING * r],
@@ -231,7 +231,7 @@ mod tests {
             let ground = Ground::new(sites, &region, 1.0).expect("a region of ten sites");
             let inner: Vec<usize> = (0..ground.len())
                 .filter(|&s| {
-                    let (c, r) = ground.place(s);
+                    let (c, r) = ground.column_and_row(s);
                     c > 0 && r > 0 && c + 1 < ground.columns && r + 1 < ground.rows
                 })
                 .collect();

@@ -14,7 +14,7 @@ use tsubu_scene::plan::{Plan, Region, Start};
 
 /// Grains that come in one by one.
 #[derive(Clone, Debug)]
-pub(super) struct Stream {
+pub(super) struct GrainStream {
     /// Number of the first.
     pub first: usize,
     /// How many there are.
@@ -31,7 +31,13 @@ pub(super) struct Stream {
 
 /// Puts every grain of the plan onto a site; `cells` gets their numbers, layer after layer. `gas`: grains are those of a
 /// lattice gas, which may come in later.
-pub(super) fn place(plan: &Plan, ground: &Ground, cells: &mut [i32], gas: bool, remarks: &mut Remarks) -> Vec<Stream> {
+pub(super) fn place(
+    plan: &Plan,
+    ground: &Ground,
+    cells: &mut [i32],
+    gas: bool,
+    remarks: &mut Remarks,
+) -> Vec<GrainStream> {
     let mut first = 0;
     let mut settled: Vec<usize> = Vec::new();
     let mut streams = Vec::new();
@@ -55,7 +61,7 @@ pub(super) fn place(plan: &Plan, ground: &Ground, cells: &mut [i32], gas: bool, 
                     let text = "grains come in straight down, one spacing a step";
                     remarks.approximate(format!("{key}.stream"), text);
                 }
-                streams.push(Stream { first, count: group.count, sites, rate: *rate, from: *from, placed: 0 });
+                streams.push(GrainStream { first, count: group.count, sites, rate: *rate, from: *from, placed: 0 });
             }
             Start::Stream { .. } => remarks.refuse(
                 format!("{key}.stream"),

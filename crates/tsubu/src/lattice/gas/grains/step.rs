@@ -172,7 +172,7 @@ impl Grains {
         let mut waiting = std::mem::take(&mut self.surplus);
         for (index, Surplus { site, count, who }) in waiting.iter_mut().enumerate() {
             while *count > 0 {
-                let (mut column, mut row) = self.sites.place(*site as usize);
+                let (mut column, mut row) = self.sites.column_and_row(*site as usize);
                 let (mut found, mut laps) = (false, [0, 0]);
                 for hop in 0..HOPS {
                     let key = self.step << 20 | u64::from(hop) << 4 | u64::from(*count);

@@ -3,7 +3,7 @@
 use super::SiteEngine;
 use crate::lattice::sheet::{OUT, WALL};
 use crate::lattice::site::ground::NOBODY;
-use crate::lattice::site::start::Stream;
+use crate::lattice::site::start::GrainStream;
 use crate::ledger::Ledger;
 use crate::random::{Purpose, words};
 
@@ -28,7 +28,7 @@ impl SiteEngine {
     /// Grains of streams come in where there is room, from a site drawn at random on.
     pub(super) fn insert(&mut self, time: f64, ledger: &mut Ledger) {
         let mut came = Vec::new();
-        for Stream { first, count, sites, rate, from, placed } in &mut self.scene.streams {
+        for GrainStream { first, count, sites, rate, from, placed } in &mut self.scene.streams {
             let due = ((time - *from) * *rate + 1.0).max(0.0) as usize;
             while *placed < due.min(*count) {
                 let grain = *first + *placed;
