@@ -8,9 +8,12 @@ use crate::progress::Progress;
 use crate::stream::Stream;
 use crate::{stop, table};
 use clap::Args;
+use rayon::ThreadPoolBuilder;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
+use std::time::Instant;
 use tsubu_frame::{Claim, Existing, RunFolder};
 use tsubu_verify::{self as verify, Case};
 
@@ -84,42 +87,91 @@ fn list(cases: &[&Case]) -> Result<(), Failure> {
     output::print(&table::aligned(&rows))
 }
 
-/// Runs the cases side by side and prints each one's claims as soon as it and all before it are done.
+/// Runs the cases and prints each one's claims as soon as it and all before it are done.
 fn judge(cases: &[&'static Case], folder: Option<&RunFolder>, options: &Options) -> Result<Vec<Claim>, Failure> {
-    let pool = options.work.pool()?;
+    let threads = options.work.pool()?.current_num_threads();
     let progress = Progress::new("verify", options.work.quiet);
     stop::so_far(so_far(0, cases.len(), ""));
+    let (mut waiting, mut claims) = (BTreeMap::new(), Vec::new());
+    let (mut next, mut done) = (0, 0_usize);
+    let judged = side_by_side(cases, threads, folder, |index, outcome| {
+        waiting.insert(index, outcome);
+        done += 1;
+        while let Some(outcome) = waiting.remove(&next) {
+            let lines: String = outcome.claims.iter().map(claims::line).collect();
+            progress.hide_while(|| {
+                outcome.late.iter().for_each(|text| output::tell(text));
+                output::print(&lines)
+            })?;
+            claims.extend(outcome.claims);
+            next += 1;
+        }
+        let untold = waiting.values().flat_map(|outcome| &outcome.claims).map(claims::line);
+        stop::so_far(so_far(done, cases.len(), &untold.collect::<String>()));
+        progress.set(done as f64 / cases.len() as f64);
+        Ok(())
+    });
+    progress.end();
+    judged.map(|()| claims)
+}
+
+/// What came of a case.
+struct Outcome {
+    claims: Vec<Claim>,
+    /// A warning where it took longer than it may.
+    late: Option<String>,
+}
+
+/// Runs the cases in their order, as many at once as there are threads, and hears of each when it is done. A case has threads of
+/// its own, one of them as a rule: in a pool that all shared, a case that hands out work would do another case while it waits,
+/// and take that one's time as well.
+fn side_by_side(
+    cases: &[&'static Case],
+    threads: usize,
+    folder: Option<&RunFolder>,
+    mut hear: impl FnMut(usize, Outcome) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let workers = threads.clamp(1, cases.len().max(1));
+    let build = |worker| {
+        let own = threads / workers + usize::from(worker < threads % workers);
+        let pool = ThreadPoolBuilder::new().num_threads(own.max(1)).build();
+        pool.map_err(|error| Failure::wrong(format!("cannot start the threads: {error}")))
+    };
+    let pools = (0..workers).map(build).collect::<Result<Vec<_>, _>>()?;
+    let next = &AtomicUsize::new(0);
     let (sender, receiver) = mpsc::channel();
-    let claims = pool.in_place_scope(|scope| {
-        for (index, case) in cases.iter().copied().enumerate() {
+    std::thread::scope(|scope| {
+        for pool in pools {
             let sender = sender.clone();
-            scope.spawn(move |_| {
-                // Nobody listens any more once printing has failed.
-                let _ = sender.send((index, case.claims(folder)));
+            scope.spawn(move || {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(case) = cases.get(index) else { return };
+                    // Nobody listens any more once printing has failed.
+                    if sender.send((index, pool.install(|| outcome(case, folder)))).is_err() {
+                        return;
+                    }
+                }
             });
         }
         drop(sender);
-        let mut waiting = BTreeMap::new();
-        let mut claims = Vec::new();
-        let (mut next, mut done) = (0, 0_usize);
-        for (index, outcome) in receiver {
-            waiting.insert(index, outcome);
-            done += 1;
-            while let Some(outcome) = waiting.remove(&next) {
-                let of_case = outcome.unwrap_or_else(|error| vec![broken(cases[next], &error)]);
-                let lines: String = of_case.iter().map(claims::line).collect();
-                progress.hide_while(|| output::print(&lines))?;
-                claims.extend(of_case);
-                next += 1;
-            }
-            let untold = waiting.values().flatten().flatten().map(claims::line);
-            stop::so_far(so_far(done, cases.len(), &untold.collect::<String>()));
-            progress.set(done as f64 / cases.len() as f64);
-        }
-        Ok(claims)
+        receiver.into_iter().try_for_each(|(index, outcome)| hear(index, outcome))
+    })
+}
+
+/// Runs a case and looks at the clock.
+fn outcome(case: &Case, folder: Option<&RunFolder>) -> Outcome {
+    let begun = Instant::now();
+    let claims = case.claims(folder).unwrap_or_else(|error| vec![broken(case, &error)]);
+    let taken = begun.elapsed().as_secs_f64();
+    let late = (taken > f64::from(case.budget)).then(|| {
+        let (name, budget) = (case.name, case.budget);
+        format!(
+            "{}: `{name}` took {taken:.1} s, longer than its budget of {budget} s\n",
+            Stream::Error.yellow("warning")
+        )
     });
-    progress.end();
-    claims
+    Outcome { claims, late }
 }
 
 /// What is said of an interrupted verification; `untold` are the claims of cases that were done before others ahead of them.
@@ -133,4 +185,76 @@ fn so_far(done: usize, all: usize, untold: &str) -> String {
 fn broken(case: &Case, error: &str) -> Claim {
     let reason = format!("it did not run: {}", error.replace('\n', "; "));
     Claim::judge(case.name, f64::NAN, None, None, reason).of(case.study)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::AtomicU32;
+    use std::time::Duration;
+
+    fn case(budget: u32, run: fn(f64) -> verify::Judged) -> &'static Case {
+        Box::leak(Box::new(Case { name: "some", study: "none", about: "", budget, gap: false, run, kept: None }))
+    }
+
+    #[expect(clippy::unnecessary_wraps, reason = "what a case gives")]
+    fn value(value: usize) -> verify::Judged {
+        Ok(vec![Claim::judge("value", value as f64, Some(0.0), None, "a test".to_owned())])
+    }
+
+    fn heard(cases: &[&'static Case], threads: usize) -> Vec<(f64, bool)> {
+        let mut heard = Vec::new();
+        let done = side_by_side(cases, threads, None, |_, outcome| {
+            heard.push((outcome.claims[0].value, outcome.late.is_some()));
+            Ok(())
+        });
+        assert!(done.is_ok());
+        heard
+    }
+
+    /// A budget was told and never looked at: a case came to take six times as long, and nobody noticed.
+    #[test]
+    fn a_case_over_its_budget_is_told_and_counts() {
+        let run = |_: f64| value(7);
+        assert_eq!(heard(&[case(0, run), case(60, run)], 1), [(7.0, true), (7.0, false)]);
+        let told = outcome(case(0, run), None).late.unwrap_or_default();
+        assert!(told.starts_with("warning: `some` took 0.0 s, longer than its budget of 0 s"), "{told}");
+    }
+
+    /// All threads were one pool: a case that handed out work did other cases while it waited, and the clock counted them.
+    #[test]
+    fn cases_run_at_once_on_threads_of_their_own() {
+        static HERE: AtomicU32 = AtomicU32::new(0);
+        let meet = |_: f64| {
+            HERE.fetch_add(1, Ordering::SeqCst);
+            let begun = Instant::now();
+            while HERE.load(Ordering::SeqCst) < 2 {
+                if begun.elapsed() > Duration::from_secs(20) {
+                    return Err("the other case did not come".to_owned());
+                }
+                std::thread::yield_now();
+            }
+            value(rayon::current_num_threads())
+        };
+        assert_eq!(heard(&[case(60, meet), case(60, meet)], 2), [(1.0, false), (1.0, false)]);
+        let count = |_: f64| value(rayon::current_num_threads());
+        let mut counts = heard(&[case(60, count), case(60, count)], 5);
+        counts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        assert_eq!(counts, [(2.0, false), (3.0, false)]);
+        assert_eq!(heard(&[case(60, count)], 4), [(4.0, false)]);
+    }
+
+    /// Cases ran on to their ends though nobody could read what they claimed.
+    #[test]
+    fn no_case_begins_once_nobody_listens() {
+        static BEGUN: AtomicU32 = AtomicU32::new(0);
+        let run = |_: f64| {
+            BEGUN.fetch_add(1, Ordering::SeqCst);
+            std::thread::sleep(Duration::from_millis(20));
+            value(1)
+        };
+        let cases = [case(60, run); 50];
+        let done = side_by_side(&cases, 1, None, |_, _| Err(Failure::failed("the reader has gone")));
+        assert!(done.is_err() && BEGUN.load(Ordering::SeqCst) < 10);
+    }
 }
