@@ -15,7 +15,7 @@ pub fn pages() -> Result<Vec<(String, String)>, String> {
 }
 
 /// A page with another table in it.
-fn filled(page: &str, name: &str, table: &str) -> Result<(String, String), String> {
+pub fn filled(page: &str, name: &str, table: &str) -> Result<(String, String), String> {
     let text = fs::read_to_string(root().join(page)).map_err(|error| format!("cannot read {page}: {error}"))?;
     put(&text, name, table).map(|text| (page.to_owned(), text)).ok_or_else(|| format!("{page} has no table `{name}`"))
 }

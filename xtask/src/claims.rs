@@ -65,7 +65,19 @@ fn listed(list: &str) -> Vec<Listed<'_>> {
 fn run(case: &str) -> Result<Vec<Value>, String> {
     eprintln!("{case}");
     let folder = root().join("target/claims").join(case);
-    let arguments = ["run", "--package", "tsubu-cli", "--quiet", "--", "verify", case, "--quiet", "--overwrite", "-o"];
+    let arguments = [
+        "run",
+        "--package",
+        "tsubu-cli",
+        "--quiet",
+        "--",
+        "verify",
+        case,
+        "--quiet",
+        "--controls",
+        "--overwrite",
+        "-o",
+    ];
     let mut verify = command(&cargo_path(), &arguments);
     let done = verify.arg(&folder).output().map_err(|error| format!("cannot run `{case}`: {error}"))?;
     if !matches!(done.status.code(), Some(0 | 1)) {

@@ -5,7 +5,7 @@ use crate::shell::{cargo, output, root};
 use std::fs;
 
 /// Pages of the book that the program prints.
-const PRINTED: [&str; 6] = ["contact", "water", "watches", "walls", "methods", "claims"];
+const PRINTED: [&str; 7] = ["contact", "water", "watches", "walls", "methods", "claims", "origins"];
 
 /// Every generated file with its content.
 fn pages() -> Result<Vec<(String, String)>, String> {
@@ -18,6 +18,8 @@ fn pages() -> Result<Vec<(String, String)>, String> {
         let text = output(&["run", "--package", "tsubu-cli", "--quiet", "--", "explain", "--page", name])?;
         pages.push((format!("docs/src/explained/{name}.md"), text));
     }
+    let verdicts = output(&["run", "--package", "tsubu-cli", "--quiet", "--", "explain", "--page", "verdicts"])?;
+    pages.push(blocks::filled("README.md", "verdicts", &verdicts)?);
     pages.extend(blocks::pages()?);
     Ok(pages)
 }

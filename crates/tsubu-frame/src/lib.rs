@@ -3,6 +3,7 @@
 //! Every file appears under its name whole or not at all, and every error names the file it is about.
 
 pub mod checkpoint;
+pub mod claim;
 pub mod csv;
 mod error;
 pub mod folder;
@@ -21,6 +22,7 @@ pub mod whole;
 pub mod xyz;
 
 pub use checkpoint::{CheckpointError, Header};
+pub use claim::{Claim, Ensemble, Origin, Points, Source, Verdict};
 pub use csv::{Cell, Table};
 pub use error::FileError;
 pub use folder::{Existing, RunFolder};
@@ -29,5 +31,5 @@ pub use history::{History, Mark};
 pub use named::Named;
 pub use series::{Formats, FrameWriter, Snapshot, snapshots};
 pub use state::State;
-pub use summary::{Claim, Energy, Joule, Points, ResultValue, Status, Summary};
+pub use summary::{Energy, Joule, ResultValue, Status, Summary};
 pub use vtp_read::read_frame;

@@ -7,6 +7,7 @@ use std::path::Path;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::FileError;
+use crate::claim::Claim;
 use crate::named::Named;
 use crate::whole::write_atomically;
 
@@ -75,80 +76,6 @@ pub struct Joule(#[serde(deserialize_with = "real")] pub f64);
 impl From<f64> for Joule {
     fn from(x: f64) -> Self {
         Self(x)
-    }
-}
-
-/// What a claim's value was made of, to be drawn: points found, and those they are held against.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Points {
-    /// Figure; claims of a study with the same one share it.
-    pub figure: String,
-    /// Axes, `what [unit]`.
-    pub axes: [String; 2],
-    /// Whether the axes are logarithmic.
-    #[serde(default)]
-    pub log: bool,
-    /// What tells these points from others of the figure.
-    pub series: String,
-    /// What came out.
-    pub found: Vec<[f64; 2]>,
-    /// What the source says; empty where it says nothing at single points.
-    #[serde(default)]
-    pub published: Vec<[f64; 2]>,
-}
-
-/// A value held against its accepted range.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Claim {
-    /// Study it belongs to; empty for a scene's own claims, and then left out of the file.
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub study: String,
-    /// What is claimed.
-    pub name: String,
-    /// What came out.
-    #[serde(deserialize_with = "real")]
-    pub value: f64,
-    /// Lower end of the accepted range; none if open.
-    #[serde(default)]
-    pub low: Option<f64>,
-    /// Upper end of the accepted range; none if open.
-    #[serde(default)]
-    pub high: Option<f64>,
-    /// Whether the value is in the range.
-    pub pass: bool,
-    /// Where the range comes from.
-    #[serde(default)]
-    pub source: String,
-    /// What the value was made of, if there is something to draw.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub points: Option<Points>,
-}
-
-impl Claim {
-    /// Holds a value against its range. Not-a-number never passes.
-    pub fn judge(
-        name: impl Into<String>,
-        value: f64,
-        low: Option<f64>,
-        high: Option<f64>,
-        source: impl Into<String>,
-    ) -> Self {
-        let pass = !value.is_nan() && low.is_none_or(|l| value >= l) && high.is_none_or(|h| value <= h);
-        Self { name: name.into(), value, low, high, pass, source: source.into(), ..Self::default() }
-    }
-
-    /// The same claim with what is to be drawn.
-    #[must_use]
-    pub fn showing(mut self, points: Points) -> Self {
-        self.points = Some(points);
-        self
-    }
-
-    /// The same claim under a study's name.
-    #[must_use]
-    pub fn of(mut self, study: impl Into<String>) -> Self {
-        self.study = study.into();
-        self
     }
 }
 
@@ -258,11 +185,11 @@ pub fn read_json<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<T, FileErr
     serde_json::from_str(&text).map_err(|e| FileError::content(path, e.to_string()))
 }
 
-fn real<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+pub(crate) fn real<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Option::<f64>::deserialize(deserializer).map(|x| x.unwrap_or(f64::NAN))
 }
 
-fn reals<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
+pub(crate) fn reals<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
     let list = Vec::<Option<f64>>::deserialize(deserializer)?;
     Ok(list.into_iter().map(|x| x.unwrap_or(f64::NAN)).collect())
 }

@@ -1,6 +1,8 @@
 //! Transport by a stream that the grains slow (V-57).
 
-use super::bench::{Rig, refused, within};
+use super::bench::{Rig, within};
+use super::control::refused;
+use crate::origin::{closed_form, own};
 use tsubu::state::sphere;
 use tsubu::view::Wants;
 use tsubu::water::Stream;
@@ -129,7 +131,7 @@ fn transport(
 /// V-57: rates within a factor of 2 of published ones.
 pub(super) fn rates(perturbation: f64) -> Result<Vec<Claim>, String> {
     let published = |t: f64| (8.0 * (t - 0.047).powf(1.5), 3.97 * (t - 0.0495).powf(1.5));
-    let source = "between half of Wong and Parker 2006 and twice Meyer-Peter and Mueller 1948";
+    let source = own("between half of Wong and Parker 2006 and twice Meyer-Peter and Mueller 1948").after();
     let gate = |Load { shields, rate, .. }: Load, what: &str| {
         let (high, low) = published(shields);
         let name = format!("{what}, Shields number {shields:.3}: rate over sqrt((s-1) g d^3)");
@@ -138,7 +140,7 @@ pub(super) fn rates(perturbation: f64) -> Result<Vec<Claim>, String> {
     let steady = |Load { shields, balance, .. }: Load, what: &str| {
         let name =
             format!("{what}, Shields number {shields:.3}: stress at the bed over weight of the water along the slope");
-        within(name, balance, 1.0, 0.05, "momentum of a steady stream: what drives it arrives at the bed")
+        within(name, balance, 1.0, 0.05, closed_form("momentum of a steady stream: what drives it arrives at the bed"))
     };
     let mut claims = Vec::new();
     for (kind, name) in [(Kind::Mean, "bedload, mean stream"), (Kind::Turbulent, "bedload, turbulent stream")] {

@@ -6,7 +6,7 @@ use tsubu::engine::{self, Engine};
 use tsubu::ledger::{Account, Ledger};
 use tsubu::methods;
 use tsubu::partner::Hosts;
-use tsubu_frame::{Claim, Frame, Kind, Values};
+use tsubu_frame::{Claim, Frame, Kind, Source, Values};
 use tsubu_scene::{Plan, Scene};
 
 /// The plan of a scene text that is part of the program.
@@ -162,28 +162,21 @@ pub(super) fn scalars(frame: &Frame, kind: Kind, name: &str) -> Vec<f64> {
 }
 
 /// A claim that a value is the expected one within a share of it.
-pub(super) fn near(name: impl Into<String>, value: f64, expected: f64, share: f64, source: &str) -> Claim {
+pub(super) fn near(name: impl Into<String>, value: f64, expected: f64, share: f64, source: Source) -> Claim {
     within(name, value, expected, share * expected.abs(), source)
 }
 
 /// A claim that a value is the expected one within a distance.
-pub(super) fn within(name: impl Into<String>, value: f64, expected: f64, distance: f64, source: &str) -> Claim {
+pub(super) fn within(name: impl Into<String>, value: f64, expected: f64, distance: f64, source: Source) -> Claim {
     Claim::judge(name, value, Some(expected - distance), Some(expected + distance), source)
 }
 
 /// A claim with two ends.
-pub(super) fn between(name: impl Into<String>, value: f64, low: f64, high: f64, source: &str) -> Claim {
+pub(super) fn between(name: impl Into<String>, value: f64, low: f64, high: f64, source: Source) -> Claim {
     Claim::judge(name, value, Some(low), Some(high), source)
 }
 
 /// A claim with a lower end.
-pub(super) fn at_least(name: impl Into<String>, value: f64, low: f64, source: &str) -> Claim {
+pub(super) fn at_least(name: impl Into<String>, value: f64, low: f64, source: Source) -> Claim {
     Claim::judge(name, value, Some(low), None, source)
-}
-
-/// A claim that something wrong on purpose is refused by at least so many of the same gates.
-pub(super) fn refused(what: &str, gates: &[Claim], least: u32) -> Claim {
-    let count = gates.iter().filter(|c| !c.pass).count();
-    let name = format!("wrong on purpose: {what}: gates that refuse it, of {}", gates.len());
-    Claim::judge(name, count as f64, Some(f64::from(least)), None, "a gate can fail (studies/README.md)")
 }

@@ -1,7 +1,9 @@
 //! Segregation under vertical shaking (V-38).
 
 use super::beds::{law, mean, sampled};
-use super::bench::{Rig, refused, within};
+use super::bench::{Rig, within};
+use super::control::refused;
+use crate::origin::own;
 use tsubu_frame::Claim;
 
 /// Acceleration of the shaken box over gravity, at an amplitude of one diameter.
@@ -71,7 +73,7 @@ fn heights(
 
 /// The gates, for a large grain and for what must fail them.
 fn rises(what: &str, [start, end]: [f64; 2]) -> [Claim; 2] {
-    let source = "Rosato et al. 1987, Knight et al. 1993: large grains rise and stay on top";
+    let source = own("Rosato et al. 1987, Knight et al. 1993: large grains rise and stay on top").after();
     // A grain that goes everywhere alike is at 1 on average; one on top of the bed at nearly 2.
     [
         Claim::judge(format!("{what}: height over the bed's mean at the start"), start, None, Some(0.4), source),
@@ -93,7 +95,7 @@ pub(super) fn brazil_nut(perturbation: f64) -> Result<Vec<Claim>, String> {
         order
     };
     let control = heights(1.0, 1, perturbation, lowest)?;
-    let source = "grains of equal size have no reason to rise";
+    let source = own("grains of equal size have no reason to rise").after();
     let name = "shaken bed, the 19 lowest of equal grains: height over the bed's mean after 90 shakes";
     claims.push(within(name, control[1], 1.0, 0.25, source));
     claims.push(refused("the grain no larger than the others", &rises("", control)[1..], 1));

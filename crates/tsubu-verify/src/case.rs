@@ -1,5 +1,6 @@
 //! What a verification case is.
 
+use crate::control;
 use tsubu_frame::{Claim, RunFolder};
 
 /// The claims of a case, or why it came to none.
@@ -18,7 +19,7 @@ pub struct Case {
     pub budget: u32,
     /// Shows where tsubu and its source differ: a claim fails, and the study says why. Never quick.
     pub gap: bool,
-    /// Runs it. The factor multiplies the constants of the contact law; 1 but in the tests that show that the
+    /// Runs it. The factor multiplies the constants of the contact law; 1 but in the runs that show that the
     /// claims can fail.
     pub run: fn(perturbation: f64) -> Judged,
     /// The same into a folder, where it leaves pictures and tables; `None`: claims are all there is.
@@ -41,10 +42,17 @@ impl Case {
 
     /// Runs the case, into a folder if there is one; its claims carry its study's name.
     pub fn claims(&self, folder: Option<&RunFolder>) -> Judged {
-        let claims = match (self.kept, folder) {
+        let mut claims = match (self.kept, folder) {
             (Some(kept), Some(folder)) => kept(folder)?,
             _ => (self.run)(1.0)?,
         };
+        control::attach(&mut claims);
         Ok(claims.into_iter().map(|c| c.of(self.study)).collect())
+    }
+
+    /// Its claims, each told whether it refuses the case's constants 5 % too small: by a second run.
+    pub fn with_controls(&self, mut claims: Vec<Claim>) -> Judged {
+        control::attach_spoilt(&mut claims, &(self.run)(control::SPOILT)?);
+        Ok(claims)
     }
 }

@@ -1,7 +1,9 @@
 //! Flow down a rough slope (V-35, V-36).
 
 use super::beds::{centres, law, sampled};
-use super::bench::{Rig, refused, within};
+use super::bench::{Rig, within};
+use super::control::refused;
+use crate::origin::{closed_form, own};
 use glam::DVec3;
 use std::fmt::Write;
 use tsubu_frame::Claim;
@@ -203,10 +205,10 @@ impl Flow {
     /// The gates, for a flow that is right and for wrong ones.
     fn gates(&self) -> Vec<Claim> {
         let name = |what: &str| format!("chute at {} degrees: {what}", self.degrees);
-        let source = "Silbert et al. 2001: steady flow from 19.5 to 26 degrees";
+        let source = own("Silbert et al. 2001: steady flow from 19.5 to 26 degrees").after();
         let top = self.between(self.height() - 1.0, f64::MAX).1;
-        let profile = "Bagnold's profile: mean over surface speed is 3/5; 1/2 for linear, 1 for a plug";
-        let bulk = "constant density with depth, but for the layers next to base and surface";
+        let profile = closed_form("Bagnold's profile: mean over surface speed is 3/5; 1/2 for linear, 1 for a plug");
+        let bulk = own("constant density with depth, but for the layers next to base and surface").after();
         let [least, largest] = self.density();
         vec![
             Claim::judge(name("speed over sqrt(g d)"), self.speed(), Some(0.5), None, source),
@@ -226,7 +228,7 @@ impl Flow {
 
 /// V-36: at rest below, steady flow of constant density with Bagnold's profile above the angle of repose.
 pub(super) fn silbert(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let source = "Silbert et al. 2001: flow from 19.5 to 26 degrees";
+    let source = own("Silbert et al. 2001: flow from 19.5 to 26 degrees").after();
     let base = base(perturbation)?;
     let slope = |degrees: f64, layers: f64, start: f64| Slope { degrees, layers, friction: 0.5, base: &base, start };
     let still = slope(17.0, 12.0, 1.0).flow([200.0, 220.0], perturbation)?;
@@ -238,14 +240,14 @@ pub(super) fn silbert(perturbation: f64) -> Result<Vec<Claim>, String> {
         let [lower, upper] = flow.inertial();
         let name =
             format!("chute at {} degrees: inertial number of the upper half of the bulk over the lower", flow.degrees);
-        let source = "mu(I): one slope, one inertial number at every depth";
+        let source = own("mu(I): one slope, one inertial number at every depth").after();
         claims.push(within(name, upper / lower, 1.0, 0.1, source));
     }
     let name = "chute: speed at 25 over speed at 22 degrees";
     claims.push(Claim::judge(name, steep.speed() / gentle.speed(), Some(1.2), None, source));
     let thin = slope(25.0, 12.0, 5.0).flow([200.0, 400.0], perturbation)?;
     let thick = slope(25.0, 40.0, 25.0).flow([400.0, 600.0], perturbation)?;
-    let source = "mean speed grows with height to the power 3/2; 1 for a plug, 2 for a viscous liquid";
+    let source = closed_form("mean speed grows with height to the power 3/2; 1 for a plug, 2 for a viscous liquid");
     for [low, high] in [[&thin, &steep], [&steep, &thick]] {
         let exponent = (high.speed() / low.speed()).ln() / (high.thickness() / low.thickness()).ln();
         let name = format!(
@@ -255,7 +257,7 @@ pub(super) fn silbert(perturbation: f64) -> Result<Vec<Claim>, String> {
         claims.push(within(name, exponent, 1.5, 0.25, source));
     }
     let name = "chute at 25 degrees, 40 layers: speed in the first half of the time over that of all";
-    claims.push(within(name, thick.early() / thick.speed(), 1.0, 0.1, source));
+    claims.push(within(name, thick.early() / thick.speed(), 1.0, 0.1, own("steady").after()));
     let smooth = Slope { base: &[], ..slope(22.0, 12.0, 5.0) }.flow([50.0, 150.0], 1.0)?;
     claims.push(refused("chute, a base that is a plane", &smooth.gates(), 1));
     let slippery = Slope { friction: 0.0, ..slope(22.0, 12.0, 5.0) }.flow([50.0, 150.0], 1.0)?;

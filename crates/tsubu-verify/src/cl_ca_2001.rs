@@ -13,7 +13,9 @@ pub(super) use plate::{plate, plate_twin};
 pub(super) use shaken::{convection, rise};
 
 use super::beds::line;
-use super::bench::{Rig, at_least, between, refused};
+use super::bench::{Rig, at_least, between};
+use super::control::{refused, refused_number};
+use crate::origin::{closed_form, own};
 use collapse::{collapsing, moved};
 use plate::PUSHED;
 use tsubu::clca::bed::Bed;
@@ -58,7 +60,7 @@ pub(super) fn pour(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (left, right) = (flank(-1), flank(1));
     let tops: Vec<f64> = surface.values().copied().collect();
     let angles: Vec<f64> = tops.windows(4).map(|t| ((t[3] - t[0]) / (3.0 * width)).atan().abs().to_degrees()).collect();
-    let source = "heaps of hexagons end between the lattice's 30 and 60 degrees";
+    let source = own("heaps of hexagons end between the lattice's 30 and 60 degrees").after();
     let gates = |left: f64, right: f64, angles: &[f64]| {
         let share = |of: &dyn Fn(f64) -> bool| {
             angles.iter().filter(|angle| of(**angle)).count() as f64 / angles.len().max(1) as f64
@@ -77,12 +79,12 @@ pub(super) fn pour(perturbation: f64) -> Result<Vec<Claim>, String> {
         ]
     };
     let mut claims = vec![
-        at_least("grains poured", grains.len() as f64, 600.0, "the scene"),
-        between("grains that still move", still, 0.0, 0.0, "the scene"),
+        at_least("grains poured", grains.len() as f64, 600.0, closed_form("the scene")),
+        between("grains that still move", still, 0.0, 0.0, closed_form("the scene")),
     ];
     claims.extend(gates(left, right, &angles));
     let any: Vec<f64> = (0..90).map(f64::from).collect();
-    claims.push(refused(
+    claims.push(refused_number(
         "flanks of 25 degrees, as of round grains, and a surface of every angle alike",
         &gates(25.0, 25.0, &any),
         4,
@@ -96,7 +98,7 @@ pub(super) fn invariants(perturbation: f64) -> Result<Vec<Claim>, String> {
     const STEPS: u64 = 400;
     let plate = super::bench::plan(include_str!("../../../studies/cl-ca-2001/plate.toml"))?;
     let scenes = [("active rule", collapsing("cl-ca", true, &[])?.plan, 0.6), ("passive rule", plate, PUSHED)];
-    let source = "every step";
+    let source = closed_form("every step");
     let mut claims = Vec::new();
     for (name, plan, begin) in scenes {
         let owned = name == "active rule";

@@ -1,6 +1,7 @@
 //! Pull-off forces (V-08).
 
 use super::bench::{Rig, near, vectors, within};
+use crate::origin::closed_form;
 use std::f64::consts::PI;
 use tsubu_frame::{Claim, Kind, Values};
 
@@ -94,10 +95,10 @@ pub(super) fn pull_off(perturbation: f64) -> Result<Vec<Claim>, String> {
         for (other, plane, reduced) in [("sphere", false, 0.5 * RADIUS), ("plane", true, RADIUS)] {
             let (force, residual) = lift(law, plane, perturbation)?;
             let closed = factor * PI * GAMMA * reduced;
-            let source = "Derjaguin, Muller, Toporov 1975; Johnson, Kendall, Roberts 1971";
+            let source = closed_form("Derjaguin, Muller, Toporov 1975; Johnson, Kendall, Roberts 1971");
             claims.push(near(format!("pull-off by {law}, sphere and {other} N"), force, closed, 2e-3, source));
             let name = format!("pull-off by {law}, sphere and {other}: energy residual at the default step");
-            claims.push(within(name, residual, 0.0, 1e-3, "conservation of energy"));
+            claims.push(within(name, residual, 0.0, 1e-3, closed_form("conservation of energy")));
         }
     }
     Ok(claims)

@@ -1,6 +1,7 @@
 //! Single contacts against closed forms.
 
 use super::bench;
+use crate::origin::closed_form;
 use tsubu::engine;
 use tsubu::ledger::Ledger;
 use tsubu::methods;
@@ -76,7 +77,7 @@ pub(super) fn restitution(perturbation: f64) -> Result<Vec<Claim>, String> {
                     value,
                     Some(e - 1e-3),
                     Some(e + 1e-3),
-                    "definition; coefficients: Antypov and Elliott 2011, Thornton et al. 2013",
+                    closed_form("definition; coefficients: Antypov and Elliott 2011, Thornton et al. 2013"),
                 ));
             }
         }

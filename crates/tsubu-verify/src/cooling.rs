@@ -1,6 +1,7 @@
 //! A gas of inelastic grains that cools (V-30).
 
 use super::bench::{Rig, near};
+use crate::origin::closed_form;
 use std::f64::consts::PI;
 use tsubu_frame::Claim;
 
@@ -81,7 +82,7 @@ pub(super) fn haff(perturbation: f64) -> Result<Vec<Claim>, String> {
                 rate += cooled / (rig.engine.time() - t) / first.sqrt() / f64::from(seeds);
             }
             let name = format!("cooling gas, {dimension}-D, restitution {restitution}: Haff's time");
-            claims.push(near(name, 1.0 / rate, haff, 0.05, "Haff 1983, closed form"));
+            claims.push(near(name, 1.0 / rate, haff, 0.05, closed_form("Haff 1983, closed form")));
         }
     }
     Ok(claims)

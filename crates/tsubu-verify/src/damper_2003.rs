@@ -7,8 +7,9 @@ pub(super) use cost::figure_12;
 pub(super) use shaken::figure_9;
 
 use super::bench;
+use crate::origin::{closed_form, own, printed};
 use tsubu::study::response::{CaseResult, curves};
-use tsubu_frame::Claim;
+use tsubu_frame::{Claim, Source};
 use tsubu_scene::Scene;
 
 const FIGURE_3: &str = include_str!("../../../studies/damper-2003/fig3-dem.toml");
@@ -33,7 +34,7 @@ fn peak(cases: &[CaseResult], count: usize) -> (f64, f64) {
 }
 
 /// What every DEM response must show: lower peaks with more balls, at the place of the added mass.
-fn dem_claims(name: &str, cases: &[CaseResult], source: &str) -> Vec<Claim> {
+fn dem_claims(name: &str, cases: &[CaseResult], source: Source<'_>) -> Vec<Claim> {
     let mut claims = Vec::new();
     for pair in [10, 30, 50].windows(2) {
         let ratio = peak(cases, pair[1]).1 / peak(cases, pair[0]).1;
@@ -53,14 +54,14 @@ fn dem_claims(name: &str, cases: &[CaseResult], source: &str) -> Vec<Claim> {
             ratio,
             Some(limit - 0.01),
             Some(limit + 0.01),
-            "added-mass limit; the paper: lower with more balls",
+            closed_form("added-mass limit; the paper: lower with more balls"),
         ));
         claims.push(Claim::judge(
             format!("{name}: peak rms with {count} over that of an inelastic lump"),
             rms / lump,
             Some(0.8),
             Some(1.25),
-            "order of magnitude (a calculation of ours)",
+            own("order of magnitude (a calculation of ours)").after(),
         ));
     }
     claims
@@ -69,26 +70,28 @@ fn dem_claims(name: &str, cases: &[CaseResult], source: &str) -> Vec<Claim> {
 /// A-F3a: literal DEM, wall friction 0.5.
 pub(super) fn figure_3a(perturbation: f64) -> Result<Vec<Claim>, String> {
     let cases = respond(FIGURE_3, &["response.vary.\"materials.casing.friction\"=[0.5]".to_owned()], perturbation)?;
-    Ok(dem_claims("DEM, wall friction 0.5", &cases, "figure 3a: more balls, lower peak"))
+    Ok(dem_claims("DEM, wall friction 0.5", &cases, printed("figure 3a: more balls, lower peak")))
 }
 
 /// A-F3b: literal DEM, wall friction 0.6.
 pub(super) fn figure_3b(perturbation: f64) -> Result<Vec<Claim>, String> {
     let cases = respond(FIGURE_3, &["response.vary.\"materials.casing.friction\"=[0.72]".to_owned()], perturbation)?;
-    Ok(dem_claims("DEM, wall friction 0.6", &cases, "figure 3b: more balls, lower peak"))
+    Ok(dem_claims("DEM, wall friction 0.6", &cases, printed("figure 3b: more balls, lower peak")))
 }
 
 /// A-F3 with rotation, tangential spring and constant restitution.
 pub(super) fn figure_3_extended(perturbation: f64) -> Result<Vec<Claim>, String> {
     let cases = respond(FIGURE_3_EXTENDED, &[], perturbation)?;
-    Ok(dem_claims("DEM, extended law", &cases, "figure 2 (experiment): more balls, lower peak"))
+    Ok(dem_claims("DEM, extended law", &cases, printed("figure 2 (experiment): more balls, lower peak")))
 }
 
 /// A-F11, literal: the peak falls and does not move down, which the authors name as the defect of their model.
 pub(super) fn figure_11_literal(perturbation: f64) -> Result<Vec<Claim>, String> {
     let changes = ["response.vary.\"lattice.mode\"=[\"literal\"]".to_owned(), "response.seeds=20".to_owned()];
     let cases = respond(FIGURE_11, &changes, perturbation)?;
-    let source = "figure 11: more balls, lower peak at a higher frequency (a defect of the model, says the paper)";
+    let source =
+        printed("figure 11: more balls, lower peak at a higher frequency (a defect of the model, says the paper)")
+            .after();
     let mut claims = Vec::new();
     for pair in [0, 10, 30, 50].windows(2) {
         let (before, after) = (peak(&cases, pair[0]), peak(&cases, pair[1]));
@@ -106,7 +109,7 @@ pub(super) fn figure_11_extended(perturbation: f64) -> Result<Vec<Claim>, String
     let extended = "response.vary.\"lattice.mode\"=[\"extended\"]".to_owned();
     let cases = respond(FIGURE_11, std::slice::from_ref(&extended), perturbation)?;
     let mut claims = Vec::new();
-    let source = "resting impulses bring the shift down";
+    let source = own("resting impulses bring the shift down").after();
     for pair in [0, 10, 30, 50].windows(2) {
         let (before, after) = (peak(&cases, pair[0]), peak(&cases, pair[1]));
         let name = format!("automaton, extended: peak with {} over peak with {}", pair[1], pair[0]);
@@ -128,7 +131,7 @@ pub(super) fn figure_11_extended(perturbation: f64) -> Result<Vec<Claim>, String
             peak(&cases, count as usize).0,
             Some(limit - 0.01),
             Some(limit + 0.01),
-            "added-mass limit at small amplitude",
+            closed_form("added-mass limit at small amplitude"),
         ));
     }
     Ok(claims)

@@ -1,6 +1,7 @@
 //! A ball dropped in a still box (Komatsuzaki 2003, figure 8).
 
 use super::bench;
+use crate::origin::{closed_form, digitised};
 use tsubu::engine::{self, Engine};
 use tsubu::ledger::Ledger;
 use tsubu::methods;
@@ -52,7 +53,7 @@ fn height(engine: &dyn Engine) -> f64 {
 }
 
 /// Height and time of apex k (from 1) of a point that falls from `DROP` and loses 1 - e of its speed at every impact.
-fn closed_form(k: i32, e: f64) -> (f64, f64) {
+fn bounces(k: i32, e: f64) -> (f64, f64) {
     let fall = (2.0 * DROP / GRAVITY).sqrt();
     let time: f64 = fall + (1..k).map(|i| 2.0 * e.powi(i) * fall).sum::<f64>() + e.powi(k) * fall;
     (DROP * e.powi(2 * k), time)
@@ -63,9 +64,9 @@ pub(super) fn dem(perturbation: f64) -> Result<Vec<Claim>, String> {
     let found = apexes(Method::Dem, perturbation, 4)?;
     let mut claims = Vec::new();
     for k in 1..=4 {
-        let (height, time) = closed_form(k, 0.75);
+        let (height, time) = bounces(k, 0.75);
         let (h, t) = found.get(k as usize - 1).copied().unwrap_or((f64::NAN, f64::NAN));
-        let source = "closed form h e^(2k); Komatsuzaki 2003, figure 8";
+        let source = closed_form("closed form h e^(2k); Komatsuzaki 2003, figure 8");
         claims.push(Claim::judge(
             format!("drop, DEM: apex {k} m"),
             h,
@@ -83,10 +84,10 @@ pub(super) fn lattice(perturbation: f64) -> Result<Vec<Claim>, String> {
     let found = apexes(Method::Lattice, perturbation, 4)?;
     let mut claims = Vec::new();
     for k in 1..=4 {
-        let (height, time) = closed_form(k, 0.75);
+        let (height, time) = bounces(k, 0.75);
         let (h, t) = found.get(k as usize - 1).copied().unwrap_or((f64::NAN, f64::NAN));
         let cells = (height / 6e-3).floor();
-        let source = "Komatsuzaki 2003, figure 8";
+        let source = digitised("Komatsuzaki 2003, figure 8");
         let reached = (h / 6e-3 + 1e-9).floor();
         claims.push(Claim::judge(
             format!("drop, automaton: apex {k} cells"),

@@ -1,6 +1,7 @@
 //! A rotating drum: where grains stay on the wall (V-37).
 
 use super::bench::{Rig, within};
+use crate::origin::closed_form;
 use tsubu_frame::Claim;
 
 const G: f64 = 9.8;
@@ -66,7 +67,7 @@ fn leaves(froude: f64, perturbation: f64) -> Result<Option<f64>, String> {
 /// number.
 pub(super) fn centrifuging(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
-    let source = "closed form w^2 R = g cos(angle)";
+    let source = closed_form("closed form w^2 R = g cos(angle)");
     for froude in [0.5f64, 0.7, 0.9, 0.98] {
         let found = leaves(froude, perturbation)?.unwrap_or(f64::NAN);
         let name = format!("drum at Froude number {froude}: angle before the top where a grain leaves");
@@ -75,7 +76,7 @@ pub(super) fn centrifuging(perturbation: f64) -> Result<Vec<Claim>, String> {
     for froude in [1.02, 1.2] {
         let stays = f64::from(u8::from(leaves(froude, 2.0 - perturbation)?.is_none()));
         let name = format!("drum at Froude number {froude}: whether a grain stays on the wall");
-        claims.push(within(name, stays, 1.0, 0.0, "closed form w^2 R >= g"));
+        claims.push(within(name, stays, 1.0, 0.0, closed_form("closed form w^2 R >= g")));
     }
     Ok(claims)
 }

@@ -1,7 +1,9 @@
 //! How the bed of a rotating drum moves, by its Froude number (V-37).
 
 use super::beds::{law, line, sampled};
-use super::bench::{Rig, refused, scalars};
+use super::bench::{Rig, scalars};
+use super::control::refused;
+use crate::origin::own;
 use glam::DVec3;
 use tsubu_frame::{Claim, Kind};
 
@@ -97,7 +99,7 @@ impl Bed {
 
     /// Rolling: a straight surface, nobody flies. Then an S, steep above; then a part of the bed is thrown; then all goes round.
     fn gates(&self, regime: Regime) -> Vec<Claim> {
-        let source = "regimes of Mellmann 2001, from memory; the bars are ours";
+        let source = own("regimes of Mellmann 2001, from memory; the bars are ours").after();
         let flying =
             |low, high| Claim::judge(self.name("share of the grains that fly"), self.flying, low, high, source);
         let bend = |low, high| {

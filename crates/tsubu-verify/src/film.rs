@@ -1,6 +1,8 @@
 //! Bodies that meet in a liquid (V-56).
 
-use super::bench::{Rig, near, refused, within};
+use super::bench::{Rig, near, within};
+use super::control::{refused, refused_number};
+use crate::origin::{closed_form, remembered};
 use std::f64::consts::PI;
 use tsubu::view::Wants;
 use tsubu_frame::Claim;
@@ -95,10 +97,10 @@ pub(super) fn rebounds(perturbation: f64) -> Result<Vec<Claim>, String> {
         let gate = |factor: f64| {
             let name = format!("a film on the way in, steps of {dt} s: speed it takes [m/s]");
             let wanted = factor * 6.0 * PI * 1e-3 * R * R / MOVED * takes();
-            near(name, lost, wanted, 0.01, "6 pi mu R*^2/m (ln(h_0/h_r) + 1), Reynolds 1886")
+            near(name, lost, wanted, 0.01, closed_form("6 pi mu R*^2/m (ln(h_0/h_r) + 1), Reynolds 1886"))
         };
         claims.push(gate(1.0));
-        claims.push(refused("the factor of two equal spheres", &[gate(0.25)], 1));
+        claims.push(refused_number("the factor of two equal spheres", &[gate(0.25)], 1));
     }
     let mut wet = |number: f64, stiffness: &str, rest: &str| {
         let found = rebound(viscosity(number), stiffness, rest, perturbation)?;
@@ -106,13 +108,20 @@ pub(super) fn rebounds(perturbation: f64) -> Result<Vec<Claim>, String> {
         Ok::<f64, String>(found.up / SPEED)
     };
     let name = |number: f64| format!("wet restitution, Stokes number {number}");
-    let published = "Joseph, Zenit, Hunt and Rosenwinkel 2001: none up to about 10, the dry one from about 1000 on";
+    let published =
+        remembered("Joseph, Zenit, Hunt and Rosenwinkel 2001: none up to about 10, the dry one from about 1000 on");
     claims.push(within(name(8.0), wet(8.0, hard, film)?, 0.0, 1e-9, published));
     for number in [30.0, 100.0] {
         let wanted = DRY - (1.0 + DRY) * takes() / number;
         let gate = |stiffness: &str, found: f64| {
             let name = format!("{}, {stiffness}", name(number));
-            within(name, found, wanted, 0.01, "e - (1 + e) (ln(h_0/h_r) + 1)/St: the film takes as much on both ways")
+            within(
+                name,
+                found,
+                wanted,
+                0.01,
+                closed_form("e - (1 + e) (ln(h_0/h_r) + 1)/St: the film takes as much on both ways"),
+            )
         };
         for stiffness in [hard, soft] {
             claims.push(gate(stiffness, wet(number, stiffness, film)?));
@@ -123,7 +132,7 @@ pub(super) fn rebounds(perturbation: f64) -> Result<Vec<Claim>, String> {
     let gate = |found: f64| Claim::judge(name(1000.0), found, Some(0.97 * DRY), Some(DRY), published);
     claims.push(gate(wet(1000.0, hard, film)?));
     claims.push(refused("a film ten times as viscous", &[gate(wet(100.0, hard, film)?)], 1));
-    let source = "the ledger closes to 1e-3";
+    let source = closed_form("the ledger closes to 1e-3");
     claims.push(Claim::judge("energy that the books of these impacts miss", missing, None, Some(1e-3), source));
     Ok(claims)
 }

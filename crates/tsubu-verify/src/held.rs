@@ -2,6 +2,7 @@
 
 use super::bench::{Rig, near, within};
 use super::throw::Throw;
+use crate::origin::{closed_form, own};
 use tsubu_frame::Claim;
 
 const MASS: f64 = 1e-3;
@@ -60,7 +61,7 @@ fn squeezed(ratio: f64, share: f64, perturbation: f64) -> Result<Rig, String> {
 /// it is too heavy.
 pub(super) fn three_spheres(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
-    let source = "statics; after the three spheres of Vyas et al. 2025";
+    let source = closed_form("statics; after the three spheres of Vyas et al. 2025");
     for ratio in [1.0, 3.0, 10.0, 30.0, 100.0] {
         let (press, stiffness) = pinch(ratio);
         let sag = 0.45 * FRICTION * press / stiffness;
@@ -91,7 +92,7 @@ pub(super) fn three_spheres(perturbation: f64) -> Result<Vec<Claim>, String> {
         rig.steps(20_000)?;
         let fell = -rig.vector("position", 0).z / RADIUS;
         let name = format!("three spheres, ratio {ratio}: fall at 1.03 of the limit, in radii");
-        claims.push(Claim::judge(name, fell, Some(0.1), None, source));
+        claims.push(Claim::judge(name, fell, Some(0.1), None, own("beyond the limit it falls").after()));
     }
     Ok(claims)
 }
@@ -108,7 +109,7 @@ pub(super) fn no_slip(perturbation: f64) -> Result<Vec<Claim>, String> {
             let value = (seen.velocity[0] - seen.spin * throw.radius) / 0.5;
             let closed = (std::f64::consts::PI * (inverse * ratio).sqrt()).cos();
             let name = format!("linear spring, {name}, k_t/k_n = {ratio:.4}: tangential restitution");
-            claims.push(within(name, value, closed, 2e-3, "closed form"));
+            claims.push(within(name, value, closed, 2e-3, closed_form("closed form")));
         }
     }
     Ok(claims)

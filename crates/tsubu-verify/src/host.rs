@@ -1,6 +1,7 @@
 //! Structures: loss factor by three ways, and the added mass of a bed that stays on the floor.
 
 use super::bench;
+use crate::origin::{closed_form, own};
 use tsubu::interrupt::Interrupt;
 use tsubu::study::response::{CaseResult, Point, measure};
 use tsubu::study::ring_down::ring_down;
@@ -51,7 +52,7 @@ pub(super) fn loss_factor(perturbation: f64) -> Result<Vec<Claim>, String> {
     // Energy falls by exp(-2 pi eta) a cycle.
     let decay = cycles.windows(2).map(|w| 2.0 * (w[0].amplitude / w[1].amplitude).ln() / std::f64::consts::TAU);
     let rung = decay.sum::<f64>() / (cycles.len() - 1) as f64;
-    let source = "2 zeta = C / sqrt(K M)";
+    let source = closed_form("2 zeta = C / sqrt(K M)");
     let claim = |name: &str, value| {
         Claim::judge(
             format!("loss factor of the empty structure, {name}"),
@@ -71,17 +72,21 @@ pub(super) fn loss_factor(perturbation: f64) -> Result<Vec<Claim>, String> {
             peak,
             Some(0.99 * 40.736),
             Some(1.01 * 40.736),
-            "closed form",
+            closed_form("closed form"),
         ),
     ])
 }
 
-/// V-65 and: a bed that never leaves the floor rings with the structure at f0 / sqrt(1 + N m / M).
-pub(super) fn added_mass(_spoiler: f64) -> Result<Vec<Claim>, String> {
+/// V-65 and: a bed that never leaves the floor rings with the structure at f0 / sqrt(1 + N m / M). The perturbation multiplies
+/// the mass of the balls.
+pub(super) fn added_mass(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
     for count in [10usize, 30, 50] {
         let mut plan = bench::plan(DAMPER)?;
         set_count(&mut plan, count);
+        for group in plan.particles.values_mut() {
+            group.mass *= perturbation;
+        }
         let mass = 0.2e-3 * count as f64;
         let sag = -mass * 10.0 / K;
         plan.dem.time_step = Some(1e-5);
@@ -93,7 +98,7 @@ pub(super) fn added_mass(_spoiler: f64) -> Result<Vec<Claim>, String> {
         let period = cycles.iter().map(|c| c.period).sum::<f64>() / cycles.len() as f64;
         let ratio = 1.0 / (period * frequency());
         let limit = 1.0 / (1.0 + mass / M).sqrt();
-        let source = "f / f0 = 1 / sqrt(1 + N m / M)";
+        let source = closed_form("f / f0 = 1 / sqrt(1 + N m / M)");
         claims.push(Claim::judge(
             format!("frequency ratio with {count} balls at rest"),
             ratio,
@@ -133,7 +138,7 @@ pub(super) fn loss_factor_with_grains(_spoiler: f64) -> Result<Vec<Claim>, Strin
         );
     }
     let rung = losses.iter().sum::<f64>() / losses.len() as f64;
-    let source = "two ways to one number: driven at the peak, and ringing down through the same amplitude";
+    let source = own("two ways to one number: driven at the peak, and ringing down through the same amplitude").after();
     Ok(vec![Claim::judge(
         "loss factor with 30 balls, ring-down over driven",
         rung / driven,

@@ -1,6 +1,7 @@
 //! The single-ball impact damper (V-60).
 
 use super::bench;
+use crate::origin::closed_form;
 use tsubu::engine;
 use tsubu::ledger::Ledger;
 use tsubu::methods;
@@ -39,7 +40,7 @@ pub(super) fn symmetric(perturbation: f64) -> Result<Vec<Claim>, String> {
         touching = touches;
     }
     let rms = (squares / measure as f64).sqrt();
-    let source = "closed form of two symmetric impacts per cycle, after Masri and Caughey";
+    let source = closed_form("closed form of two symmetric impacts per cycle, after Masri and Caughey");
     let near = |value: f64, share: f64| (Some(value * (1.0 - share)), Some(value * (1.0 + share)));
     let ((a, b), (c, d)) = (near(4.08361e-3, 0.005), near(2.86894e-3, 0.005));
     Ok(vec![

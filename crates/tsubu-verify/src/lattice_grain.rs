@@ -2,7 +2,9 @@
 //!
 //! The perturbation multiplies restitution.
 
-use super::bench::{refused, within};
+use super::bench::within;
+use super::control::{refused, refused_number};
+use crate::origin::{closed_form, own};
 use tsubu::lattice::grid::Grid;
 use tsubu::lattice::gutt_haff::{Grain, LatticeGrains};
 use tsubu::random::{Purpose, unit, words};
@@ -58,7 +60,7 @@ fn drop_gates(name: &str, found: &[(f64, f64)]) -> Vec<Claim> {
     for k in 1..=8 {
         let (height, time) = found.get(k - 1).copied().unwrap_or((f64::NAN, f64::NAN));
         let closed = fall * (1.0 + 2.0 * (1..k as i32).map(|i| e.powi(i)).sum::<f64>() + e.powi(k as i32));
-        let source = "closed form h e^(2k); Komatsuzaki 2003, figure 8, has four";
+        let source = closed_form("closed form h e^(2k); Komatsuzaki 2003, figure 8, has four");
         let share = height / (drop * e.powi(2 * k as i32));
         claims.push(within(format!("{name}: apex {k} over closed form"), share, 1.0, 0.04, source));
         claims.push(within(format!("{name}: time of apex {k} over closed form"), time / closed, 1.0, 0.01, source));
@@ -89,7 +91,13 @@ fn free_fall() -> Result<Claim, String> {
         let closed = start - 0.5 * GRAVITY * (f64::from(step) * dt).powi(2);
         worst = worst.max((height(&model, 0) - closed).abs() / SPACING);
     }
-    Ok(within("lattice grain: free fall, worst distance from g t^2/2 in spacings", worst, 0.0, 1e-12, "closed form"))
+    Ok(within(
+        "lattice grain: free fall, worst distance from g t^2/2 in spacings",
+        worst,
+        0.0,
+        1e-12,
+        closed_form("closed form"),
+    ))
 }
 
 /// Momentum of a gas in a box, what walls got counted; how much the energy falls.
@@ -127,10 +135,10 @@ fn gas(perturbation: f64) -> Result<Vec<Claim>, String> {
             off,
             0.0,
             1e-11,
-            "conserved",
+            closed_form("conserved"),
         )
     };
-    Ok(vec![gate([0.0; 2]), refused("collisions that lose 1e-9 of momentum", &[gate(missing)], 1)])
+    Ok(vec![gate([0.0; 2]), refused_number("collisions that lose 1e-9 of momentum", &[gate(missing)], 1)])
 }
 
 /// Load on the floor of a silo of ten columns, in rows of weight: the mean of the second half of a run.
@@ -166,7 +174,7 @@ pub(super) fn janssen(perturbation: f64) -> Result<Vec<Claim>, String> {
     for rows in heights {
         loads.push(floor_load(rows, 0.5 * perturbation)?);
     }
-    let source = "Janssen 1895: the weight of what lies higher than a few widths goes to the walls";
+    let source = own("Janssen 1895: the weight of what lies higher than a few widths goes to the walls").after();
     let gate = |low: f64, high: f64| {
         Claim::judge(
             "lattice grains in a silo: floor load at 40 rows over that at 20",
@@ -182,7 +190,7 @@ pub(super) fn janssen(perturbation: f64) -> Result<Vec<Claim>, String> {
             loads[2].1 / 40.0,
             1.0,
             0.01,
-            "balance of forces",
+            closed_form("balance of forces"),
         ),
         Claim::judge(
             "lattice grains in a silo: floor load over weight, 10 rows",
@@ -192,6 +200,6 @@ pub(super) fn janssen(perturbation: f64) -> Result<Vec<Claim>, String> {
             source,
         ),
         gate(loads[1].0, loads[2].0),
-        refused("water", &[gate(20.0, 40.0)], 1),
+        refused_number("water", &[gate(20.0, 40.0)], 1),
     ])
 }

@@ -11,11 +11,13 @@ mod cl_ca_2001;
 mod cohesion;
 mod common_test;
 mod contact;
+mod control;
 mod cooling;
 mod damper_2003;
 mod drop;
 mod drum;
 mod drum_regimes;
+mod ensemble;
 mod film;
 mod held;
 mod host;
@@ -25,6 +27,7 @@ mod lattice_review;
 mod lump;
 mod open_dem_benchmark;
 mod orifice;
+mod origin;
 mod outlet;
 mod pile_stress;
 mod pile_twin;
@@ -43,8 +46,11 @@ mod stack;
 mod throw;
 mod voids;
 mod water;
+#[cfg(test)]
+mod without;
 
 pub use case::{Case, Judged};
+pub use control::is_missing as lacks_control;
 pub use recorded::recorded;
 pub use registry::CASES;
 

@@ -1,6 +1,7 @@
 //! V-48: the two checks of a single contact in the comparison of open-source codes by Dosta et al. 2024.
 
 use super::bench::{Rig, near, plan, within};
+use crate::origin::{closed_form, printed};
 use glam::DVec3;
 use tsubu_frame::Claim;
 
@@ -19,8 +20,8 @@ pub(super) fn rebound(perturbation: f64) -> Result<Vec<Claim>, String> {
     let speed = rig.vector("velocity", 0).z;
     let books = rig.residual();
     Ok(vec![
-        near("rebound of M1 on steel m/s", speed, 0.4, 0.01, "Dosta et al. 2024, restitution of the pair"),
-        within("rebound of M1 on steel: energy residual", books, 0.0, 1e-3, "conservation of energy"),
+        near("rebound of M1 on steel m/s", speed, 0.4, 0.01, printed("Dosta et al. 2024, restitution of the pair")),
+        within("rebound of M1 on steel: energy residual", books, 0.0, 1e-3, closed_form("conservation of energy")),
     ])
 }
 
@@ -36,10 +37,10 @@ pub(super) fn roll(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (time, speed) = (rig.engine.time(), rig.speed());
     // Right-handed about y, which points into the picture: rolling to the right turns about +y.
     let surface = (DVec3::X * speed + rig.vector("spin", 0).cross(DVec3::NEG_Z * radius)).x;
-    let source = "closed form 5/7 g sin";
+    let source = closed_form("closed form 5/7 g sin");
     Ok(vec![
         near("start of rolling: acceleration m/s^2", speed / time, 5.0 / 7.0 * pull, 1e-3, source),
         within("start of rolling: slip over speed", surface / speed, 0.0, 1e-3, source),
-        within("start of rolling: energy residual", rig.residual(), 0.0, 1e-3, "conservation of energy"),
+        within("start of rolling: energy residual", rig.residual(), 0.0, 1e-3, closed_form("conservation of energy")),
     ])
 }

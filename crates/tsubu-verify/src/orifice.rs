@@ -1,8 +1,10 @@
 //! Silos in space that empty through a round hole (V-31).
 
 use super::beds::{law, mean};
-use super::bench::{Rig, refused, within};
+use super::bench::{Rig, within};
+use super::control::refused_number;
 use super::outlet::Fit;
+use crate::origin::{own, remembered};
 use glam::DVec3;
 use tsubu_frame::Claim;
 
@@ -111,7 +113,7 @@ fn density(centres: &[DVec3], radius: f64) -> f64 {
 
 /// The gates, for the right law and for wrong ones.
 fn gates(fit: &Fit) -> [Claim; 2] {
-    let source = "Beverloo 1961: exponent 5/2, k between 1.2 and 2";
+    let source = remembered("Beverloo 1961: exponent 5/2, k between 1.2 and 2");
     [
         Claim::judge(
             "hole: width k at which the flow would end, in diameters",
@@ -135,18 +137,18 @@ pub(super) fn beverloo(perturbation: f64) -> Result<Vec<Claim>, String> {
         let half = |spans: std::ops::Range<usize>| {
             all.iter().flat_map(|run| &run.rates[spans.clone()]).map(|rate| 1.0 / rate).sum::<f64>()
         };
-        let source = "Beverloo 1961: the rate does not know the height";
+        let source = remembered("Beverloo 1961: the rate does not know the height");
         let name = format!("hole of {hole} d: rate of the lower over that of the higher half");
         claims.push(within(name, half(0..SPANS / 2) / half(SPANS / 2..SPANS), 1.0, 0.1, source));
-        let source = "steady within 3 %, or the fits below say nothing; not a reference";
+        let source = own("steady within 3 %, or the fits below say nothing; not a reference").after();
         let name = format!("hole of {hole} d: standard error of the rate, over the rate");
         claims.push(Claim::judge(name, error / time, None, Some(0.03), source));
         let density = all.iter().map(|run| run.density).sum::<f64>() / f64::from(silos);
-        let source = "beds of frictional spheres at rest: between loosest and closest random packing";
+        let source = own("beds of frictional spheres at rest: between loosest and closest random packing").after();
         let name = format!("hole of {hole} d: share of the volume that grains fill");
         claims.push(within(name, density * VOLUME, 0.6, 0.045, source));
         // W = C rho sqrt(g) (D - k d)^2.5 with the density of the bed at rest.
-        let source = "Beverloo 1961: C about 0.58; a tenth either way is ours";
+        let source = remembered("Beverloo 1961: C about 0.58; a tenth either way is ours");
         let constant = 1.0 / time / (density * (hole - 1.4).powf(2.5));
         claims.push(within(format!("hole of {hole} d: C, with k = 1.4"), constant, 0.58, 0.06, source));
         points.push([hole * perturbation, 1.0 / time, error / (time * time)]);
@@ -155,13 +157,13 @@ pub(super) fn beverloo(perturbation: f64) -> Result<Vec<Claim>, String> {
     let fit = Fit::of(&points, 2.5, 1.4);
     claims.extend(gates(&fit));
     let density = mean(&densities).0;
-    let source = "Beverloo 1961: C about 0.58; a tenth either way is ours";
+    let source = remembered("Beverloo 1961: C about 0.58; a tenth either way is ours");
     claims.push(within("hole: C, with the k of the fit", fit.constant[0] / density, 0.58, 0.06, source));
-    let source = "half of what the claim allows; not a reference";
+    let source = own("half of what the claim allows; not a reference").after();
     claims.push(Claim::judge("hole: standard error of k", fit.end[1], None, Some(0.2), source));
     claims.push(Claim::judge("hole: standard error of the exponent", fit.exponent[1], None, Some(0.05), source));
     claims.push(Claim::judge("hole: standard error of that C", fit.constant[1] / density, None, Some(0.03), source));
-    claims.push(refused("hole, the whole width without k d", &gates(&Fit::of(&points, 2.5, 0.0))[1..], 1));
-    claims.push(refused("hole, the exponent 3/2 of slots", &gates(&Fit::of(&points, 1.5, 1.4))[..1], 1));
+    claims.push(refused_number("hole, the whole width without k d", &gates(&Fit::of(&points, 2.5, 0.0))[1..], 1));
+    claims.push(refused_number("hole, the exponent 3/2 of slots", &gates(&Fit::of(&points, 1.5, 1.4))[..1], 1));
     Ok(claims)
 }

@@ -1,7 +1,9 @@
 //! Silos in the plane that empty through a slot (V-31).
 
 use super::beds::{law, line, mean};
-use super::bench::{Rig, refused, within};
+use super::bench::{Rig, within};
+use super::control::refused_number;
+use crate::origin::{own, remembered};
 use std::fmt::Write;
 use tsubu_frame::Claim;
 
@@ -119,7 +121,7 @@ impl Fit {
 
     /// The gates, for the right law and for wrong ones.
     fn claims(&self) -> [Claim; 2] {
-        let source = "Beverloo 1961 in the plane, exponent 3/2";
+        let source = remembered("Beverloo 1961 in the plane, exponent 3/2");
         let name = "slot: width k at which the flow would end, in diameters";
         [
             Claim::judge(name, self.end[0], Some(1.2), Some(2.0), source),
@@ -151,7 +153,7 @@ pub(super) fn beverloo(perturbation: f64) -> Result<Vec<Claim>, String> {
             all.iter().flat_map(|silo| &silo[spans.clone()]).map(|rate| 1.0 / rate).sum::<f64>()
         };
         let later = half(0..SPANS / 2) / half(SPANS / 2..SPANS);
-        let source = "Beverloo 1961: the rate does not know the height";
+        let source = remembered("Beverloo 1961: the rate does not know the height");
         claims.push(within(
             format!("slot of {slot} d: rate at half the height over rate before"),
             later,
@@ -159,17 +161,17 @@ pub(super) fn beverloo(perturbation: f64) -> Result<Vec<Claim>, String> {
             0.1,
             source,
         ));
-        let source = "steady within 3 %, or the fits below say nothing; not a reference";
+        let source = own("steady within 3 %, or the fits below say nothing; not a reference").after();
         let name = format!("slot of {slot} d: standard error of the rate, over the rate");
         claims.push(Claim::judge(name, error / time, None, Some(0.03), source));
         points.push([slot * perturbation, 1.0 / time, error / (time * time)]);
     }
     let fit = Fit::of(&points, 1.5, 1.4);
     claims.extend(fit.claims());
-    let source = "half of what the claim allows; not a reference";
+    let source = own("half of what the claim allows; not a reference").after();
     claims.push(Claim::judge("slot: standard error of k", fit.end[1], None, Some(0.2), source));
     claims.push(Claim::judge("slot: standard error of the exponent", fit.exponent[1], None, Some(0.05), source));
-    claims.push(refused("slot, the whole width without k d", &Fit::of(&points, 1.5, 0.0).claims()[1..], 1));
-    claims.push(refused("slot, the exponent 5/2 of round holes", &Fit::of(&points, 2.5, 1.4).claims()[..1], 1));
+    claims.push(refused_number("slot, the whole width without k d", &Fit::of(&points, 1.5, 0.0).claims()[1..], 1));
+    claims.push(refused_number("slot, the exponent 5/2 of round holes", &Fit::of(&points, 2.5, 1.4).claims()[..1], 1));
     Ok(claims)
 }

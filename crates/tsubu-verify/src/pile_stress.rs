@@ -2,7 +2,9 @@
 //!
 //! The perturbation multiplies what the grains weigh below the middle of the pile.
 
-use super::bench::{refused, within};
+use super::bench::within;
+use super::control::{refused, refused_number};
+use crate::origin::{closed_form, own};
 use tsubu::lattice::hemmingsson_herrmann::{Pile, Rule, Split};
 use tsubu::lattice::sheet::{Layout, Sheet, WALL};
 use tsubu_frame::Claim;
@@ -46,7 +48,7 @@ pub(super) fn base(sheet: Sheet, rule: Rule, seed: u64, perturbation: f64) -> (V
 /// Gates on the base of a pile without friction.
 fn flat(name: &str, loads: &[[f64; 2]]) -> Vec<Claim> {
     let size = loads.len() as f64;
-    let source = "closed form: (N+1) w/2 down, (N+1-2i) w/2 tan 30 outwards";
+    let source = closed_form("closed form: (N+1) w/2 down, (N+1-2i) w/2 tan 30 outwards");
     let down = loads.iter().map(|l| (l[1] / (0.5 * (size + 1.0)) - 1.0).abs()).fold(0.0, f64::max);
     let level = |i: usize, x: f64| (x + 0.5 * (size - 1.0 - 2.0 * i as f64) / 3.0_f64.sqrt()).abs();
     let out = loads.iter().enumerate().map(|(i, l)| level(i, l[0])).fold(0.0, f64::max);
@@ -88,7 +90,7 @@ pub(super) fn pile(perturbation: f64) -> Result<Vec<Claim>, String> {
             carried(rule),
             1.0,
             1e-12,
-            "balance of forces",
+            closed_form("balance of forces"),
         ));
     }
     claims.extend(flat("pile, frictionless", &base(triangle(size), BALANCE, 1, perturbation).0));
@@ -100,12 +102,12 @@ pub(super) fn pile(perturbation: f64) -> Result<Vec<Claim>, String> {
             dip,
             Some(0.2),
             None,
-            "arching carries load outwards",
+            own("arching carries load outwards").after(),
         )
     };
     let none = dip(BALANCE, perturbation);
     claims.push(gate(dip(Rule { arching: 0.5, ..BALANCE }, 1.0)));
-    claims.push(within("pile, no arching: dip", none, 0.0, 1e-12, "closed form: flat"));
+    claims.push(within("pile, no arching: dip", none, 0.0, 1e-12, closed_form("closed form: flat")));
     claims.push(refused("no arching", &[gate(none)], 1));
     Ok(claims)
 }
@@ -141,14 +143,16 @@ fn q_model(perturbation: f64) -> Vec<Claim> {
     let inner: Vec<f64> = loads[100..loads.len() - 100].iter().map(|l| l[1]).collect();
     let mean = inner.iter().sum::<f64>() / inner.len() as f64;
     let variance = inner.iter().map(|x| (x / mean - 1.0).powi(2)).sum::<f64>() / inner.len() as f64;
-    let source = "closed recursion for second moments; the limit 1/2 is reached slowly (Coppersmith and others 1996)";
+    let source = closed_form(
+        "closed recursion for second moments; the limit 1/2 is reached slowly (Coppersmith and others 1996)",
+    );
     let mut claims = vec![
         within(
             "pile, random shares: mean load over rows of weight",
             mean / depth as f64,
             1.0,
             0.01,
-            "balance of forces",
+            closed_form("balance of forces"),
         ),
         within("pile, random shares: variance at depth 200", variance, exact_variance(depth), 0.02, source),
     ];
@@ -158,11 +162,11 @@ fn q_model(perturbation: f64) -> Vec<Claim> {
             .map(|x: f64| {
                 let closed = 1.0 - (1.0 + 2.0 * x) * (-2.0 * x).exp();
                 let name = format!("pile, random shares: share of grains below {x} of the mean load");
-                within(name, share(x, of), closed, 0.03, "closed form: P(x) = 4 x exp(-2x)")
+                within(name, share(x, of), closed, 0.03, closed_form("closed form: P(x) = 4 x exp(-2x)"))
             })
             .to_vec()
     };
     claims.extend(gates(&inner));
-    claims.push(refused("equal shares", &gates(&vec![mean; 100]), 3));
+    claims.push(refused_number("equal shares", &gates(&vec![mean; 100]), 3));
     claims
 }

@@ -3,8 +3,10 @@
 //! First the very same pile: discs without friction in the rows of the automaton. Then a heap that was poured, beside a pile
 //! of its slope. The perturbation multiplies what the grains of the automaton weigh below the middle.
 
-use super::bench::{Rig, at_least, between, refused, within};
+use super::bench::{Rig, at_least, between, within};
+use super::control::{refused, refused_number};
 use super::pile_stress::{BALANCE, base};
+use crate::origin::{closed_form, own};
 use std::fmt::Write as _;
 use tsubu::lattice::hemmingsson_herrmann::{Rule, Split};
 use tsubu::lattice::sheet::{Layout, Sheet};
@@ -72,7 +74,7 @@ fn same() -> Result<Vec<[f64; 2]>, String> {
 /// Gates on the lowest row of a pile without friction, whose contacts lean by a tangent.
 fn flat(name: &str, loads: &[[f64; 2]], tangent: f64) -> Vec<Claim> {
     let size = loads.len() as f64;
-    let source = "closed form, any lean: (N+1) w/2 down, (N+1-2i) w/2 times its tangent outwards";
+    let source = closed_form("closed form, any lean: (N+1) w/2 down, (N+1-2i) w/2 times its tangent outwards");
     let down = loads.iter().map(|l| (l[1] / (0.5 * (size + 1.0)) - 1.0).abs()).fold(0.0, f64::max);
     let level = |i: usize, x: f64| (x + 0.5 * (size - 1.0 - 2.0 * i as f64) * tangent).abs() / (0.5 * size * tangent);
     let out = loads.iter().enumerate().map(|(i, l)| level(i, l[0])).fold(0.0, f64::max);
@@ -239,7 +241,7 @@ pub(super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = flat("the same pile by DEM", &loads, tangent);
     let tilted: Vec<[f64; 2]> =
         loads.iter().enumerate().map(|(i, l)| [l[0], l[1] * (1.0 + 0.002 * i as f64)]).collect();
-    claims.push(refused("loads that grow by 0.2 % a grain from left to right", &flat("", &tilted, tangent), 1));
+    claims.push(refused_number("loads that grow by 0.2 % a grain from left to right", &flat("", &tilted, tangent), 1));
     let poured = (1..=5).map(poured).collect::<Result<Vec<Heap>, String>>()?;
     let slope = poured.iter().map(Heap::tangent).sum::<f64>() / poured.len() as f64;
     let size = poured.iter().map(|heap| heap.floor.len()).sum::<usize>() / poured.len();
@@ -255,10 +257,16 @@ pub(super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
         dem.total,
         1.0,
         0.01,
-        "balance of forces: at rest",
+        closed_form("balance of forces: at rest"),
     ));
-    claims.push(within("pile of its slope: base load over weight", balance.total, 1.0, 1e-9, "balance of forces"));
-    let twin = "five heaps of 600 discs poured by DEM; a third either way";
+    claims.push(within(
+        "pile of its slope: base load over weight",
+        balance.total,
+        1.0,
+        1e-9,
+        closed_form("balance of forces"),
+    ));
+    let twin = own("five heaps of 600 discs poured by DEM; a third either way").after();
     let spread = |name: &str, of: &Carried| {
         between(format!("{name}: spread of base loads over that by DEM"), of.spread / dem.spread, 0.67, 1.5, twin)
     };
@@ -267,7 +275,7 @@ pub(super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
         each.map(|(end, (share, dem))| {
             let mut text = name.to_owned();
             let _ = write!(text, ": share of base loads below {end} of their neighbours' mean, less that by DEM");
-            within(text, share - dem, 0.0, 0.1, "five heaps of 600 discs poured by DEM; 0.1 either way")
+            within(text, share - dem, 0.0, 0.1, own("five heaps of 600 discs poured by DEM; 0.1 either way").after())
         })
         .collect()
     };
@@ -278,21 +286,20 @@ pub(super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
     wrong.push(spread("", &balance));
     claims.push(refused("a balance in which neighbours carry alike", &wrong, 2));
     let profile = |name: &str, of: &Carried| {
-        let heaps = "five heaps of 600 discs poured by DEM";
         [
             between(
                 format!("{name}: load round the axis over the weight above it, over the same by DEM"),
                 of.axis / dem.axis,
                 0.8,
                 1.25,
-                &format!("{heaps}; a quarter either way"),
+                own("five heaps of 600 discs poured by DEM; a quarter either way").after(),
             ),
             within(
                 format!("{name}: dip over the mean load, less that by DEM"),
                 of.dip - dem.dip,
                 0.0,
                 0.2,
-                &format!("{heaps}; 0.2 either way"),
+                own("five heaps of 600 discs poured by DEM; 0.2 either way").after(),
             ),
         ]
     };
@@ -304,7 +311,7 @@ pub(super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
         "poured heap by DEM: dip over the mean load",
         dem.dip,
         0.1,
-        "heaps of sand poured from a point have one (what the automata were made for)",
+        own("heaps of sand poured from a point have one (what the automata were made for)").after(),
     ));
     Ok(claims)
 }

@@ -1,6 +1,8 @@
 //! Impacts that leave a dent: Luding's hysteretic law against its closed forms.
 
-use super::bench::{Rig, near, refused, within};
+use super::bench::{Rig, near, within};
+use super::control::refused;
+use crate::origin::closed_form;
 use tsubu_frame::Claim;
 
 const MASS: f64 = 1e-5;
@@ -85,7 +87,7 @@ fn closed(adhesion: f64, speed: f64) -> (f64, f64) {
 /// Luding 2008: an impact without adhesion returns sqrt(k1/k2), k2 of its depth; with adhesion slow and fast ones come back and
 /// those between stay; the strongest pull is kc d_min.
 pub(super) fn dent(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let source = "Luding 2008, by the areas under his forces";
+    let source = closed_form("Luding 2008, by the areas under his forces");
     let (mut claims, mut simple) = (Vec::new(), Vec::new());
     for adhesion in [0.0, 0.5] {
         for speed in [0.05, 0.15, 0.4, 1.0] {
@@ -104,7 +106,7 @@ pub(super) fn dent(perturbation: f64) -> Result<Vec<Claim>, String> {
                 found.residual,
                 0.0,
                 1e-4,
-                "conservation of energy",
+                closed_form("conservation of energy"),
             ));
         }
     }

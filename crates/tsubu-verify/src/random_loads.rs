@@ -1,6 +1,7 @@
 //! Random loads on a lattice: the q-model (V-40).
 
 use super::bench::within;
+use crate::origin::{closed_form, other_program};
 use tsubu::random::{Purpose, unit, words};
 use tsubu_frame::Claim;
 
@@ -30,9 +31,10 @@ pub(super) fn q_model(perturbation: f64) -> Result<Vec<Claim>, String> {
     let row = loads(perturbation);
     let total: f64 = row.iter().sum();
     let mean = DEPTH as f64;
-    let source = "Coppersmith, Liu, Majumdar, Narayan, Witten 1996, mean field; independent calculation";
+    let source = other_program("Coppersmith, Liu, Majumdar, Narayan, Witten 1996, mean field; independent calculation");
     let name = "random loads: weight carried over weight";
-    let mut claims = vec![within(name, total / (mean * WIDTH as f64), 1.0, 1e-12, "conservation of weight")];
+    let mut claims =
+        vec![within(name, total / (mean * WIDTH as f64), 1.0, 1e-12, closed_form("conservation of weight"))];
     let variance = row.iter().map(|x| (x / mean - 1.0).powi(2)).sum::<f64>() / WIDTH as f64;
     claims.push(within("random loads: variance at depth 1500 over mean squared", variance, 0.467, 0.012, source));
     for x in [0.5, 1.0, 2.0, 3.0] {

@@ -16,7 +16,8 @@ pub fn recorded(case: &str) -> Vec<Claim> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::CASES;
+    use crate::{CASES, control, without};
+    use tsubu_frame::Origin;
 
     /// A case that was renamed would leave claims of nobody behind.
     #[test]
@@ -34,6 +35,36 @@ mod tests {
                 let high = claim.high.is_none_or(|high| claim.value <= high);
                 assert_eq!(claim.pass, low && high, "{}: {}", case.name, claim.name);
             }
+        }
+    }
+
+    /// A range without a word on where it comes from would count as any other.
+    #[test]
+    fn no_claim_is_without_origin() {
+        for case in CASES {
+            for claim in recorded(case.name) {
+                assert!(Origin::SHIPPED.contains(&claim.origin), "{}: {}", case.name, claim.name);
+                assert!(!claim.source.is_empty(), "{}: {}", case.name, claim.name);
+            }
+        }
+    }
+
+    /// A claim that no wrong model was ever refused by may hold for anything. The cases that still have one are listed, and the
+    /// list only becomes shorter.
+    #[test]
+    fn claims_without_a_control_are_of_the_listed_cases() {
+        for case in CASES {
+            let kept = recorded(case.name);
+            let bare = kept.iter().find(|claim| control::is_missing(claim));
+            let listed = without::CONTROL.iter().any(|(_, cases)| cases.contains(&case.name));
+            match bare {
+                Some(claim) => assert!(listed, "{}: {} has no control", case.name, claim.name),
+                None if kept.is_empty() => {}
+                None => assert!(!listed, "{} has them all: take it from the list", case.name),
+            }
+        }
+        for name in without::CONTROL.iter().flat_map(|(_, cases)| *cases) {
+            assert!(CASES.iter().any(|case| case.name == *name), "there is no case `{name}`");
         }
     }
 

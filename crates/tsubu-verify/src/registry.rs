@@ -40,7 +40,7 @@ pub static CASES: &[Case] = &[
     case("loss-factor", "damper", 1, "the empty structure's loss factor by three ways", host::loss_factor),
     case("added-mass", "damper", 5, "a bed at rest is an added mass", host::added_mass),
     case("ring-down", "damper", 10, "loss factor with balls, driven and ringing down", host::loss_factor_with_grains),
-    case("figure-9", "damper-2003", 2, "shaken box, landing and lift-off (figures 9 and 10)", damper_2003::figure_9),
+    case("figure-9", "damper-2003", 20, "shaken box, landing and lift-off (figures 9 and 10)", damper_2003::figure_9),
     case(
         "contact-time",
         "sediment-2004",

@@ -1,7 +1,9 @@
 //! Friction of a flow against its inertial number, in the plane (V-35).
 
 use super::beds::{law, line, sampled};
-use super::bench::{Rig, refused, scalars, within};
+use super::bench::{Rig, scalars, within};
+use super::control::refused;
+use crate::origin::{own, remembered};
 use std::fmt::Write;
 use tsubu_frame::{Claim, Kind};
 
@@ -129,12 +131,18 @@ impl Flow {
     /// The gates, for a flow that is right and for wrong ones.
     fn gates(&self) -> Vec<Claim> {
         let name = |what: &str| format!("discs at {} degrees: {what}", self.degrees);
-        let source = "da Cruz et al. 2005: mu = 0.25 + 1.1 I, share of the area 0.81 - 0.3 I";
+        let source = remembered("da Cruz et al. 2005: mu = 0.25 + 1.1 I, share of the area 0.81 - 0.3 I");
         let [friction, filled] = published(self.inertial);
         vec![
             within(name("friction less that of the law"), self.friction() - friction, 0.0, 0.03, source),
             within(name("share of the area less that of the law"), self.filled - filled, 0.0, 0.02, source),
-            within(name("speed in the first half of the time over that of all"), self.early, 1.0, 0.1, "steady"),
+            within(
+                name("speed in the first half of the time over that of all"),
+                self.early,
+                1.0,
+                0.1,
+                own("steady").after(),
+            ),
         ]
     }
 }
@@ -146,11 +154,17 @@ pub(super) fn friction(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims: Vec<Claim> = Vec::new();
     for flow in &flows {
         let name = format!("discs at {} degrees: inertial number", flow.degrees);
-        claims.push(Claim::judge(name, flow.inertial, Some(0.001), Some(0.2), "where the law is said to hold"));
+        claims.push(Claim::judge(
+            name,
+            flow.inertial,
+            Some(0.001),
+            Some(0.2),
+            remembered("where the law is said to hold"),
+        ));
         claims.extend(flow.gates());
     }
     let (steep, rest) = line(&flows.iter().map(|f| (f.inertial, f.friction())).collect::<Vec<_>>());
-    let source = "da Cruz et al. 2005: mu = 0.25 + 1.1 I";
+    let source = remembered("da Cruz et al. 2005: mu = 0.25 + 1.1 I");
     claims.push(within("discs: friction at I = 0", rest, 0.25, 0.03, source));
     claims.push(within("discs: rise of the friction with I", steep, 1.1, 0.25, source));
     let slippery = Flow::of(20.0, 0.0, perturbation)?;

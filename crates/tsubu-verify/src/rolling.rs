@@ -1,6 +1,7 @@
 //! Sliding and rolling on a plane.
 
 use super::bench::{Rig, near, within};
+use crate::origin::{closed_form, own, printed};
 use tsubu::ledger::Account;
 use tsubu_frame::Claim;
 
@@ -74,7 +75,13 @@ const PLAIN: Start<'static> = Start {
 };
 
 fn books(name: &str, rig: &Rig) -> Claim {
-    within(format!("{name}: energy residual at the default step"), rig.residual(), 0.0, 1e-3, "conservation of energy")
+    within(
+        format!("{name}: energy residual at the default step"),
+        rig.residual(),
+        0.0,
+        1e-3,
+        closed_form("conservation of energy"),
+    )
 }
 
 /// V-20: a sliding grain comes to roll.
@@ -86,7 +93,7 @@ pub(super) fn slide_to_roll(perturbation: f64) -> Result<Vec<Claim>, String> {
         let time = (u0 - end) / (mu * G);
         let distance = 0.5 * (u0 + end) * time;
         let mut rig = Start { shape, speed: u0, friction: mu, ..PLAIN }.rig(perturbation)?;
-        let source = "closed form";
+        let source = closed_form("closed form");
         // Half way it still slides.
         rig.until(0.5 * time)?;
         let half = 0.5 * (u0 + end);
@@ -120,10 +127,10 @@ pub(super) fn incline(perturbation: f64) -> Result<Vec<Claim>, String> {
             rig.until(0.3)?;
             let value = (rig.speed() - v) / (rig.engine.time() - t);
             let name = format!("slope of {:.1} degrees, {name} {what}", slope.to_degrees());
-            claims.push(near(format!("{name}: acceleration m/s^2"), value, closed, 2e-3, "closed form"));
+            claims.push(near(format!("{name}: acceleration m/s^2"), value, closed, 2e-3, closed_form("closed form")));
             if what == "rolls" {
                 let slip = (rig.speed() - rig.vector("spin", 0).y * RADIUS) / rig.speed();
-                claims.push(within(format!("{name}: slip over speed"), slip, 0.0, 1e-3, "closed form"));
+                claims.push(within(format!("{name}: slip over speed"), slip, 0.0, 1e-3, closed_form("closed form")));
             }
             claims.push(books(&name, &rig));
         }
@@ -143,7 +150,7 @@ pub(super) fn spin_down(perturbation: f64) -> Result<Vec<Claim>, String> {
         rig.until(time)?;
         let closed = 2.5 * mu_r * G / RADIUS;
         let value = (w0 - rig.vector("spin", 0).y) / rig.engine.time();
-        claims.push(near(format!("spin-down, {name}: rate rad/s^2"), value, closed, 2e-3, "closed form"));
+        claims.push(near(format!("spin-down, {name}: rate rad/s^2"), value, closed, 2e-3, closed_form("closed form")));
         claims.push(books(&format!("spin-down, {name}"), &rig));
     }
     let factor = 0.5;
@@ -156,7 +163,7 @@ pub(super) fn spin_down(perturbation: f64) -> Result<Vec<Claim>, String> {
     let torque = factor * width * MASS * G;
     let elapsed = rig.engine.time() - t;
     let end = rig.vector("spin", 0).y;
-    let source = "Osada 2004, f = f' b";
+    let source = printed("Osada 2004, f = f' b");
     let closed = torque / (0.4 * MASS * RADIUS * RADIUS);
     claims.push(near("spin-down, contact width: rate rad/s^2", (w - end) / elapsed, closed, 2e-3, source));
     let angle = 0.5 * (w + end) * elapsed;
@@ -176,7 +183,7 @@ pub(super) fn models(perturbation: f64) -> Result<Vec<Claim>, String> {
         let mut rig = Start { friction: 0.6, rolling: mu_r, speed: v0, spin: v0 / RADIUS, law: &law, ..PLAIN }
             .rig(perturbation)?;
         rig.until(2.0 * v0 / slowing)?;
-        let source = "closed form: mu_r g / (7/5)";
+        let source = closed_form("closed form: mu_r g / (7/5)");
         let went = rig.vector("position", 0).x;
         claims.push(near(format!("rolling model {model}: distance to rest m"), went, stop, 0.01, source));
         let mut fastest = 0.0f64;
@@ -184,7 +191,7 @@ pub(super) fn models(perturbation: f64) -> Result<Vec<Claim>, String> {
             rig.steps(1)?;
             fastest = fastest.max(rig.speed().abs());
         }
-        let source = "at rest, without chatter";
+        let source = own("at rest, without chatter").after();
         claims.push(within(format!("rolling model {model}: speed at rest m/s"), fastest, 0.0, 1e-5, source));
         claims.push(books(&format!("rolling model {model}"), &rig));
     }
@@ -202,19 +209,19 @@ pub(super) fn models(perturbation: f64) -> Result<Vec<Claim>, String> {
             rig.until(1.0)?;
             let name = format!("rolling model {model} on a slope, {shape}: creep in 0.5 s over radius");
             let moved = (rig.vector("position", 0).x - at) / RADIUS;
-            claims.push(within(name, moved, 0.0, 1e-6, "it holds where tan(slope) < mu_r"));
+            claims.push(within(name, moved, 0.0, 1e-6, closed_form("it holds where tan(slope) < mu_r")));
         }
     }
     let tangential = "tangential.spring = {}";
     let law = format!("{tangential}\nrolling.constant.smoothing-speed = 1e-2");
     let mut rig = Start { slope, friction: 0.6, rolling: mu_r, law: &law, ..PLAIN }.rig(perturbation)?;
     rig.until(1.0)?;
-    let source = "its own formula: it creeps at v_eps tan(slope) / mu_r";
+    let source = closed_form("its own formula: it creeps at v_eps tan(slope) / mu_r");
     claims.push(near("rolling model A on a slope: creep m/s", rig.speed(), 1e-2 * 0.25, 0.01, source));
     let law = format!("{tangential}\nrolling.viscous.coefficient = 5");
     let mut rig = Start { slope, friction: 0.6, rolling: mu_r, law: &law, ..PLAIN }.rig(perturbation)?;
     rig.until(3.0)?;
-    let source = "its own formula: it does not hold a slope, but rolls at tan(slope) / (mu_r c)";
+    let source = closed_form("its own formula: it does not hold a slope, but rolls at tan(slope) / (mu_r c)");
     claims.push(near("rolling model B on a slope: speed m/s", rig.speed(), 0.25 / 5.0, 0.01, source));
     Ok(claims)
 }

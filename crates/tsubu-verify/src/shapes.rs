@@ -1,6 +1,7 @@
 //! Restitution at every kind of contact: equal and unequal grains, plane, cylinder, triangle.
 
 use super::bench::{Rig, within};
+use crate::origin::{closed_form, other_program, printed};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
 use tsubu_frame::Claim;
@@ -99,13 +100,13 @@ pub(super) fn restitution(perturbation: f64) -> Result<Vec<Claim>, String> {
         for (form, law, steps) in forms {
             for e in [0.9, 0.3] {
                 let [value, _] = impact(&folder, entry, law, e, steps, perturbation)?;
-                let source = "definition; coefficients: Antypov and Elliott 2011, Thornton et al. 2013";
+                let source = closed_form("definition; coefficients: Antypov and Elliott 2011, Thornton et al. 2013");
                 claims.push(within(format!("restitution {e} by {form}, {shape}"), value, e, 1e-3, source));
             }
         }
         let [_, residual] = impact(&folder, entry, "", 0.7, 20, perturbation)?;
         let name = format!("impact on {shape}: energy residual at the default step");
-        claims.push(within(name, residual, 0.0, 1e-3, "conservation of energy"));
+        claims.push(within(name, residual, 0.0, 1e-3, closed_form("conservation of energy")));
     }
     Ok(claims)
 }
@@ -126,7 +127,7 @@ pub(super) fn thornton(perturbation: f64) -> Result<Vec<Claim>, String> {
         // Dashpot 2 gamma sqrt(m dF/dd), with dF/dd = 3/2 k sqrt(d).
         let beta = 2.0 * published(e) * 1.5f64.sqrt() * perturbation;
         let value = calibrate::restitution(beta, 1.5, 0.25, false);
-        let source = "polynomial of Thornton, Cummins, Cleary 2013, good to 3e-4";
+        let source = printed("polynomial of Thornton, Cummins, Cleary 2013, good to 3e-4");
         claims.push(within(
             format!("restitution {e} with the published coefficient, no attraction"),
             value,
@@ -139,7 +140,7 @@ pub(super) fn thornton(perturbation: f64) -> Result<Vec<Claim>, String> {
         for (law, p, q) in [("linear", 1.0, 0.0), ("Hertz and quarter", 1.5, 0.25)] {
             let beta = calibrate::coefficient(e, p, q, true) * perturbation;
             let value = calibrate::restitution(beta, p, q, false);
-            let source = "independent integration; Schwager and Poeschel 2007";
+            let source = other_program("independent integration; Schwager and Poeschel 2007");
             let name = format!("restitution {e} asked with attraction, {law}, attraction cut");
             claims.push(within(name, value, apparent, 1e-3, source));
         }

@@ -2,8 +2,10 @@
 //!
 //! The perturbation multiplies the chance of upward moves.
 
-use super::bench::{near, refused};
+use super::bench::near;
+use super::control::refused;
 use super::voids::slope;
+use crate::origin::{closed_form, own};
 use tsubu::lattice::savage::{Chute, Moves};
 use tsubu::lattice::sheet::{Layout, Sheet};
 use tsubu::random::{Purpose, words};
@@ -77,7 +79,9 @@ fn sorted(ratio: f64, perturbation: f64) -> Vec<(f64, f64)> {
 /// the profile of the flow, and large grains that come to lie on top.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
 pub(super) fn chute(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let closed = "closed form: n/(1-n) = exp((z0-z)/h), speed as exp(-(z0-z)/h), h = 1/ln(downward chances / upward)";
+    let closed = closed_form(
+        "closed form: n/(1-n) = exp((z0-z)/h), speed as exp(-(z0-z)/h), h = 1/ln(downward chances / upward)",
+    );
     let [odds, speed] = profile(perturbation);
     let mut claims = vec![
         near("chute after Savage: fall-off of voids with depth over closed form", odds, 1.0, 0.1, closed),
@@ -85,7 +89,7 @@ pub(super) fn chute(perturbation: f64) -> Result<Vec<Claim>, String> {
     ];
     let gates = |found: &[(f64, f64)]| {
         let (first, last) = (found[0], found[found.len() - 1]);
-        let source = "inverse grading that grows on the way (kinetic sieving)";
+        let source = own("inverse grading that grows on the way (kinetic sieving)").after();
         vec![
             Claim::judge(
                 "chute after Savage: large grains over small ones at the end, rows",
@@ -111,7 +115,7 @@ pub(super) fn chute(perturbation: f64) -> Result<Vec<Claim>, String> {
         none,
         Some(-0.6),
         Some(0.6),
-        "no sieving, no sorting; noise 0.25",
+        closed_form("no sieving, no sorting; noise 0.25"),
     ));
     claims.push(refused("equal sizes", &gates(&equal), 1));
     Ok(claims)

@@ -1,7 +1,9 @@
 //! Silos in the plane: pressure (V-32).
 
 use super::beds::{centres, law, mean, sampled};
-use super::bench::{Rig, near, refused, scalars, vectors};
+use super::bench::{Rig, near, scalars, vectors};
+use super::control::refused;
+use crate::origin::own;
 use tsubu_frame::{Claim, Kind, Values};
 
 const WIDTH: f64 = 12.0;
@@ -145,7 +147,7 @@ fn gates(columns: &[Seen], perturbation: f64) -> Vec<Claim> {
     let levels = levels(columns, weight);
     let length = length(&levels, weight);
     let fitted = WIDTH / (2.0 * WALL_FRICTION * length);
-    let source = "Janssen 1895, K fitted";
+    let source = own("Janssen 1895, K fitted").after();
     let mut claims = vec![Claim::judge("Janssen: K, fitted", fitted, Some(0.3), Some(1.0), source)];
     for level in &levels {
         let closed = form(weight, level.depth, length * perturbation.powi(2));
@@ -158,11 +160,11 @@ fn gates(columns: &[Seen], perturbation: f64) -> Vec<Claim> {
         ));
     }
     let sum = |of: fn(&Level) -> f64| levels.iter().map(of).sum::<f64>();
-    let source = "Janssen's assumption: friction at the walls is at its limit";
+    let source = own("Janssen's assumption: friction at the walls is at its limit").after();
     let limit = sum(|l| l.friction) / (WALL_FRICTION * sum(|l| l.pressure));
     claims.push(Claim::judge("Janssen: friction at the walls over its limit", limit, Some(0.9), None, source));
     let measured = sum(|l| l.pressure) / sum(|l| l.vertical);
-    let source = "Janssen's assumption: one K, of the pressure and of the exponential";
+    let source = own("Janssen's assumption: one K, of the pressure and of the exponential").after();
     claims.push(near("Janssen: K measured at the walls over K fitted", measured / fitted, 1.0, 0.1, source));
     claims
 }
@@ -193,7 +195,7 @@ pub(super) fn janssen(perturbation: f64) -> Result<Vec<Claim>, String> {
         error / value
     };
     let worst = (0..by_silo[0].len()).map(error).fold(0.0, f64::max);
-    let source = "half of what the claims allow; not a reference";
+    let source = own("half of what the claims allow; not a reference").after();
     let name = "Janssen: largest standard error of a vertical stress, over the stress";
     claims.push(Claim::judge(name, worst, None, Some(0.025), source));
     claims.push(refused("Janssen, a floor that has not sunk yet", &gates(&rest, 1.0), 3));

@@ -1,7 +1,9 @@
 //! A grain that spins in water (V-54).
 
-use super::bench::{Rig, near, refused};
+use super::bench::{Rig, near};
+use super::control::refused_number;
 use super::water::quartz;
+use crate::origin::{closed_form, printed};
 use std::f64::consts::{LN_10, PI};
 use tsubu_frame::Claim;
 
@@ -41,19 +43,25 @@ pub(super) fn spin(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (slow, passed) = left(SPIN, "torque.stokes = {}", STOKES, perturbation)?;
     let time = passed / (SPIN / slow).ln();
     let gate = |wanted: f64| {
-        near("2 mm of quartz spins down by Stokes's torque: time scale [s]", time, wanted, 1e-3, "sigma r^2/(15 mu)")
+        near(
+            "2 mm of quartz spins down by Stokes's torque: time scale [s]",
+            time,
+            wanted,
+            1e-3,
+            closed_form("sigma r^2/(15 mu)"),
+        )
     };
     // The inertia of a disc is 5/4 of that of a sphere.
-    let mut claims = vec![gate(STOKES), refused("the inertia of a disc", &[gate(1.25 * STOKES)], 1)];
+    let mut claims = vec![gate(STOKES), refused_number("the inertia of a disc", &[gate(1.25 * STOKES)], 1)];
 
     for seconds in [1e-3, 0.02, 0.1] {
         let (found, passed) = left(SPIN, "torque.finite-reynolds = {}", seconds, perturbation)?;
         let gate = |square: f64| {
             let name = format!("the same from 900 rad/s by the law for all spins, {seconds} s: spin left [rad/s]");
-            near(name, found, decayed(passed, square), 1e-3, "Dennis, Singh and Ingham 1980")
+            near(name, found, decayed(passed, square), 1e-3, printed("Dennis, Singh and Ingham 1980"))
         };
         claims.push(gate(4.0 * R * R));
-        claims.push(refused("the radius for the diameter in the Reynolds number", &[gate(R * R)], 1));
+        claims.push(refused_number("the radius for the diameter in the Reynolds number", &[gate(R * R)], 1));
     }
 
     // Held in the stream by its own fall is no grain: it rests at z = 0, without weight, and drifts along x only.
@@ -61,9 +69,15 @@ pub(super) fn spin(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (end, _) = left(0.0, stream, 10.0 * STOKES, perturbation)?;
     let shear = 0.1 * 5.75 / LN_10 / 4e-3;
     let gate = |rate: f64| {
-        near("drifting in a log-law stream: spin in the end [rad/s]", end, rate, 1e-3, "half the shear rate")
+        near(
+            "drifting in a log-law stream: spin in the end [rad/s]",
+            end,
+            rate,
+            1e-3,
+            closed_form("half the shear rate"),
+        )
     };
     claims.push(gate(0.5 * shear));
-    claims.push(refused("the shear rate, not half of it", &[gate(shear)], 1));
+    claims.push(refused_number("the shear rate, not half of it", &[gate(shear)], 1));
     Ok(claims)
 }

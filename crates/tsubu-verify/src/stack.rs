@@ -1,6 +1,7 @@
 //! Two spheres stacked between two planes (V-07).
 
 use super::bench::{Rig, near, within};
+use crate::origin::closed_form;
 use tsubu_frame::Claim;
 
 const RADIUS: f64 = 5e-3;
@@ -83,7 +84,13 @@ pub(super) fn stacked(perturbation: f64) -> Result<Vec<Claim>, String> {
         let (z, expected) = (stack.vectors("position"), closed(stack.engine.time()));
         for (name, z, expected) in [("lower", z[0].z - low, expected[0]), ("upper", z[1].z - high, expected[1])] {
             let name = format!("stack, {} ms: displacement of the {name} sphere m", 10 * part);
-            claims.push(within(name, z, expected, 2e-3 * OVERLAP, "closed form: two masses, three springs"));
+            claims.push(within(
+                name,
+                z,
+                expected,
+                2e-3 * OVERLAP,
+                closed_form("closed form: two masses, three springs"),
+            ));
         }
     }
     for (name, law) in [("Hooke", hooke.as_str()), ("Hertz", "")] {
@@ -96,12 +103,18 @@ pub(super) fn stacked(perturbation: f64) -> Result<Vec<Claim>, String> {
             worst = worst.max((stack.engine.grain_energies().total() - start).abs());
         }
         // Verlet's energy swings by (w dt)^2/8 of the energy that swings, and does not drift.
-        let source = "conservation of energy";
+        let source = closed_form("conservation of energy");
         let name = format!("stack, {name}: energy error within 40000 default steps over elastic energy");
         claims.push(within(name, worst / held, 0.0, 1e-3, source));
     }
     let held = rig("", 20.0, perturbation)?.engine.grain_energies().elastic;
-    claims.push(near("stack: elastic energy at the start over Hertz's", held / hertz(), 1.0, 1e-6, "Hertz"));
+    claims.push(near(
+        "stack: elastic energy at the start over Hertz's",
+        held / hertz(),
+        1.0,
+        1e-6,
+        closed_form("Hertz"),
+    ));
     Ok(claims)
 }
 

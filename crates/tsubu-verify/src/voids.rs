@@ -2,13 +2,16 @@
 //!
 //! The perturbation multiplies the probability that a void goes to the left.
 
-use super::bench::{refused, within};
+use super::bench::within;
+use super::control::{refused, refused_number};
+use crate::origin::{closed_form, own, regression, remembered};
 use tsubu::lattice::caram_hong::{CaramHong, Chances};
 use tsubu::lattice::litwiniszyn::{Litwiniszyn, SPREAD, frequency};
 use tsubu::lattice::sheet::{EMPTY, Layout, OUT, ROW_SPACING, Sheet, WALL};
-use tsubu_frame::Claim;
+use tsubu_frame::{Claim, Source};
 
-const CLOSED: &str = "closed form: dP/dy = B d2P/dx2, B = a^2/(2b) (Nedderman and Tuzun 1978, after Litwiniszyn)";
+const CLOSED: Source =
+    closed_form("closed form: dP/dy = B d2P/dx2, B = a^2/(2b) (Nedderman and Tuzun 1978, after Litwiniszyn)");
 const COLUMNS: usize = 63;
 const MIDDLE: usize = 31;
 
@@ -78,7 +81,13 @@ fn spread_gates(name: &str, passed: &[f64], sheet: &Sheet) -> Vec<Claim> {
     let [growth, mean] = spreading(passed, sheet);
     vec![
         within(format!("{name}: growth of the variance over 2 B"), growth, 1.0, 0.02, CLOSED),
-        within(format!("{name}: mean place 40 rows up, spacings from the outlet"), mean, 0.0, 0.1, "symmetry"),
+        within(
+            format!("{name}: mean place 40 rows up, spacings from the outlet"),
+            mean,
+            0.0,
+            0.1,
+            closed_form("symmetry"),
+        ),
     ]
 }
 
@@ -97,11 +106,12 @@ pub(super) fn litwiniszyn_case(perturbation: f64) -> Result<Vec<Claim>, String> 
         uneven,
         0.0,
         1e-12,
-        "no void is lost",
+        closed_form("no void is lost"),
     ));
     let (low, far) = (SPREAD, 1.0);
-    let source =
-        "measured: 1 to 3.5 grain diameters (as the literature has it); one site a grain spreads far too little";
+    let source = remembered(
+        "measured: 1 to 3.5 grain diameters (as the literature has it); one site a grain spreads far too little",
+    );
     claims.push(Claim::judge(
         "Litwiniszyn: B of the lattice over the least measured",
         low / far,
@@ -158,7 +168,7 @@ fn walls_reflect(left: f64) -> Vec<Claim> {
         let inner = (2..20).map(|c| sheet.index(c, row));
         inner.map(|s| (mean[s] / images(sheet.point(s)[0], row) - 1.0).abs()).fold(0.0, f64::max)
     };
-    let source = "closed form: diffusion between mirrors, by images";
+    let source = closed_form("closed form: diffusion between mirrors, by images");
     vec![
         within("Litwiniszyn: between walls, 150 rows up, worst site", worst(150), 0.0, 0.02, source),
         within(
@@ -166,7 +176,7 @@ fn walls_reflect(left: f64) -> Vec<Claim> {
             moments(&mean, &sheet, 300)[0],
             1.0,
             1e-12,
-            "no void is lost",
+            closed_form("no void is lost"),
         ),
     ]
 }
@@ -181,9 +191,18 @@ fn discharge(left: f64) -> Vec<Claim> {
         (before - model.sheet.grains()) as f64
     };
     let gate = |ratio: f64| {
-        within("Litwiniszyn: discharge, bed of 160 rows over one of 40", ratio, 1.0, 0.01, "the point of the model")
+        within(
+            "Litwiniszyn: discharge, bed of 160 rows over one of 40",
+            ratio,
+            1.0,
+            0.01,
+            own("the point of the model").after(),
+        )
     };
-    vec![gate(left_after(160) / left_after(40)), refused("water, by Torricelli", &[gate((160.0_f64 / 40.0).sqrt())], 1)]
+    vec![
+        gate(left_after(160) / left_after(40)),
+        refused_number("water, by Torricelli", &[gate((160.0_f64 / 40.0).sqrt())], 1),
+    ]
 }
 
 /// rare voids spread as R-1; dense ones do not; V-shaped depression, stable slope, shadow of an obstacle, voids kept.
@@ -206,7 +225,13 @@ fn crowd(left: f64) -> Vec<Claim> {
     let share = |rate: f64| moments(&caram_hong(&sheet, Chances { left, rate }, 10, 1500), &sheet, row)[2] / closed;
     let gate = |share| {
         let name = "after Caram and Hong: crowded voids, variance over that of free ones";
-        Claim::judge(name, share, Some(1.2), Some(1.6), "regression value 1.37; voids that meet a void go aside")
+        Claim::judge(
+            name,
+            share,
+            Some(1.2),
+            Some(1.6),
+            regression("regression value 1.37; voids that meet a void go aside"),
+        )
     };
     let rare = share(0.01);
     let name = "after Caram and Hong: rare voids of a wide outlet, variance over that of free ones";
@@ -235,9 +260,16 @@ fn shadow(left: f64) -> Vec<Claim> {
         near / whole
     };
     let gate = |moved| {
-        within("after Caram and Hong: voids in the shadow of a wall", moved, 0.0, 0.0, "60 degrees, by the rule")
+        within(
+            "after Caram and Hong: voids in the shadow of a wall",
+            moved,
+            0.0,
+            0.0,
+            closed_form("60 degrees, by the rule"),
+        )
     };
-    let source = "the flow closes over an obstacle: from none at its back to most of what passes without it";
+    let source =
+        own("the flow closes over an obstacle: from none at its back to most of what passes without it").after();
     vec![
         gate(in_triangle(&passed)),
         Claim::judge(
@@ -278,7 +310,7 @@ fn emptied(left: f64) -> Result<Vec<Claim>, String> {
             slope(&points).atan().to_degrees()
         };
         let depth = early[MIDDLE - 20] as f64 - early[MIDDLE] as f64;
-        let side = "slope of the lattice";
+        let side = closed_form("slope of the lattice");
         let name = |what: &str| format!("after Caram and Hong: {what}");
         vec![
             Claim::judge(
@@ -286,7 +318,7 @@ fn emptied(left: f64) -> Result<Vec<Claim>, String> {
                 depth,
                 Some(5.0),
                 None,
-                "a V over the outlet",
+                own("a V over the outlet").after(),
             ),
             within(name("slope left of the outlet, degrees"), angle(12..MIDDLE - 3), -60.0, 2.0, side),
             within(name("slope right of the outlet, degrees"), angle(MIDDLE + 4..51), 60.0, 2.0, side),
@@ -295,13 +327,17 @@ fn emptied(left: f64) -> Result<Vec<Claim>, String> {
                 balance,
                 0.0,
                 0.0,
-                "voids are conserved",
+                closed_form("voids are conserved"),
             ),
-            within(name("grains lost"), lost, 0.0, 0.0, "grains are conserved"),
+            within(name("grains lost"), lost, 0.0, 0.0, closed_form("grains are conserved")),
         ]
     };
     let mut claims = gates(&early, &end, balance, lost);
-    claims.push(refused("a level surface, a void and a grain that are forgotten", &gates(&level, &level, 1.0, 1.0), 5));
+    claims.push(refused_number(
+        "a level surface, a void and a grain that are forgotten",
+        &gates(&level, &level, 1.0, 1.0),
+        5,
+    ));
     Ok(claims)
 }
 

@@ -1,6 +1,8 @@
 //! Single grains and packed beds in water.
 
-use super::bench::{Rig, near, refused, vectors, within};
+use super::bench::{Rig, near, vectors, within};
+use super::control::{refused, refused_number};
+use crate::origin::{closed_form, own, printed};
 use tsubu::state::sphere;
 use tsubu::view::Wants;
 use tsubu::water::Layers;
@@ -75,33 +77,42 @@ const LAWS: [Law; 4] = [
 
 /// V-50: terminal speeds, 0.1 %, and the table of the literature to its digits.
 pub(super) fn settling(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let tabled = |name: String, found: f64, published: f64| {
+        within(name, found, published, 1.01e-4 + 1e-3 * published, printed("terminal speed as published"))
+    };
     let mut claims = Vec::new();
     for law in &LAWS {
         for (d, published) in [0.2e-3, 0.5e-3, 1e-3, 2e-3, 5e-3, 10e-3].into_iter().zip(law.published) {
             let seconds = if d < 1.5e-3 { 0.6 } else { 3.0 };
             let found = sunk(d, law.name, "", seconds, perturbation)?;
             let name = |what: &str| format!("quartz of {} mm sinks, {}{what} [m/s]", d * 1e3, law.name);
-            claims.push(near(name(""), found, terminal(d, law.coefficient), 1e-3, "C(Re) v^2 = 4/3 (s-1) g d"));
-            claims.push(within(
-                name(", table"),
+            claims.push(near(
+                name(""),
                 found,
-                published,
-                1.01e-4 + 1e-3 * published,
-                "terminal speed as published",
+                terminal(d, law.coefficient),
+                1e-3,
+                closed_form("C(Re) v^2 = 4/3 (s-1) g d"),
             ));
+            claims.push(tabled(name(", table"), found, published));
         }
     }
     let light = sunk(2e-3, LAWS[0].name, "density = 950", 3.0, perturbation)?;
-    claims.push(refused("water lighter by 5 %", &[near("", light, LAWS[0].published[3], 1e-3, "")], 1));
+    claims.push(refused(
+        "water lighter by 5 %",
+        &[tabled(format!("quartz of 2 mm sinks, {}, table [m/s]", LAWS[0].name), light, LAWS[0].published[3])],
+        1,
+    ));
     Ok(claims)
 }
 
 /// V-55: (s-1) g/(s + 1/2).
 pub(super) fn released(perturbation: f64) -> Result<Vec<Claim>, String> {
     let begin = |rest: &str| Ok::<f64, String>(sunk(2e-3, "none = {}", rest, 1e-3, perturbation)? / 1e-3);
-    let gate = |name: &str, value: f64| near(name, value, 1.65 * 9.8 / 3.15, 5e-3, "Batchelor 1967: (s-1) g/(s + 1/2)");
+    let gate = |name: &str, value: f64| {
+        near(name, value, 1.65 * 9.8 / 3.15, 5e-3, closed_form("Batchelor 1967: (s-1) g/(s + 1/2)"))
+    };
     let mut claims = vec![gate("quartz let go in still water [m/s^2]", begin("")?)];
-    claims.push(refused("no added mass", &[gate("", begin("added-mass = 0")?)], 1));
+    claims.push(refused("no added mass", &[gate("quartz let go in still water [m/s^2]", begin("added-mass = 0")?)], 1));
     Ok(claims)
 }
 
@@ -163,11 +174,13 @@ pub(super) fn packed(perturbation: f64) -> Result<Vec<Claim>, String> {
     for u in [2e-3, 8e-3, 15e-3] {
         let (open, loss) = loss(&column(u, perturbation)?);
         let name = |what: &str| format!("packed column, {} mm/s: {what}", u * 1e3);
-        let gate = |u: f64| near(name("loss of pressure over Ergun's"), loss / ergun(open, u), 1.0, 0.03, "Ergun 1952");
+        let gate = |u: f64| {
+            near(name("loss of pressure over Ergun's"), loss / ergun(open, u), 1.0, 0.03, printed("Ergun 1952"))
+        };
         claims.push(gate(u));
-        claims.push(within(name("void fraction"), open, 0.42, 0.05, "loose random packings of spheres"));
+        claims.push(within(name("void fraction"), open, 0.42, 0.05, own("loose random packings of spheres").after()));
         if u > 10e-3 {
-            claims.push(refused(
+            claims.push(refused_number(
                 "the velocity between the grains in place of the superficial one",
                 &[gate(u / open)],
                 1,
@@ -185,7 +198,7 @@ pub(super) fn fluidised(perturbation: f64) -> Result<Vec<Claim>, String> {
     let least = ((b * b + 4.0 * a * 1500.0 * 9.8).sqrt() - b) / (2.0 * a);
     let height = |velocity: f64| Ok::<f64, String>(column(velocity, perturbation)?.engine.centre_of_mass()[2]);
     let (rest, below, above) = (height(1e-3)?, height(0.85 * least)?, height(1.4 * least)?);
-    let source = "Ergun 1952, loss = weight under water";
+    let source = printed("Ergun 1952, loss = weight under water");
     let stays = |height: f64| {
         within(
             "column at 0.85 of the velocity that carries it: height over that at rest",
@@ -197,7 +210,13 @@ pub(super) fn fluidised(perturbation: f64) -> Result<Vec<Claim>, String> {
     };
     Ok(vec![
         stays(below),
-        Claim::judge("column at 1.4 of it: height over that at rest", above / rest, Some(1.08), None, source),
+        Claim::judge(
+            "column at 1.4 of it: height over that at rest",
+            above / rest,
+            Some(1.08),
+            None,
+            own("a bed that is carried is higher").after(),
+        ),
         refused("a bed that is lifted, as one that stays", &[stays(above)], 1),
     ])
 }

@@ -18,8 +18,8 @@ use measured::Measured;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use tsubu_frame::{
-    Claim, Existing, FileError, Formats, FrameWriter, Header, History, Mark, ResultValue, RunFolder, State, Status,
-    Summary, checkpoint,
+    Claim, Existing, FileError, Formats, FrameWriter, Header, History, Mark, ResultValue, RunFolder, Source, State,
+    Status, Summary, checkpoint,
 };
 use tsubu_scene::{Plan, Scene};
 
@@ -361,7 +361,7 @@ pub(crate) fn judge(plan: &Plan, summary: &mut Summary) {
             Some(ResultValue::Number(value)) => *value,
             _ => f64::NAN,
         };
-        summary.claims.push(Claim::judge(&claim.result, value, claim.low, claim.high, &claim.source));
+        summary.claims.push(Claim::judge(&claim.result, value, claim.low, claim.high, Source::scene(&claim.source)));
     }
 }
 

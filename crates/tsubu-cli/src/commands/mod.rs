@@ -7,6 +7,7 @@ mod compare;
 mod completions;
 mod explain;
 mod new;
+mod origins;
 mod report;
 mod response;
 mod run;

@@ -1,6 +1,6 @@
 //! `tsubu verify`: claims held against their sources.
 
-use super::{claims, report};
+use super::{claims, origins, report};
 use crate::failure::Failure;
 use crate::options::WorkOptions;
 use crate::output;
@@ -10,11 +10,12 @@ use crate::{stop, table};
 use clap::Args;
 use rayon::ThreadPoolBuilder;
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::time::Instant;
-use tsubu_frame::{Claim, Existing, RunFolder};
+use tsubu_frame::{Claim, Existing, Origin, RunFolder, Source, Verdict};
 use tsubu_verify::{self as verify, Case};
 
 #[derive(Args)]
@@ -25,7 +26,8 @@ Examples:
   tsubu verify damper-2003           one study
   tsubu verify --all -o out/verify   everything, with a report
 
-A line a claim: pass or FAIL, study, name, value, accepted range, source. Exit code 1 if one fails.")]
+A line a claim: pass, FAIL or undecided, study, name, value, accepted range, source. Exit code 1 unless all pass.")]
+#[expect(clippy::struct_excessive_bools, reason = "flags of the command line")]
 pub struct Options {
     /// Cases or studies; none means all quick ones
     #[arg(value_name = "NAME")]
@@ -33,6 +35,12 @@ pub struct Options {
     /// List the cases, with the seconds that each may take
     #[arg(long)]
     list: bool,
+    /// With `--list`: where each accepted range comes from, and what was refused when it was wrong on purpose
+    #[arg(long, requires = "list")]
+    origins: bool,
+    /// Run every case a second time with constants that are 5 % too small, and keep which claims notice
+    #[arg(long)]
+    controls: bool,
     /// Run the long ones too: those with a budget of more than a minute, and those that show a gap
     #[arg(long)]
     all: bool,
@@ -49,7 +57,7 @@ pub struct Options {
 pub fn run(options: &Options) -> Result<(), Failure> {
     let chosen = verify::chosen(&options.names, options.all || options.list).map_err(Failure::wrong)?;
     if options.list {
-        return list(&chosen);
+        return if options.origins { output::print(&origins::list(&chosen)) } else { list(&chosen) };
     }
     let existing = if options.overwrite { Existing::Overwrite } else { Existing::Refuse };
     let folder = match &options.output {
@@ -60,12 +68,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         None => None,
     };
     let claims = judge(&chosen, folder.as_ref(), options)?;
-    let failed = claims.iter().filter(|claim| !claim.pass).count();
-    let total = claims.len();
-    output::print(&match failed {
-        0 => format!("{total} claims, all pass\n"),
-        n => format!("{total} claims, {}\n", Stream::Data.bold_red(&format!("{n} FAIL"))),
-    })?;
+    output::print(&verdicts(&claims))?;
     if let Some(folder) = folder {
         let content = serde_json::json!({ "tsubu_version": tsubu::VERSION, "claims": claims });
         let written = folder.write_json("verify.json", &content).and_then(|()| folder.sync());
@@ -76,7 +79,30 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         let page = report::write(&path)?;
         output::tell(&format!("results in {}; open {}\n", path.display(), page.display()));
     }
-    if failed == 0 { Ok(()) } else { Err(Failure::claim()) }
+    if claims.iter().all(|claim| claim.pass) { Ok(()) } else { Err(Failure::claim()) }
+}
+
+/// How many of the claims pass, fail and are undecided, the last on a line of their own; regressions are counted apart.
+fn verdicts(claims: &[Claim]) -> String {
+    let (regressions, claims): (Vec<&Claim>, Vec<&Claim>) =
+        claims.iter().partition(|claim| claim.origin == Origin::Regression);
+    let count = |verdict| claims.iter().filter(|claim| claim.verdict() == verdict).count();
+    let mut text = match count(Verdict::Fail) {
+        0 if claims.iter().all(|claim| claim.pass) => format!("{} claims, all pass\n", claims.len()),
+        0 => format!("{} claims, none fails\n", claims.len()),
+        n => format!("{} claims, {}\n", claims.len(), Stream::Data.bold_red(&format!("{n} FAIL"))),
+    };
+    let undecided = count(Verdict::Undecided);
+    if undecided > 0 {
+        let word = Stream::Data.yellow(&format!("{undecided} undecided"));
+        let _ = writeln!(text, "{word}: the interval of the ensemble lies neither in the range nor outside");
+    }
+    if !regressions.is_empty() {
+        let moved = regressions.iter().filter(|claim| !claim.pass).count();
+        let word = if moved == 0 { "none moved".to_owned() } else { Stream::Data.bold_red(&format!("{moved} FAIL")) };
+        let _ = writeln!(text, "{} regression checks, {word}", regressions.len());
+    }
+    text
 }
 
 fn list(cases: &[&Case]) -> Result<(), Failure> {
@@ -91,10 +117,11 @@ fn list(cases: &[&Case]) -> Result<(), Failure> {
 fn judge(cases: &[&'static Case], folder: Option<&RunFolder>, options: &Options) -> Result<Vec<Claim>, Failure> {
     let threads = options.work.pool()?.current_num_threads();
     let progress = Progress::new("verify", options.work.quiet);
+    let how = How { folder, controls: options.controls };
     stop::so_far(so_far(0, cases.len(), ""));
     let (mut waiting, mut claims) = (BTreeMap::new(), Vec::new());
     let (mut next, mut done) = (0, 0_usize);
-    let judged = side_by_side(cases, threads, folder, |index, outcome| {
+    let judged = side_by_side(cases, threads, how, |index, outcome| {
         waiting.insert(index, outcome);
         done += 1;
         while let Some(outcome) = waiting.remove(&next) {
@@ -115,6 +142,15 @@ fn judge(cases: &[&'static Case], folder: Option<&RunFolder>, options: &Options)
     judged.map(|()| claims)
 }
 
+/// How cases are run.
+#[derive(Clone, Copy, Default)]
+struct How<'a> {
+    /// Where they leave pictures and tables.
+    folder: Option<&'a RunFolder>,
+    /// A second time, with constants that are wrong.
+    controls: bool,
+}
+
 /// What came of a case.
 struct Outcome {
     claims: Vec<Claim>,
@@ -128,7 +164,7 @@ struct Outcome {
 fn side_by_side(
     cases: &[&'static Case],
     threads: usize,
-    folder: Option<&RunFolder>,
+    how: How<'_>,
     mut hear: impl FnMut(usize, Outcome) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let workers = threads.clamp(1, cases.len().max(1));
@@ -148,7 +184,7 @@ fn side_by_side(
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(case) = cases.get(index) else { return };
                     // Nobody listens any more once printing has failed.
-                    if sender.send((index, pool.install(|| outcome(case, folder)))).is_err() {
+                    if sender.send((index, pool.install(|| outcome(case, how)))).is_err() {
                         return;
                     }
                 }
@@ -160,10 +196,12 @@ fn side_by_side(
 }
 
 /// Runs a case and looks at the clock.
-fn outcome(case: &Case, folder: Option<&RunFolder>) -> Outcome {
+fn outcome(case: &Case, how: How<'_>) -> Outcome {
     let begun = Instant::now();
-    let claims = case.claims(folder).unwrap_or_else(|error| vec![broken(case, &error)]);
+    let claims = case.claims(how.folder);
     let taken = begun.elapsed().as_secs_f64();
+    let claims = if how.controls { claims.and_then(|claims| case.with_controls(claims)) } else { claims };
+    let claims = claims.unwrap_or_else(|error| vec![broken(case, &error)]);
     let late = (taken > f64::from(case.budget)).then(|| {
         let (name, budget) = (case.name, case.budget);
         format!(
@@ -184,7 +222,7 @@ fn so_far(done: usize, all: usize, untold: &str) -> String {
 /// A case that came to no value: a claim that fails.
 fn broken(case: &Case, error: &str) -> Claim {
     let reason = format!("it did not run: {}", error.replace('\n', "; "));
-    Claim::judge(case.name, f64::NAN, None, None, reason).of(case.study)
+    Claim::judge(case.name, f64::NAN, None, None, Source::new(Origin::Own, &reason)).of(case.study)
 }
 
 #[cfg(test)]
@@ -199,12 +237,12 @@ mod tests {
 
     #[expect(clippy::unnecessary_wraps, reason = "what a case gives")]
     fn value(value: usize) -> verify::Judged {
-        Ok(vec![Claim::judge("value", value as f64, Some(0.0), None, "a test".to_owned())])
+        Ok(vec![Claim::judge("value", value as f64, Some(0.0), None, Source::new(Origin::Own, "a test"))])
     }
 
     fn heard(cases: &[&'static Case], threads: usize) -> Vec<(f64, bool)> {
         let mut heard = Vec::new();
-        let done = side_by_side(cases, threads, None, |_, outcome| {
+        let done = side_by_side(cases, threads, How::default(), |_, outcome| {
             heard.push((outcome.claims[0].value, outcome.late.is_some()));
             Ok(())
         });
@@ -217,7 +255,7 @@ mod tests {
     fn a_case_over_its_budget_is_told_and_counts() {
         let run = |_: f64| value(7);
         assert_eq!(heard(&[case(0, run), case(60, run)], 1), [(7.0, true), (7.0, false)]);
-        let told = outcome(case(0, run), None).late.unwrap_or_default();
+        let told = outcome(case(0, run), How::default()).late.unwrap_or_default();
         assert!(told.starts_with("warning: `some` took 0.0 s, longer than its budget of 0 s"), "{told}");
     }
 
@@ -254,7 +292,7 @@ mod tests {
             value(1)
         };
         let cases = [case(60, run); 50];
-        let done = side_by_side(&cases, 1, None, |_, _| Err(Failure::failed("the reader has gone")));
+        let done = side_by_side(&cases, 1, How::default(), |_, _| Err(Failure::failed("the reader has gone")));
         assert!(done.is_err() && BEGUN.load(Ordering::SeqCst) < 10);
     }
 }

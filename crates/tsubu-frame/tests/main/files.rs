@@ -3,7 +3,7 @@
 use std::fs;
 
 use tsubu_frame::whole::write_atomically;
-use tsubu_frame::{Claim, Existing, FileError, Named, ResultValue, RunFolder, Status, Summary};
+use tsubu_frame::{Claim, Existing, FileError, Named, ResultValue, RunFolder, Source, Status, Summary};
 
 const NONE: [&str; 0] = [];
 
@@ -230,7 +230,7 @@ fn the_summary_comes_back_in_order_and_survives_not_a_number() {
     summary.energy.residual_relative = f64::INFINITY;
     summary.results.insert("peak", 4.083_61);
     summary.results.insert("phases", vec![0.1, f64::NAN]);
-    summary.claims.push(Claim::judge("peak", f64::NAN, Some(4.0), None, "closed form"));
+    summary.claims.push(Claim::judge("peak", f64::NAN, Some(4.0), None, Source::scene("closed form")));
     summary.write(&path).unwrap();
     let back = Summary::read(&path).unwrap();
     let names: Vec<_> = back.energy.terms.iter().map(|(n, _)| n.to_owned()).collect();
@@ -274,7 +274,7 @@ fn the_summary_has_the_keys_users_build_on() {
 
 #[test]
 fn claims_include_the_ends_of_their_range() {
-    let pass = |x| Claim::judge("n", x, Some(1.0), Some(2.0), "s").pass;
+    let pass = |x| Claim::judge("n", x, Some(1.0), Some(2.0), Source::scene("s")).pass;
     assert!(pass(1.0) && pass(2.0) && !pass(2.000_000_1) && !pass(f64::NAN));
     let named: Named<f64> = [("a", 1.0), ("b", 2.0), ("a", 3.0)].into_iter().collect();
     assert_eq!((named.len(), named.get("a")), (2, Some(&3.0)));

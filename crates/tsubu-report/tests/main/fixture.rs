@@ -4,7 +4,7 @@ use std::path::Path;
 
 use tsubu_frame::summary::write_json;
 use tsubu_frame::whole::write_atomically;
-use tsubu_frame::{Cell, Claim, Formats, Frame, FrameWriter, History, Kind, Status, Summary, Table};
+use tsubu_frame::{Cell, Claim, Formats, Frame, FrameWriter, History, Kind, Source, Status, Summary, Table};
 
 const FREQUENCY: f64 = 2.1;
 
@@ -70,7 +70,13 @@ pub fn summary(method: &str) -> Summary {
     s.results.insert("rms displacement [m]", 0.002_81);
     s.results.insert("loss factor [-]", 0.0412);
     s.results.insert("lift-off phases [deg]", vec![41.0, 43.5, 40.2]);
-    s.claims.push(Claim::judge("peak displacement", 4.083_61e-3, Some(4.08e-3), Some(4.09e-3), "closed form"));
+    s.claims.push(Claim::judge(
+        "peak displacement",
+        4.083_61e-3,
+        Some(4.08e-3),
+        Some(4.09e-3),
+        Source::scene("closed form"),
+    ));
     s.warnings.push(
         "contact.normal: the overlap reached 1.3 % of a diameter; a stiffer spring would keep it below 1 %".into(),
     );
@@ -240,11 +246,19 @@ pub fn calibration(dir: &Path) {
 pub fn verify(dir: &Path, good: bool) {
     let high = if good { 4.09e-3 } else { 4.0e-3 };
     let claims = vec![
-        Claim::judge("A-F3a peak ratio N=20", 0.973, Some(0.96), Some(0.98), "figure 3a, digitised").of("damper-2003"),
-        Claim::judge("A-7.1 added mass", 0.0421, Some(0.0419), Some(0.0423), "closed form").of("damper-2003"),
-        Claim::judge("V-60 peak [m]", 4.083_61e-3, Some(4.08e-3), Some(high), "single-ball impact damper")
-            .of("impact-damper"),
-        Claim::judge("V-05 restitution", 0.75, None, Some(0.75), "input").of("restitution"),
+        Claim::judge("A-F3a peak ratio N=20", 0.973, Some(0.96), Some(0.98), Source::scene("figure 3a, digitised"))
+            .of("damper-2003"),
+        Claim::judge("A-7.1 added mass", 0.0421, Some(0.0419), Some(0.0423), Source::scene("closed form"))
+            .of("damper-2003"),
+        Claim::judge(
+            "V-60 peak [m]",
+            4.083_61e-3,
+            Some(4.08e-3),
+            Some(high),
+            Source::scene("single-ball impact damper"),
+        )
+        .of("impact-damper"),
+        Claim::judge("V-05 restitution", 0.75, None, Some(0.75), Source::scene("input")).of("restitution"),
     ];
     write_json(&dir.join("verify.json"), &claims).unwrap();
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use tsubu_frame::{Claim, Formats, Frame, FrameWriter, Kind};
+use tsubu_frame::{Claim, Formats, Frame, FrameWriter, Kind, Source};
 use tsubu_report::page::{Block, Report, Tone};
 use tsubu_report::{ReportError, build, report};
 
@@ -161,7 +161,7 @@ fn what_a_scene_claims_comes_first() {
     let found = labels();
     assert!(at(&found, "rms displacement") < at(&found, "loss factor"), "{found:?}");
     let mut summary = fixture::summary("dem");
-    summary.claims.push(Claim::judge("loss factor [-]", 0.0412, Some(0.0), None, "closed form"));
+    summary.claims.push(Claim::judge("loss factor [-]", 0.0412, Some(0.0), None, Source::scene("closed form")));
     summary.write(&dir.path().join("summary.json")).unwrap();
     let found = labels();
     assert!(at(&found, "loss factor") < at(&found, "rms displacement"), "{found:?}");
@@ -237,7 +237,7 @@ fn results_are_told_as_people_read_them() {
     summary.give("heap angle", "rad", 0.4);
     summary.give("heap angle final", "rad", 0.5);
     summary.give("bed density profile", "kg/m^3", vec![1.0; 90]);
-    summary.claims = vec![Claim::judge("heap angle final", 0.5, Some(0.4), Some(0.6), "measured")];
+    summary.claims = vec![Claim::judge("heap angle final", 0.5, Some(0.4), Some(0.6), Source::scene("measured"))];
     summary.write(&dir.path().join("summary.json")).unwrap();
     let report = build(dir.path()).unwrap();
     let cards: Vec<_> =

@@ -2,6 +2,7 @@
 
 use super::{Material, OXIDE, material};
 use crate::bench::{Rig, near, within};
+use crate::origin::closed_form;
 use crate::throw::{Throw, watch};
 use tsubu_frame::Claim;
 
@@ -25,7 +26,7 @@ const THROWN: [(Material, Closed); 2] = [
 
 fn claims(test: &str, found: Closed, closed: Closed) -> impl Iterator<Item = Claim> {
     let names = ["largest force N", "largest overlap m", "time in contact s"];
-    let source = "Hertz, with the numbers of Chung and Ooi 2011";
+    let source = closed_form("Hertz, with the numbers of Chung and Ooi 2011");
     let test = test.to_owned();
     names
         .into_iter()
@@ -79,7 +80,7 @@ pub(crate) fn elastic(perturbation: f64) -> Result<Vec<Claim>, String> {
             residual,
             0.0,
             1e-3,
-            "conservation of energy",
+            closed_form("conservation of energy"),
         ));
     }
     for (m, closed) in &PLANES {
@@ -88,12 +89,12 @@ pub(crate) fn elastic(perturbation: f64) -> Result<Vec<Claim>, String> {
         all.extend(claims(&test, [seen.force, seen.overlap, seen.time], *closed));
         let seen = Throw { steps: 20.0, ..onto_plane(m) }.go(perturbation)?;
         let name = format!("{test}: energy residual at the default step");
-        all.push(within(name, seen.residual, 0.0, 1e-3, "conservation of energy"));
+        all.push(within(name, seen.residual, 0.0, 1e-3, closed_form("conservation of energy")));
     }
     // The plane of other codes, 1000 times as stiff only: 0.04 % less.
     let seen = Throw { wall: 1000.0, ..onto_plane(&PLANES[0].0) }.go(perturbation)?;
     let name = "test 2, aluminium alloy onto a plane 1000 times as stiff: largest force N";
-    all.push(near(name, seen.force, 11.3653e3, 2e-4, "Hertz"));
+    all.push(near(name, seen.force, 11.3653e3, 2e-4, closed_form("Hertz")));
     for (m, closed) in &THROWN {
         let seen = Throw { velocity: [0.0, 3.9], ..m.throw() }.go(perturbation)?;
         all.extend(claims(&format!("test 3, {}, elastic", m.name), [seen.force, seen.overlap, seen.time], *closed));
@@ -109,12 +110,12 @@ pub(crate) fn restitution(perturbation: f64) -> Result<Vec<Claim>, String> {
             let throw = Throw { velocity: [0.0, 3.9], restitution: e, ..m.throw() };
             let found = throw.go(perturbation)?.velocity[1] / 3.9;
             let name = format!("test 3, {}: restitution {e}", m.name);
-            all.push(within(name, found, e, 1e-3, "definition; Chung and Ooi 2011, test 3"));
+            all.push(within(name, found, e, 1e-3, closed_form("definition; Chung and Ooi 2011, test 3")));
         }
         let residual =
             Throw { velocity: [0.0, 3.9], restitution: 0.6, steps: 20.0, ..m.throw() }.go(perturbation)?.residual;
         let name = format!("test 3, {}, restitution 0.6: energy residual at the default step", m.name);
-        all.push(within(name, residual, 0.0, 1e-3, "conservation of energy"));
+        all.push(within(name, residual, 0.0, 1e-3, closed_form("conservation of energy")));
     }
     Ok(all)
 }

@@ -2,6 +2,7 @@
 
 use super::{ALLOY, Material, OXIDE, material};
 use crate::bench::{near, within};
+use crate::origin::{closed_form, digitised};
 use crate::throw::Throw;
 use tsubu_frame::Claim;
 
@@ -44,13 +45,13 @@ pub(crate) fn kharaz(perturbation: f64) -> Result<Vec<Claim>, String> {
             if angle >= 30.0 {
                 let normal = 3.9 * angle.to_radians().cos();
                 let along = 3.9 * angle.to_radians().sin();
-                let source = "Coulomb, gross sliding";
+                let source = closed_form("Coulomb, gross sliding");
                 let closed = 1.0 - 0.092 * 1.98 * normal / along;
                 claims.push(near(format!("{name}: tangential restitution"), found_et, closed, 2e-3, source));
                 let closed = -2.5 * 0.092 * 1.98 * normal / 2.5e-3;
                 claims.push(near(format!("{name}: spin rad/s"), found_spin, closed, 2e-3, source));
             } else if angle < 20.0 {
-                let source = "Chung and Ooi 2011, figures of test 4";
+                let source = digitised("Chung and Ooi 2011, figures of test 4");
                 claims.push(near(format!("{name}: tangential restitution"), found_et, et, 0.03, source));
                 // The spin passes zero: 3 % of the curve's height.
                 claims.push(within(format!("{name}: spin rad/s"), found_spin, spin, 0.03 * fullest, source));
@@ -70,7 +71,9 @@ pub(crate) fn gross_sliding(perturbation: f64) -> Result<Vec<Claim>, String> {
             let law = format!("tangential.mindlin = {{ form = \"{form}\", damping = 0 }}");
             for x in [6.5, 7.5, 10.0, 13.0] {
                 let (y1, y2) = test_5(m, x, &law, perturbation)?;
-                let source = "Coulomb, gross sliding with the contact at half the overlap; begins as in Maw, Barber, Fawcett 1976";
+                let source = closed_form(
+                    "Coulomb, gross sliding with the contact at half the overlap; begins as in Maw, Barber, Fawcett 1976",
+                );
                 let name = format!("test 5, {}, {form}, x = {x}", m.name);
                 let spin = -5.0 * (1.0 - shortening(m));
                 claims.push(within(format!("{name}: contact velocity after"), y1, x - 2.0 + spin, 0.01, source));

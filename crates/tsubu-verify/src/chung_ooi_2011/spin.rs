@@ -3,6 +3,7 @@
 use super::oblique::table;
 use super::{ALLOY, Material, material};
 use crate::bench::{Rig, near, within};
+use crate::origin::{closed_form, digitised};
 use crate::throw::Throw;
 use tsubu_frame::Claim;
 
@@ -102,7 +103,7 @@ fn against_large(m: &Material, s: f64, law: &str, perturbation: f64) -> Result<f
 /// V-12 and V-14, tests 6 and 8: gross sliding gives s - 1; above, both are one curve.
 pub(crate) fn spinning(perturbation: f64) -> Result<Vec<Claim>, String> {
     let nylon = material("nylon", 2.5e9, 0.4, 1000.0);
-    let source = "Coulomb, gross sliding: s - 1";
+    let source = closed_form("Coulomb, gross sliding: s - 1");
     let mut claims = Vec::new();
     for m in [&ALLOY, &nylon] {
         for s in [0.176, 0.352, 0.551, 0.771] {
@@ -115,14 +116,14 @@ pub(crate) fn spinning(perturbation: f64) -> Result<Vec<Claim>, String> {
     }
     for [s, beta] in table::<2>(AUTHORS).into_iter().filter(|row| row[0] < 1.0) {
         let name = format!("test 6, {}, s = {s}, secant: tangential rebound", ALLOY.name);
-        let source = "Chung and Ooi 2011, figure of test 6, 3 % of its height";
+        let source = digitised("Chung and Ooi 2011, figure of test 6, 3 % of its height");
         claims.push(within(name, against_plane(&ALLOY, s, SECANT, perturbation)?, beta, 0.03, source));
     }
     for s in [1.454, 2.996, 7.819] {
         let (plane, large) =
             (against_plane(&ALLOY, s, SECANT, perturbation)?, against_large(&ALLOY, s, SECANT, perturbation)?);
         let name = format!("tests 8 and 6, {}, s = {s}: difference of their rebounds", ALLOY.name);
-        claims.push(within(name, large - plane, 0.0, 2e-3, "one curve for both tests"));
+        claims.push(within(name, large - plane, 0.0, 2e-3, closed_form("one curve for both tests")));
     }
     Ok(claims)
 }
@@ -134,7 +135,7 @@ pub(crate) fn no_slip(perturbation: f64) -> Result<Vec<Claim>, String> {
         // The constants of the law do not matter here: the perturbation spoils one spin.
         let rig = pair(&ALLOY, false, [spin, -spin * perturbation], "", 1.0)?;
         let (v, w) = (rig.vectors("velocity"), rig.vectors("spin"));
-        let source = "symmetry; Chung and Ooi 2011, test 7";
+        let source = closed_form("symmetry; Chung and Ooi 2011, test 7");
         let name = |what: &str| format!("test 7, {spin} rad/s: {what}");
         claims.push(within(name("tangential velocity m/s"), v[0].z, 0.0, 1e-10, source));
         claims.push(within(name("change of spin rad/s"), w[0].y - spin, 0.0, 1e-10, source));

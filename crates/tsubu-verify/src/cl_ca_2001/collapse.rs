@@ -1,14 +1,16 @@
 //! C-F9 to F11: a bed that loses a side wall, by CL-CA, by DEM, and of grains that may turn.
 
 use super::super::beds::line;
-use super::super::bench::{Rig, at_least, between, refused};
+use super::super::bench::{Rig, at_least, between};
+use super::super::control::refused;
+use crate::origin::{closed_form, own};
 use glam::DVec3;
 use std::path::Path;
 use std::time::Instant;
-use tsubu_frame::Claim;
+use tsubu_frame::{Claim, Source};
 use tsubu_scene::Scene;
 
-const SOURCE: &str = "Sakaguchi et al. (2001), figures 9 to 11: pictures";
+const SOURCE: Source = own("Sakaguchi et al. (2001), figures 9 to 11: pictures").after();
 
 /// The scene of the collapse by a method, with changes; the wall on the right stays if `opened` is false.
 pub(super) fn collapsing(method: &str, opened: bool, changes: &[&str]) -> Result<Rig, String> {
@@ -74,14 +76,20 @@ pub(in super::super) fn collapse(perturbation: f64) -> Result<Vec<Claim>, String
     let (outside, front, angle) = slope(&rig.vectors("position"), WALL);
     claims.push(between("late: grains beyond the place of the wall", outside, 20.0, 270.0, SOURCE));
     claims.push(between("late: front mm", front, 100.0, 300.0, SOURCE));
-    let lattice = "between nothing and the steepest side of the lattice, 60 degrees";
+    let lattice = own("between nothing and the steepest side of the lattice, 60 degrees").after();
     claims.push(between("late: slope degrees", angle, 20.0, 60.0, lattice));
     let standing = {
         let mut rig = collapsing("cl-ca", false, &[])?;
         rig.until(1.4)?;
         slope(&rig.vectors("position"), WALL).0
     };
-    claims.push(between("control, the wall stays: grains beyond it", standing, 0.0, 0.0, "nothing else lets them out"));
+    claims.push(between(
+        "control, the wall stays: grains beyond it",
+        standing,
+        0.0,
+        0.0,
+        closed_form("nothing else lets them out"),
+    ));
     Ok(claims)
 }
 
@@ -99,16 +107,17 @@ pub(in super::super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (locked, _) = run("dem", &["contact.rotation=false"])?;
     let (rough, _) = run("dem", &["contact.rotation=false", "materials.aluminium.friction=0.5"])?;
     let (rolling, _) = run("dem", &["contact.rolling.epsd={}", "materials.aluminium.rolling-friction=0.2"])?;
-    let source = "a hundredth of the time of its DEM twin, measured in one run";
-    let fair = "the fair twin: DEM of discs of the same areas that do not turn; a quarter either way";
-    let near = "the fair twin: DEM of discs of the same areas that do not turn; 10 degrees either way";
+    let source = own("a hundredth of the time of its DEM twin, measured in one run").after();
+    let fair = own("the fair twin: DEM of discs of the same areas that do not turn; a quarter either way").after();
+    let near = own("the fair twin: DEM of discs of the same areas that do not turn; 10 degrees either way").after();
     let gates = |name: &str, of: (f64, f64, f64), twin: (f64, f64, f64)| {
         [
             between(format!("way of the front, {name}"), (of.1 - 1e3 * WALL) / (twin.1 - 1e3 * WALL), 0.8, 1.25, fair),
             between(format!("slope in degrees, {name}"), of.2 - twin.2, -10.0, 10.0, near),
         ]
     };
-    let turns = "the more grains turn, the farther and flatter they run out (Osada 2004, figures 19 and 23)";
+    let turns =
+        own("the more grains turn, the farther and flatter they run out (Osada 2004, figures 19 and 23)").after();
     let order = |more: &str, most: (f64, f64, f64), less: &str, least: (f64, f64, f64)| {
         let way = (most.1 - 1e3 * WALL) / (least.1 - 1e3 * WALL);
         [
@@ -143,12 +152,18 @@ pub(in super::super) fn turning(perturbation: f64) -> Result<Vec<Claim>, String>
     };
     let (stiff, turned) = (run(&[TRIANGLES], false)?, run(&[TRIANGLES], true)?);
     let (hexagons, same) = (run(&[], false)?, run(&[], true)?);
-    let room = "grains that turn find room that others leave open";
+    let room = own("grains that turn find room that others leave open").after();
     let closer = |name: &str, turned: f64, stiff: f64| between(name, turned / stiff, 0.5, 0.95, room);
-    let pattern = "the lattice makes the slope, not whether grains turn: what comes out is close to what does not turn";
+    let pattern =
+        own("the lattice makes the slope, not whether grains turn: what comes out is close to what does not turn")
+            .after();
     Ok(vec![
         closer("height of the bed at rest, triangles that turn over those that do not", turned.0, stiff.0),
-        refused("hexagons, which look alike when turned", &[closer("", same.0, hexagons.0)], 1),
+        refused(
+            "hexagons, which look alike when turned",
+            &[closer("height of the bed at rest, triangles that turn over those that do not", same.0, hexagons.0)],
+            1,
+        ),
         between(
             "way of the front, triangles that turn over those that do not",
             turned.1 / stiff.1,

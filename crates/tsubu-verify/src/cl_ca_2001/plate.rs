@@ -1,6 +1,8 @@
 //! C-x4: a plate pushed into a bed, and which grains carry it, beside DEM.
 
-use super::super::bench::{self, Rig, at_least, between, refused};
+use super::super::bench::{self, Rig, at_least, between};
+use super::super::control::{refused, refused_number};
+use crate::origin::own;
 use std::path::Path;
 use tsubu::view::{Contact, Contacts, Wants};
 use tsubu_frame::Claim;
@@ -21,12 +23,17 @@ pub(in super::super) fn plate(perturbation: f64) -> Result<Vec<Claim>, String> {
         // The plate comes down at 50 mm/s from 116 mm and meets the bed at 1.44 s: it has gone 1 mm into it.
         rig.until(PUSHED)?;
         let Network { loads, carry, under } = network(&rig, Contacts::Places);
-        let source = "chain-like, not uniform";
+        let source = own("chain-like, not uniform").after();
         Ok([
             at_least("pairs that share points", loads.len() as f64, 20.0, source),
             at_least("spread of shared points over their mean", scatter(&loads), 0.3, source),
             between("share of grains that carry", carry, 0.02, 0.5, source),
-            at_least("of those, share below the plate", under, 0.45, "the plate covers 30 of 80 mm: 0.37 if all alike"),
+            at_least(
+                "of those, share below the plate",
+                under,
+                0.45,
+                own("the plate covers 30 of 80 mm: 0.37 if all alike").after(),
+            ),
         ])
     };
     let mut claims = pushed(perturbation == 1.0)?.to_vec();
@@ -101,16 +108,18 @@ pub(in super::super) fn plate_twin(perturbation: f64) -> Result<Vec<Claim>, Stri
     };
     let lattice = at("cl-ca", Some(PUSHED), Contacts::Places)?;
     let discs = at("dem", None, Contacts::Forces)?;
-    let broad = "forces of a pushed bed spread about as far as their mean (Radjai et al. 1996; Mueth et al. 1998)";
-    let strong = "forces above their mean run through chains, not through every grain (Radjai et al. 1996)";
-    let twin = "the same plate, pushed 1 mm into discs by DEM; a third either way";
+    let broad =
+        own("forces of a pushed bed spread about as far as their mean (Radjai et al. 1996; Mueth et al. 1998)").after();
+    let strong =
+        own("forces above their mean run through chains, not through every grain (Radjai et al. 1996)").after();
+    let twin = own("the same plate, pushed 1 mm into discs by DEM; a third either way").after();
     let alike = |name: &str, spread: f64| between(name, spread / scatter(&discs.loads), 0.67, 1.5, twin);
     Ok(vec![
         between("DEM: spread of forces over their mean", scatter(&discs.loads), 0.6, 1.5, broad),
         between("DEM: share of grains with more than the mean force", discs.carry, 0.05, 0.9, strong),
-        between("DEM: of those, share below the plate", discs.under, 0.37, 1.0, "0.37 if all alike"),
+        between("DEM: of those, share below the plate", discs.under, 0.37, 1.0, own("0.37 if all alike").after()),
         alike("spread of loads, CL-CA over DEM", scatter(&lattice.loads)),
-        refused("a network where all pairs carry alike", &[alike("", 0.0)], 1),
+        refused_number("a network where all pairs carry alike", &[alike("", 0.0)], 1),
         between("share of grains that carry, CL-CA over DEM", lattice.carry / discs.carry, 0.67, 1.5, twin),
     ])
 }

@@ -1,6 +1,7 @@
 //! C-x1 and C-x2: a shaken box, in which a large grain rises and rough walls make grains roll round.
 
 use super::super::bench::{Rig, at_least, between};
+use crate::origin::own;
 use glam::DVec3;
 use tsubu_frame::Claim;
 
@@ -44,7 +45,7 @@ const CYCLE: [u64; 2] = [20, 200];
 pub(in super::super) fn rise(perturbation: f64) -> Result<Vec<Claim>, String> {
     const SEEDS: u64 = 3;
     const CYCLES: u64 = 200;
-    let source = "the large grain rises, a grain as small as the others does not";
+    let source = own("the large grain rises, a grain as small as the others does not").after();
     let mut claims = Vec::new();
     let mut times = Vec::new();
     for radius in 1..=4 {
@@ -127,7 +128,7 @@ fn rolls(rough: bool) -> Result<[f64; 7], String> {
 
 /// C-x2: down along rough walls, up beside that; along smooth walls next to nothing.
 pub(in super::super) fn convection(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let source = "convection needs rough walls";
+    let source = own("convection needs rough walls").after();
     let rough = rolls(perturbation == 1.0)?;
     let smooth = rolls(false)?;
     let outer = |v: &[f64; 7]| 0.5 * (v[0] + v[6]);

@@ -1,8 +1,10 @@
 //! A bed loses its right wall.
 
-use super::super::bench::{at_least, between, refused};
+use super::super::bench::{at_least, between};
 use super::super::cl_ca_2001::slope;
+use super::super::control::refused;
 use super::seen::{Measured, Picture, Seen, Test};
+use crate::origin::{closed_form, own};
 use tsubu_frame::Claim;
 
 const FRONT: &str = "front beyond the wall's place [mm]";
@@ -47,7 +49,7 @@ fn measure(seen: &Seen) -> Vec<(&'static str, f64)> {
 fn judge(of: &Measured) -> Vec<Claim> {
     let front = |name: &str| of.value(name, FRONT);
     let further = |more: &str, less: &str| {
-        let source = "the more grains turn, the farther they run (Osada 2004, figure 19)";
+        let source = own("the more grains turn, the farther they run (Osada 2004, figure 19)").after();
         at_least(
             format!("collapse, way of the front by {more} over that by {less}"),
             front(more) / front(less),
@@ -55,7 +57,7 @@ fn judge(of: &Measured) -> Vec<Claim> {
             source,
         )
     };
-    let fair = "the fair twin: discs of the same areas that do not turn";
+    let fair = own("the fair twin: discs of the same areas that do not turn").after();
     let alike = |name: &str| {
         let slope = of.value(name, ANGLE) - of.value("locked", ANGLE);
         [
@@ -73,7 +75,7 @@ fn judge(of: &Measured) -> Vec<Claim> {
     claims.push(refused("collapse, locked discs for free ones", &[further("locked", "dem")], 1));
     claims.extend(alike("cl-ca"));
     claims.push(refused("collapse, free discs for hexagons", &alike("dem"), 2));
-    let stays = "nothing else lets them out";
+    let stays = closed_form("nothing else lets them out");
     claims.push(between("collapse, the wall stays: share beyond it", of.value("stays", BEYOND), 0.0, 0.0, stays));
     claims
 }

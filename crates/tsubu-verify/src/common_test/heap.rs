@@ -1,8 +1,10 @@
 //! A heap grows below a funnel.
 
-use super::super::bench::{at_least, between, refused};
+use super::super::bench::{at_least, between};
+use super::super::control::refused;
 use super::seen::{Measured, Picture, Seen, Test, quantile};
-use tsubu_frame::Claim;
+use crate::origin::{closed_form, own};
+use tsubu_frame::{Claim, Source};
 
 const ANGLE: &str = "slope of the heap [deg]";
 const TOP: &str = "height of the heap [mm]";
@@ -40,16 +42,22 @@ fn measure(seen: &Seen) -> Vec<(&'static str, f64)> {
 
 fn judge(of: &Measured) -> Vec<Claim> {
     let angle = |name: &str| of.value(name, ANGLE);
-    let steeper = |more: &str, less: &str, source: &str| {
+    let steeper = |more: &str, less: &str, source: Source<'_>| {
         at_least(format!("heap, slope by {more} less that by {less}, degrees"), angle(more) - angle(less), 3.0, source)
     };
-    let turns = "the less grains turn, the steeper they lie (Osada 2004, figures 19 and 23)";
-    let lattice = "a lattice has its own slope, steeper than friction 0.3 holds";
+    let turns = own("the less grains turn, the steeper they lie (Osada 2004, figures 19 and 23)").after();
+    let lattice = own("a lattice has its own slope, steeper than friction 0.3 holds").after();
     vec![
         steeper("rolling", "dem", turns),
         steeper("locked", "rolling", turns),
         steeper("cl-ca", "locked", lattice),
-        between("heap, slope by after-caram-hong, degrees", angle("after-caram-hong"), 55.0, 65.0, "60: the lattice"),
+        between(
+            "heap, slope by after-caram-hong, degrees",
+            angle("after-caram-hong"),
+            55.0,
+            65.0,
+            closed_form("60: the lattice"),
+        ),
         refused("heap, discs that do not turn for free ones", &[steeper("dem", "locked", turns)], 1),
     ]
 }

@@ -1,7 +1,9 @@
 //! A silo runs out through a slot in its floor.
 
-use super::super::bench::{at_least, between, refused};
+use super::super::bench::{at_least, between};
+use super::super::control::{refused, refused_number};
 use super::seen::{Measured, Picture, Seen, Test, spread};
+use crate::origin::{own, remembered};
 use tsubu_frame::Claim;
 
 const RATE: &str = "discharge [1/s]";
@@ -72,7 +74,8 @@ fn measure(seen: &Seen) -> Vec<(&'static str, f64)> {
 }
 
 fn judge(of: &Measured) -> Vec<Claim> {
-    let source = "independent of the height of the bed, unlike a liquid, 0.77 (Sakaguchi et al. 2001, figure 1)";
+    let source =
+        own("independent of the height of the bed, unlike a liquid, 0.77 (Sakaguchi et al. 2001, figure 1)").after();
     let steady = |name: &str, ratio: f64| {
         between(format!("hopper, {name}: rate of the later half over the earlier"), ratio, 0.85, 1.18, source)
     };
@@ -81,7 +84,7 @@ fn judge(of: &Measured) -> Vec<Claim> {
         "hopper: models that let out 70 % of the bed",
         flowing.len() as f64,
         5.0,
-        "three kinds of DEM, CL-CA, and one more at least",
+        own("three kinds of DEM, CL-CA, and one more at least").after(),
     )];
     // A plain lattice gas is a fluid: no grains, and a second thing for the gate to refuse.
     let grains = flowing.into_iter().filter(|name| *name != "fhp");
@@ -89,8 +92,8 @@ fn judge(of: &Measured) -> Vec<Claim> {
     claims.push(refused("hopper, a gas (FHP)", &[steady("fhp", of.value("fhp", STEADY))], 1));
     // The speed of a liquid goes with the root of what is left: so does the time to let out the next share.
     let time = |from: f64, to: f64| f64::sqrt(1.0 - from) - f64::sqrt(1.0 - to);
-    claims.push(refused("hopper, a liquid", &[steady("", time(0.1, 0.4) / time(0.4, 0.7))], 1));
-    let narrow = "one grain a site spreads voids too little (B = 0.144 d, experiments 1 to 3.5 d)";
+    claims.push(refused_number("hopper, a liquid", &[steady("", time(0.1, 0.4) / time(0.4, 0.7))], 1));
+    let narrow = remembered("one grain a site spreads voids too little (B = 0.144 d, experiments 1 to 3.5 d)");
     let width = |name: &str| {
         let ratio = of.value(name, WIDTH) / of.value("dem", WIDTH);
         between(format!("hopper, {name}: width of the flow over that of free discs"), ratio, 0.2, 0.9, narrow)

@@ -1,7 +1,9 @@
 //! Two sizes in a box that is shaken up and down.
 
-use super::super::bench::{at_least, between, refused};
+use super::super::bench::{at_least, between};
+use super::super::control::refused;
 use super::seen::{Measured, Picture, Seen, Test};
+use crate::origin::own;
 use tsubu_frame::Claim;
 
 const RISE: &str = "large over small at the end, of the bed's height [-]";
@@ -70,14 +72,14 @@ fn measure(seen: &Seen) -> Vec<(&'static str, f64)> {
 fn judge(of: &Measured) -> Vec<Claim> {
     let rises = |name: &str| {
         let what = format!("shaken, {name}: large over small, gained, of the bed's height");
-        at_least(what, of.value(name, GAIN), 0.08, "large grains rise among small ones")
+        at_least(what, of.value(name, GAIN), 0.08, own("large grains rise among small ones").after())
     };
     let sinks = |name: &str| {
         let what = format!("shaken, {name}: deepest grain below the floor, mm");
-        let source = "no grain leaves the box; DEM lets discs sink in by a hundredth of their size";
+        let source = own("no grain leaves the box; DEM lets discs sink in by a hundredth of their size").after();
         Claim::judge(what, of.value(name, SUNK), None, Some(0.5), source)
     };
-    let walls = "no roll where walls do not rub; a lattice knows no friction";
+    let walls = own("no roll where walls do not rub; a lattice knows no friction").after();
     let still = |name: &str| {
         let what = format!("shaken, {name}: middle over walls, mm per period");
         between(what, of.value(name, ROLL), -0.05, 0.05, walls)
@@ -89,7 +91,7 @@ fn judge(of: &Measured) -> Vec<Claim> {
         "shaken, dem: middle over walls, mm per period",
         of.value("dem", ROLL),
         0.1,
-        "up in the middle and down at walls that rub",
+        own("up in the middle and down at walls that rub").after(),
     ));
     claims.push(still("switched"));
     claims.push(refused("shaken, discs that rub for hexagons that do not", &[still("dem")], 1));

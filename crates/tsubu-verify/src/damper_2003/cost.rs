@@ -1,6 +1,7 @@
 //! A-F12: seconds of computing per vibration period against the number of balls.
 
 use super::{FIGURE_3, FIGURE_11};
+use crate::origin::own;
 use std::time::Instant;
 use tsubu::engine;
 use tsubu::ledger::Ledger;
@@ -49,7 +50,8 @@ pub(crate) fn figure_12(_spoiler: f64) -> Result<Vec<Claim>, String> {
     let dem = series(FIGURE_3, &[])?;
     let coarse = series(FIGURE_11, &["lattice.mode=extended"])?;
     let fine = series(FIGURE_11, &["lattice.mode=extended", "lattice.time-step=20 us"])?;
-    let source = "figure 12: DEM at 2e-5 s grows with N, the automaton stays flat; times are of this machine";
+    let source =
+        own("figure 12: DEM at 2e-5 s grows with N, the automaton stays flat; times are of this machine").after();
     let mut claims = Vec::new();
     for (name, seconds, low, high) in [
         ("DEM at 2e-5 s", &dem, 0.6, 1.8),

@@ -1,14 +1,16 @@
 //! elongated grains in a hopper, after Baxter and Behringer.
 
-use super::super::bench::{refused, within};
+use super::super::bench::within;
+use super::super::control::refused;
+use crate::origin::{closed_form, own};
 use tsubu::lattice::direction::Direction;
 use tsubu::lattice::gas::collide::{REST, SLOTS};
 use tsubu::lattice::gas::elongated::Alignment;
 use tsubu::lattice::gas::grains::{Grains, Habits};
 use tsubu::random::{Purpose, words};
-use tsubu_frame::Claim;
+use tsubu_frame::{Claim, Source};
 
-const SOURCE: &str = "Baxter and Behringer 1990, from memory; rules after them";
+const SOURCE: Source = own("Baxter and Behringer 1990, from memory; rules after them").after();
 const COLUMNS: usize = 60;
 const ROWS: usize = 160;
 /// Rows of the throat, and of the end of the slope.
@@ -129,20 +131,27 @@ pub(crate) fn hopper_order(perturbation: f64) -> Result<Vec<Claim>, String> {
     Ok(vec![
         order("hopper: share of upright grains in the throat", &with),
         gate("hopper: that share less the one above the slope", &with),
-        refused("no alignment", &[order("throat", &without), gate("growth", &without)], 2),
+        refused(
+            "no alignment",
+            &[
+                order("hopper: share of upright grains in the throat", &without),
+                gate("hopper: that share less the one above the slope", &without),
+            ],
+            2,
+        ),
         within(
             "hopper: share of upright grains in the throat without alignment",
             without.throat,
             1.0 / 3.0,
             0.03,
-            "symmetry",
+            closed_form("symmetry"),
         ),
         within(
             "hopper: sites that differ from round grains",
             differ as f64,
             0.0,
             0.0,
-            "grains that are alike on all sides are those after Peng and Herrmann",
+            closed_form("grains that are alike on all sides are those after Peng and Herrmann"),
         ),
         Claim::judge("hopper: grains through the throat in a step", with.flow, Some(1.0), None, SOURCE),
         Claim::judge(

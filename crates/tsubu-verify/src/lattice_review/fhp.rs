@@ -1,14 +1,16 @@
 //! the lattice gas FHP in its three forms.
 
-use super::super::bench::{near, refused, within};
+use super::super::bench::{near, within};
+use super::super::control::{refused, refused_number};
+use crate::origin::closed_form;
 use std::f64::consts::{PI, TAU};
 use tsubu::lattice::direction::Direction;
 use tsubu::lattice::gas::collide::{REST, Rules, SLOTS, collide};
 use tsubu::lattice::gas::planes::{Gas, momentum};
 use tsubu::lattice::grid::COLUMN_SPACING;
-use tsubu_frame::Claim;
+use tsubu_frame::{Claim, Source};
 
-const FRISCH: &str = "Frisch, d'Humieres, Hasslacher, Lallemand, Pomeau, Rivet 1987";
+const FRISCH: Source = closed_form("Frisch, d'Humieres, Hasslacher, Lallemand, Pomeau, Rivet 1987");
 const ALL: [(Rules, &str); 3] = [(Rules::One, "FHP-I"), (Rules::Two, "FHP-II"), (Rules::Three, "FHP-III")];
 
 /// Kinematic viscosity at mean occupation d, in spacings squared a step, without correlations between particles.
@@ -102,7 +104,7 @@ pub(crate) fn collisions(perturbation: f64) -> Result<Vec<Claim>, String> {
             gates.push(near(name, value, other, 1e-9, FRISCH));
         }
     }
-    claims.push(refused("viscosity of another form", &gates, 9));
+    claims.push(refused_number("viscosity of another form", &gates, 9));
     Ok(claims)
 }
 
@@ -121,7 +123,7 @@ pub(crate) fn viscosity(perturbation: f64) -> Result<Vec<Claim>, String> {
         gates.push(near(name, value, formula(other, 0.15), 0.03, FRISCH));
         gates.push(near(name, value, formula(rules, 0.15 * 0.9), 0.03, FRISCH));
     }
-    claims.push(refused("viscosity of another form, or of a gas 10 % thinner", &gates, 6));
+    claims.push(refused_number("viscosity of another form, or of a gas 10 % thinner", &gates, 6));
     for (rules, name, d, columns) in [(Rules::One, "FHP-I", 0.35, 64), (Rules::Three, "FHP-III", 0.5, 32)] {
         claims.push(as_it_is(rules, name, d * perturbation, columns, false));
     }
@@ -148,7 +150,7 @@ pub(crate) fn viscosity_plain(perturbation: f64) -> Result<Vec<Claim>, String> {
         gates.push(within(name, over_other, 1.0, 0.03, FRISCH));
         claims.extend([chaos, as_it_is(rules, name, d * perturbation, 64, false)]);
     }
-    claims.push(refused("viscosity of another form", &gates, 2));
+    claims.push(refused_number("viscosity of another form", &gates, 2));
     Ok(claims)
 }
 
@@ -184,7 +186,7 @@ pub(crate) fn sound(perturbation: f64) -> Result<Vec<Claim>, String> {
         .collect();
     let other = |rules: Rules| expected(if rules == Rules::One { Rules::Two } else { Rules::One });
     let gates = speeds.map(|(rules, name, value)| near(name, value, other(rules), 0.02, FRISCH));
-    claims.push(refused("speed of sound with and without particles at rest exchanged", &gates, 3));
+    claims.push(refused_number("speed of sound with and without particles at rest exchanged", &gates, 3));
     Ok(claims)
 }
 
@@ -209,7 +211,7 @@ impl Channel {
             gas.wall(WIDTH + 1, row, (!rough).then_some(0));
         }
         // Near where it will be, which saves the way there; and more, for two slots of every wall site will be filled.
-        let form = closed_form(1.0);
+        let form = profile_of(1.0);
         let filling = DENSITY * (1.0 + 4.0 / (7 * WIDTH) as f64);
         let down = |slot: usize| if slot == REST { 0.0 } else { -0.5 * Direction::from_index(slot).k() as f64 };
         gas.scatter(|column, _, slot| filling * (1.0 + 7.0 / 3.0 * down(slot) * form[column - 1]));
@@ -239,7 +241,7 @@ impl Channel {
 /// The closed form in a gas of FHP-III. A site turns a particle if N is full and S is empty, so often that a gas at rest gains
 /// a = 2 odds (1 - d) / 7, and one that moves at u gains a (1 - b u) with b = 7 / (3 - 3 d). The viscous answer
 /// u = (1 - cosh(q x) / cosh(q h)) / b, q^2 = a b / nu, is the parabola for a weak force.
-fn closed_form(push: f64) -> Vec<f64> {
+fn profile_of(push: f64) -> Vec<f64> {
     let (a, b) = (push * ODDS * (1.0 - DENSITY) * 2.0 / 7.0, 7.0 / (3.0 - 3.0 * DENSITY));
     let q = (a * b / formula(Rules::Three, DENSITY)).sqrt();
     let half = 0.5 * WIDTH as f64 * COLUMN_SPACING;
@@ -254,9 +256,9 @@ pub(crate) fn channel(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut channel = Channel::new(true);
     channel.profile(1000);
     let speeds = channel.profile(1600);
-    let form = closed_form(perturbation);
+    let form = profile_of(perturbation);
     let middle = |speeds: &[f64]| speeds[WIDTH / 2 - 3..WIDTH / 2 + 3].iter().sum::<f64>();
-    let source = "Navier and Stokes, with the viscosity of Frisch et al. 1987";
+    let source = closed_form("Navier and Stokes, with the viscosity of Frisch et al. 1987");
     let gates = |speeds: &[f64]| {
         let farthest = speeds.iter().zip(&form).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / form[WIDTH / 2];
         let shape = |speeds: &[f64]| 1.0 - (speeds[WIDTH / 4] + speeds[WIDTH - 1 - WIDTH / 4]) * 3.0 / middle(speeds);
@@ -284,14 +286,20 @@ pub(crate) fn channel(perturbation: f64) -> Result<Vec<Claim>, String> {
     let slipping = free.profile(100);
     claims.push(refused("a channel with mirrors for walls", &gates(&slipping), 3));
     let spread = slipping.iter().fold(0.0, |most: f64, v| most.max((v / slipping[WIDTH / 2] - 1.0).abs()));
-    claims.push(within("FHP-III: smooth walls leave the flow flat", spread, 0.0, 0.05, "no drag at a mirror"));
+    claims.push(within(
+        "FHP-III: smooth walls leave the flow flat",
+        spread,
+        0.0,
+        0.05,
+        closed_form("no drag at a mirror"),
+    ));
     let (before, start) = (channel.mass, Channel::new(true).gas.mass());
     claims.push(within(
         "FHP-III: particles lost in the channel",
         before.abs_diff(start) as f64,
         0.0,
         0.0,
-        "conservation",
+        closed_form("conservation"),
     ));
     Ok(claims)
 }

@@ -1,14 +1,15 @@
 //! piles and avalanches, after Karolyi and Kertesz.
 
-use super::super::bench::refused;
+use super::super::control::{refused, refused_number};
 use super::fhp::slope;
+use crate::origin::{closed_form, own};
 use tsubu::lattice::gas::pile::{Habits, Pile};
 use tsubu::lattice::gas::sites::Sites;
 use tsubu::lattice::grid::COLUMN_SPACING;
 use tsubu::random::{Purpose, words};
-use tsubu_frame::Claim;
+use tsubu_frame::{Claim, Source};
 
-const SOURCE: &str = "Karolyi and Kertesz 1998, from memory; rules after them";
+const SOURCE: Source = own("Karolyi and Kertesz 1998, from memory; rules after them").after();
 
 /// A table on which grains are dropped one by one, each when all are at rest, and how many fell off for each.
 fn heap(friction: f64, half: usize, count: usize) -> (Pile, Vec<u64>) {
@@ -65,7 +66,11 @@ pub(crate) fn pile_angle(perturbation: f64) -> Result<Vec<Claim>, String> {
     claims.push(gate("pile: rise of the slope from friction 0.1 to 0.2 [degrees]", angles[2] - angles[1]));
     claims.push(Claim::judge("pile: slope at friction 0.2 [degrees]", angles[2], None, Some(75.0), SOURCE));
     let again = angle(0.1 * perturbation.powi(60));
-    claims.push(refused("the same friction twice", &[gate("rise", again - angles[1])], 1));
+    claims.push(refused(
+        "the same friction twice",
+        &[gate("pile: rise of the slope from friction 0.1 to 0.1 [degrees]", again - angles[1])],
+        1,
+    ));
     Ok(claims)
 }
 
@@ -96,14 +101,14 @@ pub(crate) fn pile_avalanches(perturbation: f64) -> Result<Vec<Claim>, String> {
     let scale_free: Vec<f64> = (1..=fell.len()).map(|rank| (fell.len() as f64 / rank as f64).floor()).collect();
     Ok(vec![
         gates(&fell, "pile: avalanches over the edge"),
-        refused("avalanches without a scale", &[gates(&scale_free, "scale-free")], 1),
+        refused_number("avalanches without a scale", &[gates(&scale_free, "scale-free")], 1),
         Claim::judge("pile: largest of 22 000 avalanches over the pile", largest, Some(0.01), Some(0.3), SOURCE),
         Claim::judge(
             "pile: grains that fall off for one that is dropped",
             mean,
             Some(0.9),
             Some(1.1),
-            "a pile in balance",
+            closed_form("a pile in balance"),
         ),
     ])
 }
@@ -149,8 +154,12 @@ pub(crate) fn pile_segregation(perturbation: f64) -> Result<Vec<Claim>, String> 
             "silo: smooth grains lie farther from the spout than rough ones [columns of 78]",
             farther(&silo([0.02, rough])),
         ),
-        Claim::judge("silo: the same for equal grains", equal, Some(-2.0), Some(2.0), "symmetry"),
-        refused("grains of equal friction", &[gate("equal", equal)], 1),
+        Claim::judge("silo: the same for equal grains", equal, Some(-2.0), Some(2.0), closed_form("symmetry")),
+        refused(
+            "grains of equal friction",
+            &[gate("silo: smooth grains lie farther from the spout than rough ones [columns of 78]", equal)],
+            1,
+        ),
     ])
 }
 
@@ -182,7 +191,20 @@ pub(crate) fn silo_layers(perturbation: f64) -> Result<Vec<Claim>, String> {
             "silo: share of like neighbours down the slope less that of those above each other",
             layered(at_rest(silo([0.02, rough]))),
         ),
-        Claim::judge("silo: the same where layers of four rows are drawn", layered(drawn), Some(0.1), None, "by hand"),
-        refused("grains of equal friction", &[gate("equal", layered(at_rest(silo([0.2; 2]))))], 1),
+        Claim::judge(
+            "silo: the same where layers of four rows are drawn",
+            layered(drawn),
+            Some(0.1),
+            None,
+            own("by hand").after(),
+        ),
+        refused(
+            "grains of equal friction",
+            &[gate(
+                "silo: share of like neighbours down the slope less that of those above each other",
+                layered(at_rest(silo([0.2; 2]))),
+            )],
+            1,
+        ),
     ])
 }

@@ -1,15 +1,17 @@
 //! density waves of grains that fall through a pipe, after Peng and Herrmann.
 
-use super::super::bench::{refused, within};
+use super::super::bench::within;
+use super::super::control::refused;
 use super::fhp::slope;
+use crate::origin::{closed_form, own};
 use std::f64::consts::TAU;
 use tsubu::lattice::gas::collide::Rules;
 use tsubu::lattice::gas::grains::{Grains, Habits};
 use tsubu::lattice::gas::planes::Gas;
 use tsubu::random::{Purpose, unit, words};
-use tsubu_frame::Claim;
+use tsubu_frame::{Claim, Source};
 
-const SOURCE: &str = "Peng and Herrmann 1994, abstract; rules after them";
+const SOURCE: Source = own("Peng and Herrmann 1994, abstract; rules after them").after();
 const LENGTH: usize = 512;
 const WIDTH: usize = 10;
 
@@ -119,13 +121,13 @@ pub(crate) fn pipe_limit(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (wrong, lost) = differing(0.01);
     let name = "pipe without dissipation and gravity: sites that differ from FHP-II after 200 steps";
     Ok(vec![
-        within(name, differ, 0.0, 0.0, "without loss it is FHP-II"),
+        within(name, differ, 0.0, 0.0, closed_form("without loss it is FHP-II")),
         refused(
             "one collision in a hundred loses its energy",
-            &[within(name, wrong, 0.0, 0.0, "without loss it is FHP-II")],
+            &[within(name, wrong, 0.0, 0.0, closed_form("without loss it is FHP-II"))],
             1,
         ),
-        within("pipe: grains lost in 200 dissipating steps", lost, 0.0, 0.0, "conservation"),
+        within("pipe: grains lost in 200 dissipating steps", lost, 0.0, 0.0, closed_form("conservation")),
     ])
 }
 

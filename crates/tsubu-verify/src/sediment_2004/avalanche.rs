@@ -1,8 +1,9 @@
 //! Dry rock down a slope of 40 degrees, with long and with short contacts (figures 13 to 16).
 
-use super::super::bench::refused;
+use super::super::control::refused;
 use super::{FORWARD, VERLET, Way, law, rig, stiffness_for};
-use tsubu_frame::{Claim, Points};
+use crate::origin::own;
+use tsubu_frame::{Claim, Points, Source};
 
 const SCENE: &str = include_str!("../../../../studies/sediment-2004/avalanche.toml");
 /// Diameter and length of the world [m].
@@ -61,7 +62,7 @@ fn shown(series: &str, found: &[f64], published: &[f64]) -> Points {
 }
 
 /// The paper's findings, as gates for a long and a short contact.
-fn findings(name: &str, long: &Profile, short: &Profile, source: &str) -> Vec<Claim> {
+fn findings(name: &str, long: &Profile, short: &Profile, source: Source<'_>) -> Vec<Claim> {
     let difference: Vec<f64> = long.speed.iter().zip(short.speed).map(|(long, short)| long - short).collect();
     let least = difference.iter().copied().fold(f64::INFINITY, f64::min);
     let ratio = mean(&long.fraction) / mean(&short.fraction);
@@ -86,11 +87,11 @@ fn pair(shorter: f64, perturbation: f64) -> Result<Vec<Claim>, String> {
     for (way, source) in [
         (
             Way { integrator: FORWARD, steps: 15 },
-            "equal concentration, about 1 m/s faster with 0.01 s (Osada 2004, figures 13 to 16)",
+            own("equal concentration, about 1 m/s faster with 0.01 s (Osada 2004, figures 13 to 16)").after(),
         ),
         (
             Way { integrator: VERLET, steps: 20 },
-            "the same; not what the law gives: grains with short contacts stand at 40 degrees, see the README of the study",
+            own("the same; not what the law gives: grains with short contacts stand at 40 degrees, see the README of the study").after(),
         ),
     ] {
         let (long, short) = (profile(0.01, way, perturbation)?, profile(shorter, way, perturbation)?);
@@ -98,7 +99,7 @@ fn pair(shorter: f64, perturbation: f64) -> Result<Vec<Claim>, String> {
         claims.extend(findings(&name, &long, &short, source));
         claims.push(refused(
             &format!("avalanche, {name}, changed for each other"),
-            &findings("", &short, &long, ""),
+            &findings("", &short, &long, source),
             1,
         ));
     }
@@ -112,7 +113,7 @@ pub(in super::super) fn avalanche(perturbation: f64) -> Result<Vec<Claim>, Strin
     let speeds: Result<Vec<f64>, String> =
         [0.03, 0.01, 0.003].iter().map(|t| Ok(mean(&profile(*t, way, perturbation)?.speed))).collect();
     let speeds = speeds?;
-    let source = "trend: the longer the contact, the faster (Osada 2004, figure 14)";
+    let source = own("trend: the longer the contact, the faster (Osada 2004, figure 14)").after();
     for (ratio, times) in [(speeds[0] / speeds[1], "0.03 over 0.01 s"), (speeds[1] / speeds[2], "0.01 over 0.003 s")] {
         let name = format!("avalanche, velocity-verlet: speed with a contact of {times}");
         claims.push(Claim::judge(name, ratio, Some(1.1), None, source));

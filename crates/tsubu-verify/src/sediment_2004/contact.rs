@@ -1,7 +1,9 @@
 //! A grain that meets a fixed one: contact time, with damping, and overlap (figures 4, 5, 8, 11, 12).
 
-use super::super::bench::{Rig, near, refused, within};
+use super::super::bench::{Rig, near, within};
+use super::super::control::{refused, refused_number};
 use super::{DAMPING_RATIO, DENSITY, contact_seconds, dashpot, mass, stiffness_for};
+use crate::origin::{closed_form, printed};
 use std::f64::consts::PI;
 use tsubu_frame::{Claim, Points};
 
@@ -138,7 +140,7 @@ fn times(diameter: f64, stiffnesses: &[f64], share: f64, perturbation: f64) -> R
 
 /// B-F4, B-F12: contact times are half a natural period.
 pub(in super::super) fn contact_time(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let source = "t = pi sqrt(m/k) (Osada 2004, equation 8; figures 4, 12)";
+    let source = closed_form("t = pi sqrt(m/k) (Osada 2004, equation 8; figures 4, 12)");
     let claim = |d: f64, k: &[f64], share: f64| {
         let name = format!(
             "contact time, {d} cm, {} to {:e} N/cm: largest relative deviation from half a period",
@@ -154,14 +156,24 @@ pub(in super::super) fn contact_time(perturbation: f64) -> Result<Vec<Claim>, St
     }
     claims.push(claim(ROCK.0, &ROCK.1, 1.0)?);
     let quoted = [(0.2, 0.01, 0.01), (0.2, 100.0, 1e-4)];
-    for (d, k, printed) in quoted {
+    for (d, k, seconds) in quoted {
         let speed = 0.01 * 0.01 * d * PI / contact_seconds(0.01 * d, k * N_PER_CM);
         let found = Impact::undamped(0.01 * d, k * N_PER_CM, speed).seen(perturbation)?.overlapping;
         let name = format!("contact time of {d} cm at {k} N/cm s");
         // Printed with one digit.
-        claims.push(Claim::judge(name, found, Some(0.95 * printed), Some(1.05 * printed), "Osada 2004, printed"));
+        claims.push(Claim::judge(
+            name,
+            found,
+            Some(0.95 * seconds),
+            Some(1.05 * seconds),
+            printed("Osada 2004, printed"),
+        ));
     }
-    claims.push(refused("contact time of a pair that is free on both sides", &[claim(0.2, &STIFFNESSES, 0.5)?], 1));
+    claims.push(refused_number(
+        "contact time of a pair that is free on both sides",
+        &[claim(0.2, &STIFFNESSES, 0.5)?],
+        1,
+    ));
     Ok(claims)
 }
 
@@ -177,7 +189,7 @@ pub(in super::super) fn damped(perturbation: f64) -> Result<Vec<Claim>, String> 
         Impact { diameter: d, stiffness: k, speed: 0.1, dashpot, tension }.seen(perturbation)
     };
     let (pulls, pushes) = (impact(dashpot(d, k), true)?, impact(dashpot(d, k), false)?);
-    let source = "damped oscillation, e = 0.7, z = 0.1128 (Osada 2004, figure 5)";
+    let source = closed_form("damped oscillation, e = 0.7, z = 0.1128 (Osada 2004, figure 5)");
     let name = |what: &str| format!("damped contact, 0.2 cm: {what}");
     let gates = |pulls: &Seen, pushes: &Seen| {
         vec![
@@ -200,7 +212,7 @@ pub(in super::super) fn damped(perturbation: f64) -> Result<Vec<Claim>, String> 
 
 /// B-F8, B-F11: overlap against stiffness, and the band of stiffness that the paper draws from it.
 pub(in super::super) fn overlap(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let law = "v sqrt(m/k) / d at 0.600 m/s (Osada 2004, figures 8, 11)";
+    let law = closed_form("v sqrt(m/k) / d at 0.600 m/s (Osada 2004, figures 8, 11)");
     let of = |d: f64, k: f64| Ok::<_, String>(Impact::undamped(d, k, SPEED).seen(perturbation)?.overlap);
     let mut claims = Vec::new();
     for d in DIAMETERS.map(|d| 0.01 * d) {
@@ -219,7 +231,7 @@ pub(in super::super) fn overlap(perturbation: f64) -> Result<Vec<Claim>, String>
         let name = format!("overlap over diameter, {} cm, 1 to 3e5 N/cm: largest relative deviation", 100.0 * d);
         claims.push(Claim::judge(name, deviation(&points), None, Some(1e-3), law).showing(points));
     }
-    let edges = "table of band edges, 25 to 500 N/cm for 0.05 to 1 cm (Osada 2004, figure 11)";
+    let edges = printed("table of band edges, 25 to 500 N/cm for 0.05 to 1 cm (Osada 2004, figure 11)");
     let mut ratios = Vec::new();
     for (d, k) in DIAMETERS.map(|d| 0.01 * d).into_iter().zip([25.0, 50.0, 100.0, 250.0, 500.0]) {
         let (soft, hard) = (of(d, k * N_PER_CM)?, of(d, 100.0 * k * N_PER_CM)?);
@@ -231,7 +243,7 @@ pub(in super::super) fn overlap(perturbation: f64) -> Result<Vec<Claim>, String>
     // The paper: 0.001 < overlap / d < 0.01, and contact times of 0.01 s and 0.0001 s, both inside for 20 cm.
     let d = 0.2;
     let (long, short) = (of(d, stiffness_for(d, 1e-2))?, of(d, stiffness_for(d, 1e-4))?);
-    let one = "overlap / d = v t / (pi d): a band of ten in overlap is a band of ten in contact time";
+    let one = closed_form("overlap / d = v t / (pi d): a band of ten in overlap is a band of ten in contact time");
     let name = "band: contact time at one edge over that at the other";
     let both = |ratio: f64| {
         let name = "band: overlap at 0.01 s over overlap at 0.0001 s, 20 cm; the band holds 10";
@@ -239,6 +251,6 @@ pub(in super::super) fn overlap(perturbation: f64) -> Result<Vec<Claim>, String>
     };
     claims.push(within(name, ratios.iter().copied().fold(0.0, f64::max), 10.0, 1e-3, one));
     claims.push(both(long / short));
-    claims.push(refused("both contact times inside the band", &[both(10.0)], 1));
+    claims.push(refused_number("both contact times inside the band", &[both(10.0)], 1));
     Ok(claims)
 }

@@ -1,10 +1,12 @@
 //! A box of grains whose side vanishes: the slope that is left (figure 19).
 
 use super::super::beds::line;
-use super::super::bench::{Rig, refused, scalars, within};
+use super::super::bench::{Rig, scalars, within};
+use super::super::control::{refused, refused_number};
 use super::{FORWARD, VERLET, Way, law, rig};
+use crate::origin::{own, printed};
 use std::collections::BTreeMap;
-use tsubu_frame::{Claim, Kind, Points};
+use tsubu_frame::{Claim, Kind, Points, Source};
 
 const SCENE: &str = include_str!("../../../../studies/sediment-2004/dam-break.toml");
 /// Mean diameter [m], stiffness [N/m], place of the back wall [m], and when everything has come to rest [s].
@@ -90,19 +92,20 @@ fn slope(rig: &Rig) -> f64 {
 
 /// B-F19: slopes with rotation locked and free; and what the paper's integration has to do with it.
 pub(in super::super) fn dam_break(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let source = "about 33 degrees locked, 18 free (Osada 2004, figure 19)";
-    let differs = "about 33 degrees (Osada 2004, figure 19); not what the law gives, see the README of the study";
+    let source = printed("about 33 degrees locked, 18 free (Osada 2004, figure 19)");
+    let differs =
+        printed("about 33 degrees (Osada 2004, figure 19); not what the law gives, see the README of the study");
     let locked = Break::of(false).slopes(10, perturbation)?;
     let free = Break::of(true).slopes(10, perturbation)?;
     let forward = Break { way: Way { integrator: FORWARD, steps: 14 }, ..Break::of(false) }.slopes(10, perturbation)?;
-    let gate = |what: &str, slopes: &[f64], wanted: f64, source: &str| {
+    let gate = |what: &str, slopes: &[f64], wanted: f64, source: Source<'_>| {
         let name = format!("dam break, {what}: slope in degrees, median of ten");
         within(name, median(slopes), wanted, 4.0, source).showing(fillings(what, slopes, wanted))
     };
     Ok(vec![
         gate("rotation locked", &locked, 33.0, differs),
         gate("free rotation", &free, 18.0, source),
-        gate("rotation locked, forward differences with 14 steps per contact", &forward, 33.0, source),
+        gate("rotation locked, forward differences with 14 steps per contact", &forward, 33.0, source.after()),
         refused("dam break, locked for free rotation", &[gate("", &locked, 18.0, source)], 1),
     ])
 }
@@ -123,13 +126,14 @@ pub(in super::super) fn dam_break_rolling(perturbation: f64) -> Result<Vec<Claim
         points.found.push([rolling, found]);
         slopes.push(found);
     }
-    let source = "rolling friction steepens the slope (Osada 2004, figure 23)";
+    let source = own("rolling friction steepens the slope (Osada 2004, figure 23)").after();
     let name = "dam break, free rotation: slope with f' = 1 less that with 0, degrees";
     let steeper = |degrees| Claim::judge(name, degrees, Some(3.0), None, source);
     claims.push(steeper(slopes[3] - slopes[0]));
-    claims.push(refused("rolling friction left out", &[steeper(0.0)], 1));
-    let source =
-        "33 to 38 degrees, as of locked grains and gravel (Osada 2004); not reached, see the README of the study";
+    claims.push(refused_number("rolling friction left out", &[steeper(0.0)], 1));
+    let source = printed(
+        "33 to 38 degrees, as of locked grains and gravel (Osada 2004); not reached, see the README of the study",
+    );
     let most = slopes.iter().copied().fold(0.0, f64::max);
     let name = "dam break: steepest slope for f' up to 1, degrees";
     claims.push(Claim::judge(name, most, Some(33.0), Some(38.0), source).showing(points));

@@ -1,7 +1,9 @@
 //! A dense flow in a steep flume (figure 17), and the concentration of Takahashi.
 
-use super::super::bench::{Rig, refused, within};
+use super::super::bench::{Rig, within};
+use super::super::control::{refused, refused_number};
 use super::rig;
+use crate::origin::{closed_form, own, printed};
 use glam::DVec3;
 use tsubu::state::sphere;
 use tsubu::view::Wants;
@@ -103,11 +105,13 @@ fn takahashi(slope: f64, friction: f64) -> f64 {
 /// B-F17: the paper's stream, which grains do not slow, and one that digs into its bed and is slowed.
 pub(in super::super) fn dense_flow(perturbation: f64) -> Result<Vec<Claim>, String> {
     let upper = |value: f64, what: &str| {
-        let source = "concentration near the surface about 0.3 (Osada 2004, figure 17)";
+        let source = printed("concentration near the surface about 0.3 (Osada 2004, figure 17)").after();
         within(format!("dense flow, {what}: solid fraction in the upper third"), value, 0.3, 0.1, source)
     };
     let strong = |value: f64, what: &str| {
-        let source = "strong motion up and down (Osada 2004, figure 17); in layers it would be less than a diameter";
+        let source =
+            own("strong motion up and down (Osada 2004, figure 17); in layers it would be less than a diameter")
+                .after();
         let name = format!("dense flow, {what}: way up and down in 0.2 s, upper half, diameters");
         Claim::judge(name, value, Some(1.0), None, source)
     };
@@ -122,11 +126,11 @@ pub(in super::super) fn dense_flow(perturbation: f64) -> Result<Vec<Claim>, Stri
     let coupled = flow(&[], perturbation)?;
     let turbulent = flow(&[TURBULENT], perturbation)?;
     let gentle = flow(&["slope='2 deg'", TURBULENT], perturbation)?;
-    let source = "depth of the flume test, 1.48 cm (Osada 2004)";
+    let source = printed("depth of the flume test, 1.48 cm (Osada 2004)");
     let deep = |value: f64, what: &str| within(format!("dense flow, {what}: depth m"), value, 0.0148, 0.003, source);
     let equal = |value: f64, what: &str, friction: f64| {
         let name = format!("dense flow, {what}: solid fraction over Takahashi's for {friction} degrees");
-        within(name, value / takahashi(15.2, friction), 1.0, 0.25, "Takahashi 1978: 0.324 at 15.2 degrees")
+        within(name, value / takahashi(15.2, friction), 1.0, 0.25, printed("Takahashi 1978: 0.324 at 15.2 degrees"))
     };
     let mut claims = vec![
         upper(driven.upper, "log law"),
@@ -144,12 +148,12 @@ pub(in super::super) fn dense_flow(perturbation: f64) -> Result<Vec<Claim>, Stri
             driven.speed / coupled.speed,
             Some(1.0),
             None,
-            "grains slow a stream that hears of them",
+            closed_form("grains slow a stream that hears of them"),
         ),
     ];
     let wrong = [upper(gentle.upper, ""), strong(gentle.zigzag, ""), equal(gentle.fraction, "", 38.0)];
     claims.push(refused("a slope of 2 degrees", &wrong, 2));
-    claims.push(refused(
+    claims.push(refused_number(
         "Takahashi's fraction for a friction of 25 degrees",
         &[equal(turbulent.fraction, "", 25.0)],
         1,

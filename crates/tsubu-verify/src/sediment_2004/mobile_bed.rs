@@ -1,7 +1,8 @@
 //! A bed of free grains in a stream (figure 22): locked grains do not climb over one another.
 
-use super::super::bench::refused;
+use super::super::control::refused;
 use super::rig;
+use crate::origin::own;
 use tsubu::view::Wants;
 use tsubu_frame::Claim;
 
@@ -46,18 +47,18 @@ fn bed(slope: f64, rotation: bool, perturbation: f64) -> Result<Bed, String> {
 
 /// B-F22: the slope at which the bed begins to move, locked and free, and how rows of locked grains move above it.
 pub(in super::super) fn mobile_bed(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let source = "grains that do not turn cannot climb over one another (Osada 2004, figure 22)";
+    let source = own("grains that do not turn cannot climb over one another (Osada 2004, figure 22)").after();
     let lies = |bed: &Bed, what: &str| {
         let name = format!("mobile bed, {what}: share of grains that move");
         Claim::judge(name, bed.moving, None, Some(0.01), source)
     };
     let moves = |bed: &Bed, what: &str| {
         let name = format!("mobile bed, {what}: share of grains that move");
-        let source = "Shields number above 0.1, twice that at which a bed begins to move";
+        let source = own("Shields number above 0.1, twice that at which a bed begins to move").after();
         Claim::judge(name, bed.moving, Some(0.03), None, source)
     };
     let rods = |locked: f64, free: f64| {
-        let source = "a row of locked grains slides as a rod (Osada 2004, figure 22)";
+        let source = own("a row of locked grains slides as a rod (Osada 2004, figure 22)").after();
         let name = "mobile bed: difference of velocity of grains that touch and move, locked over free";
         Claim::judge(name, locked / free, None, Some(0.7), source)
     };

@@ -1,7 +1,9 @@
 //! A row of grains that are pushed and cannot climb over one another (figure 22).
 
-use super::super::bench::{refused, within};
+use super::super::bench::within;
+use super::super::control::refused;
 use super::rig;
+use crate::origin::{closed_form, own};
 use tsubu_frame::Claim;
 
 const SCENE: &str = include_str!("../../../../studies/sediment-2004/rod.toml");
@@ -35,14 +37,15 @@ fn largest(rotation: bool, perturbation: f64) -> Result<f64, String> {
 
 /// B-F22: locked grains form a rod up to the angle of friction; grains that spin do not.
 pub(in super::super) fn rod(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let source = "a wedge between two grains holds up to the angle of friction, 38 degrees (Osada 2004, figure 22)";
+    let source =
+        closed_form("a wedge between two grains holds up to the angle of friction, 38 degrees (Osada 2004, figure 22)");
     let locked =
         |angle| within("pushed row of three, rotation locked: zigzag that holds, degrees", angle, 38.0, 0.5, source);
     let free = largest(true, perturbation)?;
     let name = "pushed row of three, free rotation: zigzag that holds, degrees";
     Ok(vec![
         locked(largest(false, perturbation)?),
-        Claim::judge(name, free, None, Some(1.0), "grains that spin roll over one another at any angle"),
+        Claim::judge(name, free, None, Some(1.0), own("grains that spin roll over one another at any angle").after()),
         refused("pushed row, free rotation for locked", &[locked(free)], 1),
     ])
 }

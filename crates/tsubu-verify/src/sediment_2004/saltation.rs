@@ -1,6 +1,8 @@
 //! Osada 2004: one grain leaps along a fixed bed (B-F6, B-F7, B-F20, B-F21), and what the torque of the water does to its spin.
 
-use super::super::bench::{Rig, near, refused};
+use super::super::bench::{Rig, near};
+use super::super::control::refused;
+use crate::origin::{closed_form, own, printed, remembered};
 use glam::DVec3;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -118,7 +120,7 @@ fn contact_claim(stiffness: f64, found: &Leaps) -> Claim {
         found.contact / contact_seconds(MASS, stiffness),
         1.0,
         0.1,
-        "Osada et al. 2004, figure 6 and (B8): general agreement",
+        closed_form("Osada et al. 2004, figure 6 and (B8): general agreement"),
     )
 }
 
@@ -131,7 +133,7 @@ pub(in super::super) fn saltation(perturbation: f64) -> Result<Vec<Claim>, Strin
     let soft = leaps(1e2, LOCKED, MANY, perturbation)?;
     let (paper, stiff) = (leaps(1e4, LOCKED, MANY, perturbation)?, leaps(1e5, LOCKED, MANY, perturbation)?);
     claims.push(contact_claim(1e4, &paper));
-    let source = "Osada et al. 2004: what counts is the impulse";
+    let source = printed("Osada et al. 2004: what counts is the impulse").after();
     let same = |what: &str, a: f64, b: f64| {
         near(format!("leaping grain, {what}, k = 1000 over 100 N/cm"), b / a, 1.0, 0.2, source)
     };
@@ -139,7 +141,7 @@ pub(in super::super) fn saltation(perturbation: f64) -> Result<Vec<Claim>, Strin
     claims.push(same("mean hop length", paper.length, stiff.length));
     let gates = [same("", soft.height, stiff.height), same("", soft.length, stiff.length)];
     claims.push(refused("contacts of 1 N/cm, in which the grain sinks between those of the bed", &gates, 2));
-    let source = "Sklar and Dietrich 2004, of measured hops, a factor of 2";
+    let source = remembered("Sklar and Dietrich 2004, of measured hops, a factor of 2");
     let twice = |name: &str, value: f64, wanted: f64| {
         Claim::judge(
             format!("leaping grain, Shields number 0.3: {name}"),
@@ -158,7 +160,7 @@ pub(in super::super) fn saltation(perturbation: f64) -> Result<Vec<Claim>, Strin
 /// B-F6 at its softest: in a contact of 1 ms the grain goes on by half a diameter, so that the bed's grain lets it go early.
 pub(in super::super) fn softest(perturbation: f64) -> Result<Vec<Claim>, String> {
     let found = leaps(100.0, LOCKED, MANY, perturbation)?;
-    let source = "why the contact ends early";
+    let source = own("why the contact ends early").after();
     let moved = found.contact * found.speed / D;
     Ok(vec![
         contact_claim(100.0, &found),
@@ -177,7 +179,7 @@ pub(in super::super) fn softest(perturbation: f64) -> Result<Vec<Claim>, String>
 pub(in super::super) fn spinning(perturbation: f64) -> Result<Vec<Claim>, String> {
     let run = |changes: &[&str]| leaps(1e4, changes, MANY, perturbation);
     let (locked, free, wet) = (run(LOCKED)?, run(FREE)?, run(IN_WATER)?);
-    let source = "Osada et al. 2004, figures 20 and 21";
+    let source = own("Osada et al. 2004, figures 20 and 21").after();
     let more = |what: &str, a: f64, b: f64| {
         Claim::judge(format!("leaping grain, {what}, free over locked"), b / a, Some(1.05), None, source)
     };
@@ -187,7 +189,7 @@ pub(in super::super) fn spinning(perturbation: f64) -> Result<Vec<Claim>, String
             leaps.rim / leaps.speed,
             1.0,
             0.2,
-            "rolling without slip; figure 21",
+            own("rolling without slip; figure 21").after(),
         )
     };
     let fastest = free.fastest * 0.5 * D;
@@ -207,14 +209,14 @@ pub(in super::super) fn spinning(perturbation: f64) -> Result<Vec<Claim>, String
             fastest,
             None,
             Some(1.41),
-            "not above the fastest water, at the surface",
+            closed_form("not above the fastest water, at the surface"),
         ),
         Claim::judge(
             "leaping grain, mean |w| d/2 with the torque of the water over without",
             wet.rim / free.rim,
             None,
             Some(0.5),
-            "a spin lasts 0.04 s in water, less than a hop (Dennis et al. 1980)",
+            own("a spin lasts 0.04 s in water, less than a hop (Dennis et al. 1980)").after(),
         ),
     ];
     claims.push(refused("grains in water that does not resist their spin, as spins of real ones", &[spins(&wet)], 1));

@@ -1,8 +1,9 @@
 //! 42 grains fall into a box of fixed ones: who vibrates, and whether it is the integrator (figures 9, 10).
 
 use super::super::beds::mean;
-use super::super::bench::refused;
+use super::super::control::refused;
 use super::{FORWARD, VERLET, Way, law, mass, rig};
+use crate::origin::{digitised, own, printed};
 use tsubu_frame::{Claim, Points};
 
 const SCENE: &str = include_str!("../../../../studies/sediment-2004/settling.toml");
@@ -57,7 +58,7 @@ fn rest(stiffness: f64, way: Way, seed: u32, perturbation: f64) -> Result<Rest, 
 
 /// The gates of a bed at rest.
 fn at_rest(name: &str, kinetic: f64, vibrating: f64) -> [Claim; 2] {
-    let source = "a damped bed comes to rest; the paper: at 100 N/cm all are at rest (Osada 2004, figure 10)";
+    let source = printed("a damped bed comes to rest; the paper: at 100 N/cm all are at rest (Osada 2004, figure 10)");
     [
         Claim::judge(format!("{name}: share that vibrates"), vibrating, None, Some(0.0), source),
         Claim::judge(format!("{name}: kinetic energy over m g d"), kinetic, None, Some(1e-6), source),
@@ -104,7 +105,8 @@ pub(in super::super) fn settling(perturbation: f64) -> Result<Vec<Claim>, String
             perturbation,
         )?);
     }
-    let gains = "forward differences gain energy below 13.9 steps per contact, dt > eta / k, at any stiffness";
+    let gains =
+        own("forward differences gain energy below 13.9 steps per contact, dt > eta / k, at any stiffness").after();
     for stiffness in [SOFT, HARD] {
         let gates = worst(stiffness, &some(FORWARD, &[10]), "forward differences, 10 steps", perturbation)?;
         let shakes = Claim::judge(gates[0].name.clone(), gates[0].value, Some(0.5), None, gains);
@@ -112,7 +114,7 @@ pub(in super::super) fn settling(perturbation: f64) -> Result<Vec<Claim>, String
         claims.push(refused(&format!("{} N/cm, forward differences, 10 steps", stiffness / 100.0), &gates, 2));
     }
     // A little above, the soft bed boils and the hard one nearly rests, which is the paper's picture.
-    let source = "about half vibrate at 1 N/cm, none at 100 N/cm (Osada 2004, figures 9, 10)";
+    let source = digitised("about half vibrate at 1 N/cm, none at 100 N/cm (Osada 2004, figures 9, 10)").after();
     let near = Way { integrator: FORWARD, steps: 12 };
     for (stiffness, least, most) in [(SOFT, Some(0.5), None), (HARD, None, Some(0.25))] {
         let shares: Result<Vec<f64>, String> =

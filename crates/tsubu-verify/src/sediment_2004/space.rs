@@ -1,7 +1,9 @@
 //! Leaping grains and a dam break in space, which the paper has in the plane, against measurements.
 
-use super::super::bench::{Rig, near, refused};
+use super::super::bench::{Rig, near};
+use super::super::control::refused;
 use super::{contact_seconds, rig};
+use crate::origin::{closed_form, printed, remembered};
 use tsubu::watch::{self, Watch};
 use tsubu_frame::Claim;
 use tsubu_scene::TEMPLATES;
@@ -55,14 +57,14 @@ pub(in super::super) fn saltation_space(perturbation: f64) -> Result<Vec<Claim>,
         ];
         wanted.map(|(what, value, wanted)| {
             let name = format!("leaping grains in space, Shields number 0.3: mean {what}");
-            let source = "Sklar and Dietrich 2004, of measured hops, a factor of 2";
+            let source = remembered("Sklar and Dietrich 2004, of measured hops, a factor of 2");
             Claim::judge(name, value, Some(0.5 * wanted), Some(2.0 * wanted), source)
         })
     };
     let found = hops(&[], perturbation)?;
     let mut claims = gates(found).to_vec();
     let name = "leaping grains in space: contact time over pi sqrt(m/k)";
-    let source = "Osada et al. 2004, figure 6 and (B8): general agreement";
+    let source = closed_form("Osada et al. 2004, figure 6 and (B8): general agreement");
     claims.push(near(name, found[3] / contact_seconds(D, 1e4), 1.0, 0.1, source));
     let faster = ["water.flow.log-law={shear-velocity=0.2,roughness=0.002,zero-level=-0.0005}", "water.surface=0.0195"];
     claims.push(refused("a stream twice as fast", &gates(hops(&faster, perturbation)?), 2));
@@ -91,14 +93,16 @@ pub(in super::super) fn dam_break_space(perturbation: f64) -> Result<Vec<Claim>,
                 low[1] / low[0],
                 Some(0.6),
                 Some(2.4),
-                "1.2 for sand (Lube, Huppert, Sparks and Freundt 2005), a factor of 2: the constant is the material's",
+                printed(
+                    "1.2 for sand (Lube, Huppert, Sparks and Freundt 2005), a factor of 2: the constant is the material's",
+                ),
             ),
             Claim::judge(
                 "dam break in space: power of the height that the run-out goes with",
                 power,
                 Some(0.7),
                 Some(1.2),
-                "1 (Lube et al. 2005), 0.9 +- 0.1 (Balmforth and Kerswell 2005); 0.1 more for one filling",
+                printed("1 (Lube et al. 2005), 0.9 +- 0.1 (Balmforth and Kerswell 2005); 0.1 more for one filling"),
             ),
         ]
     };

@@ -1,0 +1,84 @@
+//! Ensembles: runs of one scene that differ in their seed, side by side on all threads, and what their mean is worth.
+
+use rayon::prelude::*;
+use std::ops::RangeInclusive;
+use tsubu_frame::Ensemble;
+
+/// Runs one member for every seed; they come in the order of the seeds whatever the threads.
+pub(super) fn members<const N: usize>(
+    seeds: RangeInclusive<u64>,
+    run: impl Fn(u64) -> Result<[f64; N], String> + Sync,
+) -> Result<[Ensemble; N], String> {
+    let seeds: Vec<u64> = seeds.collect();
+    let found = seeds.par_iter().map(|&seed| run(seed)).collect::<Result<Vec<_>, _>>()?;
+    Ok(std::array::from_fn(|i| of(&seeds, found.iter().map(|values| values[i]).collect())))
+}
+
+/// The members with the 95 % confidence interval of their mean, by Student's t.
+fn of(seeds: &[u64], members: Vec<f64>) -> Ensemble {
+    let count = members.len() as f64;
+    let mean = members.iter().sum::<f64>() / count;
+    let variance = members.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0);
+    let half = student(members.len() - 1) * (variance / count).sqrt();
+    Ensemble { seeds: seeds.to_vec(), members, interval: vec![mean - half, mean + half] }
+}
+
+/// What Student's t stays within with a probability of 95 %, by bisection.
+fn student(freedom: usize) -> f64 {
+    let (mut low, mut high) = (0.0, 1e3);
+    while high - low > 1e-12 * high {
+        let middle = 0.5 * (low + high);
+        if within(middle, freedom) < 0.95 { low = middle } else { high = middle }
+    }
+    high
+}
+
+/// Probability that Student's t lies between -t and t: the finite series for whole degrees of freedom (Abramowitz and Stegun
+/// 1964, 26.7.3 and 26.7.4).
+fn within(t: f64, freedom: usize) -> f64 {
+    let angle = (t / (freedom as f64).sqrt()).atan();
+    let (sin, cos) = angle.sin_cos();
+    let odd = freedom % 2;
+    let (mut term, mut sum) = if odd == 1 { (cos, 0.0) } else { (1.0, 0.0) };
+    for k in (odd..freedom.saturating_sub(1)).step_by(2) {
+        sum += term;
+        term *= cos * cos * (k + 1) as f64 / (k + 2) as f64;
+    }
+    if odd == 1 { (angle + sin * sum) / std::f64::consts::FRAC_PI_2 } else { sin * sum }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tsubu_frame::{Claim, Origin, Source, Verdict};
+
+    /// The table of every textbook.
+    #[test]
+    fn students_t_is_that_of_the_tables() {
+        for (freedom, t) in [(1, 12.706), (2, 4.303), (3, 3.182), (4, 2.776), (9, 2.262), (19, 2.093), (60, 2.000)] {
+            assert!((student(freedom) - t).abs() < 6e-4, "{freedom}: {}", student(freedom));
+        }
+    }
+
+    /// A mean that happens to lie in the range is no pass where its interval does not.
+    #[test]
+    fn an_ensemble_passes_fails_or_is_undecided() {
+        let members = [0.9, 1.0, 1.1, 1.0];
+        let judged = |low, high| {
+            let source = Source::new(Origin::Own, "");
+            Claim::judge_ensemble("n", of(&[1, 2, 3, 4], members.to_vec()), low, high, source).verdict()
+        };
+        assert_eq!(judged(Some(0.8), Some(1.2)), Verdict::Pass);
+        assert_eq!(judged(Some(0.95), Some(1.2)), Verdict::Undecided);
+        assert_eq!(judged(None, Some(0.95)), Verdict::Undecided);
+        assert_eq!(judged(Some(1.2), None), Verdict::Fail);
+        assert_eq!(judged(None, Some(f64::NAN)), Verdict::Fail);
+    }
+
+    #[test]
+    fn members_come_in_the_order_of_their_seeds() {
+        let [ensemble] = members(3..=9, |seed| Ok([seed as f64])).expect("runs");
+        assert_eq!(ensemble.members, [3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
+        assert!(members(1..=2, |_| Err::<[f64; 1], _>("no".to_owned())).is_err());
+    }
+}
