@@ -1,47 +1,85 @@
-//! Keeping what verification cases claim: `crates/tsubu-verify/claims.jsonl`.
+//! Keeping what verification cases claim, `crates/tsubu-verify/claims.jsonl`, and the runs that this is of, `runs.jsonl` beside it.
 
 use crate::shell::{cargo, cargo_path, command, output, root};
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
 
 /// Where the claims are kept, one a line.
 pub const KEPT: &str = "crates/tsubu-verify/claims.jsonl";
 
-/// Runs cases (those of some names or studies; without names all quick ones) and keeps their claims in place of the old.
-pub fn claims(names: &[&str]) -> Result<(), String> {
+/// Where the runs are kept that the claims are of, one a case and line.
+const RUNS: &str = "crates/tsubu-verify/runs.jsonl";
+
+/// Runs cases (those of some names or studies; without names all quick ones) and keeps their claims in place of the old. After
+/// `--from` it takes what a folder of `tsubu verify -o` has, and runs nothing.
+pub fn claims(words: &[&str]) -> Result<(), String> {
     cargo(&["build", "--package", "tsubu-cli", "--quiet"])?;
     let list = output(&["run", "--package", "tsubu-cli", "--quiet", "--", "verify", "--list"])?;
     let cases = listed(&list);
-    let chosen = |case: &&Listed| match names {
-        [] => case.quick,
-        names => names.contains(&case.name) || names.contains(&case.study),
+    let (folder, chosen): (PathBuf, Vec<&str>) = match words {
+        ["--from", folder] => {
+            let folder = PathBuf::from(folder);
+            let done = |case: &&Listed| folder.join(format!("cases/{}.json", case.name)).is_file();
+            let done = cases.iter().filter(done).map(|case| case.name).collect();
+            (folder, done)
+        }
+        names => {
+            let wanted = |case: &&Listed| match names {
+                [] => case.quick,
+                names => names.contains(&case.name) || names.contains(&case.study),
+            };
+            let chosen: Vec<&str> = cases.iter().filter(wanted).map(|case| case.name).collect();
+            (run(&chosen)?, chosen)
+        }
     };
-    let old = read()?;
-    let mut text = String::new();
-    for case in &cases {
-        if chosen(&case) {
-            for mut claim in run(case.name)? {
-                claim["case"] = case.name.into();
+    let (old, old_runs) = (read()?, runs()?);
+    let (mut claims, mut runs) = (String::new(), String::new());
+    for case in cases.iter().map(|case| case.name) {
+        if chosen.contains(&case) {
+            let done = read_json(&folder.join(format!("cases/{case}.json")))?;
+            for mut claim in done["claims"].as_array().cloned().unwrap_or_default() {
+                claim["case"] = case.into();
                 claim.as_object_mut().map(|fields| fields.remove("points"));
-                let _ = writeln!(text, "{claim}");
+                let _ = writeln!(claims, "{claim}");
             }
+            let _ = writeln!(runs, "{}", done["run"]);
         } else {
-            for claim in old.iter().filter(|claim| claim["case"] == case.name) {
-                let _ = writeln!(text, "{claim}");
-            }
+            let of_case =
+                |all: &[Value]| all.iter().filter(|line| line["case"] == case).map(|c| format!("{c}\n")).collect();
+            let kept: [String; 2] = [&old, &old_runs].map(|all| of_case(all));
+            claims += &kept[0];
+            runs += &kept[1];
         }
     }
-    fs::write(root().join(KEPT), text).map_err(|error| format!("cannot write {KEPT}: {error}"))?;
-    eprintln!("wrote {KEPT}; `cargo xtask gen` makes the tables");
+    for (name, text) in [(KEPT, claims), (RUNS, runs)] {
+        fs::write(root().join(name), text).map_err(|error| format!("cannot write {name}: {error}"))?;
+    }
+    eprintln!("wrote {KEPT} and {RUNS} of {} cases; `cargo xtask gen` makes the tables", chosen.len());
     Ok(())
 }
 
-/// What is kept.
+/// The claims that are kept.
 pub fn read() -> Result<Vec<Value>, String> {
-    let text = fs::read_to_string(root().join(KEPT)).map_err(|error| format!("cannot read {KEPT}: {error}"))?;
-    let lines = text.lines().map(|line| serde_json::from_str(line).map_err(|error| format!("{KEPT}: {error}")));
+    lines(KEPT)
+}
+
+/// The runs that they are of.
+fn runs() -> Result<Vec<Value>, String> {
+    lines(RUNS)
+}
+
+fn lines(name: &str) -> Result<Vec<Value>, String> {
+    let text = fs::read_to_string(root().join(name)).map_err(|error| format!("cannot read {name}: {error}"))?;
+    let lines = text.lines().map(|line| serde_json::from_str(line).map_err(|error| format!("{name}: {error}")));
     lines.collect()
+}
+
+fn read_json(path: &Path) -> Result<Value, String> {
+    let text = fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+    serde_json::from_str(&text).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 struct Listed<'a> {
@@ -61,31 +99,20 @@ fn listed(list: &str) -> Vec<Listed<'_>> {
     rows.collect()
 }
 
-/// The claims of a case, whether they hold or not.
-fn run(case: &str) -> Result<Vec<Value>, String> {
-    eprintln!("{case}");
-    let folder = root().join("target/claims").join(case);
-    let arguments = [
-        "run",
-        "--package",
-        "tsubu-cli",
-        "--quiet",
-        "--",
-        "verify",
-        case,
-        "--quiet",
-        "--controls",
-        "--overwrite",
-        "-o",
-    ];
+/// Runs cases side by side with their controls; gives the folder in which each is kept, whether its claims hold or not. What the same
+/// program has done before is not run again.
+fn run(cases: &[&str]) -> Result<PathBuf, String> {
+    let folder = root().join("target/claims");
+    let mut arguments = vec!["run", "--package", "tsubu-cli", "--quiet", "--", "verify"];
+    arguments.extend(cases);
+    arguments.extend(["--controls", "-o"]);
     let mut verify = command(&cargo_path(), &arguments);
-    let done = verify.arg(&folder).output().map_err(|error| format!("cannot run `{case}`: {error}"))?;
-    if !matches!(done.status.code(), Some(0 | 1)) {
-        return Err(format!("`tsubu verify {case}` ended badly: {}", String::from_utf8_lossy(&done.stderr)));
+    verify.arg(&folder).stdout(Stdio::null());
+    if folder.join(".tsubu").is_file() {
+        verify.arg("--resume");
     }
-    let text = fs::read_to_string(folder.join("verify.json")).map_err(|error| format!("{case}: {error}"))?;
-    let kept: Value = serde_json::from_str(&text).map_err(|error| format!("{case}: {error}"))?;
-    Ok(kept["claims"].as_array().cloned().unwrap_or_default())
+    let done = verify.status().map_err(|error| format!("cannot run the cases: {error}"))?;
+    if matches!(done.code(), Some(0 | 1)) { Ok(folder) } else { Err(format!("`tsubu verify` ended badly ({done})")) }
 }
 
 #[cfg(test)]

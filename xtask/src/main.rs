@@ -31,6 +31,7 @@ cargo xtask CHORE
   spelling            look for misspelt words in all texts, where there is a Python 3
   book                build the book, where there is an mdbook
   claims [NAME]...    run verification cases (without names all quick ones) and keep what they claim
+  claims --from DIR   keep what `tsubu verify --controls -o DIR` has found, and run nothing
   fuzz [--seed N] [--seconds S] [--cases N] [--only KIND] [--case N]
                       draw scenes, files and command lines, and hold tsubu against them; --help says more
   variants [--quick] [--seed N]

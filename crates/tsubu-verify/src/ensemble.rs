@@ -1,17 +1,19 @@
 //! Ensembles: runs of one scene that differ in their seed, side by side on all threads, and what their mean is worth.
 
-use rayon::prelude::*;
+use crate::keep;
 use std::ops::RangeInclusive;
 use tsubu_frame::Ensemble;
 
-/// Runs one member for every seed; they come in the order of the seeds whatever the threads.
+/// Runs one member for every seed; they come in the order of the seeds whatever the threads. `of` says what is run, in words that no
+/// other ensemble of the case has: an interrupted verification finds its runs again by it.
 pub(super) fn members<const N: usize>(
+    of: &str,
     seeds: RangeInclusive<u64>,
     run: impl Fn(u64) -> Result<[f64; N], String> + Sync,
 ) -> Result<[Ensemble; N], String> {
     let seeds: Vec<u64> = seeds.collect();
-    let found = seeds.par_iter().map(|&seed| run(seed)).collect::<Result<Vec<_>, _>>()?;
-    Ok(std::array::from_fn(|i| of(&seeds, found.iter().map(|values| values[i]).collect())))
+    let found = keep::members(of, &seeds, run)?;
+    Ok(std::array::from_fn(|i| self::of(&seeds, found.iter().map(|values| values[i]).collect())))
 }
 
 /// The members with the 95 % confidence interval of their mean, by Student's t.
@@ -77,8 +79,8 @@ mod tests {
 
     #[test]
     fn members_come_in_the_order_of_their_seeds() {
-        let [ensemble] = members(3..=9, |seed| Ok([seed as f64])).expect("runs");
+        let [ensemble] = members("seeds", 3..=9, |seed| Ok([seed as f64])).expect("runs");
         assert_eq!(ensemble.members, [3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
-        assert!(members(1..=2, |_| Err::<[f64; 1], _>("no".to_owned())).is_err());
+        assert!(members("none", 1..=2, |_| Err::<[f64; 1], _>("no".to_owned())).is_err());
     }
 }

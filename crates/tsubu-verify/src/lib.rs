@@ -5,6 +5,7 @@ mod beds;
 mod bench;
 mod brazil_nut;
 mod case;
+mod case_run;
 mod chung_ooi_2011;
 mod chute;
 mod cl_ca_2001;
@@ -22,9 +23,11 @@ mod film;
 mod held;
 mod host;
 mod impact_damper;
+mod keep;
 mod lattice_grain;
 mod lattice_review;
 mod lump;
+mod moved;
 mod open_dem_benchmark;
 mod orifice;
 mod origin;
@@ -49,9 +52,12 @@ mod water;
 #[cfg(test)]
 mod without;
 
-pub use case::{Case, Judged};
+pub use case::{Case, How, Judged};
+pub use case_run::{CaseRun, Done};
 pub use control::is_missing as lacks_control;
-pub use recorded::recorded;
+pub use keep::Archive;
+pub use moved::{Moved, moved};
+pub use recorded::{recorded, recorded_run};
 pub use registry::CASES;
 
 /// The cases that the given names choose: case names or study names; none given means all quick ones.

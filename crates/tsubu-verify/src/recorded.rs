@@ -1,5 +1,6 @@
 //! Claims as they were found when they were last kept, so that they can be read without running anything.
 
+use crate::case_run::CaseRun;
 use serde_json::Value;
 use tsubu_frame::Claim;
 
@@ -11,6 +12,15 @@ pub fn recorded(case: &str) -> Vec<Claim> {
     let lines = KEPT.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
     let of_case = lines.filter(|line| line["case"] == case);
     of_case.filter_map(|line| serde_json::from_value(line).ok()).collect()
+}
+
+/// One run of a case a line, the one that its kept claims are of.
+const RUNS: &str = include_str!("../runs.jsonl");
+
+/// The run that the kept claims of a case are of; none of claims that were kept before runs were.
+pub fn recorded_run(case: &str) -> Option<CaseRun> {
+    let runs = RUNS.lines().filter_map(|line| serde_json::from_str::<CaseRun>(line).ok());
+    runs.into_iter().find(|run| run.case == case)
 }
 
 #[cfg(test)]

@@ -144,7 +144,17 @@ fn a_verification_prints_a_line_a_claim() {
     assert!(shown.ends_with(&format!("{claims} claims, all pass\n")), "{shown}");
     let written: serde_json::Value = serde_json::from_str(&desk.read("out/verify.json")).unwrap();
     assert_eq!(written["claims"].as_array().unwrap().len(), claims);
+    let run = &written["runs"][0];
+    assert!(
+        run["case"] == "restitution" && run["cores"].as_u64() > Some(0) && run["date"].as_str().unwrap().len() == 10
+    );
     assert!(desk.path("out/report.html").exists());
+    // What is done is asked for again only where that is said.
+    let refused = desk.run("verify restitution -q -o out");
+    assert!(refused.code == Some(2) && refused.stderr.contains("--resume"), "{}", refused.stderr);
+    assert_eq!(desk.done("verify restitution -q -o out --resume").stdout, shown);
+    let compared = desk.done("verify restitution -q --against stored").stdout;
+    assert!(compared.ends_with(&format!("{claims} stored claims of 1 cases, none moved\n")), "{compared}");
 }
 
 /// The scenes of the comparison of open-source codes run in the reduced size that their head names, close their books, and

@@ -72,10 +72,11 @@ pub(crate) fn figure_9(_spoiler: f64) -> Result<Vec<Claim>, String> {
 
 /// What is claimed of a bed, by the mean over [`SEEDS`] fillings.
 fn gates(method: &str, count: usize, changes: &[&str]) -> Result<Vec<Claim>, String> {
-    let [landing, lift_off, flight] = ensemble::members(SEEDS, |seed| {
-        let (landing, lift_off, flight) = events(&force_by_phase(method, count, seed, changes)?);
-        Ok([landing, lift_off, flight])
-    })?;
+    let [landing, lift_off, flight] =
+        ensemble::members(&format!("{method}, {count} balls {changes:?}"), SEEDS, |seed| {
+            let (landing, lift_off, flight) = events(&force_by_phase(method, count, seed, changes)?);
+            Ok([landing, lift_off, flight])
+        })?;
     // The phases come in steps of 1/60.
     let lump = closed_form("no later than an inelastic lump");
     let gravity = closed_form("floor acceleration below -g");

@@ -1,0 +1,161 @@
+//! `tsubu verify`: claims held against their sources.
+
+mod against;
+mod runner;
+
+use super::{claims, origins, report};
+use crate::failure::Failure;
+use crate::options::WorkOptions;
+use crate::output;
+use crate::stream::Stream;
+use crate::table;
+use against::Against;
+use clap::Args;
+use runner::Outcome;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use tsubu_frame::{Claim, Existing, Origin, RunFolder, Verdict};
+use tsubu_verify::{self as verify, Archive, Case, How};
+
+/// The file of the results; it is written when all cases are done.
+const RESULTS: &str = "verify.json";
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  tsubu verify                       all quick cases
+  tsubu verify --list                what there is
+  tsubu verify damper-2003           one study
+  tsubu verify --all -o out/verify   everything, with a report
+  tsubu verify --all --against stored -o out/night
+                                     what moved since the claims were stored
+
+A line a claim: pass, FAIL or undecided, study, name, value, accepted range, source. Exit code 1 unless all pass.
+With -o, cases and runs of ensembles that are done are kept: an interrupted verification goes on where it was
+when the same command is typed again.")]
+#[expect(clippy::struct_excessive_bools, reason = "flags of the command line")]
+pub struct Options {
+    /// Cases or studies; none means all quick ones
+    #[arg(value_name = "NAME")]
+    names: Vec<String>,
+    /// List the cases, with the seconds that each may take
+    #[arg(long)]
+    list: bool,
+    /// With `--list`: where each accepted range comes from, and what was refused when it was wrong on purpose
+    #[arg(long, requires = "list")]
+    origins: bool,
+    /// Run every case a second time with constants that are 5 % too small, and keep which claims notice
+    #[arg(long)]
+    controls: bool,
+    /// Run the long ones too: those with a budget of more than a minute, and those that show a gap
+    #[arg(long)]
+    all: bool,
+    /// Print what is not as it was stored instead of all claims, and what each case cost; exit code 1 if something moved
+    #[arg(long, value_name = "WHAT")]
+    against: Option<Against>,
+    /// Folder for verify.json, figures and report.html, and for what is done as long as the rest is not
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Replace the results that are in the folder
+    #[arg(long, requires = "output")]
+    overwrite: bool,
+    /// Keep what the same program has done in the folder; this happens anyway where it was interrupted
+    #[arg(long, requires = "output", conflicts_with = "overwrite")]
+    resume: bool,
+    #[command(flatten)]
+    work: WorkOptions,
+}
+
+pub fn run(options: &Options) -> Result<(), Failure> {
+    let mut chosen = verify::chosen(&options.names, options.all || options.list).map_err(Failure::wrong)?;
+    if options.list {
+        return if options.origins { output::print(&origins::list(&chosen)) } else { list(&chosen) };
+    }
+    if options.against.is_some() {
+        against::telling_first(&mut chosen);
+    }
+    let archive = options.output.as_ref().map(|path| archive(path, options)).transpose()?;
+    let how = How { archive, controls: options.controls };
+    let threads = options.work.pool()?.current_num_threads();
+    let lines = |case: &Case, outcome: &Outcome| match options.against {
+        Some(Against::Stored) => against::lines(case, outcome),
+        None => outcome.claims.iter().map(claims::line).collect(),
+    };
+    let outcomes = runner::judge(&chosen, &how, threads, options.work.quiet, lines)?;
+    let all = outcomes.iter().flat_map(|outcome| &outcome.claims);
+    let wrong = match options.against {
+        Some(Against::Stored) => {
+            let (text, moved) = against::end(&chosen, &outcomes);
+            output::print(&text)?;
+            moved
+        }
+        None => {
+            let claims: Vec<&Claim> = all.collect();
+            output::print(&verdicts(&claims))?;
+            claims.iter().any(|claim| !claim.pass)
+        }
+    };
+    if let Some(archive) = how.archive {
+        write(archive.folder(), &outcomes)?;
+        let path = archive.folder().path().to_owned();
+        // The report takes the folder for itself.
+        drop(archive);
+        let page = report::write(&path)?;
+        output::tell(&format!("results in {}; open {}\n", path.display(), page.display()));
+    }
+    if wrong { Err(Failure::claim()) } else { Ok(()) }
+}
+
+/// The folder, with what is kept in it. One in which a verification was begun and did not come to its end is gone on with.
+fn archive(path: &Path, options: &Options) -> Result<Arc<Archive>, Failure> {
+    let begun = ["cases", "members"].iter().any(|name| path.join(name).is_dir());
+    let existing = if options.overwrite {
+        Existing::Overwrite
+    } else if options.resume || begun && !path.join(RESULTS).exists() {
+        Existing::Resume
+    } else {
+        Existing::Refuse
+    };
+    let archive = RunFolder::create(path, existing, [RESULTS]).and_then(Archive::new);
+    archive.map(Arc::new).map_err(|error| Failure::of_file(&error, path))
+}
+
+fn write(folder: &RunFolder, outcomes: &[Outcome]) -> Result<(), Failure> {
+    let runs: Vec<_> = outcomes.iter().filter_map(|outcome| outcome.run.as_ref()).collect();
+    let claims: Vec<_> = outcomes.iter().flat_map(|outcome| &outcome.claims).collect();
+    let content = serde_json::json!({ "tsubu_version": tsubu::VERSION, "runs": runs, "claims": claims });
+    let written = folder.write_json(RESULTS, &content).and_then(|()| folder.sync());
+    written.map_err(|error| Failure::of_file(&error, folder.path()))
+}
+
+/// How many of the claims pass, fail and are undecided, the last on a line of their own; regressions are counted apart.
+fn verdicts(claims: &[&Claim]) -> String {
+    let (regressions, claims): (Vec<&Claim>, Vec<&Claim>) =
+        claims.iter().copied().partition(|claim| claim.origin == Origin::Regression);
+    let count = |verdict| claims.iter().filter(|claim| claim.verdict() == verdict).count();
+    let mut text = match count(Verdict::Fail) {
+        0 if claims.iter().all(|claim| claim.pass) => format!("{} claims, all pass\n", claims.len()),
+        0 => format!("{} claims, none fails\n", claims.len()),
+        n => format!("{} claims, {}\n", claims.len(), Stream::Data.bold_red(&format!("{n} FAIL"))),
+    };
+    let undecided = count(Verdict::Undecided);
+    if undecided > 0 {
+        let word = Stream::Data.yellow(&format!("{undecided} undecided"));
+        let _ = writeln!(text, "{word}: the interval of the ensemble lies neither in the range nor outside");
+    }
+    if !regressions.is_empty() {
+        let moved = regressions.iter().filter(|claim| !claim.pass).count();
+        let word = if moved == 0 { "none moved".to_owned() } else { Stream::Data.bold_red(&format!("{moved} FAIL")) };
+        let _ = writeln!(text, "{} regression checks, {word}", regressions.len());
+    }
+    text
+}
+
+fn list(cases: &[&Case]) -> Result<(), Failure> {
+    let mut rows = vec![["case", "study", "budget", "what it checks"].map(str::to_owned).to_vec()];
+    rows.extend(
+        cases.iter().map(|case| [case.name, case.study, &case.budget_text(), case.about].map(str::to_owned).to_vec()),
+    );
+    output::print(&table::aligned(&rows))
+}
