@@ -47,9 +47,11 @@ pub fn claims(words: &[&str]) -> Result<(), String> {
             }
             let _ = writeln!(runs, "{}", done["run"]);
         } else {
-            let of_case =
-                |all: &[Value]| all.iter().filter(|line| line["case"] == case).map(|c| format!("{c}\n")).collect();
-            let kept: [String; 2] = [&old, &old_runs].map(|all| of_case(all));
+            let of_case = |all: &[Value]| {
+                let lines = all.iter().filter(|line| line["case"] == case);
+                lines.fold(String::new(), |text, line| format!("{text}{line}\n"))
+            };
+            let kept = [&old, &old_runs].map(|all| of_case(all));
             claims += &kept[0];
             runs += &kept[1];
         }
@@ -102,7 +104,7 @@ fn listed(list: &str) -> Vec<Listed<'_>> {
 /// Runs cases side by side with their controls; gives the folder in which each is kept, whether its claims hold or not. What the same
 /// program has done before is not run again.
 fn run(cases: &[&str]) -> Result<PathBuf, String> {
-    let folder = root().join("target/claims");
+    let folder = root().join("target/kept-claims");
     let mut arguments = vec!["run", "--package", "tsubu-cli", "--quiet", "--", "verify"];
     arguments.extend(cases);
     arguments.extend(["--controls", "-o"]);

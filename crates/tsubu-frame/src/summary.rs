@@ -1,14 +1,15 @@
 //! The summary of a run, `summary.json`: the keys that users and notebooks build on.
 //!
-//! JSON knows no not-a-number; such a value is written as `null` and read back as not-a-number.
+//! A not-a-number is written as `null` and read back as not-a-number.
 
 use std::path::Path;
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use crate::FileError;
 use crate::claim::Claim;
 use crate::named::Named;
+use crate::not_a_number::{real, reals};
 use crate::whole::write_atomically;
 
 /// How a run ended.
@@ -183,13 +184,4 @@ pub(crate) fn json(path: &Path, value: &impl Serialize) -> Result<String, FileEr
 pub fn read_json<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<T, FileError> {
     let text = std::fs::read_to_string(path).map_err(FileError::read(path))?;
     serde_json::from_str(&text).map_err(|e| FileError::content(path, e.to_string()))
-}
-
-pub(crate) fn real<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Option::<f64>::deserialize(deserializer).map(|x| x.unwrap_or(f64::NAN))
-}
-
-pub(crate) fn reals<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
-    let list = Vec::<Option<f64>>::deserialize(deserializer)?;
-    Ok(list.into_iter().map(|x| x.unwrap_or(f64::NAN)).collect())
 }
