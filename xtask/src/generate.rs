@@ -5,7 +5,7 @@ use crate::shell::{cargo, output, root};
 use std::fs;
 
 /// Pages of the book that the program prints.
-const PRINTED: [&str; 7] = ["contact", "water", "watches", "walls", "methods", "claims", "origins"];
+const PRINTED: [&str; 8] = ["contact", "water", "watches", "walls", "methods", "claims", "held-against", "origins"];
 
 /// Every generated file with its content.
 fn pages() -> Result<Vec<(String, String)>, String> {

@@ -13,6 +13,7 @@ mod generate;
 mod guard;
 #[cfg(test)]
 mod imports;
+mod mutants;
 mod race;
 mod shell;
 mod spelling;
@@ -30,8 +31,10 @@ cargo xtask CHORE
   gen [--check]       write the generated pages and tables, or only say which are out of date
   spelling            look for misspelt words in all texts, where there is a Python 3
   book                build the book, where there is an mdbook
-  claims [NAME]...    run verification cases (without names all quick ones) and keep what they claim
+  claims [NAME]...    run verification cases (without names all of up to a minute) and keep what they claim
   claims --from DIR   keep what `tsubu verify --controls -o DIR` has found, and run nothing
+  mutants [WORDS]...  change a constant of the engines by 5 %, or leave a rule out, one after the other, and keep which quick
+                      verification cases notice; fails where none does
   fuzz [--seed N] [--seconds S] [--cases N] [--only KIND] [--case N]
                       draw scenes, files and command lines, and hold tsubu against them; --help says more
   variants [--quick] [--seed N]
@@ -59,6 +62,7 @@ fn main() -> ExitCode {
         ["claims", names @ ..] => claims::claims(names),
         ["spelling"] => spelling::check(),
         ["book"] => book::book(),
+        ["mutants", names @ ..] => mutants::mutants(names),
         ["fuzz", rest @ ..] => guard::guard("fuzz", rest),
         ["variants", rest @ ..] => variants::chore(rest),
         ["same", rest @ ..] => variants::same(rest),

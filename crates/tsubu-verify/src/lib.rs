@@ -36,6 +36,7 @@ mod pile_stress;
 mod pile_twin;
 mod plastic;
 mod random_loads;
+mod reasons;
 mod recorded;
 mod registry;
 mod rheology;
@@ -57,6 +58,7 @@ pub use case_run::{CaseRun, Done};
 pub use control::is_missing as lacks_control;
 pub use keep::Archive;
 pub use moved::{Moved, moved};
+pub use reasons::reason;
 pub use recorded::{recorded, recorded_run};
 pub use registry::CASES;
 

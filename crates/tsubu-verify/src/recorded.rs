@@ -40,6 +40,8 @@ mod tests {
         for case in CASES.iter().filter(|case| case.is_quick()) {
             let kept = recorded(case.name);
             assert!(!kept.is_empty(), "{}: `cargo xtask claims {}`", case.name, case.name);
+            let run = recorded_run(case.name).expect("its run");
+            assert!(!run.processor.is_empty() && run.cores > 0 && run.date.len() == 10, "{run:?}");
             for claim in kept {
                 let low = claim.low.is_none_or(|low| claim.value >= low);
                 let high = claim.high.is_none_or(|high| claim.value <= high);

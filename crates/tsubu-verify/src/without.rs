@@ -55,6 +55,12 @@ pub(crate) const CONTROL: &[(&str, &[&str])] = &[
             "pile-angle",
             "pile-avalanches",
             "pile-segregation",
+            "common-collapse",
+            "common-shaken",
+            "fhp-viscosity-plain",
+            "pile-twin",
+            "plate-twin",
+            "silo-layers",
         ],
     ),
     (

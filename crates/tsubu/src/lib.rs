@@ -18,6 +18,7 @@ pub mod ledger;
 mod memory;
 pub mod methods;
 pub mod motion;
+pub mod mutation;
 pub mod neighbours;
 pub mod partner;
 pub mod random;

@@ -168,6 +168,7 @@ fn page(name: &str) -> Result<String, Failure> {
         "walls" => explain::page(Kind::Wall),
         "methods" => explain::page(Kind::Method),
         "claims" => claims(),
+        "held-against" => super::held_against::page(),
         "origins" => super::origins::page(),
         "verdicts" => super::origins::verdicts(),
         _ => return Err(Failure::wrong(format!("the book has no generated page `{name}`"))),

@@ -6,6 +6,7 @@ mod claims;
 mod compare;
 mod completions;
 mod explain;
+mod held_against;
 mod new;
 mod origins;
 mod report;

@@ -3,6 +3,7 @@
 use super::chunk::Chunk;
 use super::part::{About, Plain, Stage};
 use super::slider::resist;
+use crate::mutation::{Mutation, mutated};
 use multiversion::multiversion;
 
 pub(super) const ABOUT: About = About {
@@ -22,5 +23,7 @@ pub(super) const fn part(smoothing_speed: f64) -> Plain {
 fn rows(chunk: &mut Chunk, dt: f64, slow: f64) {
     // The disc has the radius sqrt(R* d); the overlap of undeformed spheres is sqrt(2) times as wide.
     let width = 2.0 * std::f64::consts::SQRT_2;
-    resist(chunk, slow, dt, |c, i| c.rolling[i] * (width * c.contact_radius[i]) * c.load[i]);
+    resist(chunk, slow, dt, |c, i| {
+        c.rolling[i] * mutated(Mutation::RollingArm, width * c.contact_radius[i]) * c.load[i]
+    });
 }

@@ -3,6 +3,7 @@
 use super::chunk::{Chunk, Column};
 use super::part::{About, Part, Slot, Stage};
 use super::slider::{self, Strength, roll};
+use crate::mutation::{Mutation, mutated};
 use multiversion::multiversion;
 
 pub(super) const EPSD: About = About {
@@ -55,7 +56,7 @@ impl Part for Epsd {
 #[multiversion(targets = "simd")]
 fn epsd(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, ratio: f64, damping: f64) {
     roll(chunk, held, dt, |c, i| {
-        let arm = c.rolling[i] * c.effective_radius[i];
+        let arm = c.rolling[i] * mutated(Mutation::RollingArm, c.effective_radius[i]);
         let stiffness = ratio * c.secant_stiffness[i] * (arm * arm);
         let inertia = 3.5 * slider::inertia(c, i);
         let dashpot = 2.0 * damping * (inertia * stiffness).sqrt();

@@ -4,6 +4,7 @@ use super::chunk::{Chunk, Column};
 use super::part::{About, Part, Slot, Stage};
 use super::slider::{self, Strength, bearable, slide};
 use super::table::Constants;
+use crate::mutation::{Mutation, left_out};
 use glam::DVec3;
 use multiversion::multiversion;
 use tsubu_scene::plan::MindlinForm;
@@ -87,6 +88,9 @@ pub(super) fn tangential(
     let times = [dt, 1.0 / dt];
     for i in 0..chunk.rows() {
         let mut s = strength(chunk, i);
+        if left_out(Mutation::UnloadingRescale) && c[i] > 0.0 {
+            c[i] = slider::inverse(s.stiffness);
+        }
         s.dashpot = bearable(s.dashpot, chunk.effective_mass[i], dt);
         let (normal, slip) = (Chunk::vector(&chunk.normal, i), Chunk::vector(&chunk.slip, i));
         let slid = slide((DVec3::new(x[i], y[i], z[i]), c[i]), normal, slip, s, times);

@@ -49,6 +49,7 @@ mod twisting_spring;
 mod viscous;
 
 use crate::about::About;
+use crate::mutation::{Mutation, mutated};
 pub use chunk::Chunk;
 pub use law::Law;
 use part::Part;
@@ -75,9 +76,11 @@ fn parts(contact: &Contact) -> Vec<Box<dyn Part>> {
 fn normal(normal: &Normal) -> Box<dyn Part> {
     match *normal {
         Normal::Hertz {} => Box::new(hertz::Hertz),
-        Normal::Hooke { stiffness } => Box::new(hooke::Hooke { stiffness }),
+        Normal::Hooke { stiffness } => {
+            Box::new(hooke::Hooke { stiffness: mutated(Mutation::LinearStiffness, stiffness) })
+        }
         Normal::Luding { stiffness, unloading_ratio, adhesion_ratio, plasticity_depth } => Box::new(luding::Luding {
-            stiffness,
+            stiffness: mutated(Mutation::LinearStiffness, stiffness),
             unloading: unloading_ratio,
             adhesion: adhesion_ratio,
             depth: plasticity_depth,
@@ -117,7 +120,10 @@ fn tangential(tangential: &Tangential) -> Chosen {
         Tangential::None {} => None,
         Tangential::Coulomb { smoothing_speed } => Some(Box::new(coulomb::part(smoothing_speed))),
         Tangential::Mindlin { form, damping } => Some(Box::new(mindlin::Mindlin { form, damping })),
-        Tangential::Spring { ratio, damping, cohesion } => Some(Box::new(spring::Spring { ratio, damping, cohesion })),
+        Tangential::Spring { ratio, damping, cohesion } => {
+            let ratio = mutated(Mutation::TangentialStiffness, ratio);
+            Some(Box::new(spring::Spring { ratio, damping, cohesion }))
+        }
     }
 }
 
@@ -146,6 +152,7 @@ fn film(contact: &Contact) -> Chosen {
         Film::None {} => None,
         Film::Lubrication { roughness, reach, viscosity, in_contact } => {
             let beside_damping = contact.damping != Damping::None {};
+            let viscosity = mutated(Mutation::FilmViscosity, viscosity);
             Some(Box::new(lubrication::Lubrication { roughness, reach, viscosity, in_contact, beside_damping }))
         }
     }

@@ -3,6 +3,7 @@
 use super::chunk::Chunk;
 use super::part::{About, Plain, Stage};
 use super::slider::resist;
+use crate::mutation::{Mutation, mutated};
 use multiversion::multiversion;
 
 pub(super) const ABOUT: About = About {
@@ -20,5 +21,5 @@ pub(super) const fn part(smoothing_speed: f64) -> Plain {
 
 #[multiversion(targets = "simd")]
 fn rows(chunk: &mut Chunk, dt: f64, slow: f64) {
-    resist(chunk, slow, dt, |c, i| c.rolling[i] * c.effective_radius[i] * c.load[i]);
+    resist(chunk, slow, dt, |c, i| c.rolling[i] * mutated(Mutation::RollingArm, c.effective_radius[i]) * c.load[i]);
 }

@@ -3,6 +3,7 @@
 use super::chunk::{Chunk, Column};
 use super::part::{About, Part, Slot, Stage};
 use super::slider::{self, Strength, roll};
+use crate::mutation::{Mutation, mutated};
 use multiversion::multiversion;
 
 pub(super) const ABOUT: About = About {
@@ -47,7 +48,7 @@ impl Part for RollingSpring {
 fn rows(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, stiffness: f64, damping: f64) {
     // As a torque on the angle of rolling: with v = -R* w x n and M = -R* n x F, F = -k x is M = -k R*^2 times the angle.
     roll(chunk, held, dt, |c, i| {
-        let arm = c.effective_radius[i];
+        let arm = mutated(Mutation::RollingArm, c.effective_radius[i]);
         Strength {
             stiffness: stiffness * (arm * arm),
             dashpot: damping * (arm * arm),

@@ -1,6 +1,7 @@
 //! The contact table: everything about a pair of materials that does not change during a run, its law included.
 
 use super::law::Law;
+use crate::mutation::{Mutation, mutated};
 use std::collections::BTreeSet;
 use tsubu_scene::plan::{Contact, Material, MaterialPair, Plan};
 
@@ -190,18 +191,33 @@ impl Table {
 
 fn combine(m: &Material, n: &Material, found: Option<&MaterialPair>) -> Constants {
     let mix = |told: Option<f64>, x: f64, y: f64| told.unwrap_or_else(|| (x * y).sqrt());
-    let plane_modulus = |m: &Material| m.young_modulus / (1.0 - m.poisson_ratio * m.poisson_ratio);
-    let shear = |m: &Material| m.young_modulus / (2.0 * (1.0 + m.poisson_ratio) * (2.0 - m.poisson_ratio));
+    let elastic = |m: &Material| {
+        let (young, poisson) = (mutated(Mutation::Young, m.young_modulus), mutated(Mutation::Poisson, m.poisson_ratio));
+        [young / (1.0 - poisson * poisson), young / (2.0 * (1.0 + poisson) * (2.0 - poisson))]
+    };
     let of_pair = |x: f64, y: f64| 1.0 / (1.0 / x + 1.0 / y);
+    let ([plane, shear], [plane_of_other, shear_of_other]) = (elastic(m), elastic(n));
+    let mutable = |what, told: Option<f64>, x, y| mutated(what, mix(told, x, y));
+    let told = |of: fn(&MaterialPair) -> Option<f64>| found.and_then(of);
     Constants {
-        effective_modulus: of_pair(plane_modulus(m), plane_modulus(n)),
-        shear_modulus: of_pair(shear(m), shear(n)),
-        restitution: mix(found.and_then(|p| p.restitution), m.restitution, n.restitution),
-        friction: mix(found.and_then(|p| p.friction), m.friction, n.friction),
-        rolling: mix(found.and_then(|p| p.rolling_friction), m.rolling_friction, n.rolling_friction),
-        twisting: mix(found.and_then(|p| p.twisting_friction), m.twisting_friction, n.twisting_friction),
-        surface_energy: mix(found.and_then(|p| p.surface_energy), m.surface_energy, n.surface_energy),
-        cohesion: mix(found.and_then(|p| p.cohesion), m.cohesion, n.cohesion),
+        effective_modulus: of_pair(plane, plane_of_other),
+        shear_modulus: mutated(Mutation::TangentialStiffness, of_pair(shear, shear_of_other)),
+        restitution: mix(told(|p| p.restitution), m.restitution, n.restitution),
+        friction: mutable(Mutation::Friction, told(|p| p.friction), m.friction, n.friction),
+        rolling: mutable(
+            Mutation::RollingFriction,
+            told(|p| p.rolling_friction),
+            m.rolling_friction,
+            n.rolling_friction,
+        ),
+        twisting: mutable(
+            Mutation::TwistingFriction,
+            told(|p| p.twisting_friction),
+            m.twisting_friction,
+            n.twisting_friction,
+        ),
+        surface_energy: mutable(Mutation::Cohesion, told(|p| p.surface_energy), m.surface_energy, n.surface_energy),
+        cohesion: mutable(Mutation::Cohesion, told(|p| p.cohesion), m.cohesion, n.cohesion),
         ..Constants::default()
     }
 }

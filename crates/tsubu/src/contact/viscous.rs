@@ -7,6 +7,7 @@ use super::hertz::secant;
 use super::part::{About, Part, Stage};
 use super::root::fifth_root;
 use super::table::{Constants, Pair};
+use crate::mutation::{Mutation, mutated};
 use multiversion::multiversion;
 
 pub(super) const SQRT: About = About {
@@ -97,7 +98,8 @@ impl Part for Viscous {
 
     fn prepare(&self, constants: &mut Constants) {
         let q = self.exponent();
-        constants.damping = calibrate::coefficient(constants.restitution, constants.exponent, q, self.attraction);
+        let coefficient = calibrate::coefficient(constants.restitution, constants.exponent, q, self.attraction);
+        constants.damping = mutated(Mutation::Damping, coefficient);
     }
 
     fn judge(&self, pair: &mut Pair) {

@@ -6,6 +6,7 @@ use super::contact_forces::{BlockContacts, ContactForces, ForceInput};
 use super::contact_history::WallKey;
 use super::sweep::{Direction, sweep};
 use crate::contact::Law;
+use crate::mutation::{Mutation, left_out};
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::lists::{BLOCK, BlockList, shares};
 use crate::threads;
@@ -113,8 +114,10 @@ impl ContactForces {
         let HistorySnapshot { blocks: parts, index, runs } = &mut snapshot;
         index.clear();
         index.resize(ids.iter().max().map_or(0, |m| *m as usize + 1), REMOVED);
-        for (i, id) in (0..).zip(ids) {
-            index[*id as usize] = i;
+        if !left_out(Mutation::HistoryTransfer) {
+            for (i, id) in (0..).zip(ids) {
+                index[*id as usize] = i;
+            }
         }
         let lookup = Lookup { index, neighbours: input.neighbours, walls: input.walls, laws, width };
         threads::each(parts, shares, |part| part.locate(&lookup));

@@ -4,6 +4,7 @@ use super::fill::Occupied;
 use super::room::{Clearance, Room, images, periodic_bounds};
 use crate::contact::Table;
 use crate::motion::value_and_rate;
+use crate::mutation::{Mutation, mutated};
 use crate::random::{Purpose, unit, words};
 use crate::sizes;
 use crate::state::{Grain, Grains};
@@ -97,7 +98,7 @@ pub(super) fn still(
         radius,
         mass,
         inverse_mass: if free { 1.0 / mass } else { 0.0 },
-        inertia: share * mass * radius * radius,
+        inertia: mutated(Mutation::Inertia, share * mass * radius * radius),
         material,
         group: number as u32,
         id: id as u32,

@@ -2,6 +2,7 @@
 
 use super::{Parcel, Part, WorkKind};
 use crate::about::About;
+use crate::mutation::{Mutation, mutated};
 use glam::DVec3;
 use multiversion::multiversion;
 use tsubu_scene::plan;
@@ -37,7 +38,7 @@ impl Buoyancy {
             plan::Buoyancy::Vertical => (gravity, &VERTICAL),
             plan::Buoyancy::Normal => (DVec3 { x: 0.0, ..gravity }, &NORMAL),
         };
-        Self { lift: -plan.density * carried, about }
+        Self { lift: -mutated(Mutation::Buoyancy, plan.density) * carried, about }
     }
 }
 

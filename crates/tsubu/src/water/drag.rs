@@ -2,6 +2,7 @@
 
 use super::{Parcel, Part, WorkKind, hindrance};
 use crate::about::About;
+use crate::mutation::{Mutation, mutated};
 use multiversion::multiversion;
 use std::f64::consts::PI;
 use tsubu_scene::plan;
@@ -81,15 +82,16 @@ impl Part for Drag {
 
     fn apply(&self, parcel: &mut Parcel) {
         hindrance::before(&self.hindrance, parcel);
+        let density = mutated(Mutation::Drag, self.density);
         match self.law {
-            plan::Drag::None {} => two_terms(parcel, self.density, 0.0, 0.0),
-            plan::Drag::Constant { coefficient } => two_terms(parcel, self.density, coefficient, 0.0),
+            plan::Drag::None {} => two_terms(parcel, density, 0.0, 0.0),
+            plan::Drag::Constant { coefficient } => two_terms(parcel, density, coefficient, 0.0),
             plan::Drag::StokesNewton { coefficient } => {
-                two_terms(parcel, self.density, coefficient, 24.0 * self.viscosity);
+                two_terms(parcel, density, coefficient, 24.0 * self.viscosity);
             }
-            plan::Drag::SchillerNaumann {} => schiller_naumann(parcel, self.density, self.viscosity),
-            plan::Drag::Abraham {} => abraham(parcel, self.density, self.viscosity),
-            plan::Drag::Gidaspow {} => hindrance::gidaspow(parcel, self.density, self.viscosity),
+            plan::Drag::SchillerNaumann {} => schiller_naumann(parcel, density, self.viscosity),
+            plan::Drag::Abraham {} => abraham(parcel, density, self.viscosity),
+            plan::Drag::Gidaspow {} => hindrance::gidaspow(parcel, density, self.viscosity),
         }
         hindrance::after(&self.hindrance, parcel, self.viscosity);
     }

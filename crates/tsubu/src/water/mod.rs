@@ -30,6 +30,7 @@ pub use part::{Part, WorkKind};
 pub use stream::Stream;
 
 use crate::about::About;
+use crate::mutation::{Mutation, mutated};
 use crate::state::sphere;
 use buoyancy::Buoyancy;
 use drag::Drag;
@@ -113,7 +114,7 @@ impl Water {
             density: plan.density,
             viscosity: plan.viscosity,
             surface: plan.surface.unwrap_or(f64::INFINITY),
-            added_mass: plan.added_mass,
+            added_mass: mutated(Mutation::AddedMass, plan.added_mass),
             crowd: plan.hindrance != (plan::Hindrance::None {})
                 || plan.drag == (plan::Drag::Gidaspow {})
                 || matches!(stream, Stream::Column { .. }),

@@ -12,6 +12,7 @@
 use super::Damper;
 use crate::lattice::direction::{Direction, Vector};
 use crate::lattice::grid::EMPTY;
+use crate::mutation::{Mutation, left_out};
 use crate::random::{Purpose, words};
 use tsubu_scene::plan::Collision;
 
@@ -128,6 +129,9 @@ impl Damper {
     }
 
     fn bounce(&mut self, pair: Pair) {
+        if left_out(Mutation::BallCollision) {
+            return;
+        }
         let (a, b) = (pair.looker as usize, pair.seen as usize);
         let both = self.rules.collision == Collision::Pairwise;
         // A ball that another pair's chain of events has laid to rest or let go meanwhile is looked at again next step.

@@ -6,6 +6,7 @@
 //! mover with a particle at rest **parts** into the two neighbouring directions, or back.
 
 use super::bits::Bits;
+use crate::mutation::{Mutation, left_out};
 
 /// Slots of a site: six directions in the order of [`crate::lattice::direction::Direction`], and rest.
 pub const SLOTS: usize = 7;
@@ -51,7 +52,8 @@ fn pairs_and_triples<T: Bits>(n: &[T; SLOTS]) -> ([T; 3], T) {
         let (b, c) = ((a + 1) % 3, (a + 2) % 3);
         pair[a] = n[a] & n[a + 3] & !(n[b] | n[b + 3] | n[c] | n[c + 3]);
     }
-    (pair, (even & no_odd) | (odd & no_even))
+    let triple = if left_out(Mutation::TripleCollision) { T::NONE } else { (even & no_odd) | (odd & no_even) };
+    (pair, triple)
 }
 
 #[inline(always)]

@@ -1,0 +1,144 @@
+//! Mutations: a constant of an engine 5 % too large, or a rule left out, on purpose, to see which verification cases notice.
+//!
+//! The feature `mutations` compiles them in. Without it [`mutated`] gives back what it gets and [`left_out`] says no, both known when
+//! the program is compiled: the engines are the same as if nothing stood here.
+
+#![allow(clippy::inline_always, reason = "a call inside a row would end the vector code of its loop")]
+
+/// What can be wrong on purpose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mutation {
+    /// Young's modulus.
+    Young,
+    /// Poisson's ratio.
+    Poisson,
+    /// Stiffness of linear springs, Hooke's and Luding's.
+    LinearStiffness,
+    /// Damping coefficient that a restitution gives.
+    Damping,
+    /// Tangential stiffness.
+    TangentialStiffness,
+    /// Friction coefficient.
+    Friction,
+    /// Rolling friction coefficient.
+    RollingFriction,
+    /// Twisting friction coefficient.
+    TwistingFriction,
+    /// Arm of a rolling spring or torque.
+    RollingArm,
+    /// Surface energy and cohesion.
+    Cohesion,
+    /// Viscosity of a film.
+    FilmViscosity,
+    /// Moment of inertia of a grain.
+    Inertia,
+    /// Drag of water.
+    Drag,
+    /// Added mass.
+    AddedMass,
+    /// Buoyancy.
+    Buoyancy,
+    /// A tangential spring that gets softer holds less.
+    UnloadingRescale,
+    /// Springs are kept when neighbour lists are rebuilt.
+    HistoryTransfer,
+    /// Balls of the damper automaton collide.
+    BallCollision,
+    /// Three particles of an FHP gas that meet turn.
+    TripleCollision,
+}
+
+use Mutation::{
+    AddedMass, BallCollision, Buoyancy, Cohesion, Damping, Drag, FilmViscosity, Friction, HistoryTransfer, Inertia,
+    LinearStiffness, Poisson, RollingArm, RollingFriction, TangentialStiffness, TripleCollision, TwistingFriction,
+    UnloadingRescale, Young,
+};
+
+/// How much larger a mutated constant is.
+const FACTOR: f64 = 1.05;
+
+impl Mutation {
+    /// All, in the order of tables, each with what it does in words.
+    pub const ALL: [(Self, &str); 19] = [
+        (Young, "Young's modulus 5 % too large"),
+        (Poisson, "Poisson's ratio 5 % too large"),
+        (LinearStiffness, "stiffness of linear springs 5 % too large"),
+        (Damping, "damping coefficient 5 % too large"),
+        (TangentialStiffness, "tangential stiffness 5 % too large"),
+        (Friction, "friction 5 % too large"),
+        (RollingFriction, "rolling friction 5 % too large"),
+        (TwistingFriction, "twisting friction 5 % too large"),
+        (RollingArm, "arm of rolling 5 % too long"),
+        (Cohesion, "surface energy and cohesion 5 % too large"),
+        (FilmViscosity, "viscosity of a film 5 % too large"),
+        (Inertia, "moment of inertia 5 % too large"),
+        (Drag, "drag coefficient 5 % too large"),
+        (AddedMass, "added mass 5 % too large"),
+        (Buoyancy, "buoyancy 5 % too large"),
+        (UnloadingRescale, "a tangential spring that gets softer holds what it held"),
+        (HistoryTransfer, "springs are forgotten when neighbour lists are rebuilt"),
+        (BallCollision, "balls of the damper automaton do not collide"),
+        (TripleCollision, "three particles of an FHP gas that meet do not turn"),
+    ];
+
+    /// By its words.
+    pub fn named(words: &str) -> Option<Self> {
+        Self::ALL.iter().find(|(_, of)| *of == words).map(|(mutation, _)| *mutation)
+    }
+}
+
+/// A constant, too large where that is the mutation at work.
+#[inline(always)]
+pub(crate) fn mutated(what: Mutation, value: f64) -> f64 {
+    // What is nothing stays so: the mutation does not reach it.
+    if value != 0.0 && at_work(what) { FACTOR * value } else { value }
+}
+
+/// Whether a rule is left out.
+#[inline(always)]
+pub(crate) fn left_out(rule: Mutation) -> bool {
+    at_work(rule)
+}
+
+#[cfg(not(feature = "mutations"))]
+#[inline(always)]
+fn at_work(_: Mutation) -> bool {
+    false
+}
+
+#[cfg(feature = "mutations")]
+pub use switch::{reached, set};
+
+#[cfg(feature = "mutations")]
+use switch::at_work;
+
+#[cfg(feature = "mutations")]
+mod switch {
+    use super::Mutation;
+    use std::sync::atomic::{AtomicU8, AtomicU32, Ordering::Relaxed};
+
+    /// Number of the mutation at work and one; none: 0.
+    static AT_WORK: AtomicU8 = AtomicU8::new(0);
+    /// A bit for each mutation that was asked for.
+    static REACHED: AtomicU32 = AtomicU32::new(0);
+
+    pub(super) fn at_work(what: Mutation) -> bool {
+        let bit = 1 << what as u32;
+        if REACHED.load(Relaxed) & bit == 0 {
+            REACHED.fetch_or(bit, Relaxed);
+        }
+        AT_WORK.load(Relaxed) == what as u8 + 1
+    }
+
+    /// Puts a mutation to work in all engines of the program, or none.
+    pub fn set(mutation: Option<Mutation>) {
+        AT_WORK.store(mutation.map_or(0, |mutation| mutation as u8 + 1), Relaxed);
+    }
+
+    /// The mutations that would have changed something since this was last asked.
+    pub fn reached() -> Vec<Mutation> {
+        let bits = REACHED.swap(0, Relaxed);
+        let all = Mutation::ALL.iter().map(|(mutation, _)| *mutation);
+        all.filter(|mutation| bits & (1 << *mutation as u32) != 0).collect()
+    }
+}
