@@ -163,6 +163,9 @@ pub struct Claim {
     /// Of a control: the claims that the wrong model does not pass.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub refuses: Vec<String>,
+    /// The number that the source itself gives, if it is one; to be drawn.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub beside: Option<f64>,
     /// What was wrong on purpose in the runs that this claim refuses.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub controls: Vec<String>,
@@ -212,6 +215,13 @@ impl Claim {
             }
             _ => Verdict::Fail,
         }
+    }
+
+    /// The same claim beside the number that its source gives.
+    #[must_use]
+    pub fn beside(mut self, said: f64) -> Self {
+        self.beside = Some(said);
+        self
     }
 
     /// The same claim with what is to be drawn.

@@ -12,6 +12,7 @@ pub mod balls;
 mod canvas;
 pub mod colour;
 mod compare;
+mod ensemble;
 mod field;
 pub mod figure;
 mod gallery;

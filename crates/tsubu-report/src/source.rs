@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use tsubu_frame::summary::mean_beside;
-use tsubu_frame::{Claim, FileError, ResultValue, Summary, Table, csv::split_unit, unit::for_people};
+use tsubu_frame::{Claim, FileError, ResultValue, Summary, Table, Verdict, csv::split_unit, unit::for_people};
 
 use crate::figure::{Axis, Bars, Figure};
 use crate::page::{Block, Card, Grid, Report, Tone};
@@ -301,7 +301,11 @@ pub(crate) fn claims_table<'a>(claims: &[&'a Claim], unit: impl Fn(&'a str) -> &
         let (factor, shown) = for_people(si);
         let value = short(claim.value * factor);
         let value = if shown == "-" { value } else { format!("{value} {shown}") };
-        let (tone, word) = if claim.pass { (Tone::Good, "pass") } else { (Tone::Bad, "FAIL") };
+        let (tone, word) = match claim.verdict() {
+            Verdict::Pass => (Tone::Good, "pass"),
+            Verdict::Fail => (Tone::Bad, "FAIL"),
+            Verdict::Undecided => (Tone::Warning, "undecided"),
+        };
         grid.push(tone, [word, &claim.name, &value, &range(claim, si), &claim.source]);
     }
     Block::Table(grid)

@@ -1,7 +1,8 @@
 //! The report of the shipped verification cases and studies.
 
-use tsubu_frame::{Claim, Points, summary::read_json};
+use tsubu_frame::{Claim, Points, Verdict, summary::read_json};
 
+use crate::ensemble;
 use crate::figure::{Axis, Figure, Series, Style};
 use crate::gallery;
 use crate::page::{Block, Report, Tone};
@@ -11,11 +12,13 @@ use crate::source::{Source, card, claims_table, versions};
 const SOURCES: &str = "A claim holds if its value lies in the accepted range. The source says where the range comes from: an \
      author and a year, a figure of the study's paper, or a closed form. Codes such as V-05, A-7.1 or CH-A4 number the \
      sections of the project's specification and of its list of verification cases, which follow the named source or give \
-     the closed form.";
+     the closed form. A claim on an ensemble holds if the 95 % interval of the mean lies in the range, and is undecided if the \
+     interval lies neither in it nor outside.";
 
 pub(crate) fn build(source: &mut Source) -> Report {
     let claims = read(source);
-    let failed: Vec<&Claim> = claims.iter().filter(|c| !c.pass).collect();
+    let of = |verdict| claims.iter().filter(|claim| claim.verdict() == verdict).collect::<Vec<&Claim>>();
+    let (failed, undecided) = (of(Verdict::Fail), of(Verdict::Undecided));
     let mut studies: Vec<&str> = Vec::new();
     for claim in &claims {
         if !studies.contains(&study(claim)) {
@@ -27,6 +30,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
         title: "Every claim, run again".into(),
         headline: match (claims.len(), failed.as_slice()) {
             (0, _) => "No claim was checked.".into(),
+            (n, []) if !undecided.is_empty() => format!("None of {n} claims fails; {} undecided.", undecided.len()),
             (n, []) if studies.len() == 1 => format!("All {n} claims hold."),
             (n, []) => format!("All {n} claims hold, in {} studies.", studies.len()),
             (n, [one]) => format!("One of {n} claims does not hold: {}.", one.name),
@@ -34,6 +38,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
         },
         verdict: Some(match (claims.len(), failed.len()) {
             (0, _) => (Tone::Warning, "nothing checked".into()),
+            (_, 0) if !undecided.is_empty() => (Tone::Warning, format!("{} undecided", undecided.len())),
             (_, 0) => (Tone::Good, "all pass".into()),
             (_, n) => (Tone::Bad, format!("{n} FAIL")),
         }),
@@ -50,6 +55,9 @@ pub(crate) fn build(source: &mut Source) -> Report {
     if !failed.is_empty() {
         report.section("What does not hold", vec![claims_table(&failed, |_| "-")]);
     }
+    if !undecided.is_empty() {
+        report.section("What is undecided", vec![claims_table(&undecided, |_| "-")]);
+    }
     if !claims.is_empty() {
         report.section("How to read the sources", vec![Block::Text(SOURCES.into())]);
     }
@@ -57,6 +65,9 @@ pub(crate) fn build(source: &mut Source) -> Report {
         let of: Vec<&Claim> = claims.iter().filter(|c| study(c) == *name).collect();
         let mut blocks = gallery::blocks(source, name);
         blocks.extend(figures(source, name, &of));
+        if let Some(svg) = ensemble::strips(&of) {
+            blocks.push(source.drawing(&format!("{}_ensembles", plain(name)), svg, ensemble::CAPTION));
+        }
         blocks.push(claims_table(&of, |_| "-"));
         report.section(*name, blocks);
     }
@@ -90,11 +101,15 @@ fn figures(source: &mut Source, study: &str, claims: &[&Claim]) -> Vec<Block> {
             figure.series.extend([found, published].map(|series| Series { colour: Some(colour), ..series }));
         }
         figure.series.retain(|series| !series.points.is_empty());
-        let plain = |text: &str| text.to_lowercase().replace(|c: char| !c.is_ascii_alphanumeric(), "_");
         let caption = "Points: tsubu. Dashed: what the source of the claim says.";
         blocks.extend(source.figure(&format!("{}_{}", plain(study), plain(title)), &figure, caption));
     }
     blocks
+}
+
+/// A text as a part of a file's name.
+fn plain(text: &str) -> String {
+    text.to_lowercase().replace(|c: char| !c.is_ascii_alphanumeric(), "_")
 }
 
 /// A claim's study: told, or the part of its name before a slash.

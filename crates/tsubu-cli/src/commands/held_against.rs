@@ -94,10 +94,9 @@ fn listed(all: &[(&'static str, Claim)], verdict: Verdict) -> String {
     if groups.is_empty() {
         return "Nothing.\n".to_owned();
     }
-    let lines = groups.iter().map(|(case, why, claims)| {
-        let claims: String = claims.iter().map(|claim| format!("  - {claim}\n")).collect();
-        format!("- `{case}`: {}.\n{claims}", sentence(why))
-    });
+    let lines = groups
+        .iter()
+        .map(|(case, why, claims)| format!("- `{case}`: {}.\n  - {}\n", sentence(why), claims.join("\n  - ")));
     lines.collect()
 }
 

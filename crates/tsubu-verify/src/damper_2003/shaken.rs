@@ -86,8 +86,8 @@ fn gates(method: &str, count: usize, changes: &[&str]) -> Result<Vec<Claim>, Str
         Claim::judge_ensemble(name, found, Some(low), Some(high), source)
     };
     Ok(vec![
-        claim("phase of landing", landing, -0.25, 0.071 + 0.017, lump),
-        claim("phase of lift-off", lift_off, 0.046 - 0.017, 0.25, gravity),
+        claim("phase of landing", landing, -0.25, 0.071 + 0.017, lump).beside(0.071),
+        claim("phase of lift-off", lift_off, 0.046 - 0.017, 0.25, gravity).beside(0.046),
         claim("share of the period in the air", flight, 0.5, 1.0, air),
     ])
 }
