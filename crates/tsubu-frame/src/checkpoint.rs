@@ -23,7 +23,7 @@ use crate::state::{Section, State};
 use crate::whole::write_atomically;
 
 const MAGIC: &[u8; 8] = b"TSUBU\r\n\x1a";
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 const END: &[u8; 4] = b"END.";
 /// Fast enough not to be felt beside the disk; higher levels gain little on floats.
 const LEVEL: i32 = 1;

@@ -29,6 +29,7 @@ mod lattice_review;
 mod lump;
 mod moved;
 mod open_dem_benchmark;
+mod order;
 mod orifice;
 mod origin;
 mod outlet;

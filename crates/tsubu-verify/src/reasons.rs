@@ -12,6 +12,11 @@ const REASONS: &[(&str, &str, &str)] = &[
         "",
         "the surface is straight where a cascade has an S; a drum of 30 diameters is small, and one of 50 bends by 5.7 degrees",
     ),
+    (
+        "haff-inelastic",
+        "",
+        "the gas cools 3 to 5 % more slowly than by molecular chaos, whatever step and stiffness: neighbours come to move alike, in a box near the size at which vortices grow",
+    ),
     ("beverloo", "", "in the plane k is larger than the 1.2 to 2 of round holes"),
     (
         "beverloo-3d",

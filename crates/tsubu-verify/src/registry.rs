@@ -4,13 +4,15 @@ use crate::case::{Case, Judged};
 use crate::{
     bedload, brazil_nut, chung_ooi_2011, chute, cl_ca_2001, cohesion, common_test, contact, cooling, damper_2003, drop,
     drum, drum_regimes, film, held, host, impact_damper, lattice_grain, lattice_review, lump, open_dem_benchmark,
-    orifice, outlet, pile_stress, pile_twin, plastic, random_loads, rheology, rolling, sediment_2004, shapes, sieving,
-    silo, spin_in_water, stack, voids, water,
+    order, orifice, outlet, pile_stress, pile_twin, plastic, random_loads, rheology, rolling, sediment_2004, shapes,
+    sieving, silo, spin_in_water, stack, voids, water,
 };
 
 /// All cases, in the order they are listed and run.
 pub static CASES: &[Case] = &[
     case("restitution", "contact", 2, "restitution in = restitution out, every damping form", contact::restitution),
+    case("oblique-order", "contact", 5, "error against time step", order::oblique),
+    case("restitution-at-default-step", "contact", 5, "restitution in = out, at the default step", order::restitution),
     case("chung-ooi-normal", "chung-ooi-2011", 1, "force, overlap and time of Hertz", chung_ooi_2011::elastic),
     case("chung-ooi-restitution", "chung-ooi-2011", 1, "restitution in = out", chung_ooi_2011::restitution),
     case("chung-ooi-oblique", "chung-ooi-2011", 1, "oblique impacts, Kharaz 2001", chung_ooi_2011::kharaz),
@@ -28,7 +30,8 @@ pub static CASES: &[Case] = &[
     case("incline", "rolling", 1, "rolling and sliding down a slope", rolling::incline),
     case("spin-down", "rolling", 1, "torques of rolling resistance", rolling::spin_down),
     case("rolling-models", "rolling", 2, "stops and stays", rolling::models),
-    case("haff", "dem-benchmarks", 2, "a gas of grains cools, in the plane and in space", cooling::haff),
+    case("haff", "dem-benchmarks", 20, "a gas of grains cools, in the plane and in space", cooling::haff),
+    gap(case("haff-inelastic", "dem-benchmarks", 20, "the same at a restitution of 0.8", cooling::haff_inelastic)),
     case("centrifuging", "dem-benchmarks", 1, "where a drum's grain leaves the wall", drum::centrifuging),
     case("q-model", "dem-benchmarks", 1, "random loads on a lattice", random_loads::q_model),
     case("rebound-on-steel", "open-dem-benchmark", 1, "rebound at 0.4 m/s", open_dem_benchmark::rebound),

@@ -52,6 +52,11 @@ pub struct Chunk {
     pub roll: [Column; 3],
     /// Relative spin along the normal [rad/s].
     pub twist: Column,
+    /// How long the velocities above go with the forces of the last step until those of this one take their place [s]: half a
+    /// step of velocity Verlet, 0 where velocities are complete.
+    pub completion: f64,
+    /// Whether the bodies turn.
+    pub rotation: bool,
     /// Effective radius R* = 1/(1/R1 + 1/R2) [m].
     pub effective_radius: Column,
     /// Effective mass m* = 1/(1/m1 + 1/m2) [kg].
@@ -121,6 +126,8 @@ impl Chunk {
             slip: VECTOR,
             roll: VECTOR,
             twist: ZERO,
+            completion: 0.0,
+            rotation: true,
             effective_radius: ZERO,
             effective_mass: ZERO,
             effective_modulus: ZERO,

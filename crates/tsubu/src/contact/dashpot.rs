@@ -1,6 +1,6 @@
 //! Dashpots told by their strength, whatever the restitution.
 
-use super::chunk::Chunk;
+use super::chunk::{Chunk, ROWS};
 use super::part::{About, Part, Stage};
 use super::root::{least, most};
 use super::table::Pair;
@@ -46,6 +46,8 @@ pub(super) struct Told {
     pub dashpot: Dashpot,
     /// Whether the damping may make the total normal force pull.
     pub attraction: bool,
+    /// Exponent of the overlap in the elastic force.
+    pub exponent: f64,
 }
 
 impl Part for Told {
@@ -66,28 +68,71 @@ impl Part for Told {
     }
 
     fn apply(&self, chunk: &mut Chunk, _at: usize, _dt: f64) {
-        rows(chunk, self.dashpot, self.attraction);
+        rows(chunk, self.dashpot, self.attraction, self.exponent);
     }
 }
 
 #[multiversion(targets = "simd")]
-fn rows(chunk: &mut Chunk, dashpot: Dashpot, attraction: bool) {
-    damp(chunk, attraction, |c, i| dashpot.coefficient(c.effective_mass[i]));
+fn rows(chunk: &mut Chunk, dashpot: Dashpot, attraction: bool, exponent: f64) {
+    damp(chunk, attraction, exponent, |c, i| dashpot.coefficient(c.effective_mass[i]), |_| 1.0);
 }
 
 /// Adds a dashpot of the local coefficient `local` [N.s/m] to the normal force. Where `attraction` is not allowed the
 /// damping may not pull: it takes the force to zero, or leaves it where cohesion already has it below.
+///
+/// The overlap rate at hand is predicted with the forces of the last step. By how much this contact's own force has grown since then,
+/// `exponent` times the secant stiffness times the way of a step, takes off the rate what is known: then a collision is the
+/// trapezoidal rule to the second order in time.
+///
+/// A step that begins or ends apart has the dashpot for less than its length. What Verlet should add from first touch to the middle of
+/// the next step is the integral of c(d) dd from 0 to d + h, h the way of half a step: (1 + u)^(q+1) / (2 (q+1) u) times what
+/// a whole step at d adds, u = h/d; and the same on the way out, where the bodies may pull. `onset` is (1 + u)^q / (q + 1).
+#[expect(clippy::needless_range_loop, reason = "all columns of a row are indexed alike")]
 #[inline(always)]
-pub(super) fn damp(chunk: &mut Chunk, attraction: bool, local: impl Fn(&Chunk, usize) -> f64) {
+pub(super) fn damp(
+    chunk: &mut Chunk,
+    attraction: bool,
+    exponent: f64,
+    local: impl Fn(&Chunk, usize) -> f64,
+    onset: impl Fn(f64) -> f64,
+) {
     let ceiling = if attraction { f64::NEG_INFINITY } else { 0.0 };
+    let completion = chunk.completion;
+    let mut ratios = [0.0; ROWS];
     for i in 0..chunk.rows() {
-        let dashpot = if chunk.contact_radius[i] > 0.0 { local(chunk, i) } else { 0.0 };
-        let elastic = chunk.normal_force[i];
-        let total = most(elastic + dashpot * chunk.closing[i], least(elastic, ceiling));
-        chunk.damping_coefficient[i] = dashpot;
+        let coefficient = if chunk.contact_radius[i] > 0.0 { local(chunk, i) } else { 0.0 };
+        let (elastic, closing) = (chunk.normal_force[i], chunk.closing[i]);
+        let share = completion / chunk.effective_mass[i];
+        let rate = closing * (1.0 - 2.0 * exponent * completion * share * chunk.secant_stiffness[i]);
+        let total = most(elastic + coefficient * rate, least(elastic, ceiling));
+        // The speed of the half step of first touch, or, where bodies that part may pull, of the one that leads on from here, against the
+        // overlap a^2/R* of the disc of contact: it is not the overlap where adhesion keeps bodies together.
+        let leaving = if attraction { 2.0 * share * total - rate } else { 0.0 };
+        let disc = chunk.contact_radius[i] * chunk.contact_radius[i];
+        ratios[i] = most(closing, leaving) * completion * chunk.effective_radius[i] / most(disc, f64::MIN_POSITIVE);
+        chunk.damping_coefficient[i] = coefficient;
         chunk.normal_force[i] = total;
         chunk.damping_force[i] = total - elastic;
+    }
+    // Rows within a step of touch are few: they come after the others, one by one.
+    for (i, ratio) in ratios.iter().enumerate().take(chunk.rows()).filter(|(_, ratio)| **ratio > 0.5) {
+        let elastic = chunk.normal_force[i] - chunk.damping_force[i];
+        let ratio = least(*ratio, 1e12);
+        let share = completion / chunk.effective_mass[i];
+        let coefficient = chunk.damping_coefficient[i] * (0.5 * onset(ratio) * (1.0 + 1.0 / ratio));
+        let closing = chunk.closing[i];
+        let wanted = if closing > 0.0 {
+            // No force has acted yet.
+            (elastic + coefficient * closing) / (1.0 + coefficient * share)
+        } else {
+            elastic + coefficient * closing
+        };
+        let total = most(wanted, least(elastic, ceiling));
+        chunk.normal_force[i] = total;
+        chunk.damping_force[i] = total - elastic;
+    }
+    for i in 0..chunk.rows() {
         // What is lost is whatever the contact takes from the motion beyond what it stores.
-        chunk.lost_normal[i] += (total - elastic) * chunk.closing[i];
+        chunk.lost_normal[i] += chunk.damping_force[i] * chunk.closing[i];
     }
 }

@@ -1,8 +1,8 @@
 //! Rolling resistance as an elastic-plastic spring with a dashpot (EPSD), and its variant EPSD2.
 
-use super::chunk::{Chunk, Column};
+use super::chunk::Chunk;
 use super::part::{About, Part, Slot, Stage};
-use super::slider::{self, Strength, roll};
+use super::slider::{self, Held, Strength, roll};
 use crate::mutation::{Mutation, mutated};
 use multiversion::multiversion;
 
@@ -54,20 +54,26 @@ impl Part for Epsd {
 }
 
 #[multiversion(targets = "simd")]
-fn epsd(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, ratio: f64, damping: f64) {
+fn epsd(chunk: &mut Chunk, held: &mut Held, dt: f64, ratio: f64, damping: f64) {
     roll(chunk, held, dt, |c, i| {
         let arm = c.rolling[i] * mutated(Mutation::RollingArm, c.effective_radius[i]);
         let stiffness = ratio * c.secant_stiffness[i] * (arm * arm);
         let inertia = 3.5 * slider::inertia(c, i);
         let dashpot = 2.0 * damping * (inertia * stiffness).sqrt();
-        Strength { stiffness, dashpot, cap: arm * c.load[i], growth: 1.0 }
+        Strength { stiffness, dashpot, cap: arm * c.load[i], growth: 1.0, onset: 1.0 }
     });
 }
 
 #[multiversion(targets = "simd")]
-fn epsd2(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64) {
+fn epsd2(chunk: &mut Chunk, held: &mut Held, dt: f64) {
     roll(chunk, held, dt, |c, i| {
         let stiffness = c.tangential_stiffness[i] * (c.effective_radius[i] * c.effective_radius[i]);
-        Strength { stiffness, dashpot: 0.0, cap: c.rolling[i] * c.effective_radius[i] * c.load[i], growth: 1.0 }
+        Strength {
+            stiffness,
+            dashpot: 0.0,
+            cap: c.rolling[i] * c.effective_radius[i] * c.load[i],
+            growth: 1.0,
+            onset: 1.0,
+        }
     });
 }

@@ -104,7 +104,8 @@ fn damping(contact: &Contact) -> Chosen {
     let viscous = |form, reference_speed| -> Chosen {
         Some(Box::new(viscous::Viscous { form, hertz, attraction, reference_speed }))
     };
-    let told = |dashpot| -> Chosen { Some(Box::new(dashpot::Told { dashpot, attraction })) };
+    let exponent = if hertz { 1.5 } else { 1.0 };
+    let told = |dashpot| -> Chosen { Some(Box::new(dashpot::Told { dashpot, attraction, exponent })) };
     match contact.damping {
         Damping::None {} => None,
         Damping::Sqrt { reference_speed } => viscous(viscous::Form::Sqrt, reference_speed),

@@ -1,8 +1,8 @@
 //! Rolling resistance as spring, dashpot and slider on the rolling displacement.
 
-use super::chunk::{Chunk, Column};
+use super::chunk::Chunk;
 use super::part::{About, Part, Slot, Stage};
-use super::slider::{self, Strength, roll};
+use super::slider::{self, Held, Strength, roll};
 use crate::mutation::{Mutation, mutated};
 use multiversion::multiversion;
 
@@ -45,7 +45,7 @@ impl Part for RollingSpring {
 }
 
 #[multiversion(targets = "simd")]
-fn rows(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, stiffness: f64, damping: f64) {
+fn rows(chunk: &mut Chunk, held: &mut Held, dt: f64, stiffness: f64, damping: f64) {
     // As a torque on the angle of rolling: with v = -R* w x n and M = -R* n x F, F = -k x is M = -k R*^2 times the angle.
     roll(chunk, held, dt, |c, i| {
         let arm = mutated(Mutation::RollingArm, c.effective_radius[i]);
@@ -54,6 +54,7 @@ fn rows(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, stiffness: f64, damp
             dashpot: damping * (arm * arm),
             cap: c.rolling[i] * arm * c.load[i],
             growth: 1.0,
+            onset: 1.0,
         }
     });
 }

@@ -21,8 +21,12 @@ pub(super) fn bearable(dashpot: f64, mass: f64, dt: f64) -> f64 {
     least(dashpot, ROOM * mass / dt)
 }
 
-/// History of a spring in the tangent plane: what it holds (3), and one over the stiffness it holds it at.
-pub(super) const SPRING: &[Slot] = &[Slot::Odd, Slot::Odd, Slot::Odd, Slot::Even];
+/// History of a spring in the tangent plane: what it holds (3), one over the stiffness it holds it at, and how fast it was being
+/// stretched (3).
+pub(super) const SPRING: &[Slot] = &[Slot::Odd, Slot::Odd, Slot::Odd, Slot::Even, Slot::Odd, Slot::Odd, Slot::Odd];
+
+/// The columns of such a history.
+pub(super) type Held = [Column; 7];
 
 /// Energy [J] in such a history.
 pub(super) fn held(history: &[f64]) -> f64 {
@@ -42,6 +46,8 @@ pub(super) struct Strength {
     /// Largest factor on what the spring holds when its stiffness changes: 1 lets it only shrink (the spring is a force, and a
     /// smaller disc of contact cannot hold what a larger one held), infinity makes the spring a displacement.
     pub growth: f64,
+    /// Mean stiffness since the bodies met, over the present one, in the step of their first touch: with k as d^s, 1/(1+s).
+    pub onset: f64,
 }
 
 /// A spring after a step.
@@ -50,6 +56,8 @@ pub(super) struct Slid {
     pub spring: DVec3,
     /// One over the stiffness it holds it at.
     pub compliance: f64,
+    /// How fast it is being stretched.
+    pub rate: DVec3,
     /// What acts on the first body: spring and dashpot, within the cap.
     pub total: DVec3,
     /// Energy the spring holds [J].
@@ -61,23 +69,51 @@ pub(super) struct Slid {
 /// A step of a spring that slides at a cap, with a dashpot beside it.
 ///
 /// What it held, `old` at one over the stiffness `was`, is turned with the contact into the tangent plane at its old length,
-/// follows the stiffness, is moved on by `rate`, and cut at the cap. The dashpot has what the spring leaves of the cap: it
+/// follows the stiffness, is moved on, and cut at the cap. The dashpot has what the spring leaves of the cap: it
 /// cannot fill the spring, and against a slide it has nothing. Work taken from the motion and not stored is lost.
 ///
-/// `dt` is the time step and `rates` one over it. The time is that of the divisions and roots.
+/// It is stretched by the velocity of the half step, with which the bodies have come here: the mean of the velocity `before`, at the
+/// end of the last step, and of `rate`, which is predicted with the same accelerations. So it is second order in time, as the
+/// positions are. What is then the velocity at the end of this step is predicted too, but for what the spring itself does to it: a force
+/// of one adds `mobility`. Where it stiffens on the way it has the mean of both stiffnesses. In the step of first touch it has `rate`, for
+/// as long as the bodies have touched.
+///
+/// `dt` is the time of contact in this step and `rates` one over the time step. The time is that of the divisions and roots.
 #[inline(always)]
-pub(super) fn slide((old, was): (DVec3, f64), normal: DVec3, rate: DVec3, s: Strength, [dt, rates]: [f64; 2]) -> Slid {
+pub(super) fn slide(
+    (old, was): (DVec3, f64),
+    normal: DVec3,
+    [before, rate]: [DVec3; 2],
+    s: Strength,
+    mobility: f64,
+    [dt, rates]: [f64; 2],
+) -> Slid {
     let squared = old.length_squared();
     let flat = old - normal * old.dot(normal);
     let lengthen = (squared / most(flat.length_squared(), TINY)).sqrt();
-    let trial = flat * (lengthen * least(s.stiffness * was, s.growth)) - rate * (s.stiffness * dt);
+    let stiffened = s.stiffness * was;
+    let followed = least(stiffened, s.growth);
+    let share = if stiffened > 0.0 { 0.5 + 0.5 * followed / stiffened } else { s.onset };
+    let past = if was > 0.0 { 0.5 } else { 0.0 };
+    let mean = (before - normal * before.dot(normal)) * past + rate * (1.0 - past);
+    let turned = flat * lengthen;
+    let trial = turned * followed - mean * (share * s.stiffness * dt);
     let spring = trial * least(s.cap / most(trial.length_squared(), TINY).sqrt(), 1.0);
-    let both = spring - rate * s.dashpot;
+    let complete = rate + (spring - turned) * mobility;
+    let both = spring - complete * s.dashpot;
     let total = both * least(s.cap / most(both.length_squared(), TINY).sqrt(), 1.0);
     let compliance = inverse(s.stiffness);
     let stored = 0.5 * spring.length_squared() * compliance;
     let lost = -total.dot(rate) - (stored - 0.5 * squared * was) * rates;
-    Slid { spring, compliance, total, stored, lost }
+    Slid { spring, compliance, rate: complete, total, stored, lost }
+}
+
+/// How long the bodies of row `i` have touched in a step [s]: all of it, or since their surfaces met, where the spring held nothing
+/// before (`was`, one over its stiffness, is zero).
+#[inline(always)]
+pub(super) fn touched(chunk: &Chunk, i: usize, was: f64, dt: f64) -> f64 {
+    let since = least(most(chunk.overlap[i], 0.0) / most(chunk.closing[i], TINY), dt);
+    if was > 0.0 { dt } else { since }
 }
 
 /// One over a stiffness, and zero where there is none.
@@ -90,17 +126,19 @@ pub(super) fn inverse(stiffness: f64) -> f64 {
 #[inline(always)]
 pub(super) fn roll(
     chunk: &mut Chunk,
-    [x, y, z, c]: &mut [Column; 4],
+    [x, y, z, c, u, v, w]: &mut Held,
     dt: f64,
     strength: impl Fn(&Chunk, usize) -> Strength,
 ) {
-    let times = [dt, 1.0 / dt];
     for i in 0..chunk.rows() {
         let mut s = strength(chunk, i);
         s.dashpot = bearable(s.dashpot, inertia(chunk, i), dt);
-        let (normal, rate) = (Chunk::vector(&chunk.normal, i), Chunk::vector(&chunk.roll, i));
-        let slid = slide((DVec3::new(x[i], y[i], z[i]), c[i]), normal, rate, s, times);
+        let (normal, roll) = (Chunk::vector(&chunk.normal, i), Chunk::vector(&chunk.roll, i));
+        let rates = [DVec3::new(u[i], v[i], w[i]), roll];
+        let times = [touched(chunk, i, c[i], dt), 1.0 / dt];
+        let slid = slide((DVec3::new(x[i], y[i], z[i]), c[i]), normal, rates, s, 0.0, times);
         (x[i], y[i], z[i], c[i]) = (slid.spring.x, slid.spring.y, slid.spring.z, slid.compliance);
+        (u[i], v[i], w[i]) = (slid.rate.x, slid.rate.y, slid.rate.z);
         let torque = Chunk::vector(&chunk.torque, i) + slid.total;
         Chunk::set(&mut chunk.torque, i, torque);
         chunk.stored[i] += slid.stored;

@@ -1,9 +1,9 @@
 //! Linear tangential spring with history, for Hooke's normal spring.
 
-use super::chunk::{Chunk, Column};
+use super::chunk::Chunk;
 use super::mindlin::tangential;
 use super::part::{About, Part, Slot, Stage};
-use super::slider::{self, Strength};
+use super::slider::{self, Held, Strength};
 use super::table::Constants;
 use multiversion::multiversion;
 
@@ -52,11 +52,12 @@ impl Part for Spring {
 }
 
 #[multiversion(targets = "simd")]
-fn rows(chunk: &mut Chunk, held: &mut [Column; 4], dt: f64, ratio: f64, cohesion: f64) {
+fn rows(chunk: &mut Chunk, held: &mut Held, dt: f64, ratio: f64, cohesion: f64) {
     tangential(chunk, held, dt, |c, i| Strength {
         stiffness: ratio * c.secant_stiffness[i],
         dashpot: c.damping_coefficient[i] * c.shear_damping[i],
         cap: if c.contact_radius[i] > 0.0 { c.friction[i] * c.load[i] + cohesion } else { 0.0 },
         growth: 1.0,
+        onset: 1.0,
     });
 }

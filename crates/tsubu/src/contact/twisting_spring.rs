@@ -3,7 +3,7 @@
 use super::chunk::{Chunk, Column};
 use super::part::{About, Part, Slot, Stage};
 use super::root::{least, most};
-use super::slider::{bearable, inertia, inverse};
+use super::slider::{bearable, inertia, inverse, touched};
 use super::twisting_sliding::limit;
 use multiversion::multiversion;
 
@@ -27,10 +27,10 @@ impl Part for TwistingSpring {
         Stage::Twisting
     }
 
-    /// What the spring holds, and one over its stiffness. A torque about the normal from the first to the second body is the same number
+    /// What the spring holds, one over its stiffness, and how fast it was being twisted. A torque about the normal from the first to the second body is the same number
     /// when the bodies change places.
     fn history(&self) -> &'static [Slot] {
-        &[Slot::Even, Slot::Even]
+        &[Slot::Even, Slot::Even, Slot::Even]
     }
 
     fn apply(&self, chunk: &mut Chunk, at: usize, dt: f64) {
@@ -47,7 +47,7 @@ impl Part for TwistingSpring {
 
 /// The step of `slider::slide` along one direction that never turns.
 #[multiversion(targets = "simd")]
-fn rows(chunk: &mut Chunk, [held, was]: &mut [Column; 2], dt: f64) {
+fn rows(chunk: &mut Chunk, [held, was, rate]: &mut [Column; 3], dt: f64) {
     let rates = 1.0 / dt;
     for i in 0..chunk.rows() {
         let (twist, cap) = (chunk.twist[i], limit(chunk, i));
@@ -58,11 +58,16 @@ fn rows(chunk: &mut Chunk, [held, was]: &mut [Column; 2], dt: f64) {
         );
         let before = 0.5 * held[i] * held[i] * was[i];
         let within = |torque: f64| most(least(torque, cap), -cap);
-        let spring = within(held[i] * least(stiffness * was[i], 1.0) - twist * (stiffness * dt));
+        let stiffened = stiffness * was[i];
+        let followed = least(stiffened, 1.0);
+        let share = if stiffened > 0.0 { 0.5 + 0.5 * followed / stiffened } else { 1.0 };
+        let past = if was[i] > 0.0 { 0.5 } else { 0.0 };
+        let turned = (rate[i] * past + twist * (1.0 - past)) * touched(chunk, i, was[i], dt);
+        let spring = within(held[i] * followed - turned * (share * stiffness));
         let total = within(spring - twist * dashpot);
         let compliance = inverse(stiffness);
         let stored = 0.5 * spring * spring * compliance;
-        (held[i], was[i]) = (spring, compliance);
+        (held[i], was[i], rate[i]) = (spring, compliance, twist);
         let torque = Chunk::vector(&chunk.torque, i) + Chunk::vector(&chunk.normal, i) * total;
         Chunk::set(&mut chunk.torque, i, torque);
         chunk.stored[i] += stored;

@@ -121,6 +121,7 @@ impl Part for Viscous {
 
 #[multiversion(targets = "simd")]
 fn rows(chunk: &mut Chunk, form: Form, hertz: bool, attraction: bool, v: f64) {
+    let p = if hertz { 1.5 } else { 1.0 };
     // Everything is told in terms of the contact disc, which laws of adhesion keep open where the overlap has ended: under
     // Hertz, sqrt(d) is a / sqrt(R*), and the quarter's d^(1/4) stands in the secant stiffness k sqrt(d).
     let row = |c: &Chunk, i: usize| [c.damping[i], c.effective_mass[i], c.secant_stiffness[i], v];
@@ -128,12 +129,18 @@ fn rows(chunk: &mut Chunk, form: Form, hertz: bool, attraction: bool, v: f64) {
         [c.damping[i], c.effective_mass[i], secant(c.effective_modulus[i], c.effective_radius[i].sqrt()), v]
     };
     let root = |c: &Chunk, i: usize| c.contact_radius[i] / c.effective_radius[i].sqrt();
+    let half = |u: f64| (1.0 + u).sqrt() / 1.5;
+    let quarter = |u: f64| (1.0 + u).sqrt().sqrt() / 1.25;
+    let whole = |_: f64| 1.0;
     match (form, hertz) {
-        (Form::Sqrt, true) => damp(chunk, attraction, |c, i| hertz_sqrt(full(c, i)) * root(c, i)),
-        (Form::Linear, true) => damp(chunk, attraction, |c, i| hertz_linear(full(c, i))),
-        (Form::Quarter, true) | (Form::Linear, false) => damp(chunk, attraction, |c, i| speedless(row(c, i))),
-        (Form::Sqrt, false) => damp(chunk, attraction, |c, i| hooke_sqrt(row(c, i)) * root(c, i)),
-        (Form::Quarter, false) => damp(chunk, attraction, |c, i| hooke_quarter(row(c, i)) * root(c, i).sqrt()),
+        (Form::Sqrt, true) => damp(chunk, attraction, p, |c, i| hertz_sqrt(full(c, i)) * root(c, i), half),
+        (Form::Linear, true) => damp(chunk, attraction, p, |c, i| hertz_linear(full(c, i)), whole),
+        (Form::Quarter, true) => damp(chunk, attraction, p, |c, i| speedless(row(c, i)), quarter),
+        (Form::Linear, false) => damp(chunk, attraction, p, |c, i| speedless(row(c, i)), whole),
+        (Form::Sqrt, false) => damp(chunk, attraction, p, |c, i| hooke_sqrt(row(c, i)) * root(c, i), half),
+        (Form::Quarter, false) => {
+            damp(chunk, attraction, p, |c, i| hooke_quarter(row(c, i)) * root(c, i).sqrt(), quarter);
+        }
     }
 }
 

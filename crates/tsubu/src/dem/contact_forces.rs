@@ -64,6 +64,8 @@ pub(super) struct ForceInput<'a> {
     pub laws: &'a ContactLaws,
     /// Time step [s]; with 0 springs and dashpots act, but no tangential spring is stretched.
     pub dt: f64,
+    /// See [`Chunk::completion`] [s].
+    pub completion: f64,
     pub water: Option<WaterAtTime<'a>>,
 }
 
@@ -301,6 +303,7 @@ fn apply_law(input: &ForceInput, number: usize, batch: &mut ContactBatch, sums: 
     if law.needs.roll || law.needs.twist {
         batch.relative_spin();
     }
+    (batch.chunk.completion, batch.chunk.rotation) = (input.completion, input.laws.rotation);
     law.apply(&mut batch.chunk, input.dt);
     batch.forces_and_torques(input.laws.rotation);
     let c = &batch.chunk;

@@ -33,7 +33,7 @@ impl DemEngine {
             self.check_finite()?;
             self.rebuild_neighbours();
         }
-        self.evaluate_forces();
+        self.evaluate_forces(self.integration.predicted_for(dt));
         self.check_overlap()?;
         // Before positions may go on to the next step: the stream looks where the grains are now.
         self.advance_stream(ledger);
@@ -92,11 +92,11 @@ impl DemEngine {
         contacts.restore_history(&input, history)
     }
 
-    /// Forces of contacts and of the water at this time level.
-    fn evaluate_forces(&mut self) {
+    /// Forces of contacts and of the water at this time level; `completion` as in [`ForceInput`].
+    fn evaluate_forces(&mut self, completion: f64) {
         let (contacts, input) = self.contacts_and_input();
         let dt = input.dt;
-        contacts.evaluate(&input);
+        contacts.evaluate(&ForceInput { completion, ..input });
         contacts.sums.lost.sliding += std::mem::take(&mut contacts.released) / dt;
         if let Some(immersion) = &mut self.immersion {
             immersion.sum_powers(&self.contacts.blocks);
@@ -111,7 +111,7 @@ impl DemEngine {
         contacts.evaluate(&ForceInput { dt: 0.0, water: None, ..input });
         let stored = contacts.sums.stored;
         let history = self.snapshot_history();
-        self.evaluate_forces();
+        self.evaluate_forces(0.0);
         self.restore_history(history);
         self.contacts.sums.stored = stored;
         self.evaluate_stream_at_rest();
@@ -127,13 +127,13 @@ impl DemEngine {
     fn contacts_and_input(&mut self) -> (&mut ContactForces, ForceInput<'_>) {
         let Self { grains, walls, neighbours, laws, contacts, immersion, integration, clock, settling, .. } = self;
         let water = immersion.as_ref().map(|immersion| immersion.at(clock.time(), integration.gravity, *settling));
-        (contacts, ForceInput { grains, walls, neighbours, laws, dt: clock.dt, water })
+        (contacts, ForceInput { grains, walls, neighbours, laws, dt: clock.dt, completion: 0.0, water })
     }
 
     /// The same to look at.
     pub(super) fn force_input(&self) -> ForceInput<'_> {
         let Self { grains, walls, neighbours, laws, clock, .. } = self;
-        ForceInput { grains, walls, neighbours, laws, dt: clock.dt, water: None }
+        ForceInput { grains, walls, neighbours, laws, dt: clock.dt, completion: 0.0, water: None }
     }
 
     /// The contacts of this moment.

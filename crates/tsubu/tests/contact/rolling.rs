@@ -145,13 +145,14 @@ fn rolling_spring_is_that_of_lammps() {
     let subject = subject(Rolling::Spring { stiffness: k, damping: c });
     let mut chunk = row(&subject, 1e-5);
     let (arm, normal, dt) = (0.5 * RADIUS, -DVec3::X, 1e-7);
-    let mut displacement = DVec3::ZERO;
+    let (mut displacement, mut before) = (DVec3::ZERO, None);
     for step in 0..200 {
         let roll = DVec3::new(0.0, 0.3, -0.2 + 1e-3 * f64::from(step));
         Chunk::set(&mut chunk.roll, 0, roll);
         subject.apply(&mut chunk, dt);
         let velocity = arm * roll.cross(normal);
-        displacement += velocity * dt;
+        // LAMMPS has the velocity of the half step here: the mean of both ends.
+        displacement += 0.5 * (velocity + before.replace(velocity).unwrap_or(velocity)) * dt;
         let force = -(k * displacement + c * velocity);
         assert!(force.length() < 0.1 * chunk.normal_force[0], "it slides here");
         let torque = arm * normal.cross(force);

@@ -77,6 +77,7 @@ impl<'a> Two<'a> {
             self.action = [[DVec3::ZERO; 2]; 2];
             return;
         }
+        self.chunk.completion = 0.5 * dt;
         self.subject.apply(&mut self.chunk, dt);
         let c = &self.chunk;
         let normal = Chunk::vector(&c.normal, 0);
