@@ -22,10 +22,10 @@ mod watch;
 mod water;
 
 pub use contact::{
-    Cohesion, Contact, Damping, Film, Material, MaterialPair, MindlinForm, Normal, Rolling, Strength, Tangential,
-    Twisting,
+    Cohesion, Contact, Damping, Film, Material, MaterialPair, MindlinForm, Normal, Rolling, SlipLever, Strength,
+    Tangential, Twisting,
 };
-pub(crate) use contact::{READ_A_DENSITY, READ_A_FORCE};
+pub(crate) use contact::{READ_A_DENSITY, READ_A_FORCE, SLIP_LEVER};
 pub use gases::{BaxterBehringer, Fhp, FhpRules, GasWalls, KarolyiKertesz, PengHerrmann};
 pub use grains::{GrainMotion, GrainShape, GrainTable, Particles, Periodic, Region, Removal, Size, Start};
 pub use hosts::{Host, Mode, Signal, Structure};

@@ -58,6 +58,8 @@ dimensions! {
     AREA_RATE "an area per time" "m^2/s" [2, 0, -1, 0] [1e-20, 1e12] ["m^2/s", "cm^2/s", "mm^2/s"] ["1e-6 m^2/s", "1 mm^2/s"]
         "Areas per time: kinematic viscosities, discharges per width."
     RATE "a rate" "1/s" [0, 0, -1, 0] [1e-12, 1e15] ["1/s", "1/ms", "1/min"] ["500 1/s"] "Rates: so many in a second."
+    DISC_DAMPING "a rate per length" "1/(m s)" [-1, 0, -1, 0] [1e-12, 1e18] ["1/(m s)", "1/(mm s)"] ["5e5 1/(m s)"]
+        "Rates per length: damping in proportion to the radius of the contact disc."
     SLOWNESS "an inverse speed" "s/m" [-1, 0, 1, 0] [1e-12, 1e15] ["s/m", "s/mm"] ["0.5 s/m"] "Inverse speeds."
     LOAD_RATE "a rate of force" "N/s" [1, 1, -3, 0] [1e-25, 1e20] ["N/s", "kN/s", "N/ms"] ["2 N/s"] "Forces that grow."
     ENERGY_DENSITY "an energy density" "J/m^3" [-1, 1, -2, 0] [1e-15, 1e15] ["J/m^3", "kJ/m^3", "Pa", "kPa"] ["300 kJ/m^3"] "Energy densities."

@@ -18,6 +18,7 @@ pub use rolling::Rolling;
 pub use tangential::{MindlinForm, Tangential};
 pub use twisting::Twisting;
 
+use crate::key::Word;
 use serde::{Deserialize, Serialize};
 
 /// Bulk properties of a material.
@@ -86,6 +87,25 @@ pub struct Contact {
     pub cohesion: Cohesion,
     /// Liquid between bodies that are near.
     pub film: Film,
+    /// Whether a normal force that pulls carries friction, mu times its size.
+    pub pulled_friction: bool,
     /// Whether grains spin.
     pub rotation: bool,
+    /// Arm of the tangential force.
+    pub slip_lever: SlipLever,
 }
+
+/// Arm at which spin moves the point of contact of a grain of radius R, and the tangential force turns it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SlipLever {
+    /// R - d/2, to the middle of the overlap: angular momentum is kept.
+    Middle,
+    /// R, as in older styles of LAMMPS.
+    Radius,
+}
+
+pub(crate) static SLIP_LEVER: &[Word] = &[
+    Word { name: "middle", about: "R - d/2, to the middle of the overlap: angular momentum is kept" },
+    Word { name: "radius", about: "R, as in `gran/hooke/history` and `gran/hertz/history` of LAMMPS" },
+];

@@ -14,6 +14,14 @@ pub(super) const RATE: About = About {
     reference: "the damping `mass_velocity` of LAMMPS; Silbert et al. 2001",
 };
 
+pub(super) const VISCOELASTIC: About = About {
+    key: "contact.damping.viscoelastic",
+    formula: "f = c a m* d', a = sqrt(R* d)",
+    symbols: "d overlap [m], d' overlap rate [m/s], a radius of the contact disc [m], m* effective mass [kg], c [1/(m.s)]",
+    limits: "the restitution is what comes out of it, and falls slowly with the impact speed",
+    reference: "Brilliantov, Spahn, Hertzsch, Poeschel 1996; the damping `viscoelastic` of LAMMPS, Silbert et al. 2001",
+};
+
 pub(super) const DASHPOT: About = About {
     key: "contact.damping.dashpot",
     formula: "f = c d'",
@@ -26,17 +34,19 @@ pub(super) const DASHPOT: About = About {
 pub(super) enum Dashpot {
     /// c over m* [1/s].
     Rate(f64),
+    /// c over m* and the radius of the contact disc [1/(m.s)].
+    Disc(f64),
     /// c [N.s/m].
     Constant(f64),
 }
 
 impl Dashpot {
-    /// c [N.s/m].
-    #[inline(always)]
-    fn coefficient(self, mass: f64) -> f64 {
+    /// The text about it.
+    const fn about(self) -> &'static About {
         match self {
-            Self::Rate(rate) => rate * mass,
-            Self::Constant(coefficient) => coefficient,
+            Self::Rate(_) => &RATE,
+            Self::Disc(_) => &VISCOELASTIC,
+            Self::Constant(_) => &DASHPOT,
         }
     }
 }
@@ -52,10 +62,7 @@ pub(super) struct Told {
 
 impl Part for Told {
     fn about(&self) -> &'static About {
-        match self.dashpot {
-            Dashpot::Rate(_) => &RATE,
-            Dashpot::Constant(_) => &DASHPOT,
-        }
+        self.dashpot.about()
     }
 
     fn stage(&self) -> Stage {
@@ -63,8 +70,11 @@ impl Part for Told {
     }
 
     fn judge(&self, pair: &mut Pair) {
-        pair.damping_exponent = 0.0;
-        pair.damping = self.dashpot.coefficient(pair.mass);
+        (pair.damping, pair.damping_exponent) = match self.dashpot {
+            Dashpot::Rate(rate) => (rate * pair.mass, 0.0),
+            Dashpot::Disc(coefficient) => (coefficient * pair.mass * pair.radius.sqrt(), 0.5),
+            Dashpot::Constant(coefficient) => (coefficient, 0.0),
+        };
     }
 
     fn apply(&self, chunk: &mut Chunk, _at: usize, _dt: f64) {
@@ -74,7 +84,21 @@ impl Part for Told {
 
 #[multiversion(targets = "simd")]
 fn rows(chunk: &mut Chunk, dashpot: Dashpot, attraction: bool, exponent: f64) {
-    damp(chunk, attraction, exponent, |c, i| dashpot.coefficient(c.effective_mass[i]), |_| 1.0);
+    let at_once = |_: f64| 1.0;
+    match dashpot {
+        Dashpot::Rate(rate) => damp(chunk, attraction, exponent, |c, i| rate * c.effective_mass[i], at_once),
+        Dashpot::Disc(coefficient) => {
+            let of_disc = |c: &Chunk, i: usize| coefficient * c.effective_mass[i] * c.contact_radius[i];
+            damp(chunk, attraction, exponent, of_disc, root_onset);
+        }
+        Dashpot::Constant(coefficient) => damp(chunk, attraction, exponent, |_, _| coefficient, at_once),
+    }
+}
+
+/// The onset of a dashpot that grows with the root of the overlap, see [`damp`].
+#[inline(always)]
+pub(super) fn root_onset(u: f64) -> f64 {
+    (1.0 + u).sqrt() / 1.5
 }
 
 /// Adds a dashpot of the local coefficient `local` [N.s/m] to the normal force. Where `attraction` is not allowed the

@@ -17,12 +17,14 @@ pub struct Law {
     pub slots: Vec<Slot>,
     /// What the parts need together.
     pub needs: Needs,
+    /// Whether a normal force that pulls carries friction.
+    pulled_friction: bool,
 }
 
 impl Law {
     /// The law that a `[contact]` describes, the scene's or that of a pair of materials.
     pub fn new(contact: &Contact) -> Self {
-        Self::of(super::parts(contact))
+        Self { pulled_friction: contact.pulled_friction, ..Self::of(super::parts(contact)) }
     }
 
     /// A law of given parts, sorted by stage.
@@ -34,7 +36,7 @@ impl Law {
             at.push(slots.len());
             slots.extend(part.history());
         }
-        Self { parts, at, slots, needs }
+        Self { parts, at, slots, needs, pulled_friction: false }
     }
 
     /// The parts, in the order they act.
@@ -72,7 +74,7 @@ impl Law {
         let mut loaded = false;
         for (part, at) in self.parts.iter().zip(&self.at) {
             if !loaded && part.stage() >= Stage::Tangential {
-                load(chunk);
+                load(chunk, self.pulled_friction);
                 loaded = true;
             }
             part.apply(chunk, *at, dt);
@@ -95,10 +97,13 @@ impl Law {
 }
 
 /// What friction multiplies: the normal force and, under cohesion, the pull-off force that holds the faces together. An
-/// attracting normal force alone carries no friction; it would push the bodies along their motion.
+/// attracting normal force alone carries none (mu times a force below zero would push the bodies along their motion) or, if
+/// `pulled`, mu times its size.
 #[multiversion(targets = "simd")]
-fn load(chunk: &mut Chunk) {
+fn load(chunk: &mut Chunk, pulled: bool) {
+    let share = if pulled { -1.0 } else { 0.0 };
     for i in 0..chunk.rows() {
-        chunk.load[i] = most(chunk.normal_force[i] + chunk.pull_off[i], 0.0);
+        let pressed = chunk.normal_force[i] + chunk.pull_off[i];
+        chunk.load[i] = most(pressed, share * pressed);
     }
 }

@@ -112,6 +112,7 @@ fn damping(contact: &Contact) -> Chosen {
         Damping::Quarter {} => viscous(viscous::Form::Quarter, 1.0),
         Damping::Linear { reference_speed } => viscous(viscous::Form::Linear, reference_speed),
         Damping::Rate { rate } => told(dashpot::Dashpot::Rate(rate)),
+        Damping::Viscoelastic { coefficient } => told(dashpot::Dashpot::Disc(coefficient)),
         Damping::Dashpot { coefficient } => told(dashpot::Dashpot::Constant(coefficient)),
     }
 }
@@ -168,6 +169,7 @@ pub const ABOUT: &[&About] = &[
     &viscous::QUARTER,
     &viscous::LINEAR,
     &dashpot::RATE,
+    &dashpot::VISCOELASTIC,
     &dashpot::DASHPOT,
     &coulomb::ABOUT,
     &mindlin::INCREMENTAL,

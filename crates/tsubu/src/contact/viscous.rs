@@ -2,7 +2,7 @@
 
 use super::calibrate;
 use super::chunk::Chunk;
-use super::dashpot::damp;
+use super::dashpot::{damp, root_onset};
 use super::hertz::secant;
 use super::part::{About, Part, Stage};
 use super::root::fifth_root;
@@ -129,15 +129,14 @@ fn rows(chunk: &mut Chunk, form: Form, hertz: bool, attraction: bool, v: f64) {
         [c.damping[i], c.effective_mass[i], secant(c.effective_modulus[i], c.effective_radius[i].sqrt()), v]
     };
     let root = |c: &Chunk, i: usize| c.contact_radius[i] / c.effective_radius[i].sqrt();
-    let half = |u: f64| (1.0 + u).sqrt() / 1.5;
     let quarter = |u: f64| (1.0 + u).sqrt().sqrt() / 1.25;
     let whole = |_: f64| 1.0;
     match (form, hertz) {
-        (Form::Sqrt, true) => damp(chunk, attraction, p, |c, i| hertz_sqrt(full(c, i)) * root(c, i), half),
+        (Form::Sqrt, true) => damp(chunk, attraction, p, |c, i| hertz_sqrt(full(c, i)) * root(c, i), root_onset),
         (Form::Linear, true) => damp(chunk, attraction, p, |c, i| hertz_linear(full(c, i)), whole),
         (Form::Quarter, true) => damp(chunk, attraction, p, |c, i| speedless(row(c, i)), quarter),
         (Form::Linear, false) => damp(chunk, attraction, p, |c, i| speedless(row(c, i)), whole),
-        (Form::Sqrt, false) => damp(chunk, attraction, p, |c, i| hooke_sqrt(row(c, i)) * root(c, i), half),
+        (Form::Sqrt, false) => damp(chunk, attraction, p, |c, i| hooke_sqrt(row(c, i)) * root(c, i), root_onset),
         (Form::Quarter, false) => {
             damp(chunk, attraction, p, |c, i| hooke_quarter(row(c, i)) * root(c, i).sqrt(), quarter);
         }

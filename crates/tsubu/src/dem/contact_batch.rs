@@ -92,8 +92,8 @@ impl ContactBatch {
     }
 
     /// Geometry of two spheres, from `branch`, `radius`, `relative_velocity` and `spin` into the columns of the chunk.
-    pub fn sphere_geometry(&mut self, rotation: bool) {
-        sphere_geometry(self);
+    pub fn sphere_geometry(&mut self, rotation: bool, lever_share: f64) {
+        sphere_geometry(self, lever_share);
         self.relative_motion(rotation);
     }
 
@@ -158,7 +158,7 @@ fn gather(
 }
 
 #[multiversion(targets = "simd")]
-fn sphere_geometry(batch: &mut ContactBatch) {
+fn sphere_geometry(batch: &mut ContactBatch, lever_share: f64) {
     let n = batch.chunk.rows();
     let c = &mut batch.chunk;
     let [bx, by, bz] = &batch.branch;
@@ -177,8 +177,8 @@ fn sphere_geometry(batch: &mut ContactBatch) {
         c.overlap[i] = overlap;
         c.effective_radius[i] = r1[i] * r2[i] / sum;
         c.effective_mass[i] = 1.0 / batch.inverse_mass[i];
-        batch.lever_arm[0][i] = r1[i] - 0.5 * overlap;
-        batch.lever_arm[1][i] = r2[i] - 0.5 * overlap;
+        batch.lever_arm[0][i] = r1[i] - lever_share * overlap;
+        batch.lever_arm[1][i] = r2[i] - lever_share * overlap;
     }
 }
 

@@ -35,6 +35,8 @@ pub(super) struct ContactLaws {
     pub reaches: Vec<f64>,
     /// Whether grains rotate.
     pub rotation: bool,
+    /// Share of the overlap that arms of the tangential force leave out of the radius.
+    pub lever_share: f64,
 }
 
 impl ContactLaws {

@@ -23,7 +23,7 @@ use crate::water::Water;
 use glam::DVec3;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, State};
-use tsubu_scene::plan::{Particles, Plan};
+use tsubu_scene::plan::{Particles, Plan, SlipLever};
 
 /// Grains under a contact law.
 #[derive(Debug)]
@@ -148,7 +148,11 @@ impl DemEngine {
                 reaches[law] = reaches[law].max(table.laws()[law].reach(&pair));
             }
         }
-        let laws = ContactLaws { table, reaches, rotation: contact.rotation };
+        let lever_share = match contact.slip_lever {
+            SlipLever::Middle => 0.5,
+            SlipLever::Radius => 0.0,
+        };
+        let laws = ContactLaws { table, reaches, rotation: contact.rotation, lever_share };
         let search = Search { skin, reach: laws.reach(), periodic: room::periodic_bounds(plan) };
         let reactions = Reactions { wall_loads: vec![WallLoad::default(); walls.len()], ..Reactions::default() };
         let largest_present = particles.values().map(Particles::largest_diameter).fold(largest, f64::max);

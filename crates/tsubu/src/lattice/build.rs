@@ -189,8 +189,19 @@ fn refuse_group(name: &str, group: &plan::Particles, remarks: &mut Remarks) {
 /// What of the contact law the automaton leaves out; of that of a pair of materials, given with its number and the scene's
 /// law, only what the scene's does not have.
 fn remark_contact(contact: &plan::Contact, pair: Option<(usize, &plan::Contact)>, plan: &Plan, remarks: &mut Remarks) {
-    let plan::Contact { normal, damping: _, attraction: _, tangential, rolling, twisting: _, cohesion, film, rotation } =
-        contact;
+    let plan::Contact {
+        normal,
+        damping: _,
+        attraction: _,
+        tangential,
+        rolling,
+        twisting: _,
+        cohesion,
+        film,
+        pulled_friction: _,
+        rotation,
+        slip_lever: _,
+    } = contact;
     let key = |part: &str| pair.map_or_else(|| part.to_owned(), |(index, _)| format!("material-pair.{index}.{part}"));
     let scene = pair.map(|(_, scene)| scene);
     if !normal.elastic() && scene.is_none_or(|scene| scene.normal != *normal) {

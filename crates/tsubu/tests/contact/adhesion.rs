@@ -194,6 +194,32 @@ fn friction_sees_the_pull_off_force() {
     }
 }
 
+/// A contact whose damping pulls carries no friction; or, where the scene asks for it, mu times the size of the pull, against
+/// the motion.
+#[test]
+fn friction_of_a_pull_is_as_asked() {
+    for (pulled_friction, share) in [(false, 0.0), (true, 1.0)] {
+        let contact = Contact {
+            damping: Damping::Quarter {},
+            attraction: true,
+            tangential: Tangential::Coulomb { smoothing_speed: 1e-3 },
+            pulled_friction,
+            ..stack::hertz()
+        };
+        let subject = Subject::new(&contact, sticky(Cohesion::None {}, 0.0).constants);
+        let mut chunk = subject.chunk(1);
+        (chunk.effective_radius[0], chunk.effective_mass[0], chunk.normal[0][0]) = (RADIUS, 1e-4, 1.0);
+        (chunk.overlap[0], chunk.closing[0], chunk.slip[1][0]) = (1e-6, -1.0, 1.0);
+        subject.apply(&mut chunk, 1e-9);
+        let (normal, tangential) = (chunk.normal_force[0], chunk.tangential_force[1][0]);
+        assert!(normal < 0.0, "{normal}");
+        assert!(
+            (tangential - share * subject.constants.friction * normal).abs() < 1e-12 * -normal,
+            "{tangential} {normal}"
+        );
+    }
+}
+
 /// The area and the constant kinds: forces as told, energy their integral.
 #[test]
 fn simple_attractions_are_as_told() {

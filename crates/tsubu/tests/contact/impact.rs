@@ -72,6 +72,16 @@ fn the_sqrt_form_is_bouncier_when_slow() {
     for (speed, published) in [(0.1, 0.833), (1.0, 0.75), (1.5, 0.733)] {
         let (back, ..) = meet(&subject, steel(3e-3), Ball::plane(), speed);
         assert!((back - published).abs() < 1e-3, "{back} at {speed}");
+        // The same told by its coefficient, over the effective mass and the radius of the contact disc sqrt(R* d).
+        let pair = subject.pair(3e-3, steel(3e-3).mass);
+        let told = |coefficient| {
+            let damping = Damping::Viscoelastic { coefficient };
+            meet(&Subject::new(&Contact { damping, ..contact.clone() }, constants()), steel(3e-3), Ball::plane(), speed)
+                .0
+        };
+        let coefficient = pair.damping / (pair.mass * pair.radius.sqrt());
+        assert!((told(coefficient) - back).abs() < 1e-9, "{} {back}", told(coefficient));
+        assert!((told(1.1 * coefficient) - back).abs() > 1e-3, "a wrong coefficient is noticed");
     }
 }
 
@@ -108,6 +118,7 @@ fn the_verdict_hears_what_the_rows_do() {
         Damping::Quarter {},
         Damping::Linear { reference_speed: 0.3 },
         Damping::Rate { rate: 1e4 },
+        Damping::Viscoelastic { coefficient: 1e7 },
         Damping::Dashpot { coefficient: 0.5 },
     ];
     for normal in stack::normals() {

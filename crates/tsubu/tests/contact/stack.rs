@@ -3,7 +3,9 @@
 use super::{Subject, constants};
 use std::sync::LazyLock;
 use tsubu::contact::Law;
-use tsubu_scene::plan::{Cohesion, Contact, Damping, Film, MindlinForm, Normal, Rolling, Tangential, Twisting};
+use tsubu_scene::plan::{
+    Cohesion, Contact, Damping, Film, MindlinForm, Normal, Rolling, SlipLever, Tangential, Twisting,
+};
 
 /// Hertz and nothing else.
 pub fn hertz() -> Contact {
@@ -16,7 +18,9 @@ pub fn hertz() -> Contact {
         twisting: Twisting::None {},
         cohesion: Cohesion::None {},
         film: Film::None {},
+        pulled_friction: false,
         rotation: true,
+        slip_lever: SlipLever::Middle,
     }
 }
 
@@ -44,6 +48,7 @@ fn dampings() -> Vec<Damping> {
         Damping::Sqrt { reference_speed: 1.0 },
         Damping::Linear { reference_speed: 1.0 },
         Damping::Rate { rate: 1e4 },
+        Damping::Viscoelastic { coefficient: 1e7 },
         Damping::Dashpot { coefficient: 0.5 },
     ]
 }
@@ -114,7 +119,9 @@ fn stacks() -> Vec<(usize, Contact)> {
                                     twisting: twisting.clone(),
                                     cohesion,
                                     film: Film::None {},
+                                    pulled_friction: false,
                                     rotation: true,
+                                    slip_lever: SlipLever::Middle,
                                 };
                                 if !refused(&contact) {
                                     stacks.push((away, contact));

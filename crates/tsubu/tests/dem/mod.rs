@@ -5,6 +5,7 @@ mod come_and_go;
 mod everything;
 mod gates;
 mod idle;
+mod lever;
 mod orientation;
 mod pairs;
 mod place;

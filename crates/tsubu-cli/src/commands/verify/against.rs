@@ -108,17 +108,17 @@ mod tests {
     /// What was stored has not moved; a number that did is told, and so is a case that came to nothing.
     #[test]
     fn what_moved_is_told_and_counts() {
-        let case = CASES.iter().find(|case| case.name == "haff").expect("a case");
+        let case = CASES.iter().find(|case| case.name == "restitution").expect("a case");
         let outcome = |claims, run| Outcome { claims, run, late: None };
-        let same = outcome(recorded("haff"), Some(CaseRun::default()));
+        let same = outcome(recorded("restitution"), Some(CaseRun::default()));
         assert_eq!(lines(case, &same), "");
         let (text, moved) = end(&[case], &[same]);
         assert!(!moved && text.contains("none moved") && text.contains("budget"), "{text}");
-        let mut claims = recorded("haff");
+        let mut claims = recorded("restitution");
         claims[0].value += 100.0;
         let far = outcome(claims, Some(CaseRun::default()));
         let told = lines(case, &far);
-        assert!(told.starts_with("moved  haff  ") && told.contains("by more than a tenth"), "{told}");
+        assert!(told.starts_with("moved  restitution  ") && told.contains("by more than a tenth"), "{told}");
         assert!(end(&[case], &[far]).1);
         let nothing = outcome(vec![Claim { source: "it did not run: no".to_owned(), ..Claim::default() }], None);
         assert!(lines(case, &nothing).contains("it did not run: no") && end(&[case], &[nothing]).1);

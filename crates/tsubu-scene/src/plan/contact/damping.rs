@@ -1,7 +1,7 @@
 //! Damping of the normal motion.
 
 use crate::key::{Key, Kind, variants};
-use crate::units::{DAMPING, RATE, SPEED};
+use crate::units::{DAMPING, DISC_DAMPING, RATE, SPEED};
 
 const REFERENCE_SPEED: Key =
     Key::new("reference-speed", Kind::Quantity(&SPEED), "Impact speed at which the restitution is the materials'")
@@ -31,6 +31,17 @@ variants! {
         "A dashpot in proportion to the effective mass, one rate of decay for all sizes, whatever the restitution (`mass_velocity` of other codes)" {
             /// Damping coefficient over effective mass [1/s].
             rate: f64 = Key::new("rate", Kind::Quantity(&RATE), "Damping coefficient over effective mass").at_least(0.0),
+        }
+
+        Viscoelastic "viscoelastic"
+        "`sqrt` told by its coefficient, whatever the restitution: a dashpot in proportion to effective mass and radius of the contact disc (`viscoelastic` and `gran/hertz/history` of LAMMPS)" {
+            /// Damping coefficient over effective mass and radius of the contact disc [1/(m.s)].
+            coefficient: f64 = Key::new(
+                "coefficient",
+                Kind::Quantity(&DISC_DAMPING),
+                "Damping coefficient over effective mass and radius of the contact disc",
+            )
+            .at_least(0.0),
         }
 
         Dashpot "dashpot" "One dashpot for all contacts, whatever the restitution (Osada 2004)" {

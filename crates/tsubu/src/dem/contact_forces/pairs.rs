@@ -30,7 +30,7 @@ pub(super) fn evaluate(
         let mut released = 0.0;
         for touching in touching_pairs.under(number).chunks(ROWS) {
             batch.gather(touching, grains, list, spheres, &laws.table, laws.rotation);
-            batch.sphere_geometry(laws.rotation);
+            batch.sphere_geometry(laws.rotation, laws.lever_share);
             if width > 0 {
                 for (touching, old) in touching.iter().zip(&mut *old) {
                     let opened = skip(&history.pairs.keys, &mut cursor, |pair| *pair < touching.pair);

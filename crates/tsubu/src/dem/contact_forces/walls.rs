@@ -79,7 +79,7 @@ fn evaluate_law(
             Chunk::set(&mut batch.chunk.normal, r, normal);
             batch.chunk.effective_radius[r] = g.radius[i];
             batch.chunk.effective_mass[r] = 1.0 / (g.inverse_mass[i] + wall.inverse_mass);
-            batch.lever_arm[0][r] = g.radius[i] - 0.5 * overlap;
+            batch.lever_arm[0][r] = g.radius[i] - input.laws.lever_share * overlap;
             batch.lever_arm[1][r] = 0.0;
             batch.material_pair[r] = material;
             Chunk::set(
