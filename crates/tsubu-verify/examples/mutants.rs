@@ -3,54 +3,90 @@
 //! Without arguments all mutations, else those named, in the words of [`Mutation::ALL`]. A case is run with every mutation that
 //! would change something in it, and notices one where a claim that held does not hold any more.
 
-use rayon::prelude::*;
+use rayon::ThreadPoolBuilder;
 use serde_json::json;
-use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
 use tsubu::mutation::{Mutation, reached, set};
-use tsubu_frame::{Claim, Origin};
+use tsubu_frame::Origin;
 use tsubu_verify::{CASES, Case};
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let chosen: Vec<_> =
-        Mutation::ALL.iter().filter(|(_, of)| words.is_empty() || words.iter().any(|w| w == of)).collect();
+    let wanted = |(_, of): &&(Mutation, &'static str)| words.is_empty() || words.iter().any(|word| word == of);
+    let chosen: Vec<&(Mutation, &str)> = Mutation::ALL.iter().filter(wanted).collect();
     let cases: Vec<&Case> = CASES.iter().filter(|case| case.is_quick()).collect();
-    // One after the other: what a case reaches is asked of the whole program.
-    let mut reach: BTreeMap<&str, Vec<Mutation>> = BTreeMap::new();
-    let mut held: BTreeMap<&str, Vec<String>> = BTreeMap::new();
-    for case in &cases {
-        reached();
-        held.insert(case.name, holding(case));
-        reach.insert(case.name, reached());
-        eprintln!("{} is reached by {}", case.name, reach[case.name].len());
+    let mut whole: Vec<(Vec<String>, Vec<Mutation>)> = vec![Default::default(); cases.len()];
+    side_by_side(&cases, |case| (holding(case, None), reached()), |at, found| whole[at] = found);
+    eprintln!("{} cases run without a mutation", cases.len());
+    let reaches =
+        |mutation: Mutation| -> Vec<usize> { (0..cases.len()).filter(|&at| whole[at].1.contains(&mutation)).collect() };
+    let mut jobs: Vec<(usize, usize)> = Vec::new();
+    for (m, (mutation, _)) in chosen.iter().enumerate() {
+        jobs.extend(reaches(*mutation).into_iter().map(|at| (m, at)));
     }
-    let mut unnoticed = 0;
-    for (mutation, words) in chosen {
-        set(Some(*mutation));
-        let reached: Vec<&&Case> = cases.iter().filter(|case| reach[case.name].contains(mutation)).collect();
-        let notices = |case: &&&Case| {
-            let now = holding(case);
-            held[case.name].iter().any(|claim| !now.contains(claim))
-        };
-        let noticed: Vec<&&Case> = reached.par_iter().copied().filter(notices).collect();
-        set(None);
-        let names = |cases: &[&&Case]| cases.iter().map(|case| case.name).collect::<Vec<_>>();
-        let line = json!({ "mutation": words, "reached": names(&reached), "noticed": names(&noticed) });
-        let written = writeln!(std::io::stdout(), "{line}");
-        eprintln!("{words}: noticed by {} of {}", noticed.len(), reached.len());
-        if written.is_err() {
-            return ExitCode::FAILURE;
+    let mut left: Vec<usize> = chosen.iter().map(|(mutation, _)| reaches(*mutation).len()).collect();
+    let reached = left.clone();
+    let mut noticed: Vec<Vec<usize>> = vec![Vec::new(); chosen.len()];
+    let tell = |m: usize, noticed: &mut Vec<usize>| {
+        noticed.sort_unstable();
+        let names: Vec<&str> = noticed.iter().map(|&at| cases[at].name).collect();
+        let line = json!({ "mutation": chosen[m].1, "reached": reached[m], "noticed": names });
+        eprintln!("{}: noticed by {} of {}", chosen[m].1, names.len(), reached[m]);
+        // Nobody hears it: then the exit code says so.
+        let _ = writeln!(std::io::stdout(), "{line}");
+    };
+    (0..chosen.len()).filter(|&m| reached[m] == 0).for_each(|m| tell(m, &mut Vec::new()));
+    let run = |&(m, at): &(usize, usize)| {
+        let now = holding(cases[at], Some(chosen[m].0));
+        whole[at].0.iter().any(|claim| !now.contains(claim))
+    };
+    side_by_side(&jobs, run, |job, notices| {
+        let (m, at) = jobs[job];
+        noticed[m].extend(notices.then_some(at));
+        left[m] -= 1;
+        if left[m] == 0 {
+            tell(m, &mut noticed[m]);
         }
-        unnoticed += usize::from(noticed.is_empty());
-    }
-    if unnoticed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    });
+    if noticed.iter().any(Vec::is_empty) { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
 /// The claims of a case that hold. Controls are no claims: that a model which is wrong anyway is refused says nothing.
-fn holding(case: &Case) -> Vec<String> {
-    let claims: Vec<Claim> = case.claims(None).unwrap_or_default();
+fn holding(case: &Case, mutation: Option<Mutation>) -> Vec<String> {
+    reached();
+    set(mutation);
+    let claims = case.claims(None).unwrap_or_default();
+    set(None);
     let held = claims.into_iter().filter(|claim| claim.pass && claim.origin != Origin::Control);
     held.map(|claim| claim.name).collect()
+}
+
+/// Does all jobs in their order, as many at once as there are cores, each on a thread of its own: a mutation is of a thread.
+fn side_by_side<J: Sync, T: Send>(jobs: &[J], work: impl Fn(&J) -> T + Sync, mut hear: impl FnMut(usize, T)) {
+    let next = AtomicUsize::new(0);
+    let (sender, receiver) = mpsc::channel();
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            let (sender, next, work) = (sender.clone(), &next, &work);
+            scope.spawn(move || {
+                let pool = ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+                while let Some((at, job)) = {
+                    let at = next.fetch_add(1, Ordering::Relaxed);
+                    jobs.get(at).map(|job| (at, job))
+                } {
+                    if sender.send((at, pool.install(|| work(job)))).is_err() {
+                        return;
+                    }
+                }
+            });
+        }
+        drop(sender);
+        for (at, found) in receiver {
+            hear(at, found);
+        }
+    });
 }

@@ -49,6 +49,7 @@ mod silo;
 mod spin_in_water;
 mod stack;
 mod throw;
+mod twisting;
 mod voids;
 mod water;
 #[cfg(test)]

@@ -5,7 +5,7 @@ use crate::{
     bedload, brazil_nut, chung_ooi_2011, chute, cl_ca_2001, cohesion, common_test, contact, cooling, damper_2003, drop,
     drum, drum_regimes, film, held, host, impact_damper, lattice_grain, lattice_review, lump, open_dem_benchmark,
     order, orifice, outlet, pile_stress, pile_twin, plastic, random_loads, rheology, rolling, sediment_2004, shapes,
-    sieving, silo, spin_in_water, stack, voids, water,
+    sieving, silo, spin_in_water, stack, twisting, voids, water,
 };
 
 /// All cases, in the order they are listed and run.
@@ -30,6 +30,7 @@ pub static CASES: &[Case] = &[
     case("incline", "rolling", 1, "rolling and sliding down a slope", rolling::incline),
     case("spin-down", "rolling", 1, "torques of rolling resistance", rolling::spin_down),
     case("rolling-models", "rolling", 2, "stops and stays", rolling::models),
+    case("twist-down", "rolling", 2, "a sphere that spins about the normal", twisting::spin_about_normal),
     case("haff", "dem-benchmarks", 20, "a gas of grains cools, in the plane and in space", cooling::haff),
     gap(case("haff-inelastic", "dem-benchmarks", 20, "the same at a restitution of 0.8", cooling::haff_inelastic)),
     case("centrifuging", "dem-benchmarks", 1, "where a drum's grain leaves the wall", drum::centrifuging),
@@ -38,6 +39,7 @@ pub static CASES: &[Case] = &[
     case("starts-to-roll", "open-dem-benchmark", 1, "a steel sphere rolls down 45 degrees", open_dem_benchmark::roll),
     case("drop-dem", "damper-2003", 2, "a ball dropped in a still box, by DEM (figure 8)", drop::dem),
     case("drop-lattice", "damper-2003", 1, "the same by the automaton (figure 8)", drop::lattice),
+    case("meeting-lattice", "damper-2003", 1, "two balls of the automaton meet head-on", drop::meeting),
     case("lump", "shaken", 10, "an inelastic ball locks to a shaken floor", lump::locking),
     case("impact-damper", "damper", 60, "one ball, two impacts a cycle", impact_damper::symmetric),
     case("loss-factor", "damper", 1, "the empty structure's loss factor by three ways", host::loss_factor),

@@ -107,9 +107,14 @@ pub(super) fn settling(perturbation: f64) -> Result<Vec<Claim>, String> {
 
 /// V-55: (s-1) g/(s + 1/2).
 pub(super) fn released(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let begin = |rest: &str| Ok::<f64, String>(sunk(2e-3, "none = {}", rest, 1e-3, perturbation)? / 1e-3);
+    // Over the time of its last step: over the millisecond that was asked for, the last of 300 steps hid an added mass 5 % too large.
+    let begin = |rest: &str| {
+        let mut rig = Rig::new(&quartz(2e-3, "none = {}", rest), perturbation)?;
+        rig.until(1e-3)?;
+        Ok::<f64, String>(-rig.vector("velocity", 0).z / rig.engine.time())
+    };
     let gate = |name: &str, value: f64| {
-        near(name, value, 1.65 * 9.8 / 3.15, 5e-3, closed_form("Batchelor 1967: (s-1) g/(s + 1/2)"))
+        near(name, value, 1.65 * 9.8 / 3.15, 1e-3, closed_form("Batchelor 1967: (s-1) g/(s + 1/2)"))
     };
     let mut claims = vec![gate("quartz let go in still water [m/s^2]", begin("")?)];
     claims.push(refused("no added mass", &[gate("quartz let go in still water [m/s^2]", begin("added-mass = 0")?)], 1));

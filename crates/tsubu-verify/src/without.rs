@@ -22,6 +22,8 @@ pub(crate) const CONTROL: &[(&str, &[&str])] = &[
             "fhp-channel",
             "cl-ca-invariants",
             "gutt-haff",
+            "twist-down",
+            "meeting-lattice",
             "pipe-limit",
         ],
     ),

@@ -115,29 +115,28 @@ use switch::at_work;
 #[cfg(feature = "mutations")]
 mod switch {
     use super::Mutation;
-    use std::sync::atomic::{AtomicU8, AtomicU32, Ordering::Relaxed};
+    use std::cell::Cell;
 
-    /// Number of the mutation at work and one; none: 0.
-    static AT_WORK: AtomicU8 = AtomicU8::new(0);
-    /// A bit for each mutation that was asked for.
-    static REACHED: AtomicU32 = AtomicU32::new(0);
+    // Of a thread, so that whoever runs a case in a pool of one thread has its own mutation.
+    thread_local! {
+        static AT_WORK: Cell<Option<Mutation>> = const { Cell::new(None) };
+        /// A bit for each mutation that was asked for.
+        static REACHED: Cell<u32> = const { Cell::new(0) };
+    }
 
     pub(super) fn at_work(what: Mutation) -> bool {
-        let bit = 1 << what as u32;
-        if REACHED.load(Relaxed) & bit == 0 {
-            REACHED.fetch_or(bit, Relaxed);
-        }
-        AT_WORK.load(Relaxed) == what as u8 + 1
+        REACHED.set(REACHED.get() | 1 << what as u32);
+        AT_WORK.get() == Some(what)
     }
 
-    /// Puts a mutation to work in all engines of the program, or none.
+    /// Puts a mutation to work in all engines of this thread, or none.
     pub fn set(mutation: Option<Mutation>) {
-        AT_WORK.store(mutation.map_or(0, |mutation| mutation as u8 + 1), Relaxed);
+        AT_WORK.set(mutation);
     }
 
-    /// The mutations that would have changed something since this was last asked.
+    /// The mutations that would have changed something on this thread since this was last asked.
     pub fn reached() -> Vec<Mutation> {
-        let bits = REACHED.swap(0, Relaxed);
+        let bits = REACHED.take();
         let all = Mutation::ALL.iter().map(|(mutation, _)| *mutation);
         all.filter(|mutation| bits & (1 << *mutation as u32) != 0).collect()
     }
