@@ -6,10 +6,12 @@
 
 mod collapse;
 mod plate;
+mod rules;
 mod shaken;
 
 pub(super) use collapse::{collapse, slope, turning, twin};
 pub(super) use plate::{plate, plate_twin};
+pub(super) use rules::rules;
 pub(super) use shaken::{convection, rise};
 
 use super::beds::line;

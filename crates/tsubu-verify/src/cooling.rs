@@ -86,7 +86,7 @@ fn haffs(dimension: u8, count: u32, restitution: f64) -> f64 {
 /// Haff's times of a plane and a spatial gas. A gas is chaotic: means over seeds.
 fn cooled(restitution: f64, perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut claims = Vec::new();
-    for (dimension, count, seeds) in [(2, 50, 48), (3, 400, 12)] {
+    for (dimension, count, seeds) in [(2, 50, 24), (3, 400, 6)] {
         let [times] = ensemble::members(&format!("{dimension}-D, restitution {restitution}"), 1..=seeds, |seed| {
             Ok([time_of_haff(dimension, count, restitution, u32::try_from(seed).unwrap_or(0), perturbation)?])
         })?;

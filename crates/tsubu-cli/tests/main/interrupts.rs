@@ -64,7 +64,7 @@ fn an_interrupted_verification_says_how_far_it_came() {
 #[test]
 fn an_interrupted_verification_goes_on_where_it_was() {
     let desk = Desk::empty();
-    let line = "verify figure-9 haff -o kept --threads 2";
+    let line = "verify figure-9 restitution -o kept --threads 2";
     let members = || {
         let files = std::fs::read_dir(desk.path("kept/members/figure-9")).into_iter().flatten().flatten();
         let files = files.map(|file| (file.file_name(), file.metadata().unwrap().modified().unwrap()));
@@ -79,19 +79,22 @@ fn an_interrupted_verification_goes_on_where_it_was() {
             assert!(begun.elapsed() < Duration::from_mins(1), "no run of the ensemble was kept");
             std::thread::sleep(Duration::from_millis(20));
         }
-        wait_for(&desk.path("kept/cases/haff.json"));
+        wait_for(&desk.path("kept/cases/restitution.json"));
         signal(&child, "INT");
         let mut said = String::new();
         std::io::Read::read_to_string(&mut child.stderr.take().unwrap(), &mut said).unwrap();
         assert_eq!(child.wait().unwrap().code(), Some(130), "{said}");
-        assert!(said.contains("hint: go on with `tsubu verify figure-9 haff -o kept --threads 2 --resume`"), "{said}");
+        assert!(
+            said.contains("hint: go on with `tsubu verify figure-9 restitution -o kept --threads 2 --resume`"),
+            "{said}"
+        );
         members()
     };
     let first = stopped_with(2);
-    let haff = std::fs::metadata(desk.path("kept/cases/haff.json")).unwrap().modified().unwrap();
+    let done = std::fs::metadata(desk.path("kept/cases/restitution.json")).unwrap().modified().unwrap();
     let second = stopped_with(first.len() + 2);
     assert_eq!(second[..first.len()], first, "what was done was run again");
-    assert_eq!(haff, std::fs::metadata(desk.path("kept/cases/haff.json")).unwrap().modified().unwrap());
+    assert_eq!(done, std::fs::metadata(desk.path("kept/cases/restitution.json")).unwrap().modified().unwrap());
     assert!(!desk.path("kept/verify.json").exists());
 }
 

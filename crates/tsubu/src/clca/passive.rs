@@ -304,9 +304,11 @@ impl Around<'_> {
         let walls_alone =
             from_walls != [true; 6] && !Direction::ALL.into_iter().any(|d| allowed[d as usize] && open(d));
         let allowed = if walls_alone { from_walls } else { allowed };
-        let candidates = Direction::ALL.into_iter().filter(|&d| allowed[d as usize] && open(d));
-        // The draw begins at a random direction and goes round.
-        let draw = |d: Direction| (d as usize + (word[1] % 6) as usize) % 6;
-        candidates.min_by_key(|&d| (last != Some(d), kept[d as usize], draw(d)))
+        let candidates = || Direction::ALL.into_iter().filter(|&d| allowed[d as usize] && open(d));
+        let worth = |d: Direction| (last != Some(d), kept[d as usize]);
+        let best = candidates().map(worth).min()?;
+        let alike = || candidates().filter(|&d| worth(d) == best);
+        // Each of those that are alike is drawn as often as any other.
+        alike().nth(((u64::from(word[1]) * alike().count() as u64) >> 32) as usize)
     }
 }
