@@ -1,11 +1,11 @@
 //! What must pass before a change goes in.
 
 use crate::shell::{cargo, cargo_path, command, run};
-use crate::{book, generate, guard, spelling, test, variants};
+use crate::{book, format, generate, guard, spelling, test, variants};
 
 /// Everything, the quick things first; the tests only if `tests`.
 pub fn check(tests: bool) -> Result<(), String> {
-    cargo(&["fmt", "--all", "--check"])?;
+    format::check()?;
     spelling::check()?;
     cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "-D", "warnings"])?;
     let mut documentation = command(&cargo_path(), &["doc", "--workspace", "--no-deps", "--quiet"]);

@@ -9,6 +9,7 @@ mod check;
 mod claims;
 #[cfg(test)]
 mod file_lengths;
+mod format;
 mod generate;
 mod guard;
 #[cfg(test)]
@@ -27,6 +28,7 @@ cargo xtask CHORE
 
   check [--no-test]   what must pass before a change goes in: format, spelling, lints, documentation, generated pages, all
                       tests, every scene in ten ways for a moment, a minute of the guards
+  fmt [--check]       lay all code out, or only say what is not: cargo fmt, and the watches, which it does not come to
   test                all tests; with Python 3, also those that read written frames back with VTK
   gen [--check]       write the generated pages and tables, or only say which are out of date
   spelling            look for misspelt words in all texts, where there is a Python 3
@@ -56,6 +58,8 @@ fn main() -> ExitCode {
     let done = match words.as_slice() {
         ["check"] => check::check(true),
         ["check", "--no-test"] => check::check(false),
+        ["fmt"] => format::write(),
+        ["fmt", "--check"] => format::check(),
         ["test"] => test::test(),
         ["gen"] => generate::write(),
         ["gen", "--check"] => generate::check(),

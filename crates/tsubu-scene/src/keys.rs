@@ -17,7 +17,6 @@ mod water;
 mod world;
 
 pub(crate) use grains::PARTICLES;
-pub(crate) use watch::KINDS as WATCHES;
 pub use world::SCENE;
 
 pub(crate) use crate::key::find;

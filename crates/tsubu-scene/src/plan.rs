@@ -18,7 +18,7 @@ mod sites;
 mod study;
 mod typed_order;
 mod walls;
-mod watch;
+pub mod watch;
 mod water;
 
 pub use contact::{
@@ -27,7 +27,7 @@ pub use contact::{
 };
 pub(crate) use contact::{READ_A_DENSITY, READ_A_FORCE, SLIP_LEVER};
 pub use gases::{BaxterBehringer, Fhp, FhpRules, GasWalls, KarolyiKertesz, PengHerrmann};
-pub use grains::{GrainMotion, GrainShape, GrainTable, Particles, Periodic, Region, Removal, Size, Start};
+pub use grains::{GrainMotion, GrainShape, GrainTable, Particles, Periodic, Region, Removal, Size, Start, submerged};
 pub use hosts::{Host, Mode, Signal, Structure};
 pub use methods::{
     Arithmetic, ClCa, ClCaRule, Collision, Dem, GrainPoints, GravitySwitch, Integrator, Lattice, LatticeMode,
@@ -36,7 +36,7 @@ pub use methods::{
 pub use sites::{GuttHaff, Heap, Savage, Split, Voids};
 pub use study::{Claim, Output, Response, Sweep};
 pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall};
-pub use watch::{Axis, Bed, Face, Heading, Kernel, Measure, Quantity, Watch, submerged};
+pub use watch::{Axis, Bed, Face, Heading, Kernel, Measure, Quantity, Watch};
 pub use water::{Buoyancy, Directions, Drag, Flow, Fluctuation, Hindrance, Lid, Lift, StreamStart, Torque, Water};
 
 use serde::{Deserialize, Serialize};

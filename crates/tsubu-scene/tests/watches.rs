@@ -1,6 +1,7 @@
 //! Watches: what is asked for, what follows from the rest of the scene, what cannot be seen.
 
 use crate::{GOOD, complaint, read};
+use tsubu_scene::plan::watch::{Bedload, Profile, Segregation, Slope, WallLoad};
 use tsubu_scene::plan::{Axis, Measure, Quantity, Watch};
 
 /// The good scene with watches.
@@ -31,7 +32,7 @@ fn times_and_the_region_follow_from_the_scene() {
     let (other, late) = &all[1];
     assert_eq!((other.as_str(), late.from, late.every, late.until), ("late", 0.5, Some(0.005), Some(0.7)));
     assert_eq!((name.as_str(), layers.from, layers.until, layers.every), ("layers", 0.0, None, Some(0.001)));
-    let Measure::Profile { axis: Axis::Z, bins: 20, quantities, region } = &layers.measure else {
+    let Measure::Profile(Profile { axis: Axis::Z, bins: 20, quantities, region }) = &layers.measure else {
         panic!("{layers:?}")
     };
     assert_eq!(quantities[..], [Quantity::SolidFraction, Quantity::Velocity, Quantity::GranularTemperature]);
@@ -79,11 +80,11 @@ run-out = {{ direction = \"-x\", share = \"95 %\", bins = 7 }}
     );
     let all = watches(&text);
     assert_eq!(all.len(), 12);
-    let Measure::Bedload { resting_speed, .. } = all[10].1.measure else { panic!("bedload") };
+    let Measure::Bedload(Bedload { resting_speed, .. }) = all[10].1.measure else { panic!("bedload") };
     assert_eq!(resting_speed, 0.01);
-    let Measure::Slope { centre, .. } = all[1].1.measure else { panic!("a slope") };
+    let Measure::Slope(Slope { centre, .. }) = all[1].1.measure else { panic!("a slope") };
     assert_eq!(centre, 0.01);
-    let Measure::Segregation { groups, .. } = &all[6].1.measure else { panic!("segregation") };
+    let Measure::Segregation(Segregation { groups, .. }) = &all[6].1.measure else { panic!("segregation") };
     assert_eq!(groups, &["balls", "more"].map(String::from));
 }
 
@@ -116,7 +117,7 @@ fn a_plane_is_pressed_against_its_normal() {
     let all = watches(
         "[walls.floor]\nmaterial = \"glass\"\nshape.plane.point = [0, -1]\n[watch.w]\nwall-load = { wall = \"floor\", area = 1 }",
     );
-    let Measure::WallLoad { direction, .. } = all[0].1.measure else { panic!("a load") };
+    let Measure::WallLoad(WallLoad { direction, .. }) = all[0].1.measure else { panic!("a load") };
     assert_eq!(direction, Some([0.0, 0.0, -1.0]));
 }
 
@@ -126,7 +127,7 @@ fn another_kind_can_be_set_from_outside() {
     let measure = |changes: &[&str]| {
         read(&text, changes).unwrap_or_else(|wrong| panic!("{wrong}")).plan().watch["a"].measure.clone()
     };
-    let Measure::Profile { bins: 3, axis: Axis::X, .. } = measure(&["watch.a.profile.axis=x"]) else {
+    let Measure::Profile(Profile { bins: 3, axis: Axis::X, .. }) = measure(&["watch.a.profile.axis=x"]) else {
         panic!("a profile")
     };
     assert_eq!(measure(&["watch.a.fabric={}"]).name(), "fabric");

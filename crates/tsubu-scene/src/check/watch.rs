@@ -4,8 +4,9 @@ use super::fill::has_size;
 use super::place::Room;
 use super::{Parts, named};
 use crate::complaint::Complaint;
-use crate::keys::WATCHES;
-use crate::plan::{self, Axis, Bed, Face, GrainMotion, Measure, Particles, Region, Vector, Watch};
+use crate::key::{Kind, Word};
+use crate::plan::watch::{Bedload, CoarseGrain, Hops, Track, WallLoad};
+use crate::plan::{self, Bed, Face, GrainMotion, Measure, Particles, Region, Watch};
 use crate::suggest;
 
 /// More points than this are a slip, not a field.
@@ -15,9 +16,7 @@ pub(super) fn check(parts: &Parts<'_>, rooms: &[Room<'_>], complaints: &mut Vec<
     names_and_kinds(parts, complaints);
     for (name, watch) in named::<Watch>(parts.resolved, "watch") {
         times(parts, &name, &watch, complaints);
-        if let Some(region) = watch.measure.region() {
-            where_it_looks(parts, rooms, [&name, watch.measure.name()], region, complaints);
-        }
+        places_and_axes(parts, rooms, [&name, watch.measure.name()], complaints);
         measure(parts, &name, &watch.measure, complaints);
     }
 }
@@ -40,7 +39,7 @@ fn names_and_kinds(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
             complaints.push(
                 Complaint::new(format!("the watch `{}` measures nothing", entry.key))
                     .at(&entry.place, "needs one of its tables")
-                    .hint(format!("choices: {}", suggest::list(WATCHES.iter().copied()))),
+                    .hint(format!("choices: {}", suggest::list(Measure::NAMES.iter().copied()))),
             );
         }
     }
@@ -54,6 +53,37 @@ fn times(parts: &Parts<'_>, name: &str, watch: &Watch, complaints: &mut Vec<Comp
                 .at(&at("until"), format!("{until} s"))
                 .also(&at("from"), format!("begins at {} s", watch.from)),
         );
+    }
+}
+
+/// What can be wrong with a `region` and with words for axes, whatever the kind.
+fn places_and_axes(parts: &Parts<'_>, rooms: &[Room<'_>], [name, kind]: [&str; 2], complaints: &mut Vec<Complaint>) {
+    let Some(values) = ["watch", name, kind].iter().try_fold(parts.resolved, |table, key| table.get(*key)?.as_table())
+    else {
+        return;
+    };
+    if let Some(region) = values.get("region").and_then(|region| region.clone().try_into::<Region>().ok()) {
+        where_it_looks(parts, rooms, [name, kind], &region, complaints);
+    }
+    let table = Measure::KEYS.iter().find(|key| key.name == kind);
+    let Some(Kind::Table(keys)) = table.map(|key| key.kind) else { return };
+    let along_y = |words: &[Word], value: &toml::Value| {
+        words.iter().any(|word| word.name == "y") && value.as_str().is_some_and(|axis| ["y", "-y"].contains(&axis))
+    };
+    for key in keys {
+        let Some(value) = values.get(key.name) else { continue };
+        let wrong = match key.kind {
+            Kind::OneOf(words) => along_y(words, value),
+            Kind::SomeOf(words) => value.as_array().is_some_and(|some| some.iter().any(|value| along_y(words, value))),
+            _ => false,
+        };
+        if wrong && !parts.space() {
+            complaints.push(
+                Complaint::new("the plane has no y to look along")
+                    .at(&parts.root.locate(&["watch", name, kind, key.name]), "the scene has dimension 2")
+                    .hint("write \"x\" or \"z\", or set dimension = 3"),
+            );
+        }
     }
 }
 
@@ -104,13 +134,8 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
     let kind = measure.name();
     let at = |key: &str| parts.root.locate(&["watch", name, kind, key]);
     match measure {
-        Measure::Profile { axis, .. } | Measure::Slope { axis, .. } => no_y(parts, &[*axis], &at("axis"), complaints),
-        Measure::RunOut { direction, .. } => no_y(parts, &[direction.axis()], &at("direction"), complaints),
-        Measure::Bedload { axis, .. } => {
-            no_y(parts, &[*axis], &at("axis"), complaints);
-            bedload(parts, name, measure, complaints);
-        }
-        Measure::Stream { .. } => {
+        Measure::Bedload(asked) => bedload(parts, name, asked, complaints),
+        Measure::Stream(_) => {
             let flow = parts.resolved.get("water").and_then(|water| water.get("flow"));
             if flow.is_none_or(|flow| ["coupled", "log-law", "column"].iter().all(|kind| flow.get(kind).is_none())) {
                 complaints.push(Complaint::new(format!("the watch `{name}` has no stream to look at")).at(
@@ -119,8 +144,7 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
                 ));
             }
         }
-        Measure::CoarseGrain { axes, points, .. } => {
-            no_y(parts, axes, &at("axes"), complaints);
+        Measure::CoarseGrain(CoarseGrain { axes, points, .. }) => {
             let all = points.iter().try_fold(1usize, |product, n| product.checked_mul(*n));
             if axes.len() != points.len() {
                 complaints.push(
@@ -134,13 +158,13 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
                 );
             }
         }
-        Measure::Hops { bed, along, up, .. } => hops(parts, name, bed, [*along, *up], complaints),
-        Measure::WallLoad { area: None, direction: Some(_), .. } => complaints.push(
+        Measure::Hops(asked) => hops(parts, name, asked, complaints),
+        Measure::WallLoad(WallLoad { area: None, direction: Some(_), .. }) => complaints.push(
             Complaint::new("a `direction` is of no use without an `area`")
                 .at(&at("direction"), "says how the pressure acts")
                 .hint("give an `area`, or leave `direction` out: forces are given along all axes"),
         ),
-        Measure::WallLoad { wall, face: Some(face), .. } => {
+        Measure::WallLoad(WallLoad { wall, face: Some(face), .. }) => {
             let turns = |wall: &plan::Wall| wall.rotation.is_some() || wall.body.is_some();
             let known = parts.walls.get(wall);
             if known.is_some_and(|wall| !matches!(wall.shape, plan::Shape::Box { .. }) || turns(wall)) {
@@ -157,7 +181,7 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
                 );
             }
         }
-        Measure::Track { ids, group } => {
+        Measure::Track(Track { ids, group }) => {
             let counted = parts.particles.iter().filter(|(name, _)| group.as_ref().is_none_or(|only| only == *name));
             let grains: usize = counted.map(|(_, group)| group.count).sum();
             let whose = group.as_ref().map_or_else(|| "the scene".to_owned(), |name| format!("the group `{name}`"));
@@ -179,8 +203,8 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
 }
 
 /// Speeds in their order, and a fluid that grains sink in.
-fn bedload(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Vec<Complaint>) {
-    let Measure::Bedload { group, width, moving_speed, resting_speed, fluid_density, .. } = measure else { return };
+fn bedload(parts: &Parts<'_>, name: &str, asked: &Bedload, complaints: &mut Vec<Complaint>) {
+    let Bedload { group, width, moving_speed, resting_speed, fluid_density, .. } = asked;
     let at = |key: &str| parts.root.locate(&["watch", name, "bedload", key]);
     if resting_speed > moving_speed {
         complaints.push(
@@ -216,7 +240,8 @@ fn bedload(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
 }
 
 /// Hops need a bed, and a way along it.
-fn hops(parts: &Parts<'_>, name: &str, bed: &[Bed], [along, up]: [Vector; 2], complaints: &mut Vec<Complaint>) {
+fn hops(parts: &Parts<'_>, name: &str, asked: &Hops, complaints: &mut Vec<Complaint>) {
+    let Hops { bed, along, up, .. } = asked;
     let at = |key: &str| parts.root.locate(&["watch", name, "hops", key]);
     let cosine: f64 = along.iter().zip(up).map(|(a, b)| a * b).sum();
     if cosine.abs() > 1e-3 {
@@ -251,14 +276,4 @@ fn counts_vary(parts: &Parts<'_>) -> bool {
         .filter_map(varied)
         .flat_map(toml::Table::keys)
         .any(|key| key.starts_with("particles."))
-}
-
-fn no_y(parts: &Parts<'_>, axes: &[Axis], place: &crate::complaint::Place, complaints: &mut Vec<Complaint>) {
-    if axes.contains(&Axis::Y) && !parts.space() {
-        complaints.push(
-            Complaint::new("the plane has no y to look along")
-                .at(place, "the scene has dimension 2")
-                .hint("write \"x\" or \"z\", or set dimension = 3"),
-        );
-    }
 }

@@ -1,6 +1,7 @@
 //! Groups of grains: what they are, how large, where they begin, who moves them.
 
-use super::{Family, Key, Kind, Variant, hosts, walls};
+use super::{Family, Key, Kind, Variant, hosts};
+use crate::plan::Region;
 use crate::units::{LENGTH, MASS, NUMBER, RATE, SPEED, TIME};
 
 pub(crate) static PARTICLES: &[Key] = &[
@@ -106,7 +107,7 @@ static START: &[Variant] = &[
             Key::new("speed", Kind::Quantity(&SPEED), "Speed of each grain, in a random direction")
                 .default("0")
                 .at_least(0.0),
-            Key::new("region", Kind::Table(walls::REGION), "Where, instead of the inside of the box").optional(),
+            Key::new("region", Kind::Table(Region::KEYS), "Where, instead of the inside of the box").optional(),
         ],
     },
     Variant {
@@ -115,7 +116,7 @@ static START: &[Variant] = &[
         keys: &[
             Key::new(
                 "region",
-                Kind::Table(walls::REGION),
+                Kind::Table(Region::KEYS),
                 "Where, instead of the inside of the box; grains lie wholly in it",
             )
             .optional(),
@@ -127,7 +128,7 @@ static START: &[Variant] = &[
         name: "stream",
         about: "Not there at first: put into a region one after the other, where there is room",
         keys: &[
-            Key::new("region", Kind::Table(walls::REGION), "Where; grains lie wholly in it"),
+            Key::new("region", Kind::Table(Region::KEYS), "Where; grains lie wholly in it"),
             Key::new("rate", Kind::Quantity(&RATE), "Grains per second").above(0.0),
             VELOCITY,
             SPEED_ADDED,

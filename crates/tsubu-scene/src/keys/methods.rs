@@ -1,7 +1,7 @@
 //! Settings that one method alone reads.
 
-use super::walls::REGION;
 use super::{Key, Kind, Variant, Word};
+use crate::plan::Region;
 use crate::units::{LENGTH, NUMBER, TIME};
 
 pub(super) static DEM: &[Key] = &[
@@ -120,7 +120,7 @@ pub(super) static CL_CA: &[Key] = &[
     )
     .above(0.0)
     .word("automatic"),
-    Key::new("region", Kind::Table(REGION), "The piece of the lattice that grains can reach; left out: around walls and grains")
+    Key::new("region", Kind::Table(Region::KEYS), "The piece of the lattice that grains can reach; left out: around walls and grains")
         .optional(),
     Key::new("rule", Kind::OneOf(RULE), "How grains find room").default("'automatic'"),
     Key::new("memory", Kind::Whole, "Steps of the past whose sideways moves choose the side; 1: the last alone")

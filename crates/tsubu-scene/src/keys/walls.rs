@@ -1,6 +1,7 @@
 //! Walls, and the ends of the world: their shapes, who moves them, where space repeats, where grains vanish.
 
 use super::{Family, Key, Kind, Variant, hosts};
+use crate::plan::Region;
 use crate::units::{AREA, DAMPING, FORCE, INERTIA, LENGTH, MASS, NUMBER, PRESSURE, SPEED, SPIN, TIME};
 
 pub(super) static WALL: &[Key] = &[
@@ -139,16 +140,15 @@ pub(super) static PERIODIC: &[Key] = &[
     Key::new("z", Kind::Ends(&LENGTH), "Ends along z").optional(),
 ];
 
-pub(super) static REGION: &[Key] = &[
-    Key::new("low", Kind::Vector(&LENGTH), "Corner with the smallest coordinates"),
-    Key::new("high", Kind::Vector(&LENGTH), "Corner with the largest coordinates"),
-];
-
 pub(super) static REMOVAL: &[Variant] = &[
     Variant {
         name: "inside",
         about: "Grains whose centres are inside a box of space",
-        keys: &[Key::new("region", Kind::Table(REGION), "The box; it stands still, whatever walls are around it")],
+        keys: &[Key::new(
+            "region",
+            Kind::Table(Region::KEYS),
+            "The box; it stands still, whatever walls are around it",
+        )],
     },
     Variant {
         name: "behind",

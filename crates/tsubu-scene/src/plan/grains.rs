@@ -1,6 +1,8 @@
 //! Groups of grains, and where they come and go.
 
 use super::{Signal, Vector};
+use crate::key::{Key, Kind};
+use crate::units::LENGTH;
 use serde::{Deserialize, Serialize};
 
 /// A group of grains of one material.
@@ -103,6 +105,14 @@ pub struct Region {
     pub low: Vector,
     /// Corner with the largest coordinates [m].
     pub high: Vector,
+}
+
+impl Region {
+    /// What a scene may say.
+    pub(crate) const KEYS: &'static [Key] = &[
+        Key::new("low", Kind::Vector(&LENGTH), "Corner with the smallest coordinates"),
+        Key::new("high", Kind::Vector(&LENGTH), "Corner with the largest coordinates"),
+    ];
 }
 
 /// Axes along which the world repeats: a grain that leaves at one end comes in at the other.
@@ -221,4 +231,20 @@ pub struct GrainTable {
     pub velocity: Vec<Vector>,
     /// Spins [rad/s].
     pub spin: Vec<Vector>,
+}
+
+/// Mean density [kg/m^3] and diameter [m] of the free grains, of one group or of all: mass over volume, and by number. Not
+/// numbers where there are none.
+pub fn submerged<'a>(groups: impl Iterator<Item = (&'a String, &'a Particles)>, only: Option<&str>) -> (f64, f64) {
+    let (mut number, mut mass, mut volume, mut diameters) = (0.0, 0.0, 0.0, 0.0);
+    for (_, group) in groups.filter(|(name, group)| {
+        matches!(group.motion, GrainMotion::Free {}) && only.is_none_or(|only| only == name.as_str())
+    }) {
+        let count = group.count as f64;
+        number += count;
+        mass += count * group.mass;
+        volume += count * group.shape.mass(1.0, group.diameter);
+        diameters += count * group.diameter;
+    }
+    (mass / volume, diameters / number)
 }

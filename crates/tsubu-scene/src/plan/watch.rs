@@ -1,6 +1,13 @@
-//! Watches: what is looked at while a scene runs, and when.
+//! Watches: what is looked at while a scene runs, and when. Every kind of watch is one row here; formulas stand beside their
+//! code: `tsubu explain`.
 
-use super::{GrainMotion, Particles, Region, Vector};
+mod words;
+
+pub use words::{Axis, Bed, Face, Heading, Kernel, Quantity};
+
+use super::{Region, Vector};
+use crate::key::{Family, Key, Kind};
+use crate::units::{AREA, DENSITY, LENGTH, NUMBER, SPEED};
 use serde::{Deserialize, Serialize};
 
 /// A watch: when it looks, and at what.
@@ -20,358 +27,296 @@ pub struct Watch {
     pub measure: Measure,
 }
 
-/// What a watch measures.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
-pub enum Measure {
-    /// Averages in slices across an axis.
-    Profile {
+/// The kinds of watches, told once.
+///
+/// A kind is a row: the file of its code in the engine and its name in the plan, its name in a scene, one sentence, and its keys:
+/// field, type, row of the table. The field has the name of its key, with `_` for `-`. From the rows come a struct a kind, the enum
+/// of them, what a scene may say, and `every_watch!`, which hands the files and names on to the engine.
+macro_rules! kinds {
+    ($($file:ident::$kind:ident $name:literal $about:literal {
+        $($(#[$field_attribute:meta])* $field:ident: $type:ty = $key:expr),* $(,)?
+    })*) => {
+        /// What a watch measures.
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        pub enum Measure {
+            $(
+                #[doc = $about]
+                #[serde(rename = $name)]
+                $kind($kind)
+            ),*
+        }
+
+        $(
+            #[doc = $about]
+            #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+            #[serde(rename_all = "kebab-case", deny_unknown_fields)]
+            pub struct $kind {
+                $($(#[$field_attribute])* pub $field: $type),*
+            }
+
+            impl $kind {
+                /// What a scene may say.
+                pub(crate) const KEYS: &'static [Key] = &[$($key),*];
+            }
+        )*
+
+        impl Measure {
+            /// Names in scene files.
+            pub(crate) const NAMES: &'static [&'static str] = &[$($name),*];
+
+            /// What a scene may say: a watch has exactly one of these tables.
+            pub(crate) const KEYS: &'static [Key] = &[
+                $(Key::new($name, Kind::Table($kind::KEYS), $about).optional().rivals(Self::NAMES)),*
+            ];
+
+            /// Name in scene files.
+            pub const fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$kind(_) => $name),*
+                }
+            }
+        }
+
+        /// Calls the macro `watches` of whoever calls this with the file and the name of every kind of watch.
+        #[macro_export]
+        macro_rules! every_watch {
+            () => { watches! { $($file::$kind)* } };
+        }
+    };
+}
+
+const REGION: Key = Key::new(
+    "region",
+    Kind::Table(Region::KEYS),
+    "Where: a box of space; it stands still, whatever walls are around it",
+)
+.derived("the inside of the box as drawn, where there is one box");
+const WITHIN: Key =
+    Key::new("region", Kind::Table(Region::KEYS), "Only grains whose centres are inside; a box that stands still")
+        .optional();
+const WALLS: Key = Key::new("walls", Kind::Flag, "Whether contacts with walls count");
+const GROUP: Key = Key::new("group", Kind::Name(Family::Group), "Only the grains of this group").optional();
+
+kinds! {
+    profile::Profile "profile"
+    "Averages in slices across an axis: solid fraction, velocity, temperature, coordination, spin" {
         /// Axis along which the slices follow each other.
-        axis: Axis,
+        axis: Axis = Key::new("axis", Kind::OneOf(Axis::WORDS), "Axis along which the slices follow each other").default("'z'"),
         /// Number of slices.
-        bins: usize,
+        bins: usize = Key::new("bins", Kind::Whole, "Number of slices").default("20").at_least(1.0).at_most(1e5),
         /// What is averaged.
-        quantities: Vec<Quantity>,
+        quantities: Vec<Quantity> = Key::new("quantities", Kind::SomeOf(Quantity::WORDS), "What is averaged")
+            .default("['solid-fraction', 'velocity', 'granular-temperature']"),
         /// Where.
-        region: Region,
-    },
-    /// Smooth fields (Goldhirsch 2010).
-    CoarseGrain {
+        region: Region = REGION,
+    }
+
+    coarse_grain::CoarseGrain "coarse-grain"
+    "Density, velocity, stress and granular temperature as smooth fields (Goldhirsch 2010); in the plane per area, not volume" {
         /// How a grain is smeared out.
-        kernel: Kernel,
+        kernel: Kernel = Key::new("kernel", Kind::OneOf(Kernel::WORDS), "How a grain is smeared out").default("'lucy'"),
         /// Width of the kernel [m].
-        width: f64,
+        width: f64 = Key::new(
+            "width",
+            Kind::Quantity(&LENGTH),
+            "Width w of the kernel: standard deviation of the Gaussian, reach of Lucy's",
+        )
+        .above(0.0),
         /// Axes along which fields vary.
-        axes: Vec<Axis>,
+        axes: Vec<Axis> = Key::new(
+            "axes",
+            Kind::SomeOf(Axis::WORDS),
+            "Axes along which fields vary; along the others they are averaged over the region",
+        )
+        .default("['z']"),
         /// Points along each of them.
-        points: Vec<usize>,
+        points: Vec<usize> = Key::new("points", Kind::Wholes, "Points along each of these axes, evenly spaced in the region")
+            .at_least(1.0)
+            .at_most(1e5),
         /// Where the points are, and over what the other axes are averaged.
-        region: Region,
-    },
-    /// Slope of the free surface.
-    Slope {
+        region: Region = REGION,
+    }
+
+    slope::Slope "slope" "Slope of the free surface, and the angle of a heap, by least squares" {
         /// Horizontal axis.
-        axis: Axis,
+        axis: Axis = Key::new("axis", Kind::OneOf(Axis::ACROSS), "Horizontal axis of the slope").default("'x'"),
         /// Columns.
-        bins: usize,
+        bins: usize = Key::new("bins", Kind::Whole, "Columns in which the highest grain is looked for")
+            .default("20")
+            .at_least(4.0)
+            .at_most(1e5),
         /// Middle share of the width that is looked at [-].
-        share: f64,
+        share: f64 = Key::new("share", Kind::Quantity(&NUMBER), "Middle share of the width that the lines are laid through")
+            .default("0.8")
+            .above(0.0)
+            .at_most(1.0),
         /// Where the top of a heap is along the axis [m].
-        centre: f64,
+        centre: f64 = Key::new("centre", Kind::Quantity(&LENGTH), "Where the top of a heap is, along the axis")
+            .derived("the middle of the region"),
         /// Whether only grains count that touch something.
-        touching: bool,
+        touching: bool =
+            Key::new("touching", Kind::Flag, "Whether grains must touch something to count: those in flight are no surface")
+                .default("true"),
         /// Where.
-        region: Region,
-    },
-    /// Grains that have passed a plane.
-    Discharge {
+        region: Region = REGION,
+    }
+
+    discharge::Discharge "discharge" "Grains and mass that have passed a plane, less those that came back, and the rate" {
         /// A point on the plane [m].
-        point: Vector,
+        point: Vector = Key::new("point", Kind::Vector(&LENGTH), "A point on the plane").default("'origin'"),
         /// Unit direction in which grains pass.
-        normal: Vector,
+        normal: Vector = Key::new("normal", Kind::Direction, "Direction in which grains pass").default("'-z'"),
         /// Only grains of this group.
-        group: Option<String>,
-    },
-    /// Hops of grains over a bed.
-    Hops {
+        group: Option<String> = GROUP,
+    }
+
+    hops::Hops "hops"
+    "Hops over a bed, from touch to touch: height, length, times, impact, restitution, contact time" {
         /// What a grain must touch to be on the bed.
-        bed: Vec<Bed>,
+        bed: Vec<Bed> = Key::new("bed", Kind::SomeOf(Bed::WORDS), "What a grain must touch to be on the bed")
+            .default("['walls', 'fixed-grains']"),
         /// Only grains of this group.
-        group: Option<String>,
+        group: Option<String> = GROUP,
         /// Unit direction in which hops are long.
-        along: Vector,
+        along: Vector = Key::new("along", Kind::Direction, "Direction in which hops are long").default("'x'"),
         /// Unit direction in which hops are high.
-        up: Vector,
+        up: Vector = Key::new("up", Kind::Direction, "Direction in which hops are high, away from the bed").default("'z'"),
         /// Lower hops are not counted [m].
-        lowest: f64,
+        lowest: f64 = Key::new("lowest", Kind::Quantity(&LENGTH), "Lower hops are not counted").default("0").at_least(0.0),
         /// After so many hops nothing is written any more.
-        most: Option<usize>,
-    },
-    /// Transport of grains along a bed.
-    Bedload {
+        most: Option<usize> = Key::new("most", Kind::Whole, "After so many hops nothing is counted any more")
+            .at_least(1.0)
+            .at_most(1e9)
+            .optional(),
+    }
+
+    bedload::Bedload "bedload" "Transport of grains along a bed, its fluctuation, and grains that start and stop" {
         /// Horizontal axis.
-        axis: Axis,
+        axis: Axis = Key::new("axis", Kind::OneOf(Axis::ACROSS), "Horizontal axis of the transport").default("'x'"),
         /// Where; its plan area is what the transport is over.
-        region: Region,
+        region: Region = REGION,
         /// Only grains of this group.
-        group: Option<String>,
+        group: Option<String> = GROUP,
         /// In the plane: grains are spheres in a bed of this width [m]; `None`: discs.
-        width: Option<f64>,
+        width: Option<f64> = Key::new(
+            "width",
+            Kind::Quantity(&LENGTH),
+            "In the plane: the grains are spheres in a bed of this width; without it they are discs",
+        )
+        .above(0.0)
+        .optional(),
         /// A grain that is faster begins to move [m/s].
-        moving_speed: f64,
+        moving_speed: f64 = Key::new("moving-speed", Kind::Quantity(&SPEED), "A grain that is faster begins to move")
+            .default("'10 mm/s'")
+            .above(0.0),
         /// A moving grain that is slower has come to rest [m/s].
-        resting_speed: f64,
+        resting_speed: f64 = Key::new("resting-speed", Kind::Quantity(&SPEED), "A moving grain that is slower has come to rest")
+            .at_least(0.0)
+            .derived("half of `moving-speed`"),
         /// Density of the fluid, for the Einstein number [kg/m^3].
-        fluid_density: Option<f64>,
-    },
-    /// Front, travel and deposit.
-    RunOut {
+        fluid_density: Option<f64> =
+            Key::new("fluid-density", Kind::Quantity(&DENSITY), "Density of the fluid; gives the Einstein number")
+                .above(0.0)
+                .optional(),
+    }
+
+    run_out::RunOut "run-out" "Front, travel and fall of the centre of mass, and the deposit" {
         /// Where the grains run.
-        direction: Heading,
+        direction: Heading = Key::new("direction", Kind::OneOf(Heading::WORDS), "Where the grains run").default("'x'"),
         /// Share of the mass behind the mass front [-].
-        share: f64,
+        share: f64 = Key::new("share", Kind::Quantity(&NUMBER), "Share of the mass that is behind the mass front")
+            .default("0.99")
+            .above(0.0)
+            .at_most(1.0),
         /// Columns of the deposit.
-        bins: usize,
+        bins: usize = Key::new("bins", Kind::Whole, "Columns of the deposit").default("40").at_least(1.0).at_most(1e5),
         /// Only grains of this group.
-        group: Option<String>,
+        group: Option<String> = GROUP,
         /// Where the deposit is.
-        region: Region,
-    },
-    /// Contacts per grain.
-    Coordination {
+        region: Region = REGION,
+    }
+
+    coordination::Coordination "coordination" "Contacts per grain, with and without rattlers" {
         /// Grains with fewer contacts are rattlers.
-        fewest: u32,
+        fewest: u32 = Key::new("fewest", Kind::Whole, "Grains with fewer contacts are rattlers; taken out until none is left")
+            .default("2")
+            .at_least(1.0)
+            .at_most(12.0),
         /// Whether contacts with walls count.
-        walls: bool,
+        walls: bool = WALLS.default("true"),
         /// Only grains inside.
-        region: Option<Region>,
-    },
-    /// Fabric tensor of the contacts.
-    Fabric {
+        region: Option<Region> = WITHIN,
+    }
+
+    fabric::Fabric "fabric" "Fabric tensor of the contact normals, its deviator and principal direction" {
         /// Whether contacts with walls count.
-        walls: bool,
+        walls: bool = WALLS.default("false"),
         /// Only grains inside.
-        region: Option<Region>,
-    },
-    /// Distribution of the contact forces.
-    Forces {
+        region: Option<Region> = WITHIN,
+    }
+
+    forces::Forces "forces" "Distribution of normal contact forces, and the share of contacts in force chains" {
         /// Bins of the histogram.
-        bins: usize,
+        bins: usize = Key::new("bins", Kind::Whole, "Bins of the histogram").default("30").at_least(1.0).at_most(1e5),
         /// Upper end of the histogram, in mean forces [-].
-        largest: f64,
+        largest: f64 = Key::new("largest", Kind::Quantity(&NUMBER), "Upper end of the histogram, in mean forces")
+            .default("6")
+            .above(1.0),
         /// Whether contacts with walls count.
-        walls: bool,
+        walls: bool = WALLS.default("false"),
         /// Only grains inside.
-        region: Option<Region>,
-    },
-    /// Contacts one by one.
-    Contacts {
+        region: Option<Region> = WITHIN,
+    }
+
+    contacts::Contacts "contacts" "Contacts one by one: who touches whom, where, with what force and overlap" {
         /// Whether contacts with walls count.
-        walls: bool,
+        walls: bool = WALLS.default("true"),
         /// Only contacts inside.
-        region: Option<Region>,
-    },
-    /// Mixing of two groups.
-    Segregation {
+        region: Option<Region> = WITHIN,
+    }
+
+    segregation::Segregation "segregation" "How well two groups are mixed: Lacey index, and the height of one over the other" {
         /// The two groups.
-        groups: [String; 2],
+        groups: [String; 2] =
+            Key::new("groups", Kind::Names(Family::Group), "The two groups").derived("the two groups, where there are two"),
         /// Edge of the cells [m].
-        cell: f64,
+        cell: f64 = Key::new("cell", Kind::Quantity(&LENGTH), "Edge of the cells in which grains are counted").above(0.0),
         /// Only grains inside.
-        region: Option<Region>,
-    },
-    /// Force and torque on a wall.
-    WallLoad {
+        region: Option<Region> = WITHIN,
+    }
+
+    wall_load::WallLoad "wall-load" "Force and torque of the grains on a wall, and its pressure" {
         /// The wall.
-        wall: String,
+        wall: String = Key::new("wall", Kind::Name(Family::Wall), "The wall"),
         /// Only what touches this face of a box.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        face: Option<Face>,
+        face: Option<Face> =
+            Key::new("face", Kind::OneOf(Face::WORDS), "Only this face of a box that does not turn; without torque").optional(),
         /// Area for the pressure [m^2].
-        area: Option<f64>,
+        area: Option<f64> =
+            Key::new("area", Kind::Quantity(&AREA), "Area for the pressure; in the plane times the depth that is meant")
+                .above(0.0)
+                .optional(),
         /// Unit direction in which the pressure acts on the wall.
-        direction: Option<Vector>,
-    },
-    /// The water, and what it means to grains.
-    Stream {
+        direction: Option<Vector> = Key::new("direction", Kind::Direction, "Direction in which the pressure acts on the wall")
+            .derived("of a plane against its normal; else required with `area`"),
+    }
+
+    stream::Stream "stream"
+    "The water: shear velocity, Shields and Rouse numbers, discharge; velocity, shear, stress and share of water by layers" {
         /// Grains of the Shields and Rouse numbers: of this group.
-        group: Option<String>,
-    },
-    /// Single grains.
-    Track {
+        group: Option<String> =
+            Key::new("group", Kind::Name(Family::Group), "Shields and Rouse numbers are of the grains of this group").optional(),
+    }
+
+    track::Track "track" "Position, velocity and spin of some grains; positions go on across periodic ends" {
         /// Their numbers, among all or in the group.
-        ids: Vec<u32>,
+        ids: Vec<u32> = Key::new("ids", Kind::Wholes, "Numbers of the grains, from 0 in the order of the groups' names")
+            .at_least(0.0)
+            .at_most(4e9),
         /// The group that they are counted in.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        group: Option<String>,
-    },
-}
-
-impl Measure {
-    /// Name in scene files.
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Self::Profile { .. } => "profile",
-            Self::CoarseGrain { .. } => "coarse-grain",
-            Self::Slope { .. } => "slope",
-            Self::Discharge { .. } => "discharge",
-            Self::Hops { .. } => "hops",
-            Self::Bedload { .. } => "bedload",
-            Self::RunOut { .. } => "run-out",
-            Self::Coordination { .. } => "coordination",
-            Self::Fabric { .. } => "fabric",
-            Self::Forces { .. } => "forces",
-            Self::Contacts { .. } => "contacts",
-            Self::Segregation { .. } => "segregation",
-            Self::WallLoad { .. } => "wall-load",
-            Self::Stream { .. } => "stream",
-            Self::Track { .. } => "track",
-        }
+        group: Option<String> =
+            Key::new("group", Kind::Name(Family::Group), "The group that the numbers count in, from its first grain").optional(),
     }
-
-    /// The region it looks at, if it is not everywhere.
-    pub const fn region(&self) -> Option<&Region> {
-        match self {
-            Self::Profile { region, .. }
-            | Self::CoarseGrain { region, .. }
-            | Self::Slope { region, .. }
-            | Self::Bedload { region, .. }
-            | Self::RunOut { region, .. } => Some(region),
-            Self::Coordination { region, .. }
-            | Self::Fabric { region, .. }
-            | Self::Forces { region, .. }
-            | Self::Contacts { region, .. }
-            | Self::Segregation { region, .. } => region.as_ref(),
-            Self::Discharge { .. }
-            | Self::Hops { .. }
-            | Self::WallLoad { .. }
-            | Self::Stream { .. }
-            | Self::Track { .. } => None,
-        }
-    }
-}
-
-/// A face of a box, seen from within.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Face {
-    /// At the low end of x.
-    Left,
-    /// At the high end of x.
-    Right,
-    /// At the low end of y.
-    Front,
-    /// At the high end of y.
-    Back,
-    /// At the low end of z.
-    Floor,
-    /// At the high end of z.
-    Lid,
-}
-
-impl Face {
-    /// Unit normal, towards the grains.
-    pub const fn normal(self) -> Vector {
-        match self {
-            Self::Left => [1.0, 0.0, 0.0],
-            Self::Right => [-1.0, 0.0, 0.0],
-            Self::Front => [0.0, 1.0, 0.0],
-            Self::Back => [0.0, -1.0, 0.0],
-            Self::Floor => [0.0, 0.0, 1.0],
-            Self::Lid => [0.0, 0.0, -1.0],
-        }
-    }
-}
-
-/// An axis of the scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Axis {
-    /// To the right.
-    X,
-    /// Into the picture.
-    Y,
-    /// Up.
-    Z,
-}
-
-impl Axis {
-    /// 0, 1, 2.
-    pub const fn index(self) -> usize {
-        self as usize
-    }
-
-    /// Name in scene files and tables.
-    pub const fn name(self) -> &'static str {
-        ["x", "y", "z"][self as usize]
-    }
-}
-
-/// A horizontal axis, and which way along it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Heading {
-    /// To the right.
-    #[serde(rename = "x")]
-    X,
-    /// To the left.
-    #[serde(rename = "-x")]
-    MinusX,
-    /// Into the picture.
-    #[serde(rename = "y")]
-    Y,
-    /// Out of the picture.
-    #[serde(rename = "-y")]
-    MinusY,
-}
-
-impl Heading {
-    /// The axis.
-    pub const fn axis(self) -> Axis {
-        match self {
-            Self::X | Self::MinusX => Axis::X,
-            Self::Y | Self::MinusY => Axis::Y,
-        }
-    }
-
-    /// 1 along the axis, -1 against it.
-    pub const fn sign(self) -> f64 {
-        match self {
-            Self::X | Self::Y => 1.0,
-            Self::MinusX | Self::MinusY => -1.0,
-        }
-    }
-}
-
-/// What a profile averages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Quantity {
-    /// Share of the volume that grains fill.
-    SolidFraction,
-    /// Mean velocity by mass.
-    Velocity,
-    /// Mean square of a component of the velocity about the mean.
-    GranularTemperature,
-    /// Contacts per grain.
-    Coordination,
-    /// Mean spin by moment of inertia.
-    Spin,
-}
-
-/// Mean density [kg/m^3] and diameter [m] of the free grains, of one group or of all: mass over volume, and by number. Not
-/// numbers where there are none.
-pub fn submerged<'a>(groups: impl Iterator<Item = (&'a String, &'a Particles)>, only: Option<&str>) -> (f64, f64) {
-    let (mut number, mut mass, mut volume, mut diameters) = (0.0, 0.0, 0.0, 0.0);
-    for (_, group) in groups.filter(|(name, group)| {
-        matches!(group.motion, GrainMotion::Free {}) && only.is_none_or(|only| only == name.as_str())
-    }) {
-        let count = group.count as f64;
-        number += count;
-        mass += count * group.mass;
-        volume += count * group.shape.mass(1.0, group.diameter);
-        diameters += count * group.diameter;
-    }
-    (mass / volume, diameters / number)
-}
-
-/// What the bed is that grains hop on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Bed {
-    /// Walls.
-    Walls,
-    /// Frozen and driven grains.
-    FixedGrains,
-    /// Grains that forces move.
-    FreeGrains,
-}
-
-/// How a grain is smeared out into a field.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Kernel {
-    /// exp(-r^2 / 2 w^2).
-    Gaussian,
-    /// (1 + 3 r/w) (1 - r/w)^3.
-    Lucy,
 }

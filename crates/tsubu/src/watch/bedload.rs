@@ -8,7 +8,7 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
-use tsubu_scene::plan::{self, Axis, Measure, Plan};
+use tsubu_scene::plan::{self, Axis, Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.bedload",
@@ -57,30 +57,27 @@ pub(super) struct Bedload {
     rates: [f64; 3],
 }
 
-impl Bedload {
-    pub fn new(measure: &Measure, plan: &Plan) -> Self {
-        let Measure::Bedload { axis, region, group, width, moving_speed, resting_speed, fluid_density } = measure
-        else {
-            unreachable!("another kind of watch")
-        };
-        let (density, diameter) = plan::submerged(plan.particles.iter(), group.as_deref());
-        let gravity = DVec3::from_array(plan.gravity).length();
-        let size = |a: usize| region.high[a] - region.low[a];
-        Self {
-            axis: axis.index(),
-            region: Inside::new(Some(region), plan),
-            area: axes(plan).iter().filter(|&&a| a != Axis::Z.index()).map(|&a| size(a)).product(),
-            group: group.as_ref().map(|name| group_number(plan, name)),
-            width: *width,
-            flat: plan.dimension == 2,
-            speeds: [*moving_speed, *resting_speed],
-            scale: fluid_density.map(|fluid| ((density / fluid - 1.0) * gravity * diameter.powi(3)).sqrt()),
-            moves: Vec::new(),
-            last: f64::NAN,
-            rates: [0.0; 3],
-        }
+pub(super) fn open(asked: &watch::Bedload, plan: &Plan) -> Bedload {
+    let watch::Bedload { axis, region, group, width, moving_speed, resting_speed, fluid_density } = asked;
+    let (density, diameter) = plan::submerged(plan.particles.iter(), group.as_deref());
+    let gravity = DVec3::from_array(plan.gravity).length();
+    let size = |a: usize| region.high[a] - region.low[a];
+    Bedload {
+        axis: axis.index(),
+        region: Inside::new(Some(region), plan),
+        area: axes(plan).iter().filter(|&&a| a != Axis::Z.index()).map(|&a| size(a)).product(),
+        group: group.as_ref().map(|name| group_number(plan, name)),
+        width: *width,
+        flat: plan.dimension == 2,
+        speeds: [*moving_speed, *resting_speed],
+        scale: fluid_density.map(|fluid| ((density / fluid - 1.0) * gravity * diameter.powi(3)).sqrt()),
+        moves: Vec::new(),
+        last: f64::NAN,
+        rates: [0.0; 3],
     }
+}
 
+impl Bedload {
     fn volume(&self, radius: f64) -> f64 {
         if self.flat && self.width.is_none() {
             PI * radius * radius

@@ -6,7 +6,7 @@ use super::{Axes, Inside, LETTERS, Sample, Sheet, Watch, axes, mean};
 use crate::about::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
-use tsubu_scene::plan::{Measure, Plan};
+use tsubu_scene::plan::{Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.coarse-grain",
@@ -60,20 +60,18 @@ pub(super) struct CoarseGrain {
     cells: Vec<Cell>,
 }
 
-impl CoarseGrain {
-    pub fn new(measure: &Measure, plan: &Plan) -> Self {
-        let Measure::CoarseGrain { kernel, width, axes: along, points, region } = measure else {
-            unreachable!("another kind of watch")
-        };
-        let varies: Vec<usize> = along.iter().map(|a| a.index()).collect();
-        let others = axes(plan).iter().filter(|a| !varies.contains(a));
-        let across = others.map(|&a| region.high[a] - region.low[a]).product();
-        let points = Points::new(along, points, region);
-        let cells = vec![Cell::default(); points.len()];
-        let kernel = Kernel::new(*kernel, *width, varies.len());
-        Self { kernel, points, region: Inside::new(Some(region), plan), across, varies, axes: axes(plan), cells }
-    }
+pub(super) fn open(asked: &watch::CoarseGrain, plan: &Plan) -> CoarseGrain {
+    let watch::CoarseGrain { kernel, width, axes: along, points, region } = asked;
+    let varies: Vec<usize> = along.iter().map(|a| a.index()).collect();
+    let others = axes(plan).iter().filter(|a| !varies.contains(a));
+    let across = others.map(|&a| region.high[a] - region.low[a]).product();
+    let points = Points::new(along, points, region);
+    let cells = vec![Cell::default(); points.len()];
+    let kernel = Kernel::new(*kernel, *width, varies.len());
+    CoarseGrain { kernel, points, region: Inside::new(Some(region), plan), across, varies, axes: axes(plan), cells }
+}
 
+impl CoarseGrain {
     /// Whether a point counts: along the axes that fields vary along everything does.
     fn counts(&self, view: &View, p: DVec3) -> bool {
         self.region.holds_but(view.put(p), &self.varies)

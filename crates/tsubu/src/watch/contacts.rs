@@ -1,9 +1,10 @@
 //! Contacts one by one.
 
-use super::{Axes, Inside, LETTERS, Sample, Sheet, Watch};
+use super::{Axes, Inside, LETTERS, Sample, Sheet, Watch, axes};
 use crate::about::About;
 use crate::view::{Contact, View, Wants};
 use glam::DVec3;
+use tsubu_scene::plan::{Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.contacts",
@@ -20,9 +21,14 @@ The region holds points of contact; a point beyond a periodic end is put back be
 /// Lists contacts.
 #[derive(Clone, Debug)]
 pub(super) struct List {
-    pub region: Inside,
-    pub walls: bool,
-    pub axes: Axes,
+    region: Inside,
+    walls: bool,
+    axes: Axes,
+}
+
+pub(super) fn open(asked: &watch::Contacts, plan: &Plan) -> List {
+    let watch::Contacts { walls, region } = asked;
+    List { walls: *walls, region: Inside::new(region.as_ref(), plan), axes: axes(plan) }
 }
 
 impl List {

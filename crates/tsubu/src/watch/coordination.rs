@@ -3,6 +3,7 @@
 use super::{Inside, Sample, Watch, mean};
 use crate::about::About;
 use crate::view::{View, Wants};
+use tsubu_scene::plan::{Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.coordination",
@@ -24,9 +25,14 @@ Grains in a region count all their contacts, also those with grains outside.",
 /// Counts contacts.
 #[derive(Clone, Debug)]
 pub(super) struct Coordination {
-    pub fewest: u32,
-    pub walls: bool,
-    pub region: Inside,
+    fewest: u32,
+    walls: bool,
+    region: Inside,
+}
+
+pub(super) fn open(asked: &watch::Coordination, plan: &Plan) -> Coordination {
+    let watch::Coordination { fewest, walls, region } = asked;
+    Coordination { fewest: *fewest, walls: *walls, region: Inside::new(region.as_ref(), plan) }
 }
 
 impl Coordination {

@@ -1,12 +1,13 @@
 //! Grains that have passed a plane.
 
-use super::{Sample, Watch};
+use super::{Sample, Watch, group_number};
 use crate::about::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
+use tsubu_scene::plan::{Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.discharge",
@@ -57,13 +58,24 @@ pub(super) struct Discharge {
 /// An outlet that nothing has passed for this share of the time is worth a word.
 const QUIET: f64 = 0.25;
 
-impl Discharge {
-    pub fn new(point: DVec3, normal: DVec3, group: Option<u32>, gravity: DVec3) -> Self {
-        let seen = BTreeMap::new();
-        let (first, last, passage) = (None, None, None);
-        Self { point, normal, group, gravity, seen, first, last, passage, waiting: 0, passed: 0, mass: 0.0 }
+pub(super) fn open(asked: &watch::Discharge, plan: &Plan) -> Discharge {
+    let watch::Discharge { point, normal, group } = asked;
+    Discharge {
+        point: DVec3::from_array(*point),
+        normal: DVec3::from_array(*normal),
+        group: group.as_ref().map(|name| group_number(plan, name)),
+        gravity: DVec3::from_array(plan.gravity),
+        seen: BTreeMap::new(),
+        first: None,
+        last: None,
+        passage: None,
+        waiting: 0,
+        passed: 0,
+        mass: 0.0,
     }
+}
 
+impl Discharge {
     /// The period along the normal, if the world repeats itself along it.
     fn period(&self, view: &View) -> Option<f64> {
         let axis = (0..3).find(|&a| self.normal[a].abs() > 1.0 - 1e-12)?;

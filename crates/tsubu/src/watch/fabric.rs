@@ -1,10 +1,11 @@
 //! The fabric of the contacts.
 
-use super::{Axes, Inside, LETTERS, Sample, Watch};
+use super::{Axes, Inside, LETTERS, Sample, Watch, axes};
 use crate::about::About;
 use crate::view::{View, Wants};
 use glam::DVec3;
 use nalgebra::{Matrix3, SymmetricEigen};
+use tsubu_scene::plan::{Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.fabric",
@@ -22,9 +23,14 @@ Contacts with walls count if asked for: their normals show the wall, not the gra
 /// Sums up normals.
 #[derive(Clone, Debug)]
 pub(super) struct Fabric {
-    pub walls: bool,
-    pub region: Inside,
-    pub axes: Axes,
+    walls: bool,
+    region: Inside,
+    axes: Axes,
+}
+
+pub(super) fn open(asked: &watch::Fabric, plan: &Plan) -> Fabric {
+    let watch::Fabric { walls, region } = asked;
+    Fabric { walls: *walls, region: Inside::new(region.as_ref(), plan), axes: axes(plan) }
 }
 
 impl Fabric {

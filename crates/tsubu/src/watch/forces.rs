@@ -3,6 +3,7 @@
 use super::{Inside, Sample, Sheet, Watch, mean};
 use crate::about::About;
 use crate::view::{View, Wants};
+use tsubu_scene::plan::{Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.forces",
@@ -25,10 +26,15 @@ about 1.5",
 /// Sorts forces.
 #[derive(Clone, Debug)]
 pub(super) struct Forces {
-    pub bins: usize,
-    pub largest: f64,
-    pub walls: bool,
-    pub region: Inside,
+    bins: usize,
+    largest: f64,
+    walls: bool,
+    region: Inside,
+}
+
+pub(super) fn open(asked: &watch::Forces, plan: &Plan) -> Forces {
+    let watch::Forces { bins, largest, walls, region } = asked;
+    Forces { bins: *bins, largest: *largest, walls: *walls, region: Inside::new(region.as_ref(), plan) }
 }
 
 impl Watch for Forces {

@@ -8,7 +8,7 @@ use crate::view::{View, Wants};
 use glam::DVec3;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
-use tsubu_scene::plan::{Bed, Measure, Plan};
+use tsubu_scene::plan::{Bed, Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.hops",
@@ -76,27 +76,25 @@ pub(super) struct Hops {
     deepest: Vec<u32>,
 }
 
-impl Hops {
-    pub fn new(measure: &Measure, plan: &Plan) -> Self {
-        let Measure::Hops { bed, group, along, up, lowest, most } = measure else {
-            unreachable!("another kind of watch")
-        };
-        Self {
-            bed: bed.clone(),
-            group: group.as_ref().map(|name| group_number(plan, name)),
-            sense: Sense { up: DVec3::from_array(*up), along: DVec3::from_array(*along) },
-            lowest: *lowest,
-            most: most.unwrap_or(usize::MAX),
-            turns: if plan.dimension == 3 { axes(plan) } else { &[1] },
-            courses: Vec::new(),
-            grains: plan.grains(),
-            means: Means::new(5),
-            largest: [f64::NAN; 2],
-            counted: 0,
-            deepest: Vec::new(),
-        }
+pub(super) fn open(asked: &watch::Hops, plan: &Plan) -> Hops {
+    let watch::Hops { bed, group, along, up, lowest, most } = asked;
+    Hops {
+        bed: bed.clone(),
+        group: group.as_ref().map(|name| group_number(plan, name)),
+        sense: Sense { up: DVec3::from_array(*up), along: DVec3::from_array(*along) },
+        lowest: *lowest,
+        most: most.unwrap_or(usize::MAX),
+        turns: if plan.dimension == 3 { axes(plan) } else { &[1] },
+        courses: Vec::new(),
+        grains: plan.grains(),
+        means: Means::new(5),
+        largest: [f64::NAN; 2],
+        counted: 0,
+        deepest: Vec::new(),
     }
+}
 
+impl Hops {
     /// Finds the deepest contact with the bed of every grain.
     fn find_touches(&mut self, view: &View) {
         let [walls, fixed, free] = [Bed::Walls, Bed::FixedGrains, Bed::FreeGrains].map(|kind| self.bed.contains(&kind));

@@ -4,28 +4,13 @@
 //! [`Watches`] are those of a run: when they look ([`Trigger`]), where their rows go, what their means are, and what of
 //! them a checkpoint holds. One file a watch; each says what it measures, in which units, after whom, and where it ends.
 
-mod bedload;
-mod coarse_grain;
-mod contacts;
-mod coordination;
 mod course;
-mod discharge;
-mod fabric;
-mod forces;
-mod hops;
 pub mod kernel;
 pub(crate) mod means;
 mod points;
-mod profile;
 mod run;
-mod run_out;
-mod segregation;
-pub(crate) mod slope;
-mod stream;
 mod surface;
-mod track;
 mod trigger;
-mod wall_load;
 
 pub use run::Watches;
 pub use trigger::Trigger;
@@ -91,76 +76,24 @@ pub struct Sample {
     pub rows: Vec<Vec<f64>>,
 }
 
-/// Builds a watch.
-pub fn open(measure: &Measure, plan: &Plan) -> Box<dyn Watch> {
-    match measure {
-        Measure::Profile { .. } => Box::new(profile::Profile::new(measure, plan)),
-        Measure::CoarseGrain { .. } => Box::new(coarse_grain::CoarseGrain::new(measure, plan)),
-        Measure::Slope { .. } => Box::new(slope::Slope::new(measure, plan)),
-        Measure::Discharge { point, normal, group } => Box::new(discharge::Discharge::new(
-            DVec3::from_array(*point),
-            DVec3::from_array(*normal),
-            group.as_ref().map(|name| group_number(plan, name)),
-            DVec3::from_array(plan.gravity),
-        )),
-        Measure::Bedload { .. } => Box::new(bedload::Bedload::new(measure, plan)),
-        Measure::RunOut { .. } => Box::new(run_out::RunOut::new(measure, plan)),
-        Measure::Hops { .. } => Box::new(hops::Hops::new(measure, plan)),
-        Measure::Coordination { fewest, walls, region } => Box::new(coordination::Coordination {
-            fewest: *fewest,
-            walls: *walls,
-            region: Inside::new(region.as_ref(), plan),
-        }),
-        Measure::Fabric { walls, region } => {
-            Box::new(fabric::Fabric { walls: *walls, region: Inside::new(region.as_ref(), plan), axes: axes(plan) })
-        }
-        Measure::Forces { bins, largest, walls, region } => Box::new(forces::Forces {
-            bins: *bins,
-            largest: *largest,
-            walls: *walls,
-            region: Inside::new(region.as_ref(), plan),
-        }),
-        Measure::Contacts { walls, region } => {
-            Box::new(contacts::List { walls: *walls, region: Inside::new(region.as_ref(), plan), axes: axes(plan) })
-        }
-        Measure::Segregation { groups, cell, region } => Box::new(segregation::Segregation {
-            groups: [0, 1].map(|k| group_number(plan, &groups[k])),
-            cell: *cell,
-            region: Inside::new(region.as_ref(), plan),
-            axes: axes(plan),
-        }),
-        Measure::WallLoad { wall, face, area, direction } => Box::new(wall_load::Load {
-            face: face.map(|face| DVec3::from_array(face.normal())),
-            wall: plan.walls.keys().position(|name| name == wall).unwrap_or(0),
-            pressed: area.zip(*direction).map(|(area, along)| (area, DVec3::from_array(along))),
-            axes: axes(plan),
-        }),
-        Measure::Stream { group } => Box::new(stream::Watched::new(group.as_deref(), plan)),
-        Measure::Track { ids, group } => {
-            let first = group.as_ref().map_or(0, |name| plan.first_of(name)) as u32;
-            Box::new(track::Track { ids: ids.iter().map(|id| first.saturating_add(*id)).collect(), axes: axes(plan) })
-        }
-    }
-}
+/// From the list of the kinds of watches, which stands in the plan (`tsubu_scene::plan::watch`): the file of each, here beside this
+/// one, with its text and how it is opened.
+macro_rules! watches {
+    ($($file:ident::$kind:ident)*) => {
+        $(pub(crate) mod $file;)*
 
-/// What the kinds of watches are.
-pub const ABOUT: &[&About] = &[
-    &profile::ABOUT,
-    &coarse_grain::ABOUT,
-    &slope::ABOUT,
-    &discharge::ABOUT,
-    &hops::ABOUT,
-    &bedload::ABOUT,
-    &run_out::ABOUT,
-    &coordination::ABOUT,
-    &fabric::ABOUT,
-    &forces::ABOUT,
-    &contacts::ABOUT,
-    &segregation::ABOUT,
-    &wall_load::ABOUT,
-    &stream::ABOUT,
-    &track::ABOUT,
-];
+        /// What the kinds of watches are.
+        pub const ABOUT: &[&About] = &[$(&$file::ABOUT),*];
+
+        /// Builds a watch.
+        pub fn open(measure: &Measure, plan: &Plan) -> Box<dyn Watch> {
+            match measure {
+                $(Measure::$kind(asked) => Box::new($file::open(asked, plan))),*
+            }
+        }
+    };
+}
+tsubu_scene::every_watch!();
 
 /// Names of the axes.
 const LETTERS: [&str; 3] = ["x", "y", "z"];

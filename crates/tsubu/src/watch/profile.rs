@@ -5,7 +5,7 @@ use crate::about::About;
 use crate::state::sphere;
 use crate::view::{View, Wants};
 use glam::DVec3;
-use tsubu_scene::plan::{Axis, Measure, Plan, Quantity};
+use tsubu_scene::plan::{Axis, Plan, Quantity, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.profile",
@@ -66,26 +66,24 @@ impl Bin {
     }
 }
 
-impl Profile {
-    pub fn new(measure: &Measure, plan: &Plan) -> Self {
-        let Measure::Profile { axis, bins, quantities, region } = measure else {
-            unreachable!("another kind of watch")
-        };
-        let size = |a: usize| region.high[a] - region.low[a];
-        let height = size(axis.index()) / *bins as f64;
-        Self {
-            axis: *axis,
-            low: region.low[axis.index()],
-            height,
-            bins: *bins,
-            volume: axes(plan).iter().filter(|a| **a != axis.index()).map(|a| size(*a)).product::<f64>() * height,
-            quantities: quantities.clone(),
-            region: Inside::new(Some(region), plan),
-            axes: axes(plan),
-            bin: vec![Bin::default(); *bins],
-        }
+pub(super) fn open(asked: &watch::Profile, plan: &Plan) -> Profile {
+    let watch::Profile { axis, bins, quantities, region } = asked;
+    let size = |a: usize| region.high[a] - region.low[a];
+    let height = size(axis.index()) / *bins as f64;
+    Profile {
+        axis: *axis,
+        low: region.low[axis.index()],
+        height,
+        bins: *bins,
+        volume: axes(plan).iter().filter(|a| **a != axis.index()).map(|a| size(*a)).product::<f64>() * height,
+        quantities: quantities.clone(),
+        region: Inside::new(Some(region), plan),
+        axes: axes(plan),
+        bin: vec![Bin::default(); *bins],
     }
+}
 
+impl Profile {
     fn asks(&self, what: Quantity) -> bool {
         self.quantities.contains(&what)
     }

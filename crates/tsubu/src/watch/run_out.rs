@@ -7,7 +7,7 @@ use crate::view::{View, Wants};
 use glam::DVec3;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
-use tsubu_scene::plan::{Heading, Measure, Plan};
+use tsubu_scene::plan::{Heading, Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.run-out",
@@ -49,26 +49,24 @@ pub(super) struct RunOut {
     first: Option<(f64, DVec3)>,
 }
 
-impl RunOut {
-    pub fn new(measure: &Measure, plan: &Plan) -> Self {
-        let Measure::RunOut { direction, share, bins, group, region } = measure else {
-            unreachable!("another kind of watch")
-        };
-        let up = -DVec3::from_array(plan.gravity).normalize_or(DVec3::NEG_Z);
-        let mut along = DVec3::ZERO;
-        along[direction.axis().index()] = direction.sign();
-        Self {
-            heading: *direction,
-            share: *share,
-            group: group.as_ref().map(|name| group_number(plan, name)),
-            surface: Surface::new(direction.axis(), *bins, region, plan),
-            ground: region.low[2],
-            up,
-            ahead: along.reject_from(up).normalize_or(along),
-            first: None,
-        }
+pub(super) fn open(asked: &watch::RunOut, plan: &Plan) -> RunOut {
+    let watch::RunOut { direction, share, bins, group, region } = asked;
+    let up = -DVec3::from_array(plan.gravity).normalize_or(DVec3::NEG_Z);
+    let mut along = DVec3::ZERO;
+    along[direction.axis().index()] = direction.sign();
+    RunOut {
+        heading: *direction,
+        share: *share,
+        group: group.as_ref().map(|name| group_number(plan, name)),
+        surface: Surface::new(direction.axis(), *bins, region, plan),
+        ground: region.low[2],
+        up,
+        ahead: along.reject_from(up).normalize_or(along),
+        first: None,
     }
+}
 
+impl RunOut {
     /// Where the share of the mass is behind, along the heading; `grains` are (way, mass).
     fn mass_front(&self, mut grains: Vec<(f64, f64)>) -> f64 {
         grains.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,9 +1,10 @@
 //! Mixing of two groups.
 
-use super::{Axes, Inside, Sample, Watch};
+use super::{Axes, Inside, Sample, Watch, axes, group_number};
 use crate::about::About;
 use crate::view::{View, Wants};
 use std::collections::BTreeMap;
+use tsubu_scene::plan::{Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.segregation",
@@ -26,10 +27,20 @@ Frozen and driven grains are left out.",
 /// Counts grains in cells.
 #[derive(Clone, Debug)]
 pub(super) struct Segregation {
-    pub groups: [u32; 2],
-    pub cell: f64,
-    pub region: Inside,
-    pub axes: Axes,
+    groups: [u32; 2],
+    cell: f64,
+    region: Inside,
+    axes: Axes,
+}
+
+pub(super) fn open(asked: &watch::Segregation, plan: &Plan) -> Segregation {
+    let watch::Segregation { groups, cell, region } = asked;
+    Segregation {
+        groups: [0, 1].map(|k| group_number(plan, &groups[k])),
+        cell: *cell,
+        region: Inside::new(region.as_ref(), plan),
+        axes: axes(plan),
+    }
 }
 
 impl Watch for Segregation {

@@ -4,7 +4,7 @@ use super::surface::Surface;
 use super::{Sample, Sheet, Watch, mean};
 use crate::about::About;
 use crate::view::{View, Wants};
-use tsubu_scene::plan::{Axis, Measure, Plan};
+use tsubu_scene::plan::{Axis, Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.slope",
@@ -33,15 +33,13 @@ pub(super) struct Slope {
     surface: Surface,
 }
 
-impl Slope {
-    pub fn new(measure: &Measure, plan: &Plan) -> Self {
-        let Measure::Slope { axis, bins, share, centre, touching, region } = measure else {
-            unreachable!("another kind of watch")
-        };
-        let surface = Surface::new(*axis, *bins, region, plan);
-        Self { axis: *axis, share: *share, centre: *centre, touching: *touching, surface }
-    }
+pub(super) fn open(asked: &watch::Slope, plan: &Plan) -> Slope {
+    let watch::Slope { axis, bins, share, centre, touching, region } = asked;
+    let surface = Surface::new(*axis, *bins, region, plan);
+    Slope { axis: *axis, share: *share, centre: *centre, touching: *touching, surface }
+}
 
+impl Slope {
     /// Middle and height of every column; not a number where it is empty.
     fn columns(&self, view: &View) -> Vec<(f64, f64)> {
         if !self.touching {

@@ -6,7 +6,7 @@ use crate::state::sphere;
 use crate::view::{View, Wants};
 use crate::water::{Coupled, KARMAN, Layers, Stream, Water};
 use glam::DVec3;
-use tsubu_scene::plan::{self, Flow, Plan};
+use tsubu_scene::plan::{self, Flow, Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.stream",
@@ -47,18 +47,18 @@ pub(super) struct Watched {
     gravity: f64,
 }
 
-impl Watched {
-    pub fn new(group: Option<&str>, plan: &Plan) -> Self {
-        let flow = plan.water.as_ref().map(|water| &water.flow);
-        let grain = plan::submerged(plan.particles.iter(), group);
-        Self {
-            along: !matches!(flow, Some(Flow::Column { .. })),
-            layered: matches!(flow, Some(Flow::Column { .. } | Flow::Coupled { .. })),
-            grain: Some(grain).filter(|(density, _)| density.is_finite()),
-            gravity: DVec3::from_array(plan.gravity).length(),
-        }
+pub(super) fn open(asked: &watch::Stream, plan: &Plan) -> Watched {
+    let flow = plan.water.as_ref().map(|water| &water.flow);
+    let grain = plan::submerged(plan.particles.iter(), asked.group.as_deref());
+    Watched {
+        along: !matches!(flow, Some(Flow::Column { .. })),
+        layered: matches!(flow, Some(Flow::Column { .. } | Flow::Coupled { .. })),
+        grain: Some(grain).filter(|(density, _)| density.is_finite()),
+        gravity: DVec3::from_array(plan.gravity).length(),
     }
+}
 
+impl Watched {
     /// Shear velocity and stress at the bed, and the numbers of the mean grain.
     fn bed(&self, water: &Water) -> Vec<f64> {
         let shear = water.stream.shear_velocity().unwrap_or(f64::NAN);

@@ -1,9 +1,10 @@
 //! Single grains.
 
-use super::{Axes, LETTERS, Sample, Sheet, Watch};
+use super::{Axes, LETTERS, Sample, Sheet, Watch, axes};
 use crate::about::About;
 use crate::view::{View, Wants};
 use std::collections::BTreeMap;
+use tsubu_scene::plan::{Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.track",
@@ -21,8 +22,14 @@ for, the same numbers go into the history.",
 /// Follows grains.
 #[derive(Clone, Debug)]
 pub(super) struct Track {
-    pub ids: Vec<u32>,
-    pub axes: Axes,
+    ids: Vec<u32>,
+    axes: Axes,
+}
+
+pub(super) fn open(asked: &watch::Track, plan: &Plan) -> Track {
+    let watch::Track { ids, group } = asked;
+    let first = group.as_ref().map_or(0, |name| plan.first_of(name)) as u32;
+    Track { ids: ids.iter().map(|id| first.saturating_add(*id)).collect(), axes: axes(plan) }
 }
 
 impl Track {

@@ -1,9 +1,10 @@
 //! Force and torque on a wall.
 
-use super::{Axes, LETTERS, Sample, Watch};
+use super::{Axes, LETTERS, Sample, Watch, axes};
 use crate::about::About;
 use crate::view::{View, WallLoad, Wants};
 use glam::DVec3;
+use tsubu_scene::plan::{Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.wall-load",
@@ -25,12 +26,22 @@ it is when the wall turns. Momentary values of stiff contacts are rough: take me
 #[derive(Clone, Debug)]
 pub(super) struct Load {
     /// Number of the wall.
-    pub wall: usize,
+    wall: usize,
     /// Inward normal of the only face of a box that counts.
-    pub face: Option<DVec3>,
+    face: Option<DVec3>,
     /// Area and direction of the pressure.
-    pub pressed: Option<(f64, DVec3)>,
-    pub axes: Axes,
+    pressed: Option<(f64, DVec3)>,
+    axes: Axes,
+}
+
+pub(super) fn open(asked: &watch::WallLoad, plan: &Plan) -> Load {
+    let watch::WallLoad { wall, face, area, direction } = asked;
+    Load {
+        face: face.map(|face| DVec3::from_array(face.normal())),
+        wall: plan.walls.keys().position(|name| name == wall).unwrap_or(0),
+        pressed: area.zip(*direction).map(|(area, along)| (area, DVec3::from_array(along))),
+        axes: axes(plan),
+    }
 }
 
 /// Names of the forces and torques on a wall.

@@ -2,11 +2,10 @@
 
 use super::{Derive, table_at, tables_in};
 use crate::complaint::Complaint;
+use crate::key::{self, Kind, Need};
+use crate::plan::Measure;
 use crate::suggest;
 use toml::Value;
-
-/// Watches that need a region.
-const IN_A_REGION: [&str; 5] = ["profile", "coarse-grain", "slope", "bedload", "run-out"];
 
 impl Derive<'_> {
     pub(super) fn watches(&mut self, resolved: &mut toml::Table) {
@@ -23,7 +22,7 @@ impl Derive<'_> {
             {
                 watch.entry("every").or_insert(interval);
             }
-            for kind in IN_A_REGION {
+            for kind in in_a_region() {
                 if let Some(measure) = watch.get_mut(kind).and_then(Value::as_table_mut) {
                     self.region(measure, &["watch", &name, kind], inside.as_ref());
                 }
@@ -113,6 +112,13 @@ impl Derive<'_> {
             );
         }
     }
+}
+
+/// Watches that need a region, and have that of the box if nobody says.
+fn in_a_region() -> impl Iterator<Item = &'static str> {
+    let derived = |keys| key::find(keys, "region").is_some_and(|region| matches!(region.need, Need::Derived(_)));
+    let needed = Measure::KEYS.iter().filter(move |kind| matches!(kind.kind, Kind::Table(keys) if derived(keys)));
+    needed.map(|kind| kind.name)
 }
 
 /// The region that a single box encloses as drawn.
