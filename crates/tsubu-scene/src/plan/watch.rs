@@ -137,6 +137,14 @@ kinds! {
         region: Region = REGION,
     }
 
+    granular_temperature::GranularTemperature "granular-temperature"
+    "Granular temperature of a group: how much grains move about their mean velocity, in all and along each axis (Campbell 1990)" {
+        /// Only grains of this group.
+        group: Option<String> = GROUP,
+        /// Only grains inside.
+        region: Option<Region> = WITHIN,
+    }
+
     slope::Slope "slope" "Slope of the free surface, and the angle of a heap, by least squares" {
         /// Horizontal axis.
         axis: Axis = Key::new("axis", Kind::OneOf(Axis::ACROSS), "Horizontal axis of the slope").default("'x'"),

@@ -10,6 +10,7 @@ mod kernel;
 mod profile;
 mod single;
 mod slope;
+mod temperature;
 mod transport;
 
 use glam::DVec3;
