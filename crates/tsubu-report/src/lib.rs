@@ -10,6 +10,7 @@ use tsubu_frame::{FileError, RunFolder};
 pub mod animation;
 pub mod balls;
 mod canvas;
+mod claims;
 pub mod colour;
 mod compare;
 mod ensemble;

@@ -4,12 +4,12 @@ use std::fmt::Write as _;
 
 use tsubu_frame::{Summary, Table, csv::split_unit};
 
+use crate::claims::claims_table;
 use crate::figure::{Axis, Bars, Figure, Mark, Series, Style};
 use crate::moments;
 use crate::page::{Block, Card, Grid, Report, Tone};
 use crate::source::{
-    Source, card, claims_table, method_name, quantity, result_cards, results_table, shown, spoken, summary_cards,
-    versions,
+    Source, card, method_name, quantity, result_cards, results_table, shown, spoken, summary_cards, versions,
 };
 use crate::text::{count, duration, short};
 

@@ -4,12 +4,13 @@ use std::fmt::Write as _;
 
 use tsubu_frame::{Status, Summary, Table, csv::split_unit};
 
+use crate::claims::claims_table;
 use crate::figure::{Axis, Figure, Series};
 use crate::moments;
 use crate::page::{Block, Report, Tone};
 use crate::source::{
-    Source, card, claims_table, cost_table, energy_blocks, method_name, quantity, result_cards, results_table, spoken,
-    summary_cards, versions,
+    Source, card, cost_table, energy_blocks, method_name, quantity, result_cards, results_table, spoken, summary_cards,
+    versions,
 };
 use crate::text::{count, duration, short};
 use crate::watch::Watches;

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use tsubu_frame::summary::mean_beside;
-use tsubu_frame::{Claim, FileError, ResultValue, Summary, Table, Verdict, csv::split_unit, unit::for_people};
+use tsubu_frame::{FileError, ResultValue, Summary, Table, csv::split_unit, unit::for_people};
 
+use crate::claims::range;
 use crate::figure::{Axis, Bars, Figure};
 use crate::page::{Block, Card, Grid, Report, Tone};
 use crate::text::{count, duration, short};
@@ -275,38 +276,6 @@ pub(crate) fn cost_table(runs: &[(&str, &Summary)]) -> Block {
                 short(s.wall_seconds / s.simulated_seconds),
             ],
         );
-    }
-    Block::Table(grid)
-}
-
-/// The accepted range of a claim, as people read numbers of its unit.
-fn range(claim: &Claim, unit: &str) -> String {
-    let (factor, unit) = for_people(unit);
-    let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
-    let end = |x: Option<f64>| x.map_or(String::new(), |x| short(x * factor));
-    match (claim.low, claim.high) {
-        (None, None) => "any".to_owned(),
-        (Some(_), None) => format!("≥ {}{unit}", end(claim.low)),
-        (None, Some(_)) => format!("≤ {}{unit}", end(claim.high)),
-        (Some(low), Some(high)) if low == high => format!("{}{unit}", end(claim.low)),
-        _ => format!("{} … {}{unit}", end(claim.low), end(claim.high)),
-    }
-}
-
-/// Claims with their ranges; a failed one stands out. `unit` knows the units of those that are about results.
-pub(crate) fn claims_table<'a>(claims: &[&'a Claim], unit: impl Fn(&'a str) -> &'a str) -> Block {
-    let mut grid = Grid::new(["", "claim", "value", "accepted", "source"]);
-    for claim in claims {
-        let si = unit(&claim.name);
-        let (factor, shown) = for_people(si);
-        let value = short(claim.value * factor);
-        let value = if shown == "-" { value } else { format!("{value} {shown}") };
-        let (tone, word) = match claim.verdict() {
-            Verdict::Pass => (Tone::Good, "pass"),
-            Verdict::Fail => (Tone::Bad, "FAIL"),
-            Verdict::Undecided => (Tone::Warning, "undecided"),
-        };
-        grid.push(tone, [word, &claim.name, &value, &range(claim, si), &claim.source]);
     }
     Block::Table(grid)
 }
