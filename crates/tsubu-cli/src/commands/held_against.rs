@@ -5,7 +5,7 @@ use crate::table;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use tsubu_frame::{Claim, Origin, Verdict};
-use tsubu_verify::{CASES, CaseRun, lacks_control, reason, recorded, recorded_run};
+use tsubu_verify::{CASES, CaseRun, lacks_control, mutants, reason, recorded, recorded_run};
 
 const HEAD: &str = "\
 # What tsubu has been held against
@@ -30,6 +30,15 @@ tsubu verify --all --against stored -o night # everything: what moved since, and
 The last takes a night. Ctrl-C stops it, and the same command goes on where it was.
 ";
 
+const MUTATIONS: &str = "
+## Whether a mistake is noticed
+
+A constant of the engines is made 5 % too large, or a rule is left out, one after the other, and all quick cases in which that changes
+something are run. A case notices where a claim that held does not hold any more. `cargo xtask mutants` does it again. What a case does not
+notice is not wrong in it: an angle of repose does not hang on 5 % of a stiffness.
+
+";
+
 /// The page.
 pub fn page() -> String {
     let mut all = Vec::new();
@@ -42,6 +51,8 @@ pub fn page() -> String {
     page += &listed(&all, Verdict::Fail);
     page += "\n## What is undecided\n\n";
     page += &listed(&all, Verdict::Undecided);
+    page += MUTATIONS;
+    page += &mutations();
     page += "\n## With what it was run\n\n";
     page + &runs()
 }
@@ -114,6 +125,16 @@ fn accepted(claim: &Claim) -> String {
 fn sentence(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// What was wrong on purpose, and the cases that notice.
+fn mutations() -> String {
+    let rows = mutants().into_iter().map(|mutant| {
+        let names: Vec<String> = mutant.noticed.iter().map(|name| format!("`{name}`")).collect();
+        let (noticed, reached) = (names.len(), mutant.reached);
+        format!("| {} | {noticed} of {reached} | {} |\n", mutant.mutation, names.join(", "))
+    });
+    format!("| wrong on purpose | cases that notice | which |\n|---|---|---|\n{}", rows.collect::<String>())
 }
 
 /// Versions, machines and days of the stored runs, and what was not run.
