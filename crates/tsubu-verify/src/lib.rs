@@ -61,7 +61,7 @@ pub use case_run::{CaseRun, Done};
 pub use control::is_missing as lacks_control;
 pub use keep::Archive;
 pub use moved::{Moved, moved};
-pub use mutants::{Mutant, mutants};
+pub use mutants::{Mutant, mutants, mutants_not_run};
 pub use reasons::reason;
 pub use recorded::{recorded, recorded_run};
 pub use registry::CASES;

@@ -5,7 +5,7 @@ use crate::table;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use tsubu_frame::{Claim, Origin, Verdict};
-use tsubu_verify::{CASES, CaseRun, lacks_control, mutants, reason, recorded, recorded_run};
+use tsubu_verify::{CASES, CaseRun, lacks_control, mutants, mutants_not_run, reason, recorded, recorded_run};
 
 const HEAD: &str = "\
 # What tsubu has been held against
@@ -134,7 +134,13 @@ fn mutations() -> String {
         let (noticed, reached) = (names.len(), mutant.reached);
         format!("| {} | {noticed} of {reached} | {} |\n", mutant.mutation, names.join(", "))
     });
-    format!("| wrong on purpose | cases that notice | which |\n|---|---|---|\n{}", rows.collect::<String>())
+    let mut table =
+        format!("| wrong on purpose | cases that notice | which |\n|---|---|---|\n{}", rows.collect::<String>());
+    let others = mutants_not_run();
+    if !others.is_empty() {
+        let _ = write!(table, "\nNot run since the engines last changed: {}.\n", others.join("; "));
+    }
+    table
 }
 
 /// Versions, machines and days of the stored runs, and what was not run.
