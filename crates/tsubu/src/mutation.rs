@@ -1,6 +1,6 @@
 //! Mutations: a constant of an engine 5 % too large, or a rule left out, on purpose, to see which verification cases notice.
 //!
-//! The feature `mutations` compiles them in. Without it [`mutated`] gives back what it gets and [`left_out`] says no, both known when
+//! The feature `mutations` compiles them in. Without it `mutated` gives back what it gets and `left_out` says no, both known when
 //! the program is compiled: the engines are the same as if nothing stood here.
 
 #![allow(clippy::inline_always, reason = "a call inside a row would end the vector code of its loop")]

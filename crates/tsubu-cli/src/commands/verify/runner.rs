@@ -232,22 +232,23 @@ mod tests {
     #[test]
     fn cases_run_at_once_on_threads_of_their_own() {
         static HERE: AtomicU32 = AtomicU32::new(0);
-        let meet = |_: f64| {
+        /// Waits until as many cases have come, so that no thread takes two.
+        fn meet(coming: u32) -> tsubu_verify::Judged {
             HERE.fetch_add(1, Ordering::SeqCst);
             let begun = Instant::now();
-            while HERE.load(Ordering::SeqCst) < 2 {
+            while HERE.load(Ordering::SeqCst) < coming {
                 if begun.elapsed() > Duration::from_secs(20) {
                     return Err("the other case did not come".to_owned());
                 }
                 std::thread::yield_now();
             }
             value(rayon::current_num_threads())
-        };
-        assert_eq!(heard(&[case(60, meet), case(60, meet)], 2), [(1.0, false), (1.0, false)]);
-        let count = |_: f64| value(rayon::current_num_threads());
-        let mut counts = heard(&[case(60, count), case(60, count)], 5);
+        }
+        assert_eq!(heard(&[case(60, |_| meet(2)), case(60, |_| meet(2))], 2), [(1.0, false), (1.0, false)]);
+        let mut counts = heard(&[case(60, |_| meet(4)), case(60, |_| meet(4))], 5);
         counts.sort_by(|a, b| a.0.total_cmp(&b.0));
         assert_eq!(counts, [(2.0, false), (3.0, false)]);
+        let count = |_: f64| value(rayon::current_num_threads());
         assert_eq!(heard(&[case(60, count)], 4), [(4.0, false)]);
     }
 
