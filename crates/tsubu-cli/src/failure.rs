@@ -4,11 +4,12 @@ use crate::stream::Stream;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
+use tsubu::bench::BenchError;
 use tsubu::engine::OpenError;
 use tsubu::run::RunError;
 use tsubu::study::cases::CasesError;
 use tsubu::study::compare::{CompareError, Refused};
-use tsubu_frame::{CheckpointError, FileError, checkpoint};
+use tsubu_frame::{Advise, CheckpointError, FileError, Hint, checkpoint};
 use tsubu_report::ReportError;
 use tsubu_scene::{Complaints, Scene};
 
@@ -23,7 +24,7 @@ pub struct Failure {
     code: u8,
     /// Nothing where all has been said.
     message: Option<Message>,
-    hints: Vec<String>,
+    hints: Vec<Hint>,
 }
 
 #[derive(Debug)]
@@ -61,20 +62,28 @@ impl Failure {
     }
 
     /// Adds a way out.
-    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+    pub fn hint(mut self, hint: impl Into<Hint>) -> Self {
         self.hints.push(hint.into());
         self
     }
 
-    /// `message` may end in lines that begin with `hint: `, and may be a scene's complaints in full.
     fn new(code: u8, message: impl Into<String>) -> Self {
-        let message: String = message.into();
-        if message.starts_with("error") {
-            return Self { code, message: Some(Message::Ready(message)), hints: Vec::new() };
-        }
-        let mut parts = message.split("\nhint: ");
-        let text = parts.next().unwrap_or_default().to_owned();
-        Self { code, message: Some(Message::Plain(text)), hints: parts.map(str::to_owned).collect() }
+        Self { code, message: Some(Message::Plain(message.into())), hints: Vec::new() }
+    }
+
+    /// An error with the ways out that it knows.
+    fn of(code: u8, error: &dyn Advise) -> Self {
+        Self { hints: error.hints(), ..Self::new(code, error.to_string()) }
+    }
+
+    /// What on the command line is wrong.
+    pub fn of_words(error: &dyn Advise) -> Self {
+        Self::of(WRONG, error)
+    }
+
+    /// What went wrong in a benchmark.
+    pub fn of_bench(error: &BenchError) -> Self {
+        Self::of(FAILED, error)
     }
 
     /// The message with its hints, as it is printed.
@@ -132,10 +141,10 @@ impl Failure {
                     .hint("start again with `--overwrite` in place of `--resume`")
             }
             RunError::Checkpoint(error) => Self::wrong(error.to_string()),
-            RunError::NoStep { .. } => Self::wrong(error.to_string()),
-            RunError::NotThisScene(message) => Self::wrong(message.as_str()),
-            RunError::Fault(fault) => Self::failed(fault.to_string())
-                .hint(format!("what was computed so far is kept in {}", folder.display())),
+            RunError::NoStep { .. } | RunError::NotThisScene(_) => Self::of(WRONG, error),
+            RunError::Fault(fault) => {
+                Self::of(FAILED, fault).hint(format!("what was computed so far is kept in {}", folder.display()))
+            }
         }
     }
 
@@ -144,11 +153,11 @@ impl Failure {
     /// A folder that cannot be made and results that cannot be read stop a run before it begins; a file that cannot
     /// be written stops it on its way.
     pub fn of_file(error: &FileError, folder: &Path) -> Self {
-        let FileError::Write { path, .. } = error else { return Self::wrong(error.to_string()) };
+        let FileError::Write { path, .. } = error else { return Self::of(WRONG, error) };
         if path == folder {
-            return Self::wrong(error.to_string()).hint("name another folder with `-o`");
+            return Self::of(WRONG, error).hint("name another folder with `-o`");
         }
-        let failure = Self::failed(error.to_string());
+        let failure = Self::of(FAILED, error);
         let failure = match checkpoint::read(&checkpoint::path(folder)) {
             Ok((header, _)) => failure.hint(format!(
                 "the checkpoint of step {}, t = {} s is whole: `--resume` goes on from it",
@@ -166,8 +175,9 @@ impl Failure {
     /// What went wrong with a report.
     pub fn of_report(error: &ReportError) -> Self {
         match error {
-            ReportError::File(FileError::Write { .. }) => Self::failed(error.to_string()),
-            _ => Self::wrong(error.to_string()),
+            ReportError::File(error @ FileError::Write { .. }) => Self::of(FAILED, error),
+            ReportError::File(error) => Self::of(WRONG, error),
+            ReportError::NoFolder { .. } | ReportError::NoResults { .. } => Self::wrong(error.to_string()),
         }
     }
 
@@ -175,6 +185,8 @@ impl Failure {
     pub fn of_cases(error: &CasesError, scene: &Scene, folder: &Path) -> Self {
         match error {
             CasesError::Scene(message) => Self::wrong(message.as_str()),
+            CasesError::Complaints(complaints) => complaints.into(),
+            CasesError::Open(error) => Self::of(WRONG, error),
             CasesError::Run { case, error } => Self::of_scene(error, scene, folder).about("case", case),
             CasesError::File(error) => Self::of_file(error, folder),
         }
@@ -207,7 +219,7 @@ impl Failure {
                 *text = format!("{kind} `{name}`: {text}");
             }
             Some(Message::Ready(text)) if !name.is_empty() && !text.contains(&format!("{kind} `{name}`")) => {
-                self.hints.push(format!("so it is in the {kind} `{name}`"));
+                self.hints.push(format!("so it is in the {kind} `{name}`").into());
             }
             _ => {}
         }
@@ -225,8 +237,35 @@ impl From<&Complaints> for Failure {
 impl From<&OpenError> for Failure {
     fn from(error: &OpenError) -> Self {
         match error {
-            OpenError::Running(_) | OpenError::Settling(_) => Self::failed(error.to_string()),
-            _ => Self::wrong(error.to_string()),
+            OpenError::Running(_) | OpenError::Settling(_) => Self::of(FAILED, error),
+            OpenError::Refused(_) | OpenError::Bed(_) => Self::of(WRONG, error),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tsubu::engine::Fault;
+
+    /// A message that began with "error" was taken for one in its final form, and lost its head; one with a line of the user's that
+    /// began with "hint: " was cut there. A hint is a value now, and a message is what it is.
+    #[test]
+    fn a_message_is_not_searched_for_hints() {
+        let failure = Failure::wrong("errors.toml is no folder\nhint: of a name").hint("name another");
+        assert_eq!(failure.text(), "error: errors.toml is no folder\nhint: of a name\nhint: name another\n");
+    }
+
+    /// Whoever resumed with another scene was told that it is another, and not what to do: the hint was lost on the way.
+    #[test]
+    fn the_hints_of_an_error_come_through() {
+        let error = RunError::NotThisScene("the checkpoint is of another scene".to_owned());
+        let text = Failure::of_run(&error, Path::new("out")).text();
+        let hint = "hint: run without `--resume` into another folder, or with `--overwrite`";
+        assert_eq!(text, format!("error: the checkpoint is of another scene\n{hint}\n"));
+        let fault = Fault::Lattice { step: 1, time: 0.5, text: "it jams".to_owned(), hint: Some("shake less".into()) };
+        let text = Failure::of_run(&fault.into(), Path::new("out")).text();
+        let kept = "hint: what was computed so far is kept in out";
+        assert_eq!(text, format!("error: step 1, t = 0.5 s: it jams\nhint: shake less\n{kept}\n"));
     }
 }

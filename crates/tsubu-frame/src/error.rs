@@ -1,7 +1,43 @@
-//! What can go wrong with a file, with its name in the message.
+//! What can go wrong with a file, with its name in the message; and what to do about an error.
 
+use std::borrow::Cow;
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
+
+/// What to do about an error: a value of its own, beside the message that says what went wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hint(Cow<'static, str>);
+
+impl fmt::Display for Hint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl From<&'static str> for Hint {
+    fn from(text: &'static str) -> Self {
+        Self(text.into())
+    }
+}
+
+impl From<String> for Hint {
+    fn from(text: String) -> Self {
+        Self(text.into())
+    }
+}
+
+/// An error that may know ways out.
+pub trait Advise: std::error::Error {
+    /// What to do about it.
+    fn hints(&self) -> Vec<Hint>;
+
+    /// What went wrong and what to do about it, for the remarks on a run: every hint on a line of its own.
+    fn told(&self) -> String {
+        let hints = self.hints().into_iter().map(|hint| format!("\nhint: {hint}"));
+        std::iter::once(self.to_string()).chain(hints).collect()
+    }
+}
 
 /// A file or folder that could not be written, read or understood.
 #[derive(Debug, thiserror::Error)]
@@ -29,6 +65,8 @@ pub enum FileError {
         path: PathBuf,
         /// What is wrong with it.
         reason: String,
+        /// What to do about it.
+        hint: Option<Hint>,
     },
     /// The output folder has something in it already.
     #[error(
@@ -42,8 +80,7 @@ pub enum FileError {
     },
     /// Something stands where a result is to be written, and tsubu has not put it there.
     #[error(
-        "{} was not written by this tsubu, and is left as it is\n\
-         hint: name another folder with `-o`, or move it away (results of a tsubu from before the file `.tsubu` too)",
+        "{} was not written by this tsubu, and is left as it is",
         path.display()
     )]
     Foreign {
@@ -52,8 +89,7 @@ pub enum FileError {
     },
     /// A file that tsubu wrote, and somebody has changed since.
     #[error(
-        "{} has been changed since tsubu wrote it, and is left as it is\n\
-         hint: name another folder with `-o`, or move the file away",
+        "{} has been changed since tsubu wrote it, and is left as it is",
         path.display()
     )]
     Edited {
@@ -62,8 +98,7 @@ pub enum FileError {
     },
     /// A file or folder in the output folder that stands somewhere else.
     #[error(
-        "{} is a link, and tsubu writes through none\n\
-         hint: remove it, or name the folder that it leads to with `-o`",
+        "{} is a link, and tsubu writes through none",
         path.display()
     )]
     Link {
@@ -72,8 +107,7 @@ pub enum FileError {
     },
     /// Somebody else writes there.
     #[error(
-        "another tsubu is writing into this folder: it holds the lock {}\n\
-         hint: wait for its end, or name another folder with `-o`",
+        "another tsubu is writing into this folder: it holds the lock {}",
         path.display()
     )]
     Locked {
@@ -82,8 +116,7 @@ pub enum FileError {
     },
     /// A folder of which nobody knows what in it is tsubu's.
     #[error(
-        "cannot go on in {}: it has no file `.tsubu`, which says what tsubu wrote there\n\
-         hint: start again into another folder, without `--resume`",
+        "cannot go on in {}: it has no file `.tsubu`, which says what tsubu wrote there",
         path.display()
     )]
     Unmarked {
@@ -113,7 +146,7 @@ impl FileError {
 
     /// Content that cannot be understood.
     pub fn content(path: &Path, reason: impl Into<String>) -> Self {
-        Self::Content { path: path.to_owned(), reason: reason.into() }
+        Self::Content { path: path.to_owned(), reason: reason.into(), hint: None }
     }
 
     /// The file or folder it is about.
@@ -136,5 +169,23 @@ impl FileError {
     pub fn is_disk_full(&self) -> bool {
         matches!(self, Self::Write { source, .. }
             if matches!(source.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded))
+    }
+}
+
+impl Advise for FileError {
+    fn hints(&self) -> Vec<Hint> {
+        let hint = match self {
+            Self::Write { .. } | Self::Read { .. } | Self::NotEmpty { .. } | Self::NothingToResume { .. } => None,
+            Self::Content { hint, .. } => hint.clone(),
+            Self::Foreign { .. } => Some(
+                "name another folder with `-o`, or move it away (results of a tsubu from before the file `.tsubu` too)"
+                    .into(),
+            ),
+            Self::Edited { .. } => Some("name another folder with `-o`, or move the file away".into()),
+            Self::Link { .. } => Some("remove it, or name the folder that it leads to with `-o`".into()),
+            Self::Locked { .. } => Some("wait for its end, or name another folder with `-o`".into()),
+            Self::Unmarked { .. } => Some("start again into another folder, without `--resume`".into()),
+        };
+        hint.into_iter().collect()
     }
 }

@@ -37,8 +37,8 @@ impl Mark {
     /// Whether a file still begins with what was there at the checkpoint.
     pub fn check(self, path: &Path) -> Result<(), FileError> {
         let refuse = |reason: &str| {
-            let hint = "hint: put it back as it was, or start again with `--overwrite` in place of `--resume`";
-            Err(FileError::content(path, format!("{reason}\n{hint}")))
+            let hint = "put it back as it was, or start again with `--overwrite` in place of `--resume`";
+            Err(FileError::Content { path: path.to_owned(), reason: reason.to_owned(), hint: Some(hint.into()) })
         };
         let file = match File::open(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {

@@ -25,7 +25,7 @@ pub mod xyz;
 pub use checkpoint::{CheckpointError, Header};
 pub use claim::{Claim, Ensemble, Origin, Points, Source, Verdict};
 pub use csv::{Cell, Table};
-pub use error::FileError;
+pub use error::{Advise, FileError, Hint};
 pub use folder::{Existing, RunFolder};
 pub use frame::{Column, Frame, Kind, Values};
 pub use history::{History, Mark};

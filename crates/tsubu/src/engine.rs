@@ -4,7 +4,7 @@ use crate::ledger::{Energies, Ledger};
 use crate::partner::Hosts;
 use crate::view::{View, Wants};
 use tsubu_frame::state::MissingSection;
-use tsubu_frame::{Frame, State};
+use tsubu_frame::{Advise, Frame, Hint, State};
 
 /// What an engine did with one entry of the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,9 +32,7 @@ pub enum Verdict {
 #[derive(Debug, thiserror::Error)]
 pub enum Fault {
     /// A number is no longer finite.
-    #[error(
-        "step {step}, t = {time} s: the {what} of grain {grain} is not a number\nhint: the time step is probably too long; `tsubu check` tells the longest safe one"
-    )]
+    #[error("step {step}, t = {time} s: the {what} of grain {grain} is not a number")]
     NotFinite {
         /// Step number.
         step: u64,
@@ -47,7 +45,7 @@ pub enum Fault {
     },
     /// Two bodies sit too deep in each other.
     #[error(
-        "step {step}, t = {time} s: grain {grain} overlaps {other} by {ratio:.3} of its diameter, more than `dem.largest-overlap` = {limit}\nhint: {}", hint(*crushed)
+        "step {step}, t = {time} s: grain {grain} overlaps {other} by {ratio:.3} of its diameter, more than `dem.largest-overlap` = {limit}"
     )]
     Overlap {
         /// Step number.
@@ -68,9 +66,7 @@ pub enum Fault {
     /// A bed did not come to rest in the time that it was given before time 0.
     #[error(
         "after {step} steps, {time} s, the grains have not come to rest: grain {grain} moves at {speed:.3} m/s, and all together have \
-         {share:.2} of the energy of a fall by a diameter\n\
-         hint: raise `start.settled.time` of their group; grains without friction and damping, or with a `restitution` near 1, do not come to rest; \
-         `start.rows` begins without it"
+         {share:.2} of the energy of a fall by a diameter"
     )]
     Unsettled {
         /// Steps of settling.
@@ -91,13 +87,33 @@ pub enum Fault {
         step: u64,
         /// Simulated time [s].
         time: f64,
-        /// What happened and what to change.
+        /// What happened.
         text: String,
+        /// What to change.
+        hint: Option<Hint>,
     },
 }
 
+impl Advise for Fault {
+    fn hints(&self) -> Vec<Hint> {
+        let hint = match self {
+            Self::NotFinite { .. } => {
+                Some("the time step is probably too long; `tsubu check` tells the longest safe one".into())
+            }
+            Self::Overlap { crushed, .. } => Some(of_overlaps(*crushed).into()),
+            Self::Unsettled { .. } => Some(
+                "raise `start.settled.time` of their group; grains without friction and damping, or with a `restitution` near 1, \
+                 do not come to rest; `start.rows` begins without it"
+                    .into(),
+            ),
+            Self::Lattice { hint, .. } => hint.clone(),
+        };
+        hint.into_iter().collect()
+    }
+}
+
 /// What to do about bodies that sit too deep in each other.
-const fn hint(crushed: bool) -> &'static str {
+const fn of_overlaps(crushed: bool) -> &'static str {
     if crushed {
         "a body that moves as told gives way to nothing: give the grain a way out, or stiffen the material; where grains \
          are meant to be crushed raise `dem.largest-overlap`; a shorter `dem.time-step` helps only against fast impacts"
@@ -132,6 +148,15 @@ pub enum OpenError {
     /// A settled bed does not fit the engine it is given to.
     #[error("{0}")]
     Bed(String),
+}
+
+impl Advise for OpenError {
+    fn hints(&self) -> Vec<Hint> {
+        match self {
+            Self::Settling(fault) | Self::Running(fault) => fault.hints(),
+            Self::Refused(_) | Self::Bed(_) => Vec::new(),
+        }
+    }
 }
 
 /// Something that can advance a plan.

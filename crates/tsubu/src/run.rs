@@ -18,8 +18,8 @@ use measured::Measured;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use tsubu_frame::{
-    Claim, Existing, FileError, Formats, FrameWriter, Header, History, Mark, ResultValue, RunFolder, Source, State,
-    Status, Summary, checkpoint,
+    Advise, Claim, Existing, FileError, Formats, FrameWriter, Header, History, Mark, ResultValue, RunFolder, Source,
+    State, Status, Summary, checkpoint,
 };
 use tsubu_scene::{Plan, Scene};
 
@@ -168,7 +168,7 @@ impl Run<'_> {
             if let Err(fault) = self.engine.advance(target - now, &mut self.hosts, &mut self.ledger) {
                 self.sync(folder, &mut out)?;
                 let mut summary = self.summary(Status::Failed);
-                summary.warnings.push(fault.to_string());
+                summary.warnings.push(fault.told());
                 Self::end(folder, &summary)?;
                 return Err(fault.into());
             }

@@ -40,7 +40,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     progress.end();
     let bench = measured.map_err(|error| match error {
         BenchError::Interrupted => Failure::interrupted("interrupted; nothing was written"),
-        other => Failure::failed(other.to_string()),
+        other => Failure::of_bench(&other),
     })?;
     output::print(&told(&bench))?;
     if let Some(folder) = &options.output {

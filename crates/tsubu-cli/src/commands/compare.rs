@@ -37,7 +37,7 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
-    let variants = Variant::list(&options.methods.join(",")).map_err(Failure::wrong)?;
+    let variants = Variant::list(&options.methods.join(",")).map_err(|error| Failure::of_words(&error))?;
     let scene = options.scene.read()?;
     let folder = options.folder.folder(&options.scene, "-compare");
     let pool = options.work.pool()?;

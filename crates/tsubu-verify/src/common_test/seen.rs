@@ -152,7 +152,8 @@ pub(super) fn judged(test: &Test, perturbation: f64, folder: Option<&RunFolder>)
 fn run(test: &Test, perturbation: f64) -> Result<Measured, String> {
     let scene = Scene::parse(test.name, test.scene, Path::new("."), &[]).map_err(|c| c.to_string())?;
     let of = |list: &str| {
-        let variants = if list.is_empty() { Vec::new() } else { Variant::list(list)? };
+        let variants =
+            if list.is_empty() { Vec::new() } else { Variant::list(list).map_err(|error| error.to_string())? };
         compare::scenes(&scene, &variants).map_err(|error| error.to_string())
     };
     let (mut who, mut refused) = of(WHO)?;

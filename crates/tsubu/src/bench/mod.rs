@@ -14,6 +14,7 @@ use crate::partner::Hosts;
 use crate::threads::alone;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
+use tsubu_frame::{Advise, Hint};
 
 /// What was measured on a machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -62,6 +63,15 @@ pub enum BenchError {
     /// Whoever started it has stopped it.
     #[error("interrupted")]
     Interrupted,
+}
+
+impl Advise for BenchError {
+    fn hints(&self) -> Vec<Hint> {
+        match self {
+            Self::Work { error, .. } => error.hints(),
+            Self::Threads(_) | Self::Interrupted => Vec::new(),
+        }
+    }
 }
 
 /// Share of the time of a piece of work that goes into making it: grains must have met before it counts.

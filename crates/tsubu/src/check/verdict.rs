@@ -7,6 +7,7 @@ use crate::engine::{Engine, Fault, Verdict as Noted};
 use crate::memory::{self, human_memory};
 use crate::partner::Hosts;
 use std::fmt;
+use tsubu_frame::{Advise, Hint};
 use tsubu_scene::plan::{Integrator, Method, Plan};
 
 /// One judgement.
@@ -46,9 +47,8 @@ impl Verdict {
 
     /// The other lines say why; without them the user would be left with the blow-up alone.
     pub(crate) fn fail(&mut self, what: &str, fault: &Fault) {
-        let text = fault.to_string();
-        let (reason, hint) = text.split_once("\nhint: ").unwrap_or((&text, "what the warnings above name"));
-        self.judge(false, format!("{what}: {reason}"), || hint.to_owned());
+        let hint = fault.hints().first().map_or_else(|| "what the warnings above name".to_owned(), Hint::to_string);
+        self.judge(false, format!("{what}: {fault}"), || hint);
         self.fails = true;
     }
 

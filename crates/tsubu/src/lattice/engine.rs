@@ -91,7 +91,7 @@ impl LatticeEngine {
     }
 
     fn fault(&self, what: OutOfRoom) -> Fault {
-        Fault::Lattice { step: self.steps(), time: self.time(), text: what.to_string() }
+        Fault::Lattice { step: self.steps(), time: self.time(), text: what.to_string(), hint: Some(what.hint()) }
     }
 
     fn step(&mut self, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {

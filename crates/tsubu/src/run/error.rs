@@ -2,7 +2,7 @@
 
 use crate::engine::{Fault, OpenError};
 use tsubu_frame::state::MissingSection;
-use tsubu_frame::{CheckpointError, FileError};
+use tsubu_frame::{Advise, CheckpointError, FileError, Hint};
 
 /// Why there is no result.
 #[derive(Debug, thiserror::Error)]
@@ -17,10 +17,7 @@ pub enum RunError {
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
     /// A run that would be over before it begins.
-    #[error(
-        "the run has no step: `duration` = {duration} s is less than half of the time step, {dt} s\n\
-         hint: raise `duration`, or shorten the time step"
-    )]
+    #[error("the run has no step: `duration` = {duration} s is less than half of the time step, {dt} s")]
     NoStep {
         /// Duration of the scene [s].
         duration: f64,
@@ -28,11 +25,24 @@ pub enum RunError {
         dt: f64,
     },
     /// A checkpoint of another scene, or of another version.
-    #[error("{0}\nhint: run without `--resume` into another folder, or with `--overwrite`")]
+    #[error("{0}")]
     NotThisScene(String),
     /// The run went wrong; what was computed so far is in the folder.
     #[error("{0}")]
     Fault(#[from] Fault),
+}
+
+impl Advise for RunError {
+    fn hints(&self) -> Vec<Hint> {
+        match self {
+            Self::Open(error) => error.hints(),
+            Self::File(error) => error.hints(),
+            Self::Checkpoint(_) => Vec::new(),
+            Self::NoStep { .. } => vec!["raise `duration`, or shorten the time step".into()],
+            Self::NotThisScene(_) => vec!["run without `--resume` into another folder, or with `--overwrite`".into()],
+            Self::Fault(fault) => fault.hints(),
+        }
+    }
 }
 
 impl From<OpenError> for RunError {

@@ -1,5 +1,6 @@
 //! Every combination of the values that a study varies.
 
+use crate::engine::OpenError;
 use crate::run::RunError;
 use std::collections::BTreeMap;
 use toml::Value;
@@ -12,6 +13,12 @@ pub enum CasesError {
     /// The scene does not say what the study needs, or a case of it is wrong.
     #[error("{0}")]
     Scene(String),
+    /// A case of it cannot be read.
+    #[error("{0}")]
+    Complaints(Complaints),
+    /// A case of it cannot be run.
+    #[error(transparent)]
+    Open(OpenError),
     /// A case went wrong.
     #[error("case `{case}`: {error}")]
     Run {

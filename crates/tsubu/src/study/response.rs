@@ -145,9 +145,7 @@ impl Task {
     fn told(&self, Failed { key, error }: &Failed) -> String {
         let (case, ratio) = (&self.cases[key.case].name, self.wanted.frequency_ratio[key.frequency]);
         let case = if case.is_empty() { String::new() } else { format!("case `{case}`, ") };
-        let error = error.to_string();
-        let reason = error.split("\nhint: ").next().unwrap_or_default();
-        format!("{case}frequency ratio {ratio}, seed {}: the run failed and is not in the curve: {reason}", key.seed)
+        format!("{case}frequency ratio {ratio}, seed {}: the run failed and is not in the curve: {error}", key.seed)
     }
 
     /// The failure that stands for all.
@@ -249,9 +247,7 @@ fn keep(failures: &Mutex<Vec<Failed>>, key: Key, error: RunError) {
 }
 
 fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, CasesError> {
-    list.iter()
-        .map(|case| Ok(case.scene(scene).map_err(|c| CasesError::Scene(c.to_string()))?.plan().clone()))
-        .collect()
+    list.iter().map(|case| Ok(case.scene(scene).map_err(CasesError::Complaints)?.plan().clone())).collect()
 }
 
 /// First line of the journal: which scene it belongs to.
@@ -308,6 +304,6 @@ fn journal(folder: &RunFolder) -> Result<File, FileError> {
 
 impl From<OpenError> for CasesError {
     fn from(error: OpenError) -> Self {
-        Self::Scene(error.to_string())
+        Self::Open(error)
     }
 }

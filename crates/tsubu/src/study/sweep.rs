@@ -13,7 +13,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use tsubu_frame::summary::read_json;
-use tsubu_frame::{Cell, Existing, ResultValue, RunFolder, Status, Summary, Table};
+use tsubu_frame::{Advise, Cell, Existing, ResultValue, RunFolder, Status, Summary, Table};
 use tsubu_scene::Scene;
 
 /// What a sweep took as a whole, interruptions left out: its cases run side by side, their times add up to more.
@@ -35,7 +35,7 @@ pub fn sweep(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -
     let list = cases(&wanted.vary);
     // A case that its method refuses must say so before the others have run, and leave nothing behind.
     for case in &list {
-        let scene = case.scene(scene).map_err(|c| CasesError::Scene(c.to_string()))?;
+        let scene = case.scene(scene).map_err(CasesError::Complaints)?;
         let plan = trial::unsettled(scene.plan());
         let open = methods::open(&plan, &Hosts::new(&plan.hosts)).map_err(RunError::from);
         open.and_then(|engine| run::steps(&plan, &*engine))
@@ -80,7 +80,7 @@ pub fn sweep(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -
 const CASES: &str = "cases/";
 
 fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<Summary, CasesError> {
-    let scene = case.scene(scene).map_err(|c| CasesError::Scene(c.to_string()))?;
+    let scene = case.scene(scene).map_err(CasesError::Complaints)?;
     let same = std::fs::read_to_string(folder.join("scene.toml")).is_ok_and(|text| text == scene.resolved_toml());
     let earlier = Summary::read(&folder.join("summary.json")).ok().filter(|_| same);
     if let Some(summary) = earlier.filter(|s| s.status == Status::Finished) {
@@ -92,7 +92,7 @@ fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<S
     match run::run_with(&scene, folder, existing, false, &quiet) {
         Ok(summary) => Ok(summary),
         // One case that goes wrong leaves the others their results.
-        Err(RunError::Fault(fault)) => Ok(failed(folder, &fault.to_string())),
+        Err(RunError::Fault(fault)) => Ok(failed(folder, &fault.told())),
         Err(error) => Err(CasesError::Run { case: case.name.clone(), error }),
     }
 }

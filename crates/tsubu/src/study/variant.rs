@@ -1,5 +1,6 @@
 //! What stands side by side in a comparison: methods, and variants of them.
 
+use tsubu_frame::{Advise, Hint};
 use tsubu_scene::plan::Method;
 
 /// A column of a comparison: a method, and what of the scene is changed for it.
@@ -16,22 +17,42 @@ pub struct Variant {
 }
 
 /// What a list of variants looks like.
-const FORM: &str = "hint: write METHOD, METHOD:KEY=VALUE or NAME=METHOD:KEY=VALUE with commas between, for example \
+const FORM: &str = "write METHOD, METHOD:KEY=VALUE or NAME=METHOD:KEY=VALUE with commas between, for example \
                     dem,locked=dem:contact.rotation=false; `all` is every method that can";
+
+/// A list that cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct VariantError {
+    message: String,
+    hints: Vec<Hint>,
+}
+
+impl VariantError {
+    fn new(message: String, hint: impl Into<Hint>) -> Self {
+        Self { message, hints: vec![hint.into()] }
+    }
+}
+
+impl Advise for VariantError {
+    fn hints(&self) -> Vec<Hint> {
+        self.hints.clone()
+    }
+}
 
 impl Variant {
     /// Reads a list such as `dem,dem:contact.rotation=false,cl-ca`: methods with commas between, each with changes of the
     /// scene behind colons and, if wanted, a name and `=` in front. `all` stands for all methods that are not in the list;
     /// those may refuse. Commas and colons in brackets or quotes belong to a value.
-    pub fn list(text: &str) -> Result<Vec<Self>, String> {
+    pub fn list(text: &str) -> Result<Vec<Self>, VariantError> {
         let items: Vec<&str> = split(text, ',').into_iter().map(str::trim).collect();
         let mut variants = Vec::new();
         for item in items.iter().filter(|item| **item != "all") {
             let variant = Self::one(item)?;
             if variants.iter().any(|known: &Self| known.name == variant.name) {
-                return Err(format!(
-                    "`{}` is named twice\nhint: give a variant a name of its own: NAME=METHOD:KEY=VALUE",
-                    variant.name
+                return Err(VariantError::new(
+                    format!("`{}` is named twice", variant.name),
+                    "give a variant a name of its own: NAME=METHOD:KEY=VALUE",
                 ));
             }
             variants.push(variant);
@@ -47,28 +68,31 @@ impl Variant {
         Ok(variants)
     }
 
-    fn one(text: &str) -> Result<Self, String> {
+    fn one(text: &str) -> Result<Self, VariantError> {
         let mut parts = split(text, ':').into_iter();
         let head = parts.next().unwrap_or_default();
         let (given, word) = head.split_once('=').map_or((None, head), |(name, method)| (Some(name), method));
         let Some(method) = Method::ALL.into_iter().find(|method| method.name() == word) else {
             let names = Method::ALL.map(Method::name).join(", ");
-            return Err(format!("method `{word}` is unknown\nhint: methods: {names}\n{FORM}"));
+            let hints = vec![format!("methods: {names}").into(), FORM.into()];
+            return Err(VariantError { message: format!("method `{word}` is unknown"), hints });
         };
         let changes: Vec<String> = parts.map(str::to_owned).collect();
         if let Some(change) = changes.iter().find(|change| !change.contains('=')) {
-            return Err(format!("`{text}`: `{change}` changes nothing, for it has no `=`\n{FORM}"));
+            let message = format!("`{text}`: `{change}` changes nothing, for it has no `=`");
+            return Err(VariantError::new(message, FORM));
         }
         let name = match given {
             Some(name) if name.is_empty() || name != plain(name) || name.starts_with('.') => {
-                return Err(format!(
-                    "`{name}` cannot be the name of a column and a folder\nhint: use letters, digits, `-`, `_` and `.`, \
-                     not a dot first"
+                return Err(VariantError::new(
+                    format!("`{name}` cannot be the name of a column and a folder"),
+                    "use letters, digits, `-`, `_` and `.`, not a dot first",
                 ));
             }
             Some(name) if Method::ALL.iter().any(|known| known.name() == name && *known != method) || name == "all" => {
-                return Err(format!(
-                    "`{name}` means something else than a variant of `{word}`\nhint: choose another name"
+                return Err(VariantError::new(
+                    format!("`{name}` means something else than a variant of `{word}`"),
+                    "choose another name",
                 ));
             }
             Some(name) => name.to_owned(),
@@ -149,7 +173,7 @@ mod tests {
             ("=dem", "`` cannot be the name"),
             ("cl-ca=dem", "`cl-ca` means something else"),
         ] {
-            let error = Variant::list(text).expect_err(text);
+            let error = Variant::list(text).expect_err(text).to_string();
             assert!(error.starts_with(said) || error.contains(said), "{text}: {error}");
         }
     }

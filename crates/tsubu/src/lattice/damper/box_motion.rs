@@ -11,31 +11,37 @@
 use super::Damper;
 use crate::lattice::direction::{Direction, Vector};
 use crate::lattice::grid::EMPTY;
+use tsubu_frame::Hint;
 
 /// The box cannot move there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum OutOfRoom {
     /// It leaves the grid.
-    #[error(
-        "the box moved more than {head} cells from its place, out of the automaton's grid\nhint: raise `lattice.head-room`, or shake less"
-    )]
+    #[error("the box moved more than {head} cells from its place, out of the automaton's grid")]
     Grid {
         /// Cells above and below.
         head: usize,
     },
     /// It moves too fast.
-    #[error(
-        "the box moves faster than a quarter of a cell a step, too fast for the automaton\nhint: shorten `lattice.time-step`, or shake less"
-    )]
+    #[error("the box moves faster than a quarter of a cell a step, too fast for the automaton")]
     Speed,
     /// The cells that an ejected cluster moves to are taken.
-    #[error(
-        "an ejected cluster of {balls} balls is squeezed against the opposite wall\nhint: use fewer balls, or a higher box"
-    )]
+    #[error("an ejected cluster of {balls} balls is squeezed against the opposite wall")]
     Squeezed {
         /// Size of the cluster.
         balls: usize,
     },
+}
+
+impl OutOfRoom {
+    /// What to change.
+    pub fn hint(self) -> Hint {
+        match self {
+            Self::Grid { .. } => "raise `lattice.head-room`, or shake less".into(),
+            Self::Speed => "shorten `lattice.time-step`, or shake less".into(),
+            Self::Squeezed { .. } => "use fewer balls, or a higher box".into(),
+        }
+    }
 }
 
 impl Damper {

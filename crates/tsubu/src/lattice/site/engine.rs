@@ -162,7 +162,7 @@ impl Engine for SiteEngine {
             self.open_gates(time);
             self.insert(time, ledger);
             let before = if cfg!(debug_assertions) { self.seated() } else { Vec::new() };
-            self.model.advance().map_err(|text| Fault::Lattice { step: self.model.step(), time, text })?;
+            self.model.advance().map_err(|text| Fault::Lattice { step: self.model.step(), time, text, hint: None })?;
             self.remove(ledger);
             debug_assert_eq!(self.fault(&before), None, "step {}", self.model.step());
             for host in &mut hosts.list {
