@@ -9,6 +9,7 @@ mod machine;
 mod options;
 mod output;
 mod progress;
+mod session;
 mod stop;
 mod stream;
 mod table;

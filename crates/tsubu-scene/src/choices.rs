@@ -1,6 +1,6 @@
 //! What a scene can ask for by name: the tables of choices, the words of lists, the tables that may be there.
 
-use crate::keys::{self, Key, Kind, Need};
+use crate::keys::{self, Family, Key, Kind, Need};
 use crate::reference;
 
 /// One of them.
@@ -24,6 +24,8 @@ enum Form {
     Word,
     /// A word in a list.
     Listed,
+    /// The name of something that the scene defines elsewhere.
+    Named,
 }
 
 /// A key of a choice, in words.
@@ -61,6 +63,7 @@ impl Choice {
         match self.form {
             Form::Table => format!("[{}]", self.path),
             Form::Word => format!("{} = \"{}\"", self.home(), self.name()),
+            Form::Named => format!("{} = \"NAME\"", self.path),
             Form::Listed => format!("{} = [\"{}\"]", self.home(), self.name()),
         }
     }
@@ -96,6 +99,10 @@ pub fn choices() -> Vec<Choice> {
                 Kind::SomeOf(words) => {
                     choices.extend(words.iter().map(|w| one(of(w.name), w.about, &[], Form::Listed)));
                 }
+                // Who moves a wall: its tables do, or a host, which is told by its name.
+                Kind::Name(Family::Host) if matches!(key.need, Need::Optional) => {
+                    choices.push(one(here, key.about, &[], Form::Named));
+                }
                 Kind::Table(keys) if matches!(key.need, Need::Optional) => {
                     choices.push(one(here, key.about, keys, Form::Table));
                 }
@@ -126,6 +133,7 @@ mod tests {
         assert_eq!(typed("contact.normal.hertz").as_deref(), Some("[contact.normal.hertz]"));
         assert_eq!(typed("method.dem").as_deref(), Some("method = \"dem\""));
         assert_eq!(typed("water.lift.magnus").as_deref(), Some("water.lift = [\"magnus\"]"));
+        assert_eq!(typed("walls.NAME.host").as_deref(), Some("walls.NAME.host = \"NAME\""));
         assert_eq!(typed("watch.NAME.slope").as_deref(), Some("[watch.NAME.slope]"));
     }
 

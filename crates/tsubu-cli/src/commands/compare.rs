@@ -1,11 +1,10 @@
 //! `tsubu compare`: one scene by several methods.
 
-use super::{claims, report, run::warnings};
+use super::{claims, run::warnings};
 use crate::failure::Failure;
 use crate::options::{FolderOptions, SceneOptions, WorkOptions};
-use crate::output;
-use crate::progress::Progress;
-use crate::{stop, table};
+use crate::session::{Session, judge};
+use crate::table;
 use clap::Args;
 use std::path::Path;
 use tsubu::interrupt::Watcher;
@@ -36,27 +35,23 @@ pub struct Options {
     work: WorkOptions,
 }
 
+/// What to do after an interruption.
+const AGAIN: &str = "a comparison does not resume: start it again with `--overwrite`";
+
 pub fn run(options: &Options) -> Result<(), Failure> {
     let variants = Variant::list(&options.methods.join(",")).map_err(|error| Failure::of_words(&error))?;
-    let scene = options.scene.read()?;
-    let folder = options.folder.folder(&options.scene, "-compare");
-    let pool = options.work.pool()?;
-    let progress = Progress::new("compare", options.work.quiet);
-    let watcher = Watcher {
-        interrupt: stop::interrupt("interrupted; a comparison does not resume: start it again with `--overwrite`"),
-        progress: &|done| progress.set(done),
-    };
-    let done = pool.install(|| alone(|| compare(&scene, &variants, &folder, options.folder.existing(), &watcher)));
-    progress.end();
-    let compared = done.map_err(|error| Failure::of_compare(&error, &scene, &folder))?;
+    let session = Session::begin("compare", "-compare", &options.scene, &options.folder, &options.work)?;
+    let Session { scene, folder, .. } = &session;
+    let existing = options.folder.existing();
+    let work = |watcher: &Watcher| alone(|| compare(scene, &variants, folder, existing, watcher));
+    let (done, _) = session.work(&format!("interrupted; {AGAIN}"), work);
+    let compared = done.map_err(|error| Failure::of_compare(&error, scene, folder))?;
     if compared.done.iter().any(|(_, summary)| summary.status == Status::Interrupted) {
         let message = format!("interrupted; what was computed so far is in {}", folder.display());
-        return Err(
-            Failure::interrupted(message).hint("a comparison does not resume: start it again with `--overwrite`")
-        );
+        return Err(Failure::interrupted(message).hint(AGAIN));
     }
-    let page = pool.install(|| report::write(&folder))?;
-    let mut text = told(&folder)?;
+    let page = session.page()?;
+    let mut text = told(folder)?;
     text += &compared.refused.iter().map(ToString::to_string).collect::<String>();
     for (variant, summary) in &compared.done {
         for claim in &summary.claims {
@@ -65,13 +60,8 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         let warned: Vec<String> = summary.warnings.iter().map(|w| format!("{}: {w}", variant.name)).collect();
         text += &warnings(&warned);
     }
-    output::print(&text)?;
-    output::tell(&format!("results in {}; open {}\n", folder.display(), page.display()));
-    if compared.done.iter().flat_map(|(_, s)| &s.claims).all(|claim| claim.pass) {
-        Ok(())
-    } else {
-        Err(Failure::claim())
-    }
+    session.show(&text, Some(&page))?;
+    judge(compared.done.iter().flat_map(|(_, summary)| &summary.claims))
 }
 
 fn told(folder: &Path) -> Result<String, Failure> {

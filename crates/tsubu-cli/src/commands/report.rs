@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::output;
 use crate::stream::Stream;
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -28,9 +28,4 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     }
     Err(Failure::failed(format!("results in {} are not whole", options.folder.display()))
         .hint("the page has what could be read"))
-}
-
-/// Writes figures and page into a folder of results that were just computed, and gives the page's path.
-pub fn write(folder: &Path) -> Result<PathBuf, Failure> {
-    tsubu_report::report(folder).map(|written| written.page).map_err(|error| Failure::of_report(&error))
 }

@@ -1,11 +1,10 @@
 //! `tsubu response`: vibration against frequency.
 
-use super::{claims, report, run::warnings};
+use super::{claims, run::warnings};
 use crate::failure::Failure;
 use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
-use crate::output;
-use crate::progress::Progress;
-use crate::{stop, table};
+use crate::session::{Session, judge, resume};
+use crate::table;
 use clap::Args;
 use std::path::Path;
 use tsubu::check::human_time;
@@ -33,33 +32,28 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
-    let scene = options.scene.read()?;
-    let folder = options.folder.folder(&options.scene, "-response");
-    let pool = options.work.pool()?;
-    if options.resume && !folder.is_dir() {
-        return Err(Failure::wrong(format!("nothing to resume: {} is not a folder", folder.display())));
+    let session = Session::begin("response", "-response", &options.scene, &options.folder, &options.work)?;
+    if options.resume {
+        session.needs_folder()?;
     }
-    let progress = Progress::new("response", options.work.quiet);
-    let words = format!("interrupted; go on with `{}`", command_to_resume());
-    let watcher = Watcher { interrupt: stop::interrupt(&words), progress: &|done| progress.set(done) };
+    let Session { scene, folder, .. } = &session;
     let overwrite = options.folder.overwrite;
-    let done = pool.install(|| tsubu::study::response::response(&scene, &folder, overwrite, &watcher));
-    progress.end();
-    let summary = done.map_err(|error| Failure::of_cases(&error, &scene, &folder))?;
+    let work = |watcher: &Watcher| tsubu::study::response::response(scene, folder, overwrite, watcher);
+    let (done, _) = session.work(&format!("interrupted; {}", resume()), work);
+    let summary = done.map_err(|error| Failure::of_cases(&error, scene, folder))?;
     if summary.status == Status::Interrupted {
         let message = format!("interrupted; the finished frequencies are in {}", folder.display());
-        return Err(Failure::interrupted(message).hint(format!("go on with `{}`", command_to_resume())));
+        return Err(Failure::interrupted(message).hint(resume()));
     }
-    let page = pool.install(|| report::write(&folder))?;
+    let page = session.page()?;
     let claims: String = summary.claims.iter().map(claims::line).collect();
-    output::print(&(cases(&folder)? + &claims + &warnings(&summary.warnings)))?;
-    output::tell(&format!("results in {}; open {}\n", folder.display(), page.display()));
+    session.show(&(cases(folder)? + &claims + &warnings(&summary.warnings)), Some(&page))?;
     if summary.status == Status::Failed {
         let again = command_to_resume();
         return Err(Failure::failed("some of the runs failed; the warnings above name them")
             .hint(format!("the others are kept; `{again}` tries those again that failed")));
     }
-    if summary.claims.iter().all(|claim| claim.pass) { Ok(()) } else { Err(Failure::claim()) }
+    judge(&summary.claims)
 }
 
 /// Columns of `cases.csv` that fit on a terminal, with the factor to the unit shown.

@@ -2,11 +2,10 @@
 
 use super::claims;
 use crate::failure::Failure;
-use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
-use crate::output;
-use crate::progress::Progress;
+use crate::options::{FolderOptions, SceneOptions, WorkOptions};
+use crate::session::{Session, judge, resume};
 use crate::stream::Stream;
-use crate::{machine, stop, table};
+use crate::{machine, table};
 use clap::Args;
 use std::fmt::Write as _;
 use tsubu::check::human_time;
@@ -37,18 +36,12 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
-    let scene = options.scene.read()?;
-    let folder = options.folder.folder(&options.scene, "");
+    let session = Session::begin("run", "", &options.scene, &options.folder, &options.work)?;
+    let Session { scene, folder, .. } = &session;
     let existing = if options.resume { Existing::Resume } else { options.folder.existing() };
-    let pool = options.work.pool()?;
-    let progress = Progress::new("run", options.work.quiet);
-    let watcher = Watcher {
-        interrupt: stop::interrupt("interrupted before time 0; nothing was computed"),
-        progress: &|done| progress.set(done),
-    };
-    let done = pool.install(|| alone(|| tsubu::run::run(&scene, &folder, existing, &watcher)));
-    progress.end();
-    let summary = done.map_err(|error| Failure::of_scene(&error, &scene, &folder))?;
+    let work = |watcher: &Watcher| alone(|| tsubu::run::run(scene, folder, existing, watcher));
+    let (done, _) = session.work("interrupted before time 0; nothing was computed", work);
+    let summary = done.map_err(|error| Failure::of_scene(&error, scene, folder))?;
     if summary.status == Status::Interrupted {
         let message = format!(
             "interrupted at t = {} s, step {}; the checkpoint is in {}",
@@ -56,18 +49,17 @@ pub fn run(options: &Options) -> Result<(), Failure> {
             summary.steps,
             folder.display()
         );
-        return Err(Failure::interrupted(message).hint(format!("go on with `{}`", command_to_resume())));
+        return Err(Failure::interrupted(message).hint(resume()));
     }
     if let Some(bench) = machine::known() {
-        let written = RunFolder::open(&folder, ["bench.json"]).and_then(|folder| {
+        let written = RunFolder::open(folder, ["bench.json"]).and_then(|folder| {
             folder.write_json("bench.json", &bench)?;
             folder.sync()
         });
-        written.map_err(|error| Failure::of_file(&error, &folder))?;
+        written.map_err(|error| Failure::of_file(&error, folder))?;
     }
-    output::print(&told(&scene.plan().title, &summary))?;
-    output::tell(&format!("results in {}; figures and a page: tsubu report {0}\n", folder.display()));
-    if summary.claims.iter().all(|claim| claim.pass) { Ok(()) } else { Err(Failure::claim()) }
+    session.show(&told(&scene.plan().title, &summary), None)?;
+    judge(&summary.claims)
 }
 
 /// A summary in a few lines.

@@ -2,10 +2,9 @@
 
 use super::run::warnings;
 use crate::failure::Failure;
-use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
-use crate::output;
-use crate::progress::Progress;
-use crate::{stop, table};
+use crate::options::{FolderOptions, SceneOptions, WorkOptions};
+use crate::session::{Session, judge, resume};
+use crate::table;
 use clap::Args;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -36,32 +35,26 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
-    let scene = options.scene.read()?;
-    let folder = options.folder.folder(&options.scene, "-sweep");
-    let pool = options.work.pool()?;
-    if options.resume && !folder.is_dir() {
-        return Err(Failure::wrong(format!("nothing to resume: {} is not a folder", folder.display())));
+    let session = Session::begin("sweep", "-sweep", &options.scene, &options.folder, &options.work)?;
+    if options.resume {
+        session.needs_folder()?;
     }
-    let progress = Progress::new("sweep", options.work.quiet);
-    let interrupt = stop::interrupt(&format!("interrupted; go on with `{}`", command_to_resume()));
-    let watcher = Watcher { interrupt, progress: &|done| progress.set(done) };
+    let Session { scene, folder, .. } = &session;
     let overwrite = options.folder.overwrite;
-    let done = pool.install(|| tsubu::study::sweep::sweep(&scene, &folder, overwrite, &watcher));
-    progress.end();
-    let summaries = done.map_err(|error| Failure::of_cases(&error, &scene, &folder))?;
+    let work = |watcher: &Watcher| tsubu::study::sweep::sweep(scene, folder, overwrite, watcher);
+    let (done, interrupt) = session.work(&format!("interrupted; {}", resume()), work);
+    let summaries = done.map_err(|error| Failure::of_cases(&error, scene, folder))?;
     if interrupt.asked() {
         let message = format!("interrupted; finished cases and checkpoints are in {}", folder.display());
-        return Err(Failure::interrupted(message).hint(format!("go on with `{}`", command_to_resume())));
+        return Err(Failure::interrupted(message).hint(resume()));
     }
-    output::print(&told(&folder, &summaries)?)?;
-    output::tell(&format!("results in {}; figures and a page: tsubu report {0}\n", folder.display()));
+    session.show(&told(folder, &summaries)?, None)?;
     let broken = summaries.iter().filter(|summary| summary.status == Status::Failed).count();
     if broken > 0 {
         let message = format!("{broken} of {} cases failed; the others are whole", summaries.len());
         return Err(Failure::failed(message).hint("the remarks above and in sweep.csv say why"));
     }
-    let failed: usize = summaries.iter().flat_map(|s| &s.claims).filter(|claim| !claim.pass).count();
-    if failed == 0 { Ok(()) } else { Err(Failure::claim()) }
+    judge(summaries.iter().flat_map(|summary| &summary.claims))
 }
 
 /// Results that fit beside the case's name.

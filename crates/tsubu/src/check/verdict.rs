@@ -85,7 +85,16 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         }
         Method::Lattice => lattice(&mut verdict, plan, dt, speed),
         // Grains that move where there is room know no contact time.
-        _ => {}
+        Method::ClCa
+        | Method::Litwiniszyn
+        | Method::AfterCaramHong
+        | Method::AfterSavage
+        | Method::GuttHaff
+        | Method::AfterHemmingssonHerrmann
+        | Method::Fhp
+        | Method::AfterPengHerrmann
+        | Method::AfterBaxterBehringer
+        | Method::AfterKarolyiKertesz => {}
     }
     mesh::meshes(&mut verdict, plan);
     idle::gates(&mut verdict, plan);

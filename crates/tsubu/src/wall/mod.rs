@@ -48,6 +48,7 @@ pub(crate) const ABOUT: &[&About] = &[
     &frustum::CONE,
     &shell::SPHERE,
     &mesh::MESH,
+    &mover::HOST,
     &mover::MOTION,
     &mover::ROTATION,
     &servo::ABOUT,

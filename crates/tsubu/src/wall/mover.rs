@@ -23,6 +23,17 @@ pub(crate) const ROTATION: About = About {
     reference: "by definition",
 };
 
+pub(crate) const HOST: About = About {
+    key: "walls.NAME.host",
+    formula: "x = x0 + direction z(t), v = direction dz/dt, z = w . q\nM q'' + C (q' - r y') + K (q - r y) = w (F + F_grains)",
+    symbols: "direction unit vector of the host [-], q displacements [m] of a structure with matrices M [kg], C [N.s/m], K [N/m], \
+y(t) displacement of its base [m], F(t) applied force [N], F_grains force of the grains on its walls along the direction [N], w what \
+the walls see of each coordinate, r how the base drives it [-]",
+    limits: "One direction: the wall does not tilt. In an impact it shows the mass of the structure. The host itself, \
+`[hosts.NAME]`, may carry several walls; its energy and what base and force do to it are in the ledger.",
+    reference: "Komatsuzaki, Sato, Iwata and Morishita 2003, eq. (1), for one coordinate",
+};
+
 /// What displaces a wall.
 #[derive(Clone, Debug)]
 pub enum Mover {

@@ -3,10 +3,11 @@
 mod against;
 mod runner;
 
-use super::{claims, origins, report};
+use super::{claims, origins};
 use crate::failure::Failure;
 use crate::options::WorkOptions;
 use crate::output;
+use crate::session;
 use crate::stream::Stream;
 use crate::table;
 use against::Against;
@@ -101,7 +102,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         let path = archive.folder().path().to_owned();
         // The report takes the folder for itself.
         drop(archive);
-        let page = report::write(&path)?;
+        let page = session::page(&path)?;
         output::tell(&format!("results in {}; open {}\n", path.display(), page.display()));
     }
     if wrong { Err(Failure::claim()) } else { Ok(()) }
