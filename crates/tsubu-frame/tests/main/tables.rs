@@ -3,7 +3,7 @@
 use std::fs;
 
 use proptest::prelude::*;
-use tsubu_frame::{Cell, History, Mark, Table};
+use tsubu_frame::{Advise, Cell, History, Mark, Table};
 
 #[test]
 fn columns_are_found_with_or_without_their_unit() {
@@ -50,8 +50,10 @@ fn a_resumed_history_is_the_one_of_the_checkpoint() {
             Some(content) => fs::write(&path, content).unwrap(),
             None => fs::remove_file(&path).unwrap(),
         }
-        let error = History::resume(&path, &header, mark).unwrap_err().to_string();
-        assert!(error.contains("history.csv") && error.contains(said) && error.contains("--overwrite"), "{error}");
+        let error = History::resume(&path, &header, mark).unwrap_err();
+        let (text, hints) = (error.to_string(), error.hints());
+        assert!(text.contains("history.csv") && text.contains(said), "{text}");
+        assert!(hints.iter().any(|hint| hint.to_string().contains("--overwrite")), "{hints:?}");
         assert_eq!(fs::read(&path).ok().as_deref(), content, "a refusal changed the file");
     }
 

@@ -4,7 +4,7 @@ use super::plans::{at, casing, coupled, plan};
 use tsubu::engine::Engine;
 use tsubu::lattice::engine::LatticeEngine;
 use tsubu::partner::Hosts;
-use tsubu_frame::State;
+use tsubu_frame::{Advise, State};
 use tsubu_scene::plan::*;
 
 fn message(plan: &Plan) -> String {
@@ -132,5 +132,6 @@ fn head_room_is_named() {
     let plan = coupled(plan(10, LatticeMode::Extended), 3e-3, 1.0);
     let mut run = super::plans::Run::new(&plan);
     let fault = run.advance(100_000).expect_err("the box swings further than 5 cells");
-    assert!(fault.to_string().contains("lattice.head-room"), "{fault}");
+    let hints = fault.hints();
+    assert!(hints.iter().any(|hint| hint.to_string().contains("lattice.head-room")), "{hints:?}");
 }
