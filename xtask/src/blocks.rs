@@ -1,6 +1,6 @@
 //! Tables in pages written by hand: what stands between `<!-- generated: NAME -->` and `<!-- end -->`.
 
-use crate::shell::root;
+use crate::shell::{output, root};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -86,18 +86,36 @@ fn race_table(race: &Value, name: &str) -> String {
     table + "\nMillion particle-steps a second.\n"
 }
 
-/// Pages of studies with their tables of claims. Their marks name the studies: `<!-- generated: claims STUDY ... -->`.
+/// Pages of studies with what is kept of their claims. The marks name the studies: `<!-- generated: claims STUDY ... -->` is a table
+/// case by case, `<!-- generated: standing STUDY ... -->` how the study stands.
 fn studies() -> Result<Vec<(String, String)>, String> {
     let kept = crate::claims::read()?;
     let mut pages = Vec::new();
     for folder in list(&root().join("studies"))? {
         let page = format!("studies/{}/README.md", folder.file_name().unwrap_or_default().to_string_lossy());
-        let Ok(text) = fs::read_to_string(root().join(&page)) else { continue };
-        let Some((_, rest)) = text.split_once("<!-- generated: claims ") else { continue };
-        let names = rest.split(" -->").next().unwrap_or_default();
-        pages.push(filled(&page, &format!("claims {names}"), &claim_table(&kept, names))?);
+        let Ok(mut text) = fs::read_to_string(root().join(&page)) else { continue };
+        for mark in marks(&text) {
+            let table = match mark.split_once(' ') {
+                Some(("claims", names)) => claim_table(&kept, names),
+                Some(("standing", _)) => printed(&mark)?,
+                _ => return Err(format!("{page}: nobody makes the table `{mark}`")),
+            };
+            text = put(&text, &mark, &table).ok_or_else(|| format!("{page}: the table `{mark}` has no end"))?;
+        }
+        pages.push((page, text));
     }
     Ok(pages)
+}
+
+/// Names of the tables of a page.
+fn marks(text: &str) -> Vec<String> {
+    let begins = text.split("<!-- generated: ").skip(1);
+    begins.filter_map(|rest| Some(rest.split_once(" -->")?.0.to_owned())).collect()
+}
+
+/// A page or a table that the program prints.
+pub fn printed(name: &str) -> Result<String, String> {
+    output(&["run", "--package", "tsubu-cli", "--quiet", "--", "explain", "--page", name])
 }
 
 /// Claims of some studies case by case: how many hold, and each that fails.
@@ -155,6 +173,18 @@ fn list(folder: &Path) -> Result<Vec<PathBuf>, String> {
 mod tests {
     use super::*;
     use serde_json::json;
+
+    /// Whoever opens a study wants to know first what came back and what did not.
+    #[test]
+    fn every_study_begins_with_how_it_stands() {
+        for folder in list(&root().join("studies")).expect("studies").iter().filter(|path| path.is_dir()) {
+            let text = fs::read_to_string(folder.join("README.md")).expect("a README");
+            let first = text.lines().find(|line| line.starts_with("## "));
+            assert_eq!(first, Some("## In short"), "{}", folder.display());
+            let short = text.split("\n## ").nth(1).unwrap_or_default();
+            assert!(short.contains("**Agrees:**") && short.contains("**Does not agree:**"), "{}", folder.display());
+        }
+    }
 
     #[test]
     fn what_stands_between_the_marks_is_replaced() {

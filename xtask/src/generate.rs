@@ -1,7 +1,7 @@
 //! Pages that are made from the code.
 
 use crate::blocks;
-use crate::shell::{cargo, output, root};
+use crate::shell::{cargo, root};
 use std::fs;
 
 /// Pages of the book that the program prints.
@@ -15,11 +15,9 @@ fn pages() -> Result<Vec<(String, String)>, String> {
     ];
     cargo(&["build", "--package", "tsubu-cli", "--quiet"])?;
     for name in PRINTED {
-        let text = output(&["run", "--package", "tsubu-cli", "--quiet", "--", "explain", "--page", name])?;
-        pages.push((format!("docs/src/explained/{name}.md"), text));
+        pages.push((format!("docs/src/explained/{name}.md"), blocks::printed(name)?));
     }
-    let verdicts = output(&["run", "--package", "tsubu-cli", "--quiet", "--", "explain", "--page", "verdicts"])?;
-    pages.push(blocks::filled("README.md", "verdicts", &verdicts)?);
+    pages.push(blocks::filled("README.md", "verdicts", &blocks::printed("verdicts")?)?);
     pages.extend(blocks::pages()?);
     Ok(pages)
 }

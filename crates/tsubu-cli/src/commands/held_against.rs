@@ -122,7 +122,7 @@ fn accepted(claim: &Claim) -> String {
 }
 
 /// With a large letter at its begin.
-fn sentence(text: &str) -> String {
+pub(super) fn sentence(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -13,6 +13,7 @@ mod report;
 mod response;
 mod run;
 mod schema;
+mod standing;
 mod sweep;
 mod verify;
 mod view;
