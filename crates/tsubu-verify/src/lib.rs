@@ -19,6 +19,7 @@ mod drop;
 mod drum;
 mod drum_regimes;
 mod ensemble;
+mod expansion;
 mod film;
 mod held;
 mod host;

@@ -3,9 +3,9 @@
 use crate::case::{Case, Judged};
 use crate::{
     bedload, brazil_nut, chung_ooi_2011, chute, cl_ca_2001, cohesion, common_test, contact, cooling, damper_2003, drop,
-    drum, drum_regimes, film, held, host, impact_damper, lattice_grain, lattice_review, lump, open_dem_benchmark,
-    order, orifice, outlet, pile_stress, pile_twin, plastic, random_loads, rheology, rolling, sediment_2004, shapes,
-    sieving, silo, spin_in_water, stack, twisting, voids, water,
+    drum, drum_regimes, expansion, film, held, host, impact_damper, lattice_grain, lattice_review, lump,
+    open_dem_benchmark, order, orifice, outlet, pile_stress, pile_twin, plastic, random_loads, rheology, rolling,
+    sediment_2004, shapes, sieving, silo, spin_in_water, stack, twisting, voids, water,
 };
 
 /// All cases, in the order they are listed and run.
@@ -75,6 +75,8 @@ pub static CASES: &[Case] = &[
     case("wet-rebound", "water", 1, "a film on the way in, and restitution in a liquid", film::rebounds),
     case("packed-column", "water", 20, "Ergun's loss of pressure", water::packed),
     case("fluidised", "water", 20, "water that carries its bed", water::fluidised),
+    case("expansion", "water", 30, "how far a carried bed expands", expansion::balance),
+    gap(case("expansion-exponent", "water", 60, "by which power of the void fraction", expansion::exponents)),
     case("bedload", "water", 300, "transport rates of a coupled stream", bedload::rates),
     case(
         "saltation",

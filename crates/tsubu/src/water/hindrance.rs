@@ -10,10 +10,11 @@ use tsubu_scene::plan::Hindrance;
 
 pub(super) const DI_FELICE: About = About {
     key: "water.hindrance.di-felice",
-    formula: "drag of a grain alone at Re = e |U - u| d/nu, times e^(2 - b), b = 3.7 - 0.65 exp(-(1.5 - log10 Re)^2/2)",
+    formula: "drag of a grain alone at Re = e |U - u| d/nu, times e^(1 - b), b = 3.7 - 0.65 exp(-(1.5 - log10 Re)^2/2)",
     symbols: "e share of the volume that grains leave to the water [-], U velocity of the water [m/s], u of the grain [m/s], \
 d diameter [m], nu viscosity [m^2/s]",
-    limits: "Needs a flow with layers, which know e. All of the force is beside hydrostatic buoyancy.",
+    limits: "Needs a flow with layers, which know e. His e^(2 - b) is the drag beside the gradient of all pressure, which carries a \
+grain's share of the crowd; all that is beside hydrostatic buoyancy is that over e.",
     reference: "Di Felice (1994)",
 };
 
@@ -44,8 +45,8 @@ pub(super) fn after(kind: &Hindrance, p: &mut Parcel, viscosity: f64) {
                 // Creeping flow has no logarithm; b is 3.7 to four digits from there on.
                 let reynolds = (p.speed[i] * 2.0 * p.radius[i] / viscosity).max(1e-6);
                 let b = 3.7 - 0.65 * (-0.5 * (1.5 - reynolds.log10()).powi(2)).exp();
-                // One factor e is in the drag by its speed already.
-                let factor = e.powf(1.0 - b);
+                // One factor e is in the drag by its speed already; one goes for the gradient of the pressure.
+                let factor = e.powf(-b);
                 p.speed[i] /= e;
                 scale(p, i, factor);
             }
