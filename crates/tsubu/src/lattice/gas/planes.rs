@@ -268,7 +268,8 @@ pub(super) fn close(column: &mut [u64], blocks: usize, rows: usize, periodic: bo
         if !rows.is_multiple_of(64) {
             column[at(slot, end)] &= (1 << (rows % 64)) - 1;
         }
-        for word in rows.div_ceil(64)..blocks * WIDE {
+        // The word after the last block too, where a row of before may still wait.
+        for word in rows.div_ceil(64)..=blocks * WIDE {
             column[at(slot, word)] = 0;
         }
         if periodic {
