@@ -5,10 +5,12 @@ mod contact;
 mod dam_break;
 mod dense_flow;
 mod mobile_bed;
+mod paths;
 mod rod;
 mod saltation;
 mod settling;
 mod space;
+mod spin_up;
 
 pub(super) use avalanche::{avalanche, avalanche_stiff};
 pub(super) use contact::{contact_time, damped, overlap};

@@ -2,6 +2,7 @@
 
 use super::super::bench::{Rig, near};
 use super::super::control::refused;
+use super::spin_up;
 use crate::origin::{closed_form, own, printed, remembered};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -11,7 +12,7 @@ use tsubu_frame::Claim;
 use tsubu_scene::Scene;
 
 /// Diameter [m] and mass [kg] of the grain.
-const D: f64 = 2e-3;
+pub(super) const D: f64 = 2e-3;
 const MASS: f64 = 2650.0 * PI / 6.0 * D * D * D;
 /// Left out at the begin [s], and hops that are recorded, as in the paper.
 const DISCARD: f64 = 1.0;
@@ -41,20 +42,28 @@ fn contact_seconds(mass: f64, stiffness: f64) -> f64 {
     PI * (mass / stiffness).sqrt()
 }
 
-/// Lets the grain leap `hops` times after the begin; contacts of stiffness [N/m].
-fn leaps(stiffness: f64, changes: &[&str], hops: usize, perturbation: f64) -> Result<Leaps, String> {
+/// The grain before its first leap; contacts of stiffness [N/m].
+pub(super) fn leaping(stiffness: f64, changes: &[&str], perturbation: f64) -> Result<Rig, String> {
     let text = include_str!("../../../../studies/sediment-2004/saltation.toml");
     let dt = contact_seconds(MASS, stiffness) / STEPS;
     let mut all = vec![format!("contact.normal.hooke.stiffness={stiffness}"), format!("dem.time-step={dt:e}")];
     all.extend(changes.iter().map(|c| (*c).to_owned()));
     let scene = Scene::parse("saltation", text, Path::new("."), &all).map_err(|c| c.to_string())?;
-    let mut rig = Rig::of(scene.plan().clone(), perturbation)?;
+    Rig::of(scene.plan().clone(), perturbation)
+}
+
+/// Place [m], velocity [m/s] and spin [rad/s] of the grain; spin counts as it rolls downstream.
+pub(super) fn grain(rig: &Rig) -> (DVec3, DVec3, f64) {
+    let view = rig.engine.view(Wants { spins: true, ..Wants::GRAINS });
+    let i = (0..view.len()).find(|&i| view.free(i)).unwrap_or(0);
+    (view.unwrapped(i), view.grains.velocity[i], view.grains.spin[i].y)
+}
+
+/// Lets the grain leap `hops` times after the begin; contacts of stiffness [N/m].
+fn leaps(stiffness: f64, changes: &[&str], hops: usize, perturbation: f64) -> Result<Leaps, String> {
+    let mut rig = leaping(stiffness, changes, perturbation)?;
+    let dt = rig.engine.time_step();
     rig.until(DISCARD)?;
-    let look = |rig: &Rig| {
-        let view = rig.engine.view(Wants { spins: true, ..Wants::GRAINS });
-        let i = (0..view.len()).find(|&i| view.free(i)).unwrap_or(0);
-        (view.unwrapped(i), view.grains.velocity[i], view.grains.spin[i].y)
-    };
     let mut found = Leaps::default();
     // From the first end of a contact on: flights and contacts in turn.
     while rig.engine.contacts() > 0 {
@@ -66,12 +75,12 @@ fn leaps(stiffness: f64, changes: &[&str], hops: usize, perturbation: f64) -> Re
     let (mut time, mut rims, mut steps) = (0.0, 0.0, 0u64);
     let (mut pushed, mut rubbed) = (0.0, 0.0);
     for _ in 0..hops {
-        let (mut touching, before) = (0u64, look(&rig).1);
+        let (mut touching, before) = (0u64, grain(&rig).1);
         while rig.engine.contacts() > 0 {
             rig.steps(1)?;
             touching += 1;
         }
-        let (take_off, velocity, _) = look(&rig);
+        let (take_off, velocity, _) = grain(&rig);
         let change: DVec3 = velocity - before;
         pushed += change.z;
         rubbed -= change.x;
@@ -81,7 +90,7 @@ fn leaps(stiffness: f64, changes: &[&str], hops: usize, perturbation: f64) -> Re
         let mut place = take_off;
         while rig.engine.contacts() == 0 {
             rig.steps(1)?;
-            let (now, _, spin) = look(&rig);
+            let (now, _, spin) = grain(&rig);
             place = now;
             top = top.max(now.z);
             rims += spin.abs() * 0.5 * D;
@@ -107,8 +116,8 @@ fn leaps(stiffness: f64, changes: &[&str], hops: usize, perturbation: f64) -> Re
 
 /// Locked, with the contacts of the paper's figure 20.
 const LOCKED: &[&str] = &["contact.rotation=false"];
-const FREE: &[&str] = &["contact.rotation=true"];
-const IN_WATER: &[&str] = &["contact.rotation=true", "water.torque={finite-reynolds={}}"];
+pub(super) const FREE: &[&str] = &["contact.rotation=true"];
+pub(super) const IN_WATER: &[&str] = &["contact.rotation=true", "water.torque={finite-reynolds={}}"];
 /// Hops that means of hops are taken over: 30 are too few to tell two stiffnesses apart.
 const MANY: usize = 300;
 
@@ -219,6 +228,7 @@ pub(in super::super) fn spinning(perturbation: f64) -> Result<Vec<Claim>, String
             own("a spin lasts 0.04 s in water, less than a hop (Dennis et al. 1980)").after(),
         ),
     ];
+    claims.extend(spin_up::claims(perturbation)?);
     claims.push(refused("grains in water that does not resist their spin, as spins of real ones", &[spins(&wet)], 1));
     Ok(claims)
 }
