@@ -3,7 +3,7 @@
 //! The perturbation multiplies what the grains weigh below the middle of the pile.
 
 use super::bench::within;
-use super::control::{refused, refused_number};
+use super::control::refused;
 use crate::origin::{closed_form, own};
 use tsubu::lattice::hemmingsson_herrmann::{Pile, Rule, Split};
 use tsubu::lattice::sheet::{Layout, Sheet, WALL};
@@ -72,7 +72,7 @@ fn dip(rule: Rule, perturbation: f64) -> f64 {
     (most - fives[28]) / (5.0 * mean.iter().sum::<f64>() / size as f64)
 }
 
-/// the five closed forms, the q-model among them, and the dip by arching.
+/// the closed forms but for the q-model, which is a case of its own, and the dip by arching.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
 pub(super) fn pile(perturbation: f64) -> Result<Vec<Claim>, String> {
     let size = 40;
@@ -95,7 +95,6 @@ pub(super) fn pile(perturbation: f64) -> Result<Vec<Claim>, String> {
     }
     claims.extend(flat("pile, frictionless", &base(triangle(size), BALANCE, 1, perturbation).0));
     claims.push(refused("arching in the flat pile", &flat("", &base(triangle(size), arch, 1, 1.0).0), 2));
-    claims.extend(q_model(perturbation));
     let gate = |dip| {
         Claim::judge(
             "pile, arching 0.5: dip below the axis over the mean load",
@@ -110,63 +109,4 @@ pub(super) fn pile(perturbation: f64) -> Result<Vec<Claim>, String> {
     claims.push(within("pile, no arching: dip", none, 0.0, 1e-12, closed_form("closed form: flat")));
     claims.push(refused("no arching", &[gate(none)], 1));
     Ok(claims)
-}
-
-/// Variance of the load over its mean squared in an endless bed of random shares, at a depth: a recursion for the second
-/// moments S_k of loads k sites apart, own weights included. With shares q even between 0 and 1, <q^2> = 1/3 and
-/// <q (1 - q)> = 1/6.
-fn exact_variance(depth: usize) -> f64 {
-    let mut moment = vec![1.0; depth + 3];
-    let mut mean = 1.0;
-    for _ in 1..depth {
-        let s = &moment;
-        let mut below = vec![mean * mean; s.len()];
-        below[0] = 2.0 / 3.0 * s[0] + 0.5 * s[1];
-        below[1] = s[0] / 6.0 + 0.5 * s[1] + 0.25 * s[2];
-        for k in 2..s.len() - 1 {
-            below[k] = 0.25 * (2.0 * s[k] + s[k + 1] + s[k - 1]);
-        }
-        moment = below.iter().map(|b| b + 2.0 * mean + 1.0).collect();
-        mean += 1.0;
-    }
-    moment[0] / (mean * mean) - 1.0
-}
-
-/// Random shares: loads under a wide bed. P(x) = 4 x exp(-2 x) is the limit; its variance 1/2 is reached slowly.
-fn q_model(perturbation: f64) -> Vec<Claim> {
-    let (depth, width) = (200, 6000);
-    let mut sheet = Sheet::new(Layout::Triangular, width, depth + 2);
-    sheet.fill(1, depth + 1, 0);
-    let rule = Rule { split: Split::Random, ..BALANCE };
-    let loads = base(sheet, rule, 1, perturbation).0;
-    // Side walls take load; they are felt no further than sqrt(depth).
-    let inner: Vec<f64> = loads[100..loads.len() - 100].iter().map(|l| l[1]).collect();
-    let mean = inner.iter().sum::<f64>() / inner.len() as f64;
-    let variance = inner.iter().map(|x| (x / mean - 1.0).powi(2)).sum::<f64>() / inner.len() as f64;
-    let source = closed_form(
-        "closed recursion for second moments; the limit 1/2 is reached slowly (Coppersmith and others 1996)",
-    );
-    let mut claims = vec![
-        within(
-            "pile, random shares: mean load over rows of weight",
-            mean / depth as f64,
-            1.0,
-            0.01,
-            closed_form("balance of forces"),
-        ),
-        within("pile, random shares: variance at depth 200", variance, exact_variance(depth), 0.02, source),
-    ];
-    let share = |x: f64, of: &[f64]| of.iter().filter(|load| **load < x * mean).count() as f64 / of.len() as f64;
-    let gates = |of: &[f64]| -> Vec<Claim> {
-        [0.5, 1.0, 2.0, 3.0]
-            .map(|x: f64| {
-                let closed = 1.0 - (1.0 + 2.0 * x) * (-2.0 * x).exp();
-                let name = format!("pile, random shares: share of grains below {x} of the mean load");
-                within(name, share(x, of), closed, 0.03, closed_form("closed form: P(x) = 4 x exp(-2x)"))
-            })
-            .to_vec()
-    };
-    claims.extend(gates(&inner));
-    claims.push(refused_number("equal shares", &gates(&vec![mean; 100]), 3));
-    claims
 }

@@ -34,7 +34,7 @@ pub static CASES: &[Case] = &[
     case("haff", "dem-benchmarks", 10, "a gas of grains cools, in the plane and in space", cooling::haff),
     gap(case("haff-inelastic", "dem-benchmarks", 10, "the same at a restitution of 0.8", cooling::haff_inelastic)),
     case("centrifuging", "dem-benchmarks", 1, "where a drum's grain leaves the wall", drum::centrifuging),
-    case("q-model", "dem-benchmarks", 1, "random loads on a lattice", random_loads::q_model),
+    case("q-model", "dem-benchmarks", 5, "random loads on a lattice", random_loads::q_model),
     case("rebound-on-steel", "open-dem-benchmark", 1, "rebound at 0.4 m/s", open_dem_benchmark::rebound),
     case("starts-to-roll", "open-dem-benchmark", 1, "a steel sphere rolls down 45 degrees", open_dem_benchmark::roll),
     case("drop-dem", "damper-2003", 2, "a ball dropped in a still box, by DEM (figure 8)", drop::dem),

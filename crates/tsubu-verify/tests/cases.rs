@@ -32,7 +32,6 @@ const CLOSED_FORMS: &[&str] = &[
     "overlap-band",
     "pull-off",
     "pushed-row",
-    "q-model",
     "rebound-on-steel",
     "restitution",
     "restitution-shapes",
