@@ -16,6 +16,13 @@ pub static CASES: &[Case] = &[
     case("chung-ooi-normal", "chung-ooi-2011", 1, "force, overlap and time of Hertz", chung_ooi_2011::elastic),
     case("chung-ooi-restitution", "chung-ooi-2011", 1, "restitution in = out", chung_ooi_2011::restitution),
     case("chung-ooi-oblique", "chung-ooi-2011", 1, "oblique impacts, Kharaz 2001", chung_ooi_2011::kharaz),
+    gap(case(
+        "chung-ooi-default",
+        "chung-ooi-2011",
+        1,
+        "oblique impacts by the default law",
+        chung_ooi_2011::kharaz_default,
+    )),
     case("chung-ooi-sliding", "chung-ooi-2011", 1, "gross sliding", chung_ooi_2011::gross_sliding),
     case("chung-ooi-no-slip", "chung-ooi-2011", 1, "spins that do not slip", chung_ooi_2011::no_slip),
     case("chung-ooi-spin", "chung-ooi-2011", 2, "spinning spheres", chung_ooi_2011::spinning),

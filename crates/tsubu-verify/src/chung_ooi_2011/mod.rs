@@ -5,7 +5,7 @@ mod oblique;
 mod spin;
 
 pub(super) use normal::{elastic, restitution};
-pub(super) use oblique::{gross_sliding, kharaz};
+pub(super) use oblique::{gross_sliding, kharaz, kharaz_default};
 pub(super) use spin::{no_slip, spinning};
 
 /// A material of the tests: Young's modulus [Pa], Poisson's ratio, density [kg/m^3].
