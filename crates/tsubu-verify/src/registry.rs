@@ -154,7 +154,7 @@ pub static CASES: &[Case] = &[
     gap(case(
         "fhp-viscosity-plain",
         "lattice-review",
-        5,
+        600,
         "the same in FHP-II and III as they are, where correlations tell",
         lattice_review::viscosity_plain,
     )),

@@ -10,11 +10,11 @@ use tsubu::lattice::gas::planes::{Gas, momentum};
 use tsubu::lattice::grid::COLUMN_SPACING;
 use tsubu_frame::{Claim, Source};
 
-const FRISCH: Source = closed_form("Frisch, d'Humieres, Hasslacher, Lallemand, Pomeau, Rivet 1987");
-const ALL: [(Rules, &str); 3] = [(Rules::One, "FHP-I"), (Rules::Two, "FHP-II"), (Rules::Three, "FHP-III")];
+pub(super) const FRISCH: Source = closed_form("Frisch, d'Humieres, Hasslacher, Lallemand, Pomeau, Rivet 1987");
+pub(super) const ALL: [(Rules, &str); 3] = [(Rules::One, "FHP-I"), (Rules::Two, "FHP-II"), (Rules::Three, "FHP-III")];
 
 /// Kinematic viscosity at mean occupation d, in spacings squared a step, without correlations between particles.
-fn formula(rules: Rules, d: f64) -> f64 {
+pub(super) fn formula(rules: Rules, d: f64) -> f64 {
     let hole = 1.0 - d;
     match rules {
         Rules::One => 1.0 / (12.0 * d * hole.powi(3)) - 0.125,
@@ -51,35 +51,8 @@ fn from_collisions(rules: Rules, d: f64) -> f64 {
     1.0 / (4.0 * -rate / 4.0) - 0.125
 }
 
-/// Viscosity over the formula, from the decay of a shear wave of `columns` columns. `chaos` forgets all correlations.
-fn decay(rules: Rules, d: f64, [columns, rows]: [usize; 2], chaos: bool) -> f64 {
-    let k = TAU / (columns as f64 * COLUMN_SPACING);
-    let wave: Vec<f64> = (0..columns).map(|c| (TAU * c as f64 / columns as f64).cos()).collect();
-    let up = |slot: usize| if slot == REST { 0.0 } else { Direction::from_index(slot).k() as f64 };
-    let mut gas = Gas::new(rules, columns, rows, [true, true], 1);
-    gas.scatter(|column, _, slot| d * (1.0 + 0.2 * up(slot) * wave[column]));
-    let expected = formula(rules, d) * k * k;
-    // The stress needs some steps to follow the flow.
-    let (begin, end) = ((0.15 / expected).max(30.0) as u64, (0.9 / expected) as u64);
-    let (mut times, mut logs) = (Vec::new(), Vec::new());
-    while gas.steps() < end {
-        if chaos {
-            gas.step();
-            gas.forget();
-        } else {
-            gas.steps_on((8 - gas.steps() % 8).min(end - gas.steps()));
-        }
-        if gas.steps() >= begin && gas.steps().is_multiple_of(8) {
-            let amplitude: f64 = (0..columns).map(|c| momentum(&gas.counts(c)).k as f64 * wave[c]).sum();
-            times.push(gas.steps() as f64);
-            logs.push(amplitude.ln());
-        }
-    }
-    -slope(&times, &logs) / expected
-}
-
 /// Slope of the straight line through points.
-pub(super) fn slope(x: &[f64], y: &[f64]) -> f64 {
+pub(crate) fn slope(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len() as f64;
     let (mean_x, mean_y) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
     let cross: f64 = x.iter().zip(y).map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
@@ -105,52 +78,6 @@ pub(crate) fn collisions(perturbation: f64) -> Result<Vec<Claim>, String> {
         }
     }
     claims.push(refused_number("viscosity of another form", &gates, 9));
-    Ok(claims)
-}
-
-/// Viscosity from shear waves, in a gas that forgets whom it met and in the gas as it is.
-#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn viscosity(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let (mut claims, mut gates) = (Vec::new(), Vec::new());
-    // At d = 0.15 the closed forms of all three are steep, and a wrong density is seen.
-    for (rules, name) in ALL {
-        // Short waves see that particles fly some spacings before they meet, most of all in FHP-I.
-        let columns = if rules == Rules::One { 192 } else { 96 };
-        let value = decay(rules, 0.15 * perturbation, [columns, 32_768], true) * formula(rules, 0.15 * perturbation);
-        let text = format!("{name}: viscosity of a shear wave without correlations, d = 0.15");
-        claims.push(near(text, value, formula(rules, 0.15), 0.03, FRISCH));
-        let other = if rules == Rules::Two { Rules::Three } else { Rules::Two };
-        gates.push(near(name, value, formula(other, 0.15), 0.03, FRISCH));
-        gates.push(near(name, value, formula(rules, 0.15 * 0.9), 0.03, FRISCH));
-    }
-    claims.push(refused_number("viscosity of another form, or of a gas 10 % thinner", &gates, 6));
-    for (rules, name, d, columns) in [(Rules::One, "FHP-I", 0.35, 64), (Rules::Three, "FHP-III", 0.5, 32)] {
-        claims.push(as_it_is(rules, name, d * perturbation, columns, false));
-    }
-    Ok(claims)
-}
-
-/// A shear wave in the gas as it is, or in one that forgets whom it met, against the formula.
-fn as_it_is(rules: Rules, name: &str, d: f64, columns: usize, chaos: bool) -> Claim {
-    let kind = if chaos { ", without correlations" } else { "" };
-    let text = format!("{name}: viscosity of a shear wave over the formula{kind}, d = {d}, {columns} columns");
-    let value = decay(rules, d, [columns, 65_536], chaos);
-    within(text, value, 1.0, 0.03, FRISCH)
-}
-
-/// The same where the gas as it is is not the formula: FHP-II and III away from half filling. Particles that have met meet
-/// again; where they forget each other the formula holds.
-#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn viscosity_plain(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let (mut claims, mut gates) = (Vec::new(), Vec::new());
-    for (rules, name, d) in [(Rules::Two, "FHP-II", 0.25), (Rules::Three, "FHP-III", 0.3)] {
-        let chaos = as_it_is(rules, name, d * perturbation, 64, true);
-        let other = if rules == Rules::Two { Rules::Three } else { Rules::Two };
-        let over_other = chaos.value * formula(rules, d) / formula(other, d);
-        gates.push(within(name, over_other, 1.0, 0.03, FRISCH));
-        claims.extend([chaos, as_it_is(rules, name, d * perturbation, 64, false)]);
-    }
-    claims.push(refused_number("viscosity of another form", &gates, 2));
     Ok(claims)
 }
 
@@ -293,13 +220,8 @@ pub(crate) fn channel(perturbation: f64) -> Result<Vec<Claim>, String> {
         0.05,
         closed_form("no drag at a mirror"),
     ));
-    let (before, start) = (channel.mass, Channel::new(true).gas.mass());
-    claims.push(within(
-        "FHP-III: particles lost in the channel",
-        before.abs_diff(start) as f64,
-        0.0,
-        0.0,
-        closed_form("conservation"),
-    ));
+    let lost = channel.gas.mass() as f64 - channel.mass as f64;
+    let conserved = closed_form("conservation");
+    claims.push(within("FHP-III: particles more in the channel than at the begin", lost, 0.0, 0.0, conserved));
     Ok(claims)
 }
