@@ -17,7 +17,7 @@ pub(super) fn members<const N: usize>(
 }
 
 /// The members with the 95 % confidence interval of their mean, by Student's t.
-fn of(seeds: &[u64], members: Vec<f64>) -> Ensemble {
+pub(super) fn of(seeds: &[u64], members: Vec<f64>) -> Ensemble {
     let count = members.len() as f64;
     let mean = members.iter().sum::<f64>() / count;
     let variance = members.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0);

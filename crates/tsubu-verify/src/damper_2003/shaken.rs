@@ -16,6 +16,15 @@ const BINS: usize = 60;
 /// Fillings of the box.
 const SEEDS: RangeInclusive<u64> = 1..=12;
 
+/// Neither friction nor loss; such balls never settle.
+const ELASTIC: [&str; 5] = [
+    "particles.balls.start={ rows = {} }",
+    "materials.acrylic.restitution=1",
+    "materials.casing.restitution=1",
+    "materials.acrylic.friction=0",
+    "materials.casing.friction=0",
+];
+
 /// Vertical force of the box on the bed over its weight, against the phase of the box, mean of ten periods.
 fn force_by_phase(method: &str, count: usize, seed: u64, changes: &[&str]) -> Result<[f64; BINS], String> {
     let mut changes: Vec<String> = changes.iter().map(|&change| change.to_owned()).collect();
@@ -67,6 +76,10 @@ pub(crate) fn figure_9(_spoiler: f64) -> Result<Vec<Claim>, String> {
     }
     let gentle = gates("dem", 20, &["walls.box.motion.signal.sine.amplitude=5.5 mm"])?;
     claims.push(refused("a box shaken with 0.8 of gravity", &gentle, 3));
+    for method in ["dem", "lattice"] {
+        let elastic = gates(method, 40, &ELASTIC)?;
+        claims.push(refused(&format!("balls without friction that lose nothing, by {method}"), &elastic, 2));
+    }
     Ok(claims)
 }
 
