@@ -1,7 +1,7 @@
 //! How far a bed expands that water carries: Richardson and Zaki (1954).
 
 use super::beds::line;
-use super::bench::{Rig, near, within};
+use super::bench::{Rig, near};
 use super::control::refused;
 use crate::origin::{closed_form, remembered};
 use std::f64::consts::PI;
