@@ -3,6 +3,11 @@
 /// Case, how the names of the claims begin that it is said of (all of the case: nothing), sentence.
 const REASONS: &[(&str, &str, &str)] = &[
     (
+        "chung-ooi-default",
+        "",
+        "the default spring is scaled down with its stiffness on unloading and has a dashpot, which makes no energy; the published curve is that of the undamped secant law, which does",
+    ),
+    (
         "saltation-softest",
         "",
         "in a contact of 1 ms the grain goes on by 0.36 d along the bed, so that the grain below lets it go early; the closed form is for a grain that falls on its top",
@@ -56,22 +61,32 @@ const REASONS: &[(&str, &str, &str)] = &[
     ),
     (
         "avalanche",
-        "avalanche; forward",
-        "the longer contact is the faster one as in the paper, but by more than the 1 m/s that it names; energy gained by forward differences is a part of it",
+        "avalanche, forward-euler, 0.01 s and 0.001 s: turns",
+        "paths with short contacts bend 1.3 times as sharply and make nearly twice the detour, but turn up or down less often: the slower flow meets fewer neighbours",
     ),
     (
         "avalanche",
-        "avalanche; velocity",
+        "avalanche, forward",
+        "the longer contact is the faster one as in the paper, but by more than the 1 m/s that it names, and denser, by 8 and 16 % in two versions; energy gained by forward differences is a part of it",
+    ),
+    (
+        "avalanche",
+        "avalanche, velocity",
         "with short contacts the locked layer stands up to 43 degrees: the law gives no flow at 40 to compare with",
     ),
     (
         "avalanche-stiff",
-        "avalanche; forward",
-        "the longer contact is the faster one as in the paper, but by more than the 1 m/s that it names, and the concentrations differ by 11 %",
+        "avalanche, forward-euler, 0.01 s and 0.0001 s: turns",
+        "paths with short contacts bend 1.3 times as sharply and make nearly twice the detour, but turn up or down less often: the slower flow meets fewer neighbours",
     ),
     (
         "avalanche-stiff",
-        "avalanche; velocity",
+        "avalanche, forward",
+        "the longer contact is the faster one as in the paper, but by more than the 1 m/s that it names, and denser, by 11 and 13 % in two versions",
+    ),
+    (
+        "avalanche-stiff",
+        "avalanche, velocity",
         "with short contacts the locked layer stands up to 43 degrees: the law gives no flow at 40 to compare with",
     ),
     (
@@ -110,6 +125,11 @@ const REASONS: &[(&str, &str, &str)] = &[
         "pile-twin",
         "",
         "discs poured from a point make no dip for the arching to explain, and small discs between large ones carry next to nothing, which a lattice of equal grains cannot show",
+    ),
+    (
+        "fhp-viscosity-plain",
+        "FHP-III, d = 0.3: viscosity over the formula, 64 columns, without",
+        "0.7 % low, for a wave of 64 columns is not endlessly long; its interval ends 0.1 % outside",
     ),
     (
         "fhp-viscosity-plain",

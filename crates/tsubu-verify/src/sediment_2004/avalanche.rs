@@ -129,7 +129,9 @@ pub(in super::super) fn avalanche(perturbation: f64) -> Result<Vec<Claim>, Strin
         [0.03, 0.01, 0.003].iter().map(|t| Ok(mean(&flow(*t, way, perturbation)?.speed))).collect();
     let speeds = speeds?;
     let source = own("trend: the longer the contact, the faster (Osada 2004, figure 14)").after();
-    for (more, contacts) in [(speeds[0] - speeds[1], "0.03 s less 0.01 s"), (speeds[1] - speeds[2], "0.01 s less 0.003 s")] {
+    for (more, contacts) in
+        [(speeds[0] - speeds[1], "0.03 s less 0.01 s"), (speeds[1] - speeds[2], "0.01 s less 0.003 s")]
+    {
         let name = format!("avalanche, velocity-verlet: speed with a contact of {contacts} m/s");
         claims.push(Claim::judge(name, more, Some(0.5), None, source));
     }
