@@ -91,15 +91,24 @@ fn not_down(mode: &str, amplitude: f64, perturbation: f64) -> Result<Vec<Claim>,
     Ok([[0, 1], [1, 2], [2, 3]].map(claim).to_vec())
 }
 
-/// Lower peaks with more balls.
+/// Lower peaks with more balls, and that the gates refuse higher ones.
 fn lower(mode: &str, cases: &[CaseResult]) -> Vec<Claim> {
+    let mut claims = falling(mode, cases, COUNTS);
+    let [none, few, many, most] = COUNTS;
+    let turned = falling(mode, cases, [most, many, few, none]);
+    claims.push(refused(&format!("automaton, {mode}, with more and fewer balls changed for each other"), &turned, 1));
+    claims
+}
+
+/// Peaks that fall in an order of numbers of balls.
+fn falling(mode: &str, cases: &[CaseResult], counts: [usize; 4]) -> Vec<Claim> {
     let source = printed("figure 11: more balls, lower peak");
     let claim = |pair: &[usize]| {
         let ratio = peak(cases, pair[1]).1 / peak(cases, pair[0]).1;
         let name = format!("automaton, {mode}: peak with {} over peak with {}", pair[1], pair[0]);
         Claim::judge(name, ratio, Some(0.0), Some(1.0), source)
     };
-    COUNTS.windows(2).map(claim).collect()
+    counts.windows(2).map(claim).collect()
 }
 
 /// The response with changed keys.
