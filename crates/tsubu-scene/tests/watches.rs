@@ -1,6 +1,6 @@
 //! Watches: what is asked for, what follows from the rest of the scene, what cannot be seen.
 
-use crate::{GOOD, complaint, read};
+use crate::{GOOD, complaint, edited, read};
 use tsubu_scene::plan::watch::{Bedload, Profile, Segregation, Slope, WallLoad};
 use tsubu_scene::plan::{Axis, Measure, Quantity, Watch};
 
@@ -46,6 +46,21 @@ fn watches_keep_the_order_in_which_they_are_typed() {
     let all =
         watches("[watch.heap]\nslope.touching = false\n[watch.density]\nprofile = {}\n[watch.a]\ncoordination = {}");
     assert_eq!(all.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["heap", "density", "a"]);
+}
+
+/// The groups of a mixer stood as they were typed, so that the same scene with its keys in another order had left and right
+/// the other way round.
+#[test]
+fn the_order_of_groups_is_that_of_their_names() {
+    let watch = "[watch.a]\nsegregation.cell = \"12 mm\"";
+    let before = edited("[particles.balls]", &format!("{SECOND}\n[particles.balls]"));
+    for text in [format!("{before}\n{watch}"), with(&format!("{SECOND}{watch}"))] {
+        let scene = read(&text, &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+        let Measure::Segregation(Segregation { groups, .. }) = &scene.plan().watch["a"].measure else {
+            panic!("no segregation")
+        };
+        assert_eq!(groups, &["balls", "more"].map(String::from));
+    }
 }
 
 #[test]

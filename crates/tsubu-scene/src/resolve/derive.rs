@@ -182,6 +182,13 @@ fn table_at<'a>(resolved: &'a toml::Table, key: &str) -> Option<&'a toml::Table>
     resolved.get(key).and_then(Value::as_table)
 }
 
+/// The groups of grains in the order of their names: nothing hangs on the order in which a scene tells them.
+fn groups_by_name(resolved: &toml::Table) -> Vec<(&String, &Value)> {
+    let mut groups: Vec<_> = table_at(resolved, "particles").into_iter().flatten().collect();
+    groups.sort_by_key(|(name, _)| *name);
+    groups
+}
+
 /// The user-named tables of a family, to be changed.
 fn tables_in<'a>(resolved: &'a mut toml::Table, family: &str) -> Vec<(String, &'a mut toml::Table)> {
     let tables = resolved.get_mut(family).and_then(Value::as_table_mut);

@@ -1,6 +1,6 @@
 //! Watches: when they look, where, and at whom, if nobody says.
 
-use super::{Derive, table_at, tables_in};
+use super::{Derive, groups_by_name, table_at, tables_in};
 use crate::complaint::Complaint;
 use crate::key::{self, Kind, Need};
 use crate::plan::Measure;
@@ -10,8 +10,7 @@ use toml::Value;
 impl Derive<'_> {
     pub(super) fn watches(&mut self, resolved: &mut toml::Table) {
         let interval = table_at(resolved, "output").and_then(|output| output.get("history-interval")).cloned();
-        let groups: Vec<String> =
-            table_at(resolved, "particles").map(|all| all.keys().cloned().collect()).unwrap_or_default();
+        let groups: Vec<String> = groups_by_name(resolved).into_iter().map(|(name, _)| name.clone()).collect();
         let inside = inside_of_the_box(resolved);
         let walls = table_at(resolved, "walls").cloned().unwrap_or_default();
         for (name, watch) in tables_in(resolved, "watch") {

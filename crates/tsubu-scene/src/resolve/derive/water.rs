@@ -1,6 +1,6 @@
 //! The stream: what drives it, and what it flows over.
 
-use super::{Derive, table_at};
+use super::{Derive, groups_by_name};
 use crate::complaint::Complaint;
 use crate::plan::Directions;
 use toml::Value;
@@ -266,7 +266,7 @@ fn mean_speed(h: f64) -> f64 {
 
 /// Mean diameter of the grains by number.
 fn mean_diameter(resolved: &toml::Table) -> Option<f64> {
-    let groups = table_at(resolved, "particles")?.iter().filter_map(|(_, group)| {
+    let groups = groups_by_name(resolved).into_iter().filter_map(|(_, group)| {
         let diameter = group.get("diameter")?.as_float()?;
         let count = group.get("count")?.as_integer()? as f64;
         (count > 0.0).then_some((count, count * diameter))
