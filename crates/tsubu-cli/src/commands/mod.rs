@@ -42,7 +42,7 @@ pub enum Command {
     Report(report::Options),
     /// Measure how fast this machine is, in about a minute
     Bench(bench::Options),
-    /// Look at a simulation in the browser (not there yet)
+    /// Look at runs in the browser
     View(view::Options),
     /// Write a commented example scene
     New(new::Options),

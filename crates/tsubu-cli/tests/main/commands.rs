@@ -52,7 +52,7 @@ fn a_misspelt_command() {
 }
 
 #[test]
-fn view_is_not_there_yet() {
+fn a_view_of_nothing() {
     assert_snapshot!(Desk::empty().shown("view out/damper --port 8000"));
 }
 

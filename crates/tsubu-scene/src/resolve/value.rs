@@ -61,6 +61,11 @@ impl Resolver<'_> {
             Kind::Wholes | Kind::SomeOf(_) | Kind::Names(_) => self.several(key, node),
             Kind::NamePair => self.name_pair(key, node),
             Kind::Vary => self.vary(key, node),
+            // What is set is read with the stage in which it holds.
+            Kind::Set => match &node.value {
+                Value::Table(_) => node.plain(),
+                _ => self.wrong_kind(key, node, "a table of scene keys", None),
+            },
             Kind::Table(_) | Kind::Named(..) | Kind::Many(_) | Kind::Choice(_) | Kind::NamedChoice(..) => None,
         }
     }

@@ -51,15 +51,16 @@ impl Derive<'_> {
     /// A force, or a pressure on an area.
     fn force(&mut self, wall: &mut toml::Table, name: &str) {
         let Some(servo) = wall.get_mut("servo").and_then(Value::as_table_mut) else { return };
-        let [pressure, area] = ["pressure", "area"].map(|key| servo.remove(key).and_then(|value| value.as_float()));
-        if let (Some(pressure), Some(area)) = (pressure, area) {
+        if let Some(area) = servo.remove("area").and_then(|area| area.as_float())
+            && let Some(pressure) = servo.remove("pressure").and_then(|pressure| pressure.as_float())
+        {
             servo.insert("force".into(), Value::Float(pressure * area));
         }
         let path = ["walls", name, "servo"];
         let typed = |key: &str| self.typed(&[&path[..], &[key]].concat());
         let label = match (typed("force"), typed("pressure"), typed("area")) {
-            (true, ..) | (_, true, true) => return,
-            (_, true, false) => "`pressure` needs an `area`",
+            // A pressure alone acts on the face of a box, which is looked for later.
+            (true, ..) | (_, true, _) => return,
             (_, false, true) => "`area` needs a `pressure`",
             (_, false, false) => "needs `force`, or `pressure` and `area`",
         };

@@ -1,0 +1,24 @@
+//! The page: files that are part of the program.
+
+/// A file of the page by its name: its type and its bytes.
+pub fn file(name: &str) -> Option<(&'static str, &'static [u8])> {
+    FILES.iter().find(|(known, _)| *known == name).map(|(name, bytes)| (kind(name), *bytes))
+}
+
+fn kind(name: &str) -> &'static str {
+    match name.rsplit_once('.').map(|(_, ending)| ending) {
+        Some("html") => "text/html; charset=utf-8",
+        Some("css") => "text/css; charset=utf-8",
+        _ => "text/javascript; charset=utf-8",
+    }
+}
+
+macro_rules! files {
+    ($($name:literal)*) => { &[$(($name, include_bytes!(concat!("../page/", $name)))),*] };
+}
+
+const FILES: &[(&str, &[u8])] = files![
+    "index.html" "style.css" "main.js" "server.js" "packet.js" "stage.js" "pane.js" "camera.js" "grains.js" "walls.js"
+    "bonds.js" "frame_of_reference.js" "palette.js" "legend.js" "scale_bar.js" "player.js" "curves.js" "table.js" "pick.js"
+    "cut.js" "live.js" "theme.js" "screenshot.js" "numbers.js" "three.min.js"
+];

@@ -1,0 +1,6 @@
+//! What the server gives and refuses, over plain TCP; and the page in a browser.
+
+mod browser;
+mod chromium;
+mod server;
+mod support;
