@@ -8,9 +8,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Pages with such tables, with their new text.
-pub fn pages() -> Result<Vec<(String, String)>, String> {
+pub fn pages(tsubu: &str) -> Result<Vec<(String, String)>, String> {
     let mut pages = vec![filled("benches/README.md", "race", &race()?)?];
-    pages.extend(studies()?);
+    pages.extend(studies(tsubu)?);
     Ok(pages)
 }
 
@@ -88,7 +88,7 @@ fn race_table(race: &Value, name: &str) -> String {
 
 /// Pages of studies with what is kept of their claims. The marks name the studies: `<!-- generated: claims STUDY ... -->` is a table
 /// case by case, `<!-- generated: standing STUDY ... -->` how the study stands.
-fn studies() -> Result<Vec<(String, String)>, String> {
+fn studies(tsubu: &str) -> Result<Vec<(String, String)>, String> {
     let kept = crate::claims::read()?;
     let mut pages = Vec::new();
     for folder in list(&root().join("studies"))? {
@@ -97,7 +97,7 @@ fn studies() -> Result<Vec<(String, String)>, String> {
         for mark in marks(&text) {
             let table = match mark.split_once(' ') {
                 Some(("claims", names)) => claim_table(&kept, names),
-                Some(("standing", _)) => printed(&mark)?,
+                Some(("standing", _)) => printed(tsubu, &mark)?,
                 _ => return Err(format!("{page}: nobody makes the table `{mark}`")),
             };
             text = put(&text, &mark, &table).ok_or_else(|| format!("{page}: the table `{mark}` has no end"))?;
@@ -114,8 +114,8 @@ fn marks(text: &str) -> Vec<String> {
 }
 
 /// A page or a table that the program prints.
-pub fn printed(name: &str) -> Result<String, String> {
-    output(&["run", "--package", "tsubu-cli", "--quiet", "--", "explain", "--page", name])
+pub fn printed(tsubu: &str, name: &str) -> Result<String, String> {
+    output(tsubu, &["explain", "--page", name])
 }
 
 /// Claims of some studies case by case: how many hold, and each that fails.

@@ -1,6 +1,6 @@
 //! Keeping what verification cases claim, `crates/tsubu-verify/claims.jsonl`, and the runs that this is of, `runs.jsonl` beside it.
 
-use crate::shell::{cargo, cargo_path, command, output, root};
+use crate::shell::{command, output, released, root};
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::fs;
@@ -16,8 +16,8 @@ const RUNS: &str = "crates/tsubu-verify/runs.jsonl";
 /// Runs cases (those of some names or studies; without names all of at most a minute) and keeps their claims in place of the old. After
 /// `--from` it takes what a folder of `tsubu verify -o` has, and runs nothing.
 pub fn claims(words: &[&str]) -> Result<(), String> {
-    cargo(&["build", "--package", "tsubu-cli", "--quiet"])?;
-    let list = output(&["run", "--package", "tsubu-cli", "--quiet", "--", "verify", "--list"])?;
+    let tsubu = released()?;
+    let list = output(&tsubu, &["verify", "--list"])?;
     let cases = listed(&list);
     let (folder, chosen): (PathBuf, Vec<&str>) = match words {
         ["--from", folder] => {
@@ -32,7 +32,7 @@ pub fn claims(words: &[&str]) -> Result<(), String> {
                 names => names.contains(&case.name) || names.contains(&case.study),
             };
             let chosen: Vec<&str> = cases.iter().filter(wanted).map(|case| case.name).collect();
-            (run(&chosen)?, chosen)
+            (run(&tsubu, &chosen)?, chosen)
         }
     };
     let (old, old_runs) = (read()?, runs()?);
@@ -104,13 +104,10 @@ fn listed(list: &str) -> Vec<Listed<'_>> {
 
 /// Runs cases side by side with their controls; gives the folder in which each is kept, whether its claims hold or not. What the same
 /// program has done before is not run again. A release build: what a case costs is told, and some claims are on time.
-fn run(cases: &[&str]) -> Result<PathBuf, String> {
+fn run(tsubu: &str, cases: &[&str]) -> Result<PathBuf, String> {
     let folder = root().join("target/kept-claims");
-    let mut arguments = vec!["run", "--release", "--package", "tsubu-cli", "--quiet", "--", "verify"];
-    arguments.extend(cases);
-    arguments.extend(["--controls", "-o"]);
-    let mut verify = command(&cargo_path(), &arguments);
-    verify.arg(&folder).stdout(Stdio::null());
+    let mut verify = command(tsubu, &[&["verify"], cases].concat());
+    verify.args(["--controls", "-o"]).arg(&folder).stdout(Stdio::null());
     if folder.join(".tsubu").is_file() {
         verify.arg("--resume");
     }

@@ -1,7 +1,7 @@
 //! Pages that are made from the code.
 
 use crate::blocks;
-use crate::shell::{cargo, root};
+use crate::shell::{program, root};
 use std::fs;
 
 /// Pages of the book that the program prints.
@@ -13,12 +13,12 @@ fn pages() -> Result<Vec<(String, String)>, String> {
         ("docs/src/scene-reference.md".to_owned(), tsubu_scene::reference()),
         ("docs/scene.schema.json".to_owned(), format!("{:#}\n", tsubu_scene::schema())),
     ];
-    cargo(&["build", "--package", "tsubu-cli", "--quiet"])?;
+    let tsubu = program("tsubu")?;
     for name in PRINTED {
-        pages.push((format!("docs/src/explained/{name}.md"), blocks::printed(name)?));
+        pages.push((format!("docs/src/explained/{name}.md"), blocks::printed(&tsubu, name)?));
     }
-    pages.push(blocks::filled("README.md", "verdicts", &blocks::printed("verdicts")?)?);
-    pages.extend(blocks::pages()?);
+    pages.push(blocks::filled("README.md", "verdicts", &blocks::printed(&tsubu, "verdicts")?)?);
+    pages.extend(blocks::pages(&tsubu)?);
     Ok(pages)
 }
 

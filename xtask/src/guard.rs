@@ -1,12 +1,10 @@
 //! The standing guards: fuzzers, kills.
 
-use crate::shell::cargo;
+use crate::shell::{command, program, run};
 
 /// A guard with its arguments.
 pub fn guard(name: &str, arguments: &[&str]) -> Result<(), String> {
-    // Some cases are calls of the program.
-    cargo(&["build", "--package", "tsubu-cli", "--package", "tsubu-guard", "--quiet"])?;
-    cargo(&[&["run", "--package", "tsubu-guard", "--quiet", "--", name], arguments].concat())
+    run(command(&program("tsubu-guard")?, &[&[name], arguments].concat()))
 }
 
 /// What must hold in every change: a minute of cases, a few kills.

@@ -37,6 +37,8 @@ cargo xtask CHORE
   claims --from DIR   keep what `tsubu verify --controls -o DIR` has found, and run nothing
   mutants [WORDS]...  change a constant of the engines by 5 %, or leave a rule out, one after the other, and keep which quick
                       verification cases notice; fails where none does
+  chaotic             run the verification cases of up to ten seconds from two starts that differ in the last bit, and keep which
+                      claims that moves
   fuzz [--seed N] [--seconds S] [--cases N] [--only KIND] [--case N]
                       draw scenes, files and command lines, and hold tsubu against them; --help says more
   variants [--quick] [--seed N]
@@ -67,6 +69,7 @@ fn main() -> ExitCode {
         ["spelling"] => spelling::check(),
         ["book"] => book::book(),
         ["mutants", names @ ..] => mutants::mutants(names),
+        ["chaotic"] => mutants::chaotic(),
         ["fuzz", rest @ ..] => guard::guard("fuzz", rest),
         ["variants", rest @ ..] => variants::chore(rest),
         ["same", rest @ ..] => variants::same(rest),

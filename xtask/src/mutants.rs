@@ -1,6 +1,6 @@
 //! Which verification cases notice that something is wrong on purpose: `crates/tsubu-verify/mutants.jsonl`, a mutation a line.
 
-use crate::shell::{cargo_path, command, root};
+use crate::shell::{cargo_path, command, output, root};
 use serde_json::{Value, json};
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -35,6 +35,21 @@ pub fn mutants(words: &[&str]) -> Result<(), String> {
         (false, []) => Err(format!("the mutants ended badly ({status})")),
         (false, some) => Err(format!("nobody notices: {some:?}")),
     }
+}
+
+/// Runs the cases of at most ten seconds from two starts that differ in the last bit, and keeps which claims that moves.
+pub fn chaotic() -> Result<(), String> {
+    const KEPT: &str = "crates/tsubu-verify/chaotic.jsonl";
+    let text = output(
+        &cargo_path(),
+        &["run", "--package", "tsubu-verify", "--features", "mutations", "--example", "mutants", "--", "--last-bit"],
+    )?;
+    let found = lines(&text)?;
+    let moved = found.iter().filter(|line| line["claims"] != json!([]));
+    let text = moved.fold(String::new(), |text, line| text + &format!("{line}\n"));
+    fs::write(root().join(KEPT), text).map_err(|error| format!("cannot write {KEPT}: {error}"))?;
+    eprintln!("wrote {KEPT}; `cargo xtask gen` makes the table");
+    Ok(())
 }
 
 fn lines(text: &str) -> Result<Vec<Value>, String> {

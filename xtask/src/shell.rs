@@ -25,6 +25,19 @@ pub fn cargo_path() -> String {
     std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned())
 }
 
+/// A program of the workspace as the tests run it. It is built together with them: built alone it would have other features of its
+/// dependencies, and all that stands between would be compiled a second time.
+pub fn program(name: &str) -> Result<String, String> {
+    cargo(&["build", "--workspace", "--bins", "--tests", "--locked", "--quiet"])?;
+    Ok(root().join("target/debug").join(name).to_string_lossy().into_owned())
+}
+
+/// The program as users have it.
+pub fn released() -> Result<String, String> {
+    cargo(&["build", "--release", "--locked", "--package", "tsubu-cli", "--quiet"])?;
+    Ok(root().join("target/release/tsubu").to_string_lossy().into_owned())
+}
+
 /// Runs a command, says which, and fails when it does.
 pub fn run(mut command: Command) -> Result<(), String> {
     let words: Vec<_> = command.get_args().map(|word| word.to_string_lossy().into_owned()).collect();
@@ -35,10 +48,10 @@ pub fn run(mut command: Command) -> Result<(), String> {
     if status.success() { Ok(()) } else { Err(format!("`{told}` failed ({status})")) }
 }
 
-/// What cargo, given these arguments, prints to stdout.
-pub fn output(arguments: &[&str]) -> Result<String, String> {
-    let told = format!("cargo {}", arguments.join(" "));
-    let done = command(&cargo_path(), arguments).stderr(Stdio::inherit()).output();
+/// What a program, given these arguments, prints to stdout.
+pub fn output(program: &str, arguments: &[&str]) -> Result<String, String> {
+    let told = format!("{program} {}", arguments.join(" "));
+    let done = command(program, arguments).stderr(Stdio::inherit()).output();
     let done = done.map_err(|error| format!("cannot start `{told}`: {error}"))?;
     if !done.status.success() {
         return Err(format!("`{told}` failed ({})", done.status));

@@ -94,6 +94,11 @@ impl FrameWriter {
         Ok(())
     }
 
+    /// What is written beside the grains and walls from now on.
+    pub fn set_formats(&mut self, formats: Formats) {
+        self.formats = formats;
+    }
+
     /// Number of snapshots so far.
     pub fn count(&self) -> usize {
         self.next

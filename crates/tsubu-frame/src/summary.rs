@@ -121,13 +121,43 @@ pub struct Summary {
     /// SI unit of each result that has one.
     #[serde(default, skip_serializing_if = "Named::is_empty")]
     pub units: Named<String>,
+    /// The stages of a run that has several, as far as it has come.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<StageSpan>,
     /// Values held against their ranges.
     pub claims: Vec<Claim>,
     /// What the reader should know.
     pub warnings: Vec<String>,
 }
 
+/// A stage of a run that is over.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StageSpan {
+    /// Its name; its results are called `NAME.RESULT`.
+    pub name: String,
+    /// Simulated time at its begin [s].
+    #[serde(deserialize_with = "real")]
+    pub begin: f64,
+    /// The same at its end [s].
+    #[serde(deserialize_with = "real")]
+    pub end: f64,
+    /// Its steps.
+    pub steps: u64,
+    /// What ended it: `duration`, `until` or `at-most`.
+    pub ended: String,
+}
+
 impl Summary {
+    /// Takes over the results and warnings of a part of the run, called `NAME.RESULT` where the part has a name.
+    pub fn take(&mut self, name: Option<&str>, part: Self) {
+        let called = |result: &str| name.map_or_else(|| result.to_owned(), |name| format!("{name}.{result}"));
+        for (result, value) in part.results.iter() {
+            self.give(called(result), part.unit(result), value.clone());
+        }
+        let told = |warning| name.map_or_else(|| String::clone(&warning), |name| format!("stage `{name}`: {warning}"));
+        self.warnings.extend(part.warnings.into_iter().map(told));
+    }
+
     /// Adds a result with its SI unit, `-` for none.
     pub fn give(&mut self, name: impl Into<String>, unit: &str, value: impl Into<ResultValue>) {
         let name = name.into();

@@ -13,7 +13,7 @@ use crate::frame::{Column, Frame, Kind, Values};
 use crate::whole::write_beside;
 
 /// Kinds that have points, and the stem of the file of each.
-pub(crate) const STEMS: [(Kind, &str); 4] =
+pub const STEMS: [(Kind, &str); 4] =
     [(Kind::Grain, "grains"), (Kind::Contact, "contacts"), (Kind::Cell, "cells"), (Kind::Surface, "walls")];
 
 /// Writes the columns of one kind; `false` if the frame has no `position` of that kind and so nothing was written.

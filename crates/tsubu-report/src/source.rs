@@ -6,7 +6,7 @@ use tsubu_frame::summary::mean_beside;
 use tsubu_frame::{FileError, ResultValue, Summary, Table, csv::split_unit, unit::for_people};
 
 use crate::claims::range;
-use crate::figure::{Axis, Bars, Figure};
+use crate::figure::{Axis, Bars, Figure, Mark};
 use crate::page::{Block, Card, Grid, Report, Tone};
 use crate::text::{count, duration, short};
 
@@ -23,6 +23,8 @@ pub(crate) struct Source {
     /// The notes that stand on the page already.
     pub damage: Vec<String>,
     pub files: Vec<(String, Vec<u8>)>,
+    /// When the stages of the run began [s], for figures against time.
+    stages: Vec<(f64, String)>,
 }
 
 impl Source {
@@ -59,7 +61,9 @@ impl Source {
             return None;
         }
         let read = Summary::read(&self.dir.join("summary.json"));
-        self.told(read)
+        let summary = self.told(read)?;
+        self.stages = summary.stages.iter().map(|stage| (stage.begin, stage.name.clone())).collect();
+        Some(summary)
     }
 
     /// The value, or a note on why there is none. A report is mailed, its folder is not: the note leaves out where
@@ -100,6 +104,9 @@ impl Source {
         if figure.is_idle() {
             return None;
         }
+        let stages = self.stages.iter().filter(|_| figure.x.label == "time" && !figure.x.log);
+        let marked = |figure: Figure, (at, name): &(f64, String)| figure.marked(Mark::vertical(*at, name));
+        let figure = stages.fold(figure.clone(), marked);
         self.files.push((format!("figures/{name}.svg"), figure.to_svg().into_bytes()));
         Some(Block::Drawing { svg: figure.to_inline_svg(), caption: caption.to_owned() })
     }

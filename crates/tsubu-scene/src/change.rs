@@ -11,9 +11,9 @@ use crate::resolve::unknown_key;
 use crate::suggest;
 
 /// One step of a path, with its place in the text of the change.
-struct Step {
-    name: String,
-    place: Place,
+pub(crate) struct Step {
+    pub name: String,
+    pub place: Place,
 }
 
 /// Applies `text` (`key.path=value`, found at index `source` of the sources) to the tree.
@@ -43,7 +43,8 @@ fn find_equals(text: &str) -> Option<usize> {
     })
 }
 
-fn steps(path: &str, source: usize) -> Option<Vec<Step>> {
+/// The steps of a path that stands at the begin of its source.
+pub(crate) fn steps(path: &str, source: usize) -> Option<Vec<Step>> {
     let mut steps = Vec::new();
     let mut start = 0;
     let mut quoted = false;
@@ -81,7 +82,13 @@ fn value(text: &str, source: usize, offset: usize) -> Result<Node, Complaint> {
     }
 }
 
-fn put(table: &mut Table, keys: &'static [Key], path: &str, steps: &[Step], value: Node) -> Result<(), Complaint> {
+pub(crate) fn put(
+    table: &mut Table,
+    keys: &'static [Key],
+    path: &str,
+    steps: &[Step],
+    value: Node,
+) -> Result<(), Complaint> {
     let [step, rest @ ..] = steps else { return Ok(()) };
     let Some(key) = keys::find(keys, &step.name) else {
         return Err(unknown_key(&step.name, &step.place, keys, path));
@@ -110,7 +117,7 @@ fn put(table: &mut Table, keys: &'static [Key], path: &str, steps: &[Step], valu
             }
             put_choice(child(named, step)?, variants, &join(&here, &step.name), rest, value)
         }
-        Kind::Vary => {
+        Kind::Vary | Kind::Set => {
             let names: Vec<&str> = rest.iter().map(|step| step.name.as_str()).collect();
             let entry = Entry { key: names.join("."), place: rest[0].place.clone(), node: value };
             child(table, step)?.set(entry);

@@ -26,6 +26,12 @@ impl Files {
         Self { folder, bytes: BTreeMap::new(), grains: BTreeMap::new(), meshes: BTreeMap::new() }
     }
 
+    /// The whole path of something that the scene names.
+    pub fn absolute(&self, name: &str) -> PathBuf {
+        let path = self.folder.join(name);
+        std::path::absolute(&path).unwrap_or(path)
+    }
+
     /// The bytes of the file, or why it cannot be read.
     pub fn bytes(&mut self, name: &str) -> Result<Arc<[u8]>, String> {
         let folder = &self.folder;

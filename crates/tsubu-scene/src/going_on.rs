@@ -2,6 +2,7 @@
 
 use crate::complaint::{Complaints, brief};
 use crate::scene::Scene;
+use crate::stage;
 use crate::write::text;
 use std::collections::{BTreeMap, BTreeSet};
 use toml::{Table, Value};
@@ -10,6 +11,9 @@ use toml::{Table, Value};
 /// and what other commands make of the scene.
 const FREE: &[&str] =
     &["title", "duration", "output", "claim", "response", "sweep", "dem.largest-overlap", "dem.energy-tolerance"];
+
+/// What another run may have otherwise that this one goes on from, beside what stages may change.
+const OF_THE_RUN: &[&str] = &["stage", "start-from", "start-at-zero", "dem.steps-per-contact"];
 
 /// Intervals that follow the duration where nobody tells them.
 const INTERVALS: [&str; 2] = ["history-interval", "checkpoint-interval"];
@@ -43,6 +47,17 @@ impl Scene {
             .filter_map(|key| Some(format!("output.{key}={}", output.as_ref()?.get(key)?.as_float()?)))
             .collect();
         if changes.is_empty() { Ok(self.clone()) } else { self.changed(&changes) }
+    }
+
+    /// What is not as in an earlier scene and must be, for a run that starts from where another ended.
+    pub fn obstacles(&self, earlier: &str) -> Vec<Difference> {
+        let of_the_run = |key: &str| {
+            OF_THE_RUN
+                .iter()
+                .any(|free| key.strip_prefix(free).is_some_and(|rest| rest.is_empty() || rest.starts_with('.')))
+        };
+        let differences = self.differences(earlier).into_iter();
+        differences.filter(|found| !of_the_run(&found.key) && !stage::may_differ(&found.key)).collect()
     }
 
     /// What decides the steps and is not as in an earlier scene, `scene.toml` of a run folder.

@@ -15,6 +15,8 @@ pub struct Key {
     pub range: Range,
     /// Keys that say the same thing another way: only one of them may be given. It may name itself.
     pub rivals: &'static [&'static str],
+    /// Whether a stage of a run may change it, and all that is below it.
+    pub may_change: bool,
     /// One sentence for people.
     pub about: &'static str,
 }
@@ -80,6 +82,8 @@ pub enum Kind {
     NamedChoice(&'static [Variant], &'static str),
     /// Scene keys (quoted) with the lists of values they take.
     Vary,
+    /// Scene keys with the value that each has from a stage on: a piece of a scene.
+    Set,
 }
 
 impl Kind {
@@ -242,7 +246,7 @@ impl Key {
 
     /// A required key without limits.
     pub const fn new(name: &'static str, kind: Kind, about: &'static str) -> Self {
-        Self { name, kind, need: Need::Required, range: Range::ANY, rivals: &[], about }
+        Self { name, kind, need: Need::Required, range: Range::ANY, rivals: &[], may_change: false, about }
     }
 
     pub(crate) const fn default(self, toml: &'static str) -> Self {
@@ -263,6 +267,10 @@ impl Key {
 
     pub(crate) const fn derived_or_word(self, text: &'static str, word: &'static str) -> Self {
         Self { need: Need::DerivedOrWord(text, word), ..self }
+    }
+
+    pub(crate) const fn may_change(self) -> Self {
+        Self { may_change: true, ..self }
     }
 
     pub(crate) const fn rivals(self, rivals: &'static [&'static str]) -> Self {

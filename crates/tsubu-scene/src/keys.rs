@@ -10,6 +10,7 @@ mod grains;
 mod hosts;
 mod methods;
 mod sites;
+mod stage;
 mod study;
 mod walls;
 mod watch;

@@ -53,6 +53,7 @@ mod resolve;
 mod scene;
 mod schema;
 mod size;
+mod stage;
 mod study;
 mod suggest;
 mod templates;

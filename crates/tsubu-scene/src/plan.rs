@@ -15,6 +15,7 @@ mod grains;
 mod hosts;
 mod methods;
 mod sites;
+mod stage;
 mod study;
 mod typed_order;
 mod walls;
@@ -34,8 +35,9 @@ pub use methods::{
     ObliqueGravity,
 };
 pub use sites::{GuttHaff, Heap, Savage, Split, Voids};
+pub use stage::{Stage, Until};
 pub use study::{Claim, Output, Response, Sweep};
-pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall};
+pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall, box_of_planes};
 pub use watch::{Axis, Bed, Face, Heading, Kernel, Measure, Quantity, Watch};
 pub use water::{Buoyancy, Directions, Drag, Flow, Fluctuation, Hindrance, Lid, Lift, StreamStart, Torque, Water};
 
@@ -120,6 +122,14 @@ pub struct Plan {
     pub watch: toml::map::Map<String, Watch>,
     /// What is written, and how often.
     pub output: Output,
+    /// The folder of the run that this one goes on from, as an absolute path.
+    pub start_from: Option<String>,
+    /// Whether its clock begins at 0 then.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start_at_zero: Option<bool>,
+    /// The stages of the run; empty: it is one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stage: Vec<Stage>,
     /// Results that must lie in a range.
     #[serde(default)]
     pub claim: Vec<Claim>,

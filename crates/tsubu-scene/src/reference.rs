@@ -44,6 +44,7 @@ NAME stands for a name of your own. A value can be changed from the command line
 /// The page in Markdown.
 pub fn reference() -> String {
     let mut page = String::from(HEAD);
+    let _ = writeln!(page, "A [stage](stages.md) may set keys with a star, and what stands in their tables.\n");
     let _ = writeln!(page, "## Top of the file\n");
     rows(&mut page, keys::SCENE);
     for key in keys::SCENE {
@@ -120,7 +121,8 @@ fn rows(page: &mut String, keys: &[Key]) {
     page.push_str("| key | value | default | meaning |\n|---|---|---|---|\n");
     for key in keys {
         let range = key.range.words().map(|words| format!(", {words}")).unwrap_or_default();
-        let _ = writeln!(page, "| `{}` | {}{range} | {} | {} |", key.name, value(key), default(key), key.about);
+        let stage = if key.may_change { " *" } else { "" };
+        let _ = writeln!(page, "| `{}`{stage} | {}{range} | {} | {} |", key.name, value(key), default(key), key.about);
     }
     page.push('\n');
 }
@@ -158,6 +160,7 @@ pub(crate) fn value(key: &Key) -> String {
         Kind::Many(_) => "list of tables".to_string(),
         Kind::Choice(variants) => format!("choice of {}", suggest::list(variants.iter().map(|variant| variant.name))),
         Kind::Vary => "quoted keys with lists".to_string(),
+        Kind::Set => "scene keys with values".to_string(),
     }
 }
 

@@ -8,6 +8,7 @@ use crate::files::{self, Files};
 use crate::node::{self, Node};
 use crate::plan::Plan;
 use crate::resolve::{self, Read};
+use crate::stage;
 use crate::study;
 use crate::write;
 use std::path::Path;
@@ -16,7 +17,8 @@ use std::path::Path;
 #[derive(Clone, Debug)]
 pub struct Scene {
     typed: Typed,
-    plan: Plan,
+    /// One for each stage of the run.
+    plans: Vec<Plan>,
     companions: Vec<Companion>,
 }
 
@@ -64,22 +66,34 @@ impl Scene {
     }
 
     fn new(mut typed: Typed, try_varied: bool) -> Result<Self, Complaints> {
-        let mut work = Work::begin(&typed);
-        let mut files = typed.files.clone();
-        let plan = work.plan(&mut files, try_varied, &typed);
-        typed.files = files;
-        match plan {
-            Some(mut plan) if work.complaints.is_empty() => {
-                let companions = attach::companions(&mut plan, &typed.files);
-                Ok(Self { typed, plan, companions })
+        let mut plans = Vec::new();
+        loop {
+            let mut work = Work::begin_stage(&typed, plans.len());
+            let mut files = typed.files.clone();
+            let plan = work.plan(&mut files, try_varied && plans.is_empty(), &typed);
+            typed.files = files;
+            let never = plan.as_ref().and_then(|plan| stage::never_steady(plan, plans.len(), &work.root));
+            work.complaints.extend(never);
+            let Some(mut plan) = plan.filter(|_| work.complaints.is_empty()) else {
+                return Err(Complaints::new(work.sources, work.complaints));
+            };
+            let companions = attach::companions(&mut plan, &typed.files);
+            let stages = plan.stage.len();
+            plans.push(plan);
+            if plans.len() >= stages {
+                return Ok(Self { typed, plans, companions });
             }
-            _ => Err(Complaints::new(work.sources, work.complaints)),
         }
     }
 
-    /// What the scene means.
-    pub const fn plan(&self) -> &Plan {
-        &self.plan
+    /// What the scene means; of a run of several stages, the first.
+    pub fn plan(&self) -> &Plan {
+        &self.plans[0]
+    }
+
+    /// What it means stage by stage; most scenes are one.
+    pub fn plans(&self) -> &[Plan] {
+        &self.plans
     }
 
     /// What was typed, without the changes.
@@ -118,7 +132,11 @@ impl Scene {
     /// The scene in SI numbers with every default written out; read again beside its [`Self::companions`] it gives the
     /// same plan, bit by bit. What follows from what a study varies is left to follow it.
     pub fn resolved_toml(&self) -> String {
-        write::to_toml(&self.plan, |table| study::leave_open(table, &self.plan, &Work::begin(&self.typed).root))
+        let typed = Work::begin(&self.typed).root;
+        write::to_toml(self.plan(), |table| {
+            study::leave_open(table, self.plan(), &typed);
+            stage::leave_open(table, &typed);
+        })
     }
 
     /// Whether the text or a change gives a value to a key.
@@ -137,12 +155,20 @@ struct Work {
 impl Work {
     /// Parses the text and applies the changes.
     fn begin(typed: &Typed) -> Self {
+        Self::begin_stage(typed, 0)
+    }
+
+    /// The same with what the stages up to one of them set.
+    fn begin_stage(typed: &Typed, number: usize) -> Self {
         let (mut root, mut complaints) = node::parse(&typed.text, 0);
         let mut sources = vec![Source { name: typed.name.clone(), text: typed.text.clone(), numbered: true }];
         for text in &typed.changes {
             let source = sources.len();
             sources.push(Source { name: "--set".to_string(), text: text.clone(), numbered: false });
             complaints.extend(change::apply(&mut root, text, source).err());
+        }
+        if complaints.is_empty() {
+            complaints.extend(stage::enter(&mut root, number));
         }
         Self { sources, root, complaints }
     }
@@ -158,6 +184,7 @@ impl Work {
             return None;
         }
         self.complaints.extend(resolve::derive(&mut resolved, &self.root, files, &mut self.sources));
+        self.complaints.extend(stage::find_start(&mut resolved, &self.root, files));
         self.complaints.extend(check(&resolved, &self.root, files));
         // After all others: they say more of what is wrong.
         if self.complaints.is_empty() {

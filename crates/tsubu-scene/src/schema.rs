@@ -110,6 +110,7 @@ fn kind(key: &'static Key) -> Value {
         Kind::Many(keys) => json!({ "type": "array", "items": table(keys, key.about) }),
         Kind::Choice(variants) => choice(variants),
         Kind::NamedChoice(variants, _) => json!({ "type": "object", "additionalProperties": choice(variants) }),
+        Kind::Set => json!({ "type": "object" }),
         Kind::Vary => json!({ "type": "object", "additionalProperties": { "type": "array", "minItems": 1 } }),
     }
 }

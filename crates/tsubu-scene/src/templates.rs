@@ -11,6 +11,16 @@ pub struct Template {
     pub text: &'static str,
 }
 
+impl Template {
+    /// The files that the scene names: what each is called, and what is in it.
+    pub fn files(&self) -> &'static [(&'static str, &'static str)] {
+        match self.name {
+            "mixer" => &[("mixer-blade.stl", include_str!("../../../scenes/mixer-blade.stl"))],
+            _ => &[],
+        }
+    }
+}
+
 /// Every template; the first is the main example. Names and texts are those of `scenes/README.md`.
 pub static TEMPLATES: &[Template] = &[
     Template {
@@ -37,6 +47,21 @@ pub static TEMPLATES: &[Template] = &[
         name: "heap",
         about: "a hopper empties onto a floor and a heap grows: watches count, weigh and measure; the scene claims what comes out",
         text: include_str!("../../../scenes/heap.toml"),
+    },
+    Template {
+        name: "fill-and-open",
+        about: "a silo that is filled, comes to rest and is opened: three stages of one run",
+        text: include_str!("../../../scenes/fill-and-open.toml"),
+    },
+    Template {
+        name: "mixer",
+        about: "two sorts of grains are filled into a drum, come to rest, and a blade from an STL file turns in them",
+        text: include_str!("../../../scenes/mixer.toml"),
+    },
+    Template {
+        name: "triaxial",
+        about: "spheres between planes: pressed together from all sides, then sheared at constant stress on their sides; a peak, and the critical state",
+        text: include_str!("../../../scenes/triaxial.toml"),
     },
     Template {
         name: "hops",

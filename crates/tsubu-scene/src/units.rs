@@ -64,6 +64,7 @@ dimensions! {
     LOAD_RATE "a rate of force" "N/s" [1, 1, -3, 0] [1e-25, 1e20] ["N/s", "kN/s", "N/ms"] ["2 N/s"] "Forces that grow."
     ENERGY_DENSITY "an energy density" "J/m^3" [-1, 1, -2, 0] [1e-15, 1e15] ["J/m^3", "kJ/m^3", "Pa", "kPa"] ["300 kJ/m^3"] "Energy densities."
     VISCOSITY "a viscosity" "Pa s" [-1, 1, -1, 0] [1e-15, 1e15] ["Pa s", "mPa s", "kg/(m s)"] ["1 mPa s"] "Viscosities, mass per length and time."
+    ENERGY "an energy" "J" [2, 1, -2, 0] [1e-30, 1e20] ["J", "mJ"] ["1e-9 J", "0.2 mJ"] "Energies."
     SURFACE_ENERGY "a surface energy" "J/m^2" [0, 1, -2, 0] [1e-15, 1e9] ["J/m^2", "mJ/m^2"] ["50 mJ/m^2"] "Surface energies."
 }
 

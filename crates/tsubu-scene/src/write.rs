@@ -36,7 +36,10 @@ fn keys_of(out: &mut String, keys: &'static [Key], table: &toml::Table, path: &s
                     let _ = writeln!(out, "{}.{variant} = {{}}", key.name);
                 }
             }
-            (Some(_), Kind::Table(_) | Kind::Named(..) | Kind::NamedChoice(..) | Kind::Many(_) | Kind::Vary) => {}
+            (
+                Some(_),
+                Kind::Table(_) | Kind::Named(..) | Kind::NamedChoice(..) | Kind::Many(_) | Kind::Vary | Kind::Set,
+            ) => {}
             (Some(value), kind) => {
                 let _ = write!(out, "{} = {}", key.name, text(value, true));
                 match kind.dimension().map(|dimension| dimension.si) {
@@ -76,6 +79,12 @@ fn keys_of(out: &mut String, keys: &'static [Key], table: &toml::Table, path: &s
                     if let Value::Table(choice) = value {
                         chosen(out, variants, choice, &join(&here, name));
                     }
+                }
+            }
+            (Kind::Set, Value::Table(set)) if !set.is_empty() => {
+                let _ = writeln!(out, "\n[{here}]");
+                for (key, value) in set {
+                    let _ = writeln!(out, "{} = {}", bare(key), text(value, false));
                 }
             }
             (Kind::Vary, Value::Table(varied)) => {

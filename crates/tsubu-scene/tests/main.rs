@@ -18,6 +18,8 @@ mod pairs;
 mod products;
 /// No text makes the reader panic.
 mod robust;
+/// Stages of a run.
+mod stages;
 /// Watches.
 mod watches;
 /// Water and slopes.

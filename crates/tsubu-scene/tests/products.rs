@@ -269,7 +269,8 @@ fn a_scene_with_files_means_the_same_in_its_run_folder() {
 #[test]
 fn resolved_scenes_mean_the_same_bit_by_bit() {
     let everything = EVERYTHING.replace("\"1/3 m\"", "0.3333333333333333");
-    for text in [GOOD, &everything].into_iter().chain(TEMPLATES.iter().map(|template| template.text)) {
+    let templates = TEMPLATES.iter().filter(|template| template.files().is_empty());
+    for text in [GOOD, &everything].into_iter().chain(templates.map(|template| template.text)) {
         let scene = read(text, &[]).unwrap_or_else(|complaints| panic!("{complaints}"));
         let plan = again(scene.plan(), &scene.resolved_toml());
         assert_eq!(format!("{plan:?}"), format!("{:?}", scene.plan()), "signs of zero too");
@@ -317,7 +318,9 @@ fn every_field_of_the_plan_is_a_key_and_is_written() {
 fn templates_are_right_and_named_once() {
     let mut names: Vec<&str> = TEMPLATES.iter().map(|template| template.name).collect();
     for template in TEMPLATES {
-        let scene = read(template.text, &[]).unwrap_or_else(|complaints| panic!("{}: {complaints}", template.name));
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+        let scene = Scene::parse("scene.toml", template.text, &folder, &[])
+            .unwrap_or_else(|complaints| panic!("{}: {complaints}", template.name));
         assert!(!scene.plan().title.is_empty());
         assert!(template.text.lines().all(|line| line.len() <= 120), "{} has long lines", template.name);
     }

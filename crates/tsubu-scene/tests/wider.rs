@@ -327,7 +327,7 @@ fn walls_turn() {
 fn walls_are_pushed_or_free() {
     let servo = |text: &str| with(&format!("servo = {{ direction = \"-z\", mass = 2, {text} }}"));
     let pushed = |text: &str| plan(&servo(text)).walls["floor"].servo.clone().expect("pushed");
-    let expected = Servo { direction: [0.0, 0.0, -1.0], force: 20.0, mass: 2.0, damping: 0.0 };
+    let expected = Servo { direction: [0.0, 0.0, -1.0], force: Some(20.0), mass: 2.0, pressure: None, damping: 0.0 };
     assert_eq!(pushed("force = \"20 N\""), expected);
     assert_eq!(pushed("pressure = \"1 kPa\", area = \"200 cm^2\""), expected);
     let body =

@@ -2,19 +2,26 @@
 //!
 //! Without arguments all mutations, else those named, in the words of [`Mutation::ALL`]. A case is run with every mutation that
 //! would change something in it, and notices one where a claim that held does not hold any more.
+//!
+//! `--last-bit`: which claims of cases of at most ten seconds hang on the last bit of the start, a JSON line a case.
 
 use rayon::ThreadPoolBuilder;
 use serde_json::json;
+use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use tsubu::mutation::{Mutation, reached, set};
-use tsubu_frame::Origin;
-use tsubu_verify::{CASES, Case};
+use tsubu_frame::{Claim, Origin};
+use tsubu_verify::{CASES, Case, recorded_run};
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
+    if words == ["--last-bit"] {
+        last_bit();
+        return ExitCode::SUCCESS;
+    }
     let wanted = |(_, of): &&(Mutation, &'static str)| words.is_empty() || words.iter().any(|word| word == of);
     let chosen: Vec<&(Mutation, &str)> = Mutation::ALL.iter().filter(wanted).collect();
     let cases: Vec<&Case> = CASES.iter().filter(|case| case.is_quick()).collect();
@@ -29,29 +36,60 @@ fn main() -> ExitCode {
     }
     let mut left: Vec<usize> = chosen.iter().map(|(mutation, _)| reaches(*mutation).len()).collect();
     let reached = left.clone();
-    let mut noticed: Vec<Vec<usize>> = vec![Vec::new(); chosen.len()];
-    let tell = |m: usize, noticed: &mut Vec<usize>| {
-        noticed.sort_unstable();
-        let names: Vec<&str> = noticed.iter().map(|&at| cases[at].name).collect();
-        let line = json!({ "mutation": chosen[m].1, "reached": reached[m], "noticed": names });
-        eprintln!("{}: noticed by {} of {}", chosen[m].1, names.len(), reached[m]);
+    let mut noticed: Vec<BTreeMap<usize, Vec<String>>> = vec![BTreeMap::new(); chosen.len()];
+    let tell = |m: usize, noticed: &BTreeMap<usize, Vec<String>>| {
+        let noticed: Vec<(&str, &Vec<String>)> = noticed.iter().map(|(&at, claims)| (cases[at].name, claims)).collect();
+        let line = json!({ "mutation": chosen[m].1, "reached": reached[m], "noticed": noticed });
+        eprintln!("{}: noticed by {} of {}", chosen[m].1, noticed.len(), reached[m]);
         // Nobody hears it: then the exit code says so.
         let _ = writeln!(std::io::stdout(), "{line}");
     };
-    (0..chosen.len()).filter(|&m| reached[m] == 0).for_each(|m| tell(m, &mut Vec::new()));
+    (0..chosen.len()).filter(|&m| reached[m] == 0).for_each(|m| tell(m, &BTreeMap::new()));
     let run = |&(m, at): &(usize, usize)| {
         let now = holding(cases[at], Some(chosen[m].0));
-        whole[at].0.iter().any(|claim| !now.contains(claim))
+        whole[at].0.iter().filter(|claim| !now.contains(claim)).cloned().collect::<Vec<_>>()
     };
-    side_by_side(&jobs, run, |job, notices| {
+    side_by_side(&jobs, run, |job, claims| {
         let (m, at) = jobs[job];
-        noticed[m].extend(notices.then_some(at));
+        if !claims.is_empty() {
+            noticed[m].insert(at, claims);
+        }
         left[m] -= 1;
         if left[m] == 0 {
-            tell(m, &mut noticed[m]);
+            tell(m, &noticed[m]);
         }
     });
-    if noticed.iter().any(Vec::is_empty) { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+    if noticed.iter().any(BTreeMap::is_empty) { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+}
+
+/// Runs cases from two starts, and tells whose claims differ.
+fn last_bit() {
+    let short = |case: &&Case| recorded_run(case.name).is_some_and(|run| run.seconds <= 10.0);
+    let cases: Vec<&Case> = CASES.iter().filter(short).collect();
+    let run = |case: &&Case| {
+        let values = |mutation| {
+            set(mutation);
+            let claims = case.claims(None).unwrap_or_default();
+            set(None);
+            claims.into_iter().filter(|claim| claim.origin != Origin::Control).collect::<Vec<_>>()
+        };
+        let (one, other) = (values(None), values(Some(Mutation::LastBit)));
+        let differ = one.iter().zip(&other).filter(|(one, other)| differs(one, other));
+        differ.map(|(claim, _)| claim.name.clone()).collect::<Vec<_>>()
+    };
+    side_by_side(&cases, run, |at, claims| {
+        let line = json!({ "case": cases[at].name, "claims": claims });
+        // Nobody hears it: there is nobody to tell.
+        let _ = writeln!(std::io::stdout(), "{line}");
+    });
+}
+
+/// Whether a value has moved by more than a millionth of itself and of the ends of the accepted range: rounding, grown by some thousand
+/// steps of a regular motion, moves it by less.
+fn differs(one: &Claim, other: &Claim) -> bool {
+    let ends = [one.low, one.high].into_iter().flatten();
+    let scale = ends.fold(one.value.abs(), |scale, end| scale.max(end.abs()));
+    (one.value - other.value).abs() > 1e-6 * scale
 }
 
 /// The claims of a case that hold. Controls are no claims: that a model which is wrong anyway is refused says nothing.

@@ -13,8 +13,8 @@ pub struct Mutant {
     pub mutation: String,
     /// How many quick cases it changes something in.
     pub reached: usize,
-    /// Those of them in which a claim that held did not hold any more.
-    pub noticed: Vec<String>,
+    /// Those of them in which claims that held did not hold any more, with these claims.
+    pub noticed: Vec<(String, Vec<String>)>,
 }
 
 /// All that are kept.
@@ -27,6 +27,14 @@ pub fn mutants_not_run() -> Vec<&'static str> {
     let kept = mutants();
     let run = |words: &str| kept.iter().any(|mutant| mutant.mutation == words);
     Mutation::ALL.into_iter().map(|(_, words)| words).filter(|words| !run(words)).collect()
+}
+
+/// What was wrong where a claim of a case did not hold any more: its controls.
+pub(crate) fn refusing(case: &str, claim: &str) -> Vec<String> {
+    let refuses = |mutant: &Mutant| {
+        mutant.noticed.iter().any(|(of, claims)| of == case && claims.iter().any(|name| name == claim))
+    };
+    mutants().into_iter().filter(refuses).map(|mutant| mutant.mutation).collect()
 }
 
 #[cfg(test)]
@@ -42,7 +50,7 @@ mod tests {
         for mutant in &kept {
             assert!(!mutant.noticed.is_empty(), "nobody notices: {}", mutant.mutation);
             assert!(Mutation::named(&mutant.mutation).is_some(), "there is no mutation `{}`", mutant.mutation);
-            let known = |name: &String| CASES.iter().any(|case| case.name == name && case.is_quick());
+            let known = |(name, _): &(String, _)| CASES.iter().any(|case| case.name == name && case.is_quick());
             assert!(mutant.noticed.iter().all(known), "{}: a case is no quick case", mutant.mutation);
             assert!(mutant.noticed.len() <= mutant.reached, "{}", mutant.mutation);
         }

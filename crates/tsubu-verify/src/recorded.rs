@@ -1,17 +1,23 @@
 //! Claims as they were found when they were last kept, so that they can be read without running anything.
 
 use crate::case_run::CaseRun;
+use crate::mutants;
 use serde_json::Value;
 use tsubu_frame::Claim;
 
 /// One claim a line; `cargo xtask claims` writes them.
 const KEPT: &str = include_str!("../claims.jsonl");
 
-/// The kept claims of a case, in the order in which the case makes them; none where it has not been run since.
+/// The kept claims of a case, in the order in which the case makes them, with the mutations that refuse them among their controls; none
+/// where it has not been run since.
 pub fn recorded(case: &str) -> Vec<Claim> {
     let lines = KEPT.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
     let of_case = lines.filter(|line| line["case"] == case);
-    of_case.filter_map(|line| serde_json::from_value(line).ok()).collect()
+    let mut claims: Vec<Claim> = of_case.filter_map(|line| serde_json::from_value(line).ok()).collect();
+    for claim in &mut claims {
+        claim.controls.extend(mutants::refusing(case, &claim.name));
+    }
+    claims
 }
 
 /// One run of a case a line, the one that its kept claims are of.

@@ -5,7 +5,7 @@ use crate::{
     bedload, brazil_nut, chung_ooi_2011, chute, cl_ca_2001, cohesion, common_test, contact, cooling, damper_2003, drop,
     drum, drum_regimes, expansion, film, held, host, impact_damper, lattice_grain, lattice_review, lump,
     open_dem_benchmark, order, orifice, outlet, pile_stress, pile_twin, plastic, random_loads, rheology, rolling,
-    sediment_2004, shapes, sieving, silo, spin_in_water, stack, twisting, voids, water,
+    sediment_2004, shapes, sieving, silo, spin_in_water, stack, triaxial, twisting, voids, water,
 };
 
 /// All cases, in the order they are listed and run.
@@ -84,7 +84,7 @@ pub static CASES: &[Case] = &[
     case("fluidised", "water", 20, "water that carries its bed", water::fluidised),
     case("expansion", "water", 30, "how far a carried bed expands", expansion::balance),
     gap(case("expansion-exponent", "water", 60, "by which power of the void fraction", expansion::exponents)),
-    case("bedload", "water", 300, "transport rates of a coupled stream", bedload::rates),
+    gap(case("bedload", "water", 3600, "transport rates of a coupled stream", bedload::rates)),
     case(
         "saltation",
         "sediment-2004",
@@ -174,6 +174,7 @@ pub static CASES: &[Case] = &[
     gap(case("beverloo-3d", "dem-benchmarks", 1800, "discharge through a round hole", orifice::beverloo)),
     gap(case("janssen", "dem-benchmarks", 1800, "pressure in a silo, in the plane", silo::janssen)),
     gap(case("chute", "dem-benchmarks", 1800, "flow down a rough slope", chute::silbert)),
+    gap(case("triaxial", "triaxial-spheres", 1800, "strength and stiffness of spheres", triaxial::spheres)),
     case("brazil-nut", "dem-benchmarks", 1800, "a large grain rises in a shaken bed", brazil_nut::brazil_nut),
     gap(case("dam-break", "sediment-2004", 1800, "slopes after a dam break (figure 19)", sediment_2004::dam_break)),
     gap(case(

@@ -5,6 +5,7 @@ use crate::partner::Hosts;
 use crate::view::{View, Wants};
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Advise, Frame, Hint, State};
+use tsubu_scene::Plan;
 
 /// What an engine did with one entry of the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,6 +134,14 @@ pub struct Refusal {
     pub notes: Vec<Note>,
 }
 
+impl Refusal {
+    /// A method that knows no stages.
+    pub fn stages(method: &'static str) -> Self {
+        let text = "it runs scenes of one stage; `dem` runs more".to_owned();
+        Self { method, notes: vec![Note { key: "stage".to_owned(), verdict: Verdict::Refused, text }] }
+    }
+}
+
 /// Why an engine could not be built.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenError {
@@ -173,9 +182,26 @@ pub trait Engine: Send {
     /// Steps done since time 0.
     fn steps(&self) -> u64;
 
+    /// Step and time [s] at which this stage of the run began; the first begins with the run.
+    fn stage_begin(&self) -> (u64, f64) {
+        (0, 0.0)
+    }
+
     /// Simulated time [s]: steps times time step, so that it never drifts.
     fn time(&self) -> f64 {
-        self.steps() as f64 * self.time_step()
+        let (step, time) = self.stage_begin();
+        time + (self.steps() - step) as f64 * self.time_step()
+    }
+
+    /// Goes over from the plan of one stage to that of the next, with hosts that have done so. What is held changes by it: the
+    /// caller books that.
+    fn change(&mut self, [_, now]: [&Plan; 2], _hosts: &Hosts) -> Result<(), OpenError> {
+        Err(Refusal::stages(now.method.name()).into())
+    }
+
+    /// Turns the clock back to 0: what moves by a signal begins to do so now, from where it stands. The next stage has yet to begin.
+    fn restart_clock(&mut self, plan: &Plan, _hosts: &Hosts) -> Result<(), OpenError> {
+        Err(Refusal::stages(plan.method.name()).into())
     }
 
     /// Number of grains.

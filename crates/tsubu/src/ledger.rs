@@ -7,6 +7,7 @@
 //!
 //! and what is left over is the residual: an error of the time integration, or of the program.
 
+use crate::mutation::{Mutation, mutated};
 use crate::sections::{self, Named};
 use std::slice::from_mut;
 use tsubu_frame::State;
@@ -51,11 +52,14 @@ pub enum Account {
     Exchange,
     /// Energy that contacts held with walls when these vanished: negative, it goes with them [J].
     Gates,
+    /// What the system holds more when a stage of a run begins than when the one before ended: potential energy in another gravity,
+    /// springs of another stiffness [J].
+    Stages,
 }
 
 impl Account {
     /// All accounts, in the order they are reported.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::BaseWork,
         Self::ForceWork,
         Self::WallWork,
@@ -72,6 +76,7 @@ impl Account {
         Self::HeavyBox,
         Self::Exchange,
         Self::Gates,
+        Self::Stages,
     ];
 
     /// Name in summaries and figures.
@@ -93,6 +98,7 @@ impl Account {
             Self::HeavyBox => "heavy box",
             Self::Exchange => "grains in and out",
             Self::Gates => "vanished walls",
+            Self::Stages => "changes of stage",
         }
     }
 
@@ -107,6 +113,7 @@ impl Account {
                 | Self::Buoyancy
                 | Self::Exchange
                 | Self::Gates
+                | Self::Stages
         )
     }
 }
@@ -211,7 +218,10 @@ impl Ledger {
     /// Energy that the books cannot explain [J].
     pub fn residual(&self, now: &Energies) -> f64 {
         let change = now.total() - self.opening.total();
-        let explained: f64 = Account::ALL.iter().map(|&a| if a.is_work() { self.flow(a) } else { -self.flow(a) }).sum();
+        let explained: f64 = Account::ALL
+            .iter()
+            .map(|&a| if a.is_work() { self.flow(a) } else { -mutated(Mutation::Losses, self.flow(a)) })
+            .sum();
         change - explained
     }
 

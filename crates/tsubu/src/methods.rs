@@ -2,7 +2,7 @@
 
 use crate::clca::engine::ClCaEngine;
 use crate::dem::DemEngine;
-use crate::engine::{Engine, OpenError};
+use crate::engine::{Engine, OpenError, Refusal};
 use crate::lattice::engine::LatticeEngine;
 use crate::lattice::site::build;
 use crate::lattice::site::rule::{GasRule, SiteRule};
@@ -12,6 +12,9 @@ use tsubu_scene::plan::{Method, Plan};
 
 /// Builds the engine that the plan's method names, at time 0.
 pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
+    if plan.stage.len() > 1 && plan.method != Method::Dem {
+        return Err(Refusal::stages(plan.method.name()).into());
+    }
     refuse_more_than_there_is(plan, 0)?;
     let rule = match plan.method {
         Method::Dem => return Ok(Box::new(DemEngine::new(plan, hosts)?)),

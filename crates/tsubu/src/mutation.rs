@@ -38,6 +38,12 @@ pub enum Mutation {
     AddedMass,
     /// Buoyancy.
     Buoyancy,
+    /// Gravity.
+    Gravity,
+    /// Force on the second grain of a contact, which is that on the first.
+    ThirdLaw,
+    /// Losses of energy, as the books have them.
+    Losses,
     /// A tangential spring that gets softer holds less.
     UnloadingRescale,
     /// Springs are kept when neighbour lists are rebuilt.
@@ -46,12 +52,15 @@ pub enum Mutation {
     BallCollision,
     /// Three particles of an FHP gas that meet turn.
     TripleCollision,
+    /// Nothing wrong: a grain of DEM begins a last bit beside its place, and lattices, whose places are whole numbers, draw other random
+    /// numbers. It tells which claims hang on the draw.
+    LastBit,
 }
 
 use Mutation::{
-    AddedMass, BallCollision, Buoyancy, Cohesion, Damping, Drag, FilmViscosity, Friction, HistoryTransfer, Inertia,
-    LinearStiffness, Poisson, RollingArm, RollingFriction, TangentialStiffness, TripleCollision, TwistingFriction,
-    UnloadingRescale, Young,
+    AddedMass, BallCollision, Buoyancy, Cohesion, Damping, Drag, FilmViscosity, Friction, Gravity, HistoryTransfer,
+    Inertia, LinearStiffness, Losses, Poisson, RollingArm, RollingFriction, TangentialStiffness, ThirdLaw,
+    TripleCollision, TwistingFriction, UnloadingRescale, Young,
 };
 
 /// How much larger a mutated constant is.
@@ -59,7 +68,7 @@ const FACTOR: f64 = 1.05;
 
 impl Mutation {
     /// All, in the order of tables, each with what it does in words.
-    pub const ALL: [(Self, &str); 19] = [
+    pub const ALL: [(Self, &str); 22] = [
         (Young, "Young's modulus 5 % too large"),
         (Poisson, "Poisson's ratio 5 % too large"),
         (LinearStiffness, "stiffness of linear springs 5 % too large"),
@@ -75,6 +84,9 @@ impl Mutation {
         (Drag, "drag coefficient 5 % too large"),
         (AddedMass, "added mass 5 % too large"),
         (Buoyancy, "buoyancy 5 % too large"),
+        (Gravity, "gravity 5 % too large"),
+        (ThirdLaw, "the second grain of a contact is pushed 5 % too hard"),
+        (Losses, "losses of energy are booked 5 % too large"),
         (UnloadingRescale, "a tangential spring that gets softer holds what it held"),
         (HistoryTransfer, "springs are forgotten when neighbour lists are rebuilt"),
         (BallCollision, "balls of the damper automaton do not collide"),

@@ -3,6 +3,8 @@
 //! Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011) as a function of (seed, purpose, entity, step): any thread may ask for
 //! any number in any order and gets the same bits.
 
+use crate::mutation::{Mutation, left_out};
+
 /// What a number is for; keeps streams apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
@@ -30,6 +32,14 @@ pub enum Purpose {
     Outlet = 17,
     /// Order and side of the moves of grains made of lattice points.
     Move = 18,
+}
+
+impl Purpose {
+    /// Whether it decides how something goes on on a lattice, and not where it begins.
+    fn moves_on_a_lattice(self) -> bool {
+        use Purpose::{Force, Lottery, Move, Order, Outlet, Rebound, Side, Turn};
+        matches!(self, Rebound | Lottery | Order | Turn | Force | Side | Outlet | Move)
+    }
 }
 
 pub(crate) const MULTIPLIERS: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
@@ -64,6 +74,7 @@ pub fn words(seed: u64, purpose: Purpose, entity: u32, step: u64) -> [u32; 4] {
 /// The key of a stream of numbers.
 #[inline]
 pub(crate) fn key(seed: u64, purpose: Purpose) -> [u32; 2] {
+    let seed = if purpose.moves_on_a_lattice() && left_out(Mutation::LastBit) { seed ^ (1 << 63) } else { seed };
     [seed as u32, (seed >> 32) as u32 ^ ((purpose as u32) << 24)]
 }
 

@@ -3,18 +3,22 @@
 mod error;
 mod measured;
 mod resume;
+mod stages;
+mod start;
+mod steady;
+mod told;
 
 pub use error::RunError;
 
-use crate::check;
 use crate::engine::{self, Engine};
 use crate::interrupt::Watcher;
 use crate::ledger::{Account, Energies, Ledger};
-use crate::methods;
 use crate::partner::Hosts;
 use crate::scene_files;
 use crate::watch::{Trigger, Watches};
 use measured::Measured;
+use stages::Stages;
+use start::Start;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use tsubu_frame::{
@@ -39,12 +43,12 @@ pub(crate) fn run_with(
 ) -> Result<Summary, RunError> {
     let resumed = existing == Existing::Resume;
     let scene = &if resumed { resume::scene(scene, folder) } else { scene.clone() };
+    let plans = scene.plans();
     let plan = scene.plan();
-    let hosts = Hosts::new(&plan.hosts);
-    let engine = methods::open(plan, &hosts)?;
-    let last = steps(plan, &*engine)?;
+    let Start { engine, hosts, ledger } = Start::of(scene)?;
+    let last = engine.stage_begin().0 + steps(plan, &*engine)?;
     let mut run = Run {
-        ledger: Ledger::open(engine::energies(&*engine, &hosts), engine.momentum()),
+        ledger,
         measured: Measured::new(&hosts),
         watches: Watches::new(plan, &*engine),
         scene_hash: scene_hash(&scene.steps_toml()),
@@ -53,6 +57,8 @@ pub(crate) fn run_with(
         last,
         alone,
         plan,
+        stages: Stages::new(plans, &*engine, &hosts),
+        first: engine.steps(),
         hosts,
         engine,
     };
@@ -60,24 +66,25 @@ pub(crate) fn run_with(
     let _held = watcher.interrupt.hold();
     let names = run.names(scene);
     let folder = RunFolder::create(folder, existing, &names)?;
-    let header = run.header();
-    let verdict = check::verdict(plan, &run.hosts, &*run.engine);
-    let describe = || {
+    let header = run.columns();
+    run.stages.columns.clone_from(&header);
+    run.find_places();
+    let describe = |verdicts: &str| {
         folder.claim(&names)?;
         scene_files::write(&folder, scene)?;
-        folder.write("check.txt", verdict.to_string().as_bytes())
+        folder.write("check.txt", verdicts.as_bytes())
     };
     let outputs = if resumed {
         // All is looked at before anything is written.
         let mark = run.resume(scene, folder.path())?;
         let history = History::resume(&folder.file("history.csv"), &header, mark)?;
         run.watches.resume(folder.path())?;
-        let mut frames = FrameWriter::resume(folder.path(), formats(plan), run.engine.time())?;
-        describe()?;
+        let mut frames = FrameWriter::resume(folder.path(), formats(run.plan), run.engine.time())?;
+        describe(&run.stages.verdicts)?;
         frames.cut()?;
         Outputs { history, frames }
     } else {
-        describe()?;
+        describe(&run.stages.verdicts)?;
         run.watches.create(&folder)?;
         let history = History::create(&folder.file("history.csv"), &header)?;
         Outputs { history, frames: FrameWriter::create(folder.path(), formats(plan)) }
@@ -120,9 +127,12 @@ struct Run<'a> {
     scene_hash: String,
     wall_before: f64,
     started: Instant,
-    /// The step it ends with.
+    /// The step that this stage of it ends with.
     last: u64,
     alone: bool,
+    stages: Stages<'a>,
+    /// The step it begins with.
+    first: u64,
 }
 
 /// What grows as the run goes.
@@ -139,18 +149,37 @@ impl Run<'_> {
     fn names(&self, scene: &Scene) -> Vec<String> {
         let mut names = scene_files::names(scene);
         names.extend(["check.txt", "summary.json", "history.csv", "checkpoint/state.tsubu"].map(str::to_owned));
-        names.extend(self.plan.output.frame_interval.map(|_| "frames/".to_owned()));
-        names.extend(self.watches.files());
+        let pictures = self.stages.plans.iter().any(|plan| plan.output.frame_interval.is_some());
+        names.extend(pictures.then(|| "frames/".to_owned()));
+        names.extend(self.stages.plans.iter().flat_map(|plan| Watches::new(plan, &*self.engine).files()));
+        names.sort();
+        names.dedup();
         names
     }
 
+    /// Stage by stage to the end.
     fn go(&mut self, folder: &RunFolder, mut out: Outputs, watcher: &Watcher) -> Result<Summary, RunError> {
+        loop {
+            match self.stage(folder, &mut out, watcher)? {
+                Some(interrupted) => return Ok(interrupted),
+                None if self.stages.is_last() => break,
+                None => {
+                    self.next_stage(folder)?;
+                    out.frames.set_formats(formats(self.plan));
+                }
+            }
+        }
+        self.finish(folder, out)
+    }
+
+    /// One stage to its end; a summary where the run was interrupted before it.
+    fn stage(&mut self, folder: &RunFolder, out: &mut Outputs, watcher: &Watcher) -> Result<Option<Summary>, RunError> {
         let output = &self.plan.output;
-        let clock = |interval: f64| Trigger::each(interval, self.engine.time_step());
+        let (begin, _) = self.engine.stage_begin();
+        let clock = |interval: f64| Trigger::each(interval, self.engine.time_step()).beginning(begin);
         let (rows, saves) = (clock(output.history_interval), clock(output.checkpoint_interval));
         let pictures = output.frame_interval.map(clock);
-        let last = self.last;
-        if self.engine.steps() == 0 {
+        if self.engine.steps() == self.first {
             self.watches.look(&*self.engine)?;
             out.history.append(&self.row())?;
             if pictures.is_some() {
@@ -159,14 +188,14 @@ impl Run<'_> {
         }
         let mut block = 1;
         let mut saved = Instant::now();
-        while self.engine.steps() < last {
-            let now = self.engine.steps();
+        while self.engine.steps() < self.last {
+            let (now, last) = (self.engine.steps(), self.last);
             let next_picture = pictures.map_or(u64::MAX, |p| p.after(now));
             let (next_row, next_save, next_look) = (rows.after(now), saves.after(now), self.watches.next(now));
             let target = next_row.min(next_picture).min(next_save).min(next_look).min(last).min(now + block);
             let begun = Instant::now();
             if let Err(fault) = self.engine.advance(target - now, &mut self.hosts, &mut self.ledger) {
-                self.sync(folder, &mut out)?;
+                self.sync(folder, out)?;
                 let mut summary = self.summary(Status::Failed);
                 summary.warnings.push(fault.told());
                 Self::end(folder, &summary)?;
@@ -178,24 +207,36 @@ impl Run<'_> {
                 self.watches.look(&*self.engine)?;
             }
             if target == next_row || target == last {
-                out.history.append(&self.row())?;
+                let row = self.row();
+                out.history.append(&row)?;
+                if self.over(&row) {
+                    self.last = target;
+                }
             }
+            let last = self.last;
             if target == next_picture {
                 out.frames.write(&self.engine.frame(&self.hosts))?;
             }
             let stop = watcher.interrupt.asked();
             let due = target == next_save && saved.elapsed() >= BETWEEN_CHECKPOINTS;
-            if due || (target == last && self.alone) || (stop && target < last) {
-                self.save(folder, &mut out)?;
+            let end = target == last && self.stages.is_last();
+            if due || (end && self.alone) || (stop && !end) {
+                self.save(folder, out)?;
                 saved = Instant::now();
             }
-            (watcher.progress)(target as f64 / last.max(1) as f64);
-            if stop && target < last {
+            let share = (target - begin) as f64 / (last - begin).max(1) as f64;
+            (watcher.progress)(self.stages.share_done(share));
+            if stop && !end {
                 let summary = self.summary(Status::Interrupted);
                 Self::end(folder, &summary)?;
-                return Ok(summary);
+                return Ok(Some(summary));
             }
         }
+        Ok(None)
+    }
+
+    /// Leaves everything as a run that came to its end does.
+    fn finish(&mut self, folder: &RunFolder, mut out: Outputs) -> Result<Summary, RunError> {
         if self.alone {
             self.sync(folder, &mut out)?;
         } else {
@@ -258,7 +299,8 @@ impl Run<'_> {
         row.extend(self.watches.row(&*self.engine));
         let seen = self.seen(&energies);
         self.measured.take(&self.hosts, self.engine.contacts(), seen);
-        row
+        self.stages.steady.take(self.engine.time() - self.engine.stage_begin().1, &self.hosts);
+        self.in_columns(row)
     }
 
     /// What every scene has to tell of itself, in the order of [`SEEN`].
@@ -271,6 +313,7 @@ impl Run<'_> {
         let mut state = self.state();
         self.measured.save(&mut state);
         self.watches.save(&mut state);
+        self.stages.save(&mut state);
         state.put_real("run.wall-seconds", vec![self.wall_seconds()]);
         state.put_integer(HISTORY, mark.numbers());
         let header = Header {
@@ -292,65 +335,6 @@ impl Run<'_> {
 
     fn wall_seconds(&self) -> f64 {
         self.wall_before + self.started.elapsed().as_secs_f64()
-    }
-
-    fn summary(&self, status: Status) -> Summary {
-        let energies = engine::energies(&*self.engine, &self.hosts);
-        let wall_seconds = self.wall_seconds();
-        let mut summary = Summary {
-            tsubu_version: crate::VERSION.to_owned(),
-            status,
-            method: self.plan.method.name().to_owned(),
-            dimension: u32::from(self.plan.dimension),
-            particles: self.engine.grains() as u64,
-            steps: self.engine.steps(),
-            time_step: self.engine.time_step(),
-            simulated_seconds: self.engine.time(),
-            wall_seconds,
-            threads: rayon::current_num_threads() as u32,
-            particle_steps_per_second: self.engine.grain_steps() as f64 / wall_seconds,
-            contacts_mean: self.measured.contacts / self.measured.rows.max(1.0),
-            state_hash: self.state().hash(),
-            ..Summary::default()
-        };
-        for (name, value) in energies.terms() {
-            summary.energy.terms.insert(name, value);
-        }
-        for account in Account::ALL {
-            summary.energy.terms.insert(account.name(), self.ledger.flow(account));
-        }
-        let residual = self.ledger.residual_relative(&energies);
-        summary.energy.terms.insert("residual", self.ledger.residual(&energies));
-        summary.energy.residual_relative = residual;
-        let finite =
-            self.ledger.residual(&energies).is_finite() && energies.terms().iter().all(|(_, value)| value.is_finite());
-        if !finite {
-            summary
-                .warnings
-                .push("energies of this run are not finite: its energy residual is worth nothing".to_owned());
-        }
-        let tolerance = self.plan.dem.energy_tolerance;
-        if residual.abs() > tolerance {
-            summary.warnings.push(format!(
-                "the energy residual is {residual:.2e} of the energy turned over, more than `dem.energy-tolerance` = {tolerance:e}: shorten `dem.time-step`"
-            ));
-        }
-        for note in self.engine.notes() {
-            summary.warnings.push(format!("{}: {}", note.key, note.text));
-        }
-        self.watches.results(&mut summary);
-        self.measured.results(&self.hosts, &mut summary);
-        // Where nothing is watched, this is what happened.
-        if self.plan.watch.is_empty() {
-            self.measured.tell(self.seen(&energies), &mut summary);
-        }
-        for (name, grains) in self.engine.traffic() {
-            summary.give(name, "-", grains as f64);
-        }
-        let momentum = self.ledger.momentum_residual(self.engine.momentum());
-        summary.give("momentum residual", "N.s", momentum.iter().map(|p| p * p).sum::<f64>().sqrt());
-        judge(self.plan, &mut summary);
-        summary
     }
 }
 

@@ -9,6 +9,8 @@ mod dem;
 mod grouping;
 mod host;
 mod lattice;
+mod stages;
+mod triaxial;
 mod wall;
 mod watch;
 mod water;

@@ -60,13 +60,24 @@ pub fn run(options: &Options) -> Result<(), Failure> {
 
 /// The verdict; if it takes longer than a user waits, as far as it has come.
 fn judged(scene: &Scene, limit: Duration) -> Result<Verdict, Failure> {
-    let (begun, plan) = (Instant::now(), scene.plan().clone());
+    let (begun, plans) = (Instant::now(), scene.plans().to_vec());
     let (send, news) = mpsc::channel();
     std::thread::spawn(move || {
-        // Nobody listens any more where it came too late.
-        let mut ahead = |verdict: &Verdict, next| _ = send.send((Ok(verdict.clone()), Some(next)));
-        let done = check(&plan, machine::known().as_ref(), &mut ahead);
-        _ = send.send((done, None));
+        let mut whole = Verdict::default();
+        for (at, plan) in plans.iter().enumerate() {
+            let stage = plan.stage.get(at).map(|stage| stage.name.as_str());
+            // Nobody listens any more where it came too late.
+            let mut ahead =
+                |verdict: &Verdict, next| _ = send.send((Ok(whole.clone().with(stage, verdict.clone())), Some(next)));
+            match check(plan, machine::known().as_ref(), &mut ahead) {
+                Ok(verdict) => whole = whole.with(stage, verdict),
+                Err(error) => {
+                    let _ = send.send((Err(error), None));
+                    return;
+                }
+            }
+        }
+        _ = send.send((Ok(whole), None));
     });
     let (mut known, mut doing) = (Verdict::default(), "placing the grains");
     loop {

@@ -5,7 +5,9 @@ use crate::table;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use tsubu_frame::{Claim, Origin, Verdict};
-use tsubu_verify::{CASES, CaseRun, lacks_control, mutants, mutants_not_run, reason, recorded, recorded_run};
+use tsubu_verify::{
+    CASES, CaseRun, Chaotic, chaotic, lacks_control, mutants, mutants_not_run, one_draw, reason, recorded, recorded_run,
+};
 
 const HEAD: &str = "\
 # What tsubu has been held against
@@ -39,6 +41,14 @@ notice is not wrong in it: an angle of repose does not hang on 5 % of a stiffnes
 
 ";
 
+const CHAOTIC: &str = "
+## What hangs on the draw
+
+Cases of at most ten seconds were run from two starts that differ in the last bit of the place of one grain (on lattices, whose places are whole
+numbers: in the random numbers). Claims that this moves are to be ensembles. `cargo xtask chaotic` does it again.
+
+";
+
 /// The page.
 pub fn page() -> String {
     let mut all = Vec::new();
@@ -53,6 +63,8 @@ pub fn page() -> String {
     page += &listed(&all, Verdict::Undecided);
     page += MUTATIONS;
     page += &mutations();
+    page += CHAOTIC;
+    page += &hanging(&all);
     page += "\n## With what it was run\n\n";
     page + &runs()
 }
@@ -130,7 +142,7 @@ pub(super) fn sentence(text: &str) -> String {
 /// What was wrong on purpose, and the cases that notice.
 fn mutations() -> String {
     let rows = mutants().into_iter().map(|mutant| {
-        let names: Vec<String> = mutant.noticed.iter().map(|name| format!("`{name}`")).collect();
+        let names: Vec<String> = mutant.noticed.iter().map(|(name, _)| format!("`{name}`")).collect();
         let (noticed, reached) = (names.len(), mutant.reached);
         format!("| {} | {noticed} of {reached} | {} |\n", mutant.mutation, names.join(", "))
     });
@@ -141,6 +153,18 @@ fn mutations() -> String {
         let _ = write!(table, "\nNot run since the engines last changed: {}.\n", others.join("; "));
     }
     table
+}
+
+/// The cases that hang on the draw: claims that another draw moves, and how many of them are ensembles.
+fn hanging(all: &[(&'static str, Claim)]) -> String {
+    let rows = chaotic().into_iter().map(|Chaotic { case, claims }| {
+        let moved = all.iter().filter(|(of, claim)| *of == case && claims.contains(&claim.name));
+        let ensembles = moved.filter(|(_, claim)| claim.ensemble.is_some()).count();
+        let why = if ensembles == claims.len() { "" } else { one_draw(&case).unwrap_or_default() };
+        format!("| `{case}` | {} | {ensembles} | {why} |\n", claims.len())
+    });
+    let head = "| case | claims that move | ensembles of them | why not all |\n|---|---|---|---|\n";
+    format!("{head}{}", rows.collect::<String>())
 }
 
 /// Versions, machines and days of the stored runs, and what was not run.

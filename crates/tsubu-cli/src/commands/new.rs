@@ -35,8 +35,20 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     };
     let file = options.file.clone().unwrap_or_else(|| PathBuf::from(format!("{}.toml", template.name)));
     write(&file, template.text)?;
+    for (name, text) in template.files() {
+        if let Err(failure) = beside(&file.with_file_name(name), text) {
+            // The scene could not be read without it.
+            let _ = std::fs::remove_file(&file);
+            return Err(failure);
+        }
+    }
     output::tell(&format!("wrote {0}; judge it: tsubu check {0}, run it: tsubu run {0}\n", file.display()));
     Ok(())
+}
+
+/// Writes a file that the scene names, where it is not there already just so.
+fn beside(file: &Path, text: &str) -> Result<(), Failure> {
+    if std::fs::read(file).is_ok_and(|there| there == text.as_bytes()) { Ok(()) } else { write(file, text) }
 }
 
 /// Writes a file that is not there yet.

@@ -1,4 +1,4 @@
-use crate::support::Desk;
+use crate::support::{Desk, shortened};
 use std::path::Path;
 
 /// Runs a scene for a moment and looks at its books. What a scene claims is true at its end only.
@@ -20,7 +20,8 @@ fn every_shipped_scene_is_checked_runs_closes_its_books_and_is_reported() {
             let (desk, path) = (Desk::empty(), entry.path());
             let name = path.file_stem().unwrap().to_str().unwrap();
             desk.done(&format!("check {}", path.display()));
-            runs(&desk, path.to_str().unwrap(), "--set 'duration=0.2 s' --set claim=[]", "dem");
+            let path = path.to_str().unwrap();
+            runs(&desk, path, &format!("{} --set claim=[]", shortened(path, "0.2 s")), "dem");
             desk.done(&format!("report {name}-dem"));
             count += 1;
         }
@@ -37,7 +38,12 @@ fn every_template_is_a_shipped_scene() {
         desk.done(&format!("new {name}"));
         let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../scenes/{name}.toml"));
         assert_eq!(desk.read(&format!("{name}.toml")), std::fs::read_to_string(scene).unwrap(), "{name}");
+        desk.done(&format!("check {name}.toml"));
     }
+    // A scene whose mesh is there already with something else in it is not written.
+    std::fs::write(desk.path("mixer-blade.stl"), "solid other\nendsolid other\n").unwrap();
+    assert_eq!(desk.run("new mixer again.toml").code, Some(2));
+    assert!(!desk.path("again.toml").exists());
 }
 
 #[test]

@@ -194,3 +194,10 @@ fn words(line: &str) -> Vec<String> {
     }
     words
 }
+
+/// The option that cuts the scene of a command short. A scene with stages is run to its end: each stage says how long it goes on.
+pub fn shortened(command: &str, duration: &str) -> String {
+    let scene = command.split_whitespace().map(Path::new).find(|word| word.extension().is_some_and(|e| e == "toml"));
+    let staged = std::fs::read_to_string(scene.expect("a scene")).unwrap().contains("[[stage]]");
+    if staged { String::new() } else { format!("--set 'duration={duration}'") }
+}

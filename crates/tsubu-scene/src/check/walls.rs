@@ -3,7 +3,7 @@
 use super::Parts;
 use crate::complaint::Complaint;
 use crate::mesh_check;
-use crate::plan::{Body, Rotation, Shape, Vector, Wall};
+use crate::plan::{Body, Rotation, Shape, Vector, Wall, box_of_planes};
 
 /// How far from parallel two unit vectors may be: typed digits end somewhere.
 const PARALLEL: f64 = 1e-9;
@@ -13,6 +13,9 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
         shape(parts, name, wall, complaints);
         if let Some(rotation) = &wall.rotation {
             turning(parts, name, wall, rotation, complaints);
+        }
+        if wall.servo.as_ref().is_some_and(|servo| servo.pressure.is_some()) {
+            pressed(parts, name, complaints);
         }
         if let Some(body) = &wall.body {
             free(parts, name, wall, body, complaints);
@@ -84,6 +87,22 @@ fn turning(parts: &Parts<'_>, name: &str, wall: &Wall, rotation: &Rotation, comp
             .at(&place, "far away it would move without limit")
             .also(&parts.root.locate(&["walls", name, "shape"]), "this shape")
             .hint(hint),
+    );
+}
+
+/// A pressure without an area acts on the face of a box of planes.
+fn pressed(parts: &Parts<'_>, name: &str, complaints: &mut Vec<Complaint>) {
+    let planes = box_of_planes(&parts.walls, true).filter(|_| parts.space()).unwrap_or_default();
+    let number = parts.walls.keys().position(|known| known == name);
+    if parts.incomplete || planes.iter().any(|(_, ends)| ends.iter().any(|end| Some(*end) == number)) {
+        return;
+    }
+    complaints.push(
+        Complaint::new(format!("the force of the wall `{name}` is not known"))
+            .at(&parts.root.locate(&["walls", name, "servo"]), "`pressure` needs an `area`")
+            .hint("force = \"20 N\"")
+            .hint("or pressure = \"10 kPa\" and area = \"20 cm^2\"")
+            .hint("or pressure alone on a face of a box of six planes, two along each of x, y and z"),
     );
 }
 

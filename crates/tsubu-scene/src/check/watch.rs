@@ -181,6 +181,13 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
                 );
             }
         }
+        Measure::StressPath(_) if !parts.incomplete && plan::box_of_planes(&parts.walls, parts.space()).is_none() => {
+            complaints.push(
+                Complaint::new(format!("the watch `{name}` has no box of planes to look at"))
+                    .at(&parts.root.locate(&["watch", name, kind]), "needs two planes that face each other along every axis")
+                    .hint("walls with shape.plane, whose normals are \"x\", \"-x\", \"z\", \"-z\", and in space \"y\", \"-y\""),
+            );
+        }
         Measure::Track(Track { ids, group }) => {
             let counted = parts.particles.iter().filter(|(name, _)| group.as_ref().is_none_or(|only| only == *name));
             let grains: usize = counted.map(|(_, group)| group.count).sum();

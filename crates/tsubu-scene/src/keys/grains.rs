@@ -128,11 +128,11 @@ static START: &[Variant] = &[
         name: "stream",
         about: "Not there at first: put into a region one after the other, where there is room",
         keys: &[
-            Key::new("region", Kind::Table(Region::KEYS), "Where; grains lie wholly in it"),
-            Key::new("rate", Kind::Quantity(&RATE), "Grains per second").above(0.0),
-            VELOCITY,
-            SPEED_ADDED,
-            Key::new("from", Kind::Quantity(&TIME), "When the first comes").default("0").at_least(0.0),
+            Key::new("region", Kind::Table(Region::KEYS), "Where; grains lie wholly in it").may_change(),
+            Key::new("rate", Kind::Quantity(&RATE), "Grains per second").above(0.0).may_change(),
+            VELOCITY.may_change(),
+            SPEED_ADDED.may_change(),
+            Key::new("from", Kind::Quantity(&TIME), "When the first comes").default("0").at_least(0.0).may_change(),
         ],
     },
     Variant {

@@ -8,8 +8,8 @@ use crate::units::{
 pub(super) static HOST: &[Key] = &[
     Key::new("structure", Kind::Choice(STRUCTURE), "Its matrices"),
     Key::new("direction", Kind::Direction, "Direction of its motion").default("'z'"),
-    Key::new("base", Kind::Choice(&DISPLACEMENT), "Displacement of the base against time").optional(),
-    Key::new("force", Kind::Choice(&LOAD), "Applied force against time").optional(),
+    Key::new("base", Kind::Choice(&DISPLACEMENT), "Displacement of the base against time").optional().may_change(),
+    Key::new("force", Kind::Choice(&LOAD), "Applied force against time").optional().may_change(),
     Key::new("displacement", Kind::Quantity(&LENGTH), "Displacement of every coordinate at time 0").default("0"),
     Key::new("velocity", Kind::Quantity(&SPEED), "Velocity of every coordinate at time 0").default("0"),
 ];

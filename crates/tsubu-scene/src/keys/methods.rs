@@ -11,7 +11,8 @@ pub(super) static DEM: &[Key] = &[
         "Time step; automatic: the shortest contact time over `steps-per-contact`",
     )
     .above(0.0)
-    .word("automatic"),
+    .word("automatic")
+    .may_change(),
     Key::new(
         "steps-per-contact",
         Kind::Quantity(&NUMBER),
@@ -19,7 +20,8 @@ pub(super) static DEM: &[Key] = &[
     )
     .default("20")
     .at_least(1.0)
-    .at_most(1e6),
+    .at_most(1e6)
+    .may_change(),
     Key::new("integrator", Kind::OneOf(INTEGRATOR), "Time integration of the grains").default("'velocity-verlet'"),
     Key::new(
         "skin",
@@ -32,7 +34,8 @@ pub(super) static DEM: &[Key] = &[
     Key::new("largest-overlap", Kind::Quantity(&NUMBER), "Overlap over diameter at which the run stops as blown up")
         .default("0.1")
         .above(0.0)
-        .at_most(1.0),
+        .at_most(1.0)
+        .may_change(),
     Key::new("orientation", Kind::Flag, "Follow how grains turn, and write it into frames").default("false"),
     Key::new(
         "energy-tolerance",

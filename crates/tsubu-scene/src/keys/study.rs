@@ -33,19 +33,27 @@ pub(super) static SWEEP: &[Key] =
 pub(super) static OUTPUT: &[Key] = &[
     Key::new("history-interval", Kind::Quantity(&TIME), "Simulated time between rows of history.csv")
         .above(0.0)
-        .derived("duration / 1000"),
-    Key::new("frame-interval", Kind::Quantity(&TIME), "Simulated time between frames").above(0.0).word("none"),
+        .derived("duration / 1000")
+        .may_change(),
+    Key::new("frame-interval", Kind::Quantity(&TIME), "Simulated time between frames")
+        .above(0.0)
+        .word("none")
+        .may_change(),
     Key::new("checkpoint-interval", Kind::Quantity(&TIME), "Simulated time between checkpoints")
         .above(0.0)
-        .derived("duration / 10"),
+        .derived("duration / 10")
+        .may_change(),
     Key::new(
         "contacts",
         Kind::Flag,
         "Write the contacts of every frame, with their forces, beside the grains: more bytes than these",
     )
-    .default("true"),
-    Key::new("xyz", Kind::Flag, "Also write extended XYZ, which OVITO opens").default("false"),
-    Key::new("lammps", Kind::Flag, "Also write LAMMPS dump files, for `read_dump`, `rerun` and OVITO").default("false"),
+    .default("true")
+    .may_change(),
+    Key::new("xyz", Kind::Flag, "Also write extended XYZ, which OVITO opens").default("false").may_change(),
+    Key::new("lammps", Kind::Flag, "Also write LAMMPS dump files, for `read_dump`, `rerun` and OVITO")
+        .default("false")
+        .may_change(),
 ];
 
 pub(super) static CLAIM: &[Key] = &[

@@ -11,6 +11,7 @@ pub(super) static WALL: &[Key] = &[
         .optional()
         .rivals(&["motion", "rotation", "servo", "body", "until"]),
     Key::new("motion", Kind::Table(MOTION), "Prescribed motion, for example a shaker")
+        .may_change()
         .optional()
         .rivals(&["host", "servo", "body"]),
     Key::new(
@@ -18,15 +19,18 @@ pub(super) static WALL: &[Key] = &[
         Kind::Table(ROTATION),
         "Prescribed turning about a fixed axis, alone or together with `motion`",
     )
+    .may_change()
     .optional()
     .rivals(&["host", "servo", "body"]),
     Key::new("servo", Kind::Table(SERVO), "A mass on a guide that a constant force pushes against the grains")
+        .may_change()
         .optional()
         .rivals(&["host", "motion", "rotation", "body", "until"]),
     Key::new("body", Kind::Table(BODY), "A free rigid body under gravity and the grains' forces")
         .optional()
         .rivals(&["host", "motion", "rotation", "servo", "until"]),
     Key::new("until", Kind::Quantity(&TIME), "When it vanishes: a gate; while grains settle before time 0 it is there")
+        .may_change()
         .above(0.0)
         .optional()
         .rivals(&["host", "servo", "body"]),
@@ -113,10 +117,18 @@ static SERVO: &[Key] = &[
     Key::new("force", Kind::Quantity(&FORCE), "Constant force F")
         .derived("`pressure` times `area`; one of the two ways is required")
         .rivals(&["pressure", "area"]),
-    Key::new("pressure", Kind::Quantity(&PRESSURE), "Constant pressure, together with `area`")
+    Key::new("pressure", Kind::Quantity(&PRESSURE), "Constant pressure, on `area` or on the face of a box of planes")
         .optional()
         .rivals(&["force"]),
-    Key::new("area", Kind::Quantity(&AREA), "Area on which the pressure acts").above(0.0).optional().rivals(&["force"]),
+    Key::new(
+        "area",
+        Kind::Quantity(&AREA),
+        "Area on which the pressure acts; left out in a box of six planes along the axes: the face that the wall is, as large as it is \
+at the time",
+    )
+    .above(0.0)
+    .optional()
+    .rivals(&["force"]),
     Key::new("mass", Kind::Quantity(&MASS), "Moving mass M").above(0.0),
     Key::new("damping", Kind::Quantity(&DAMPING), "Damping c of the guide").default("0").at_least(0.0),
 ];

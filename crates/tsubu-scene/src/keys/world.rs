@@ -1,6 +1,6 @@
 //! The top of a scene, and its materials.
 
-use super::{Key, Kind, Word, contact, gases, grains, hosts, methods, sites, study, walls, watch, water};
+use super::{Key, Kind, Word, contact, gases, grains, hosts, methods, sites, stage, study, walls, watch, water};
 use crate::units::{DENSITY, NUMBER, PRESSURE, SPEED, SURFACE_ENERGY, TIME};
 
 /// The keys at the top of a scene, in the order of the plan.
@@ -17,13 +17,15 @@ pub static SCENE: &[Key] = &[
         Kind::Gravity,
         "Gravitational acceleration: a number points down (along -z), a vector where it says",
     )
-    .default("'9.8 m/s^2'"),
+    .default("'9.8 m/s^2'")
+    .may_change(),
     Key::new(
         "slope",
         Kind::Slope,
         "Slope of the x axis, positive downwards, as an angle or in percent: turns a gravity that is given as a number",
     )
-    .optional(),
+    .optional()
+    .may_change(),
     Key::new("duration", Kind::Quantity(&TIME), "Simulated time").above(0.0),
     Key::new(
         "speed-scale",
@@ -31,7 +33,8 @@ pub static SCENE: &[Key] = &[
         "Typical fastest relative speed, for the time step and the verdict of `check`",
     )
     .above(0.0)
-    .word("automatic"),
+    .word("automatic")
+    .may_change(),
     Key::new("materials", Kind::Named(MATERIAL, "A material, referred to by its name"), "The materials").default("{}"),
     Key::new(
         "material-pair",
@@ -53,7 +56,8 @@ pub static SCENE: &[Key] = &[
         Kind::NamedChoice(walls::REMOVAL, "Where grains vanish; a grain may go a little way in before it does"),
         "Regions in which grains vanish",
     )
-    .default("{}"),
+    .default("{}")
+    .may_change(),
     Key::new(
         "hosts",
         Kind::Named(hosts::HOST, "A vibrating structure: M q'' + C (q' - y') + K (q - y) = F"),
@@ -61,7 +65,7 @@ pub static SCENE: &[Key] = &[
     )
     .default("{}"),
     Key::new("water", Kind::Table(water::WATER), "The water that the grains are in").optional(),
-    Key::new("contact", Kind::Table(contact::CONTACT), "The contact law, a stack of parts").default("{}"),
+    Key::new("contact", Kind::Table(contact::CONTACT), "The contact law, a stack of parts").default("{}").may_change(),
     Key::new("dem", Kind::Table(methods::DEM), "What only the discrete element method reads").default("{}"),
     Key::new("lattice", Kind::Table(methods::LATTICE), "What only the lattice automaton reads").default("{}"),
     Key::new("cl-ca", Kind::Table(methods::CL_CA), "What only CL-CA reads: grains made of lattice points")
@@ -109,8 +113,24 @@ pub static SCENE: &[Key] = &[
         ),
         "What is measured on the way",
     )
-    .default("{}"),
+    .default("{}")
+    .may_change(),
     Key::new("output", Kind::Table(study::OUTPUT), "What is written, and how often").default("{}"),
+    Key::new(
+        "start-from",
+        Kind::Text,
+        "The folder of another run, from the folder of the scene file: this run goes on from its last checkpoint, with the same grains, \
+        contacts and clock; what no stage may change must be as it was there",
+    )
+    .optional(),
+    Key::new(
+        "start-at-zero",
+        Kind::Flag,
+        "With `start-from`: the clock begins at 0 and the books are opened anew; motions of walls, drives of hosts and streams begin then, \
+        from where things stand",
+    )
+    .optional(),
+    Key::new("stage", Kind::Many(stage::STAGE), "Stages of the run, one after the other, instead of `duration`").default("[]"),
     Key::new("claim", Kind::Many(study::CLAIM), "Results that must lie in a range").default("[]"),
 ];
 
@@ -136,17 +156,23 @@ static METHOD: &[Word] = &[
 ];
 
 static MATERIAL: &[Key] = &[
-    Key::new("young-modulus", Kind::Quantity(&PRESSURE), "Young's modulus E").above(0.0),
-    Key::new("poisson-ratio", Kind::Quantity(&NUMBER), "Poisson's ratio").default("0.3").above(-1.0).below(0.5),
+    Key::new("young-modulus", Kind::Quantity(&PRESSURE), "Young's modulus E").above(0.0).may_change(),
+    Key::new("poisson-ratio", Kind::Quantity(&NUMBER), "Poisson's ratio")
+        .default("0.3")
+        .above(-1.0)
+        .below(0.5)
+        .may_change(),
     Key::new(
         "restitution",
         Kind::Quantity(&NUMBER),
         "Coefficient of restitution against the same material; 1 is elastic",
     )
+    .may_change()
     .default("0.9")
     .at_least(1e-6)
     .at_most(1.0),
     Key::new("friction", Kind::Quantity(&NUMBER), "Coulomb friction coefficient against the same material")
+        .may_change()
         .default("0.5")
         .at_least(0.0),
     Key::new(
@@ -154,9 +180,11 @@ static MATERIAL: &[Key] = &[
         Kind::Quantity(&NUMBER),
         "Rolling friction coefficient against the same material; with `contact.rolling.contact-width` the factor f'",
     )
+    .may_change()
     .default("0")
     .at_least(0.0),
     Key::new("twisting-friction", Kind::Quantity(&NUMBER), "Twisting friction coefficient against the same material")
+        .may_change()
         .default("0")
         .at_least(0.0),
     Key::new(
@@ -164,6 +192,7 @@ static MATERIAL: &[Key] = &[
         Kind::Quantity(&SURFACE_ENERGY),
         "Surface energy gamma of one face, for `contact.cohesion.dmt` and `jkr`",
     )
+    .may_change()
     .default("0")
     .at_least(0.0),
     Key::new(
@@ -171,6 +200,7 @@ static MATERIAL: &[Key] = &[
         Kind::Cohesion,
         "Attraction to the same material: the force of `contact.cohesion.constant`, the energy density of `sjkr`",
     )
+    .may_change()
     .default("0")
     .at_least(0.0),
     Key::new("density", Kind::Quantity(&DENSITY), "Density; needed where a group of grains gives no mass")
@@ -181,20 +211,28 @@ static MATERIAL: &[Key] = &[
 static MATERIAL_PAIR: &[Key] = &[
     Key::new("between", Kind::NamePair, "The two materials"),
     Key::new("restitution", Kind::Quantity(&NUMBER), "Coefficient of restitution of the pair")
+        .may_change()
         .at_least(1e-6)
         .at_most(1.0)
         .optional(),
-    Key::new("friction", Kind::Quantity(&NUMBER), "Friction coefficient of the pair").at_least(0.0).optional(),
+    Key::new("friction", Kind::Quantity(&NUMBER), "Friction coefficient of the pair")
+        .at_least(0.0)
+        .optional()
+        .may_change(),
     Key::new("rolling-friction", Kind::Quantity(&NUMBER), "Rolling friction coefficient of the pair")
+        .may_change()
         .at_least(0.0)
         .optional(),
     Key::new("twisting-friction", Kind::Quantity(&NUMBER), "Twisting friction coefficient of the pair")
+        .may_change()
         .at_least(0.0)
         .optional(),
     Key::new("surface-energy", Kind::Quantity(&SURFACE_ENERGY), "Surface energy gamma of the pair's interface")
+        .may_change()
         .at_least(0.0)
         .optional(),
     Key::new("cohesion", Kind::Cohesion, "Attraction of the pair, in the unit of the cohesion part")
+        .may_change()
         .at_least(0.0)
         .optional(),
     Key::new(

@@ -115,3 +115,14 @@ pub struct Mode {
     /// Participation of the base motion [-].
     pub participation: f64,
 }
+
+impl Host {
+    /// The shortest period of the sines that drive it [s].
+    pub fn period(&self) -> Option<f64> {
+        let periods = [&self.base, &self.force].into_iter().flatten().filter_map(|signal| match signal {
+            Signal::Sine { frequency, .. } => Some(1.0 / frequency),
+            _ => None,
+        });
+        periods.reduce(f64::min)
+    }
+}

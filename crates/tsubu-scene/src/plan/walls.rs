@@ -2,6 +2,7 @@
 
 use super::{Signal, Vector};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A wall, still, moved, or carried by a host.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,8 +44,12 @@ pub struct Rotation {
 pub struct Servo {
     /// Unit direction of the force and of the guide.
     pub direction: Vector,
-    /// Constant force F [N]: given, or `pressure` times `area`.
-    pub force: f64,
+    /// Constant force F [N]: given, or `pressure` times `area`; not with `pressure`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force: Option<f64>,
+    /// Constant pressure on the face of a box of planes that the wall is, as large as it is at the time [Pa].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pressure: Option<f64>,
     /// Moving mass M [kg].
     pub mass: f64,
     /// Damping c [N.s/m].
@@ -144,4 +149,18 @@ pub struct Motion {
     pub direction: Vector,
     /// Displacement [m] against time.
     pub signal: Signal,
+}
+
+/// The box that planes at right angles to the axes make: for every axis that the scene has, the numbers of the walls at its low and its
+/// high end, in the order of the names. `None` where an axis has not just these two.
+pub fn box_of_planes(walls: &BTreeMap<String, Wall>, space: bool) -> Option<Vec<(usize, [usize; 2])>> {
+    let axes: &[usize] = if space { &[0, 1, 2] } else { &[0, 2] };
+    let facing = |axis: usize, sign: f64| {
+        let mut found = walls
+            .values()
+            .enumerate()
+            .filter(|(_, wall)| matches!(wall.shape, Shape::Plane { normal, .. } if normal[axis] * sign > 1.0 - 1e-9));
+        found.next().filter(|_| found.next().is_none()).map(|(number, _)| number)
+    };
+    axes.iter().map(|&axis| Some((axis, [facing(axis, 1.0)?, facing(axis, -1.0)?]))).collect()
 }

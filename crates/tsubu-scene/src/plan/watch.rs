@@ -286,7 +286,7 @@ kinds! {
     segregation::Segregation "segregation" "How well two groups are mixed: Lacey index, and the height of one over the other" {
         /// The two groups.
         groups: [String; 2] =
-            Key::new("groups", Kind::Names(Family::Group), "The two groups").derived("the two groups, where there are two"),
+            Key::new("groups", Kind::Names(Family::Group), "The two groups").derived("the two groups, in the order of their names, where there are two"),
         /// Edge of the cells [m].
         cell: f64 = Key::new("cell", Kind::Quantity(&LENGTH), "Edge of the cells in which grains are counted").above(0.0),
         /// Only grains inside.
@@ -315,6 +315,12 @@ kinds! {
         /// Grains of the Shields and Rouse numbers: of this group.
         group: Option<String> =
             Key::new("group", Kind::Name(Family::Group), "Shields and Rouse numbers are of the grains of this group").optional(),
+    }
+
+    stress_path::StressPath "stress-path"
+    "Stress and strain of the grains in a box of planes: mean and deviator stress, friction angle, strains, porosity" {
+        /// Axis of the axial stress.
+        axis: Axis = Key::new("axis", Kind::OneOf(Axis::WORDS), "Axis along which the sample is sheared").default("'z'"),
     }
 
     track::Track "track" "Position, velocity and spin of some grains; positions go on across periodic ends" {

@@ -18,7 +18,7 @@ const MASS: f64 = 2650.0 * PI / 6.0 * D * D * D;
 const DISCARD: f64 = 1.0;
 const HOPS: usize = 30;
 /// Steps in a contact.
-const STEPS: f64 = 40.0;
+const STEPS: f64 = 20.0;
 
 /// What the hops of a run come to.
 #[derive(Clone, Debug, Default)]

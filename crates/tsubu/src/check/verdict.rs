@@ -36,6 +36,15 @@ impl Verdict {
         self.lines.iter().any(|l| !l.good)
     }
 
+    /// This verdict and that on another stage of the run.
+    #[must_use]
+    pub fn with(mut self, stage: Option<&str>, other: Self) -> Self {
+        let named = |text: String| stage.map_or_else(|| text.clone(), |stage| format!("stage {stage}: {text}"));
+        self.lines.extend(other.lines.into_iter().map(|line| Line { text: named(line.text), ..line }));
+        self.fails |= other.fails;
+        self
+    }
+
     pub(crate) fn say(&mut self, text: String) {
         self.lines.push(Line { good: true, text, advice: String::new() });
     }

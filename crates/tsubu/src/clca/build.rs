@@ -3,7 +3,6 @@
 use super::bed::{Bed, GrainKind};
 use super::place::{self, Grain};
 use super::shape::{Shape, polygon};
-use crate::check;
 use crate::engine::{Note, Refusal};
 use crate::lattice::direction::Vector;
 use crate::lattice::grid::WALL;
@@ -13,9 +12,9 @@ use crate::lattice::site::ground::Sites;
 use crate::lattice::stage::{self, LARGEST, Stage};
 use crate::memory::refuse_more_than_there_is;
 use crate::partner::Hosts;
-use crate::sizes;
 use crate::view::{Contacts, Wants};
 use crate::wall::{Mover, Wall};
+use crate::{check, sizes};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use tsubu_scene::plan::{self, ClCaRule, GrainMotion, GrainPoints, Plan, Removal, Signal, Start};
@@ -90,6 +89,9 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
         sweep: _,
         watch,
         output: _,
+        start_from: _,
+        start_at_zero: _,
+        stage: _,
         claim: _,
     } = plan;
     let mut remarks = Remarks::of("cl-ca");
@@ -135,10 +137,8 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
         ClCaRule::Passive => true,
     };
     if passive && plan.particles.values().any(|group| matches!(group.start, Start::Stream { .. })) {
-        remarks.refuse(
-            "cl-ca.rule",
-            "grains come in by a stream under the active rule alone; let them be there from the start",
-        );
+        let text = "grains come in by a stream under the active rule alone; let them be there from the start";
+        remarks.refuse("cl-ca.rule", text);
         return Err(refusal(&remarks));
     }
     let streams = plan.particles.values().zip(grains).filter_map(|(group, grains)| match &group.start {

@@ -16,16 +16,19 @@ use super::history_transfer::HistorySnapshot;
 use super::immersion::{BlockImmersion, WaterAtTime};
 use super::narrow_phase::{Spheres, TouchingPairs};
 use super::sweep::{Direction, sweep};
+use crate::check;
 use crate::contact::chunk::ROWS;
 use crate::contact::{Law, Table};
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::lists::{BlockList, shares};
+use crate::partner::Hosts;
 use crate::state::Grains;
 use crate::view::WallLoad;
 use crate::wall::{self, Wall};
 use crate::water::Parcel;
 use glam::{DVec3, Vec3};
 use std::sync::{Mutex, PoisonError};
+use tsubu_scene::plan::{Plan, SlipLever};
 
 /// The contact laws of a scene, and how far they reach.
 #[derive(Debug)]
@@ -40,6 +43,24 @@ pub(super) struct ContactLaws {
 }
 
 impl ContactLaws {
+    /// With the gaps of the widest pairs that the plan can bring together.
+    pub fn new(plan: &Plan, table: Table, hosts: &Hosts) -> Self {
+        let mut reaches = vec![0.0f64; table.laws().len()];
+        for (a, b) in check::bodies(plan, &table, hosts).pairs() {
+            let law = table.law(table.index(a.material, b.material));
+            // Whether large or small grains hold each other over the wider gap is the law's business.
+            let largest = table.pair((a.material, a.largest, a.mass), (b.material, b.largest, b.mass));
+            for pair in [table.pair(a.body(), b.body()), largest] {
+                reaches[law] = reaches[law].max(table.laws()[law].reach(&pair));
+            }
+        }
+        let lever_share = match plan.contact.slip_lever {
+            SlipLever::Middle => 0.5,
+            SlipLever::Radius => 0.0,
+        };
+        Self { table, reaches, rotation: plan.contact.rotation, lever_share }
+    }
+
     /// The widest gap at which bodies may still hold each other [m].
     pub fn reach(&self) -> f64 {
         self.reaches.iter().copied().fold(0.0, f64::max)
@@ -233,6 +254,11 @@ impl ContactForces {
                 history.pairs.reserve(pairs);
             }
         }
+    }
+
+    /// Other laws hold from now on: batches keep the constants of the last pair of materials.
+    pub fn forget_laws(&mut self) {
+        self.scratch.clear();
     }
 
     /// Evaluates all contacts, and the forces of the water.

@@ -12,24 +12,26 @@ use crate::check;
 use crate::contact::Table;
 use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
 use crate::ledger::{Energies, Ledger};
+use crate::mutation::{Mutation, left_out};
 use crate::neighbours::lists::{BLOCK, shares};
 use crate::neighbours::{NeighbourLists, Search};
 use crate::partner::Hosts;
 use crate::state::Grains;
 use crate::threads::awake;
 use crate::view::{View, WallLoad, Wants};
-use crate::wall::{Mover, Wall};
+use crate::wall::{Faces, Mover, Wall};
 use crate::water::Water;
 use glam::DVec3;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, State};
-use tsubu_scene::plan::{Particles, Plan, SlipLever};
+use tsubu_scene::plan::{Particles, Plan};
 
 /// Grains under a contact law.
 #[derive(Debug)]
 pub struct DemEngine {
     pub(super) grains: Grains,
     pub(super) walls: Vec<Wall>,
+    pub(super) faces: Faces,
     pub(super) clock: Clock,
     pub(super) neighbours: NeighbourLists,
     pub(super) laws: ContactLaws,
@@ -52,6 +54,8 @@ pub(super) struct Clock {
     /// Time step [s].
     pub dt: f64,
     pub step: u64,
+    /// Step and time [s] at which this stage began.
+    pub begin: (u64, f64),
     /// Grains moved in every step so far, summed.
     pub grain_steps: u64,
     /// Whether the grains have done the first half of the next step already; never between two calls of `advance`.
@@ -59,9 +63,20 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// Simulated time [s]: steps times time step, so that it never drifts.
+    /// Simulated time [s].
     pub fn time(&self) -> f64 {
-        self.step as f64 * self.dt
+        self.time_of(self.step)
+    }
+
+    /// Time of a step of this stage [s]: steps times time step, so that it never drifts.
+    pub fn time_of(&self, step: u64) -> f64 {
+        let (first, begin) = self.begin;
+        begin + (step - first) as f64 * self.dt
+    }
+
+    /// A stage begins here, with steps of `dt` [s].
+    pub fn begin_stage(&mut self, dt: f64) {
+        (self.begin, self.dt) = ((self.step, self.time()), dt);
     }
 
     /// Counts a step of so many grains.
@@ -121,6 +136,9 @@ impl DemEngine {
             sweep: _,
             watch: _,
             output: _,
+            start_from: _, // Of the run, as its stages.
+            start_at_zero: _,
+            stage: _,
             claim: _,
         } = plan;
         let refuse = |(key, text): (String, String)| {
@@ -134,30 +152,22 @@ impl DemEngine {
         }
         let gravity = DVec3::from_array(*gravity);
         let walls = walls(plan, &table, hosts, *dimension, gravity);
-        let (grains, settle) = place::grains(plan, &table, &walls).map_err(refuse)?;
+        let (mut grains, settle) = place::grains(plan, &table, &walls).map_err(refuse)?;
+        let first = (0..grains.len()).find(|&i| grains.inverse_mass[i] != 0.0);
+        if let Some(i) = first.filter(|_| left_out(Mutation::LastBit)) {
+            grains.position[i].x += f64::EPSILON * grains.position[i].x.abs().max(grains.radius[i]);
+        }
         let sources = Sources::new(plan, &table, &walls, grains.len());
         let diameters = grains.radius.iter().map(|r| (2.0 * r, 2.0 * r)).chain(sources.sizes());
         let (smallest, largest) = diameters.fold((f64::INFINITY, 0.0f64), |a, d| (a.0.min(d.0), a.1.max(d.1)));
         let skin = if smallest.is_finite() { dem.skin * smallest } else { 0.0 };
-        let mut reaches = vec![0.0f64; table.laws().len()];
-        for (a, b) in check::bodies(plan, &table, hosts).pairs() {
-            let law = table.law(table.index(a.material, b.material));
-            // Whether large or small grains hold each other over the wider gap is the law's business.
-            let largest = table.pair((a.material, a.largest, a.mass), (b.material, b.largest, b.mass));
-            for pair in [table.pair(a.body(), b.body()), largest] {
-                reaches[law] = reaches[law].max(table.laws()[law].reach(&pair));
-            }
-        }
-        let lever_share = match contact.slip_lever {
-            SlipLever::Middle => 0.5,
-            SlipLever::Radius => 0.0,
-        };
-        let laws = ContactLaws { table, reaches, rotation: contact.rotation, lever_share };
+        let laws = ContactLaws::new(plan, table, hosts);
         let search = Search { skin, reach: laws.reach(), periodic: room::periodic_bounds(plan) };
         let reactions = Reactions { wall_loads: vec![WallLoad::default(); walls.len()], ..Reactions::default() };
         let largest_present = particles.values().map(Particles::largest_diameter).fold(largest, f64::max);
         let mut engine = Self {
             walls,
+            faces: Faces::new(plan),
             clock: Clock { dt, ..Clock::default() },
             neighbours: NeighbourLists::new(search),
             laws,
@@ -190,8 +200,8 @@ impl DemEngine {
     }
 
     /// Gives the first step what it needs.
-    fn start(&mut self) {
-        self.move_driven(0.0);
+    pub(super) fn start(&mut self) {
+        self.move_driven(self.clock.time());
         self.init_added_mass();
         self.init_porosity();
         self.rebuild_neighbours();
@@ -231,6 +241,18 @@ impl Engine for DemEngine {
 
     fn steps(&self) -> u64 {
         self.clock.step
+    }
+
+    fn stage_begin(&self) -> (u64, f64) {
+        self.clock.begin
+    }
+
+    fn change(&mut self, plans: [&Plan; 2], hosts: &Hosts) -> Result<(), OpenError> {
+        self.change_plan(plans, hosts)
+    }
+
+    fn restart_clock(&mut self, plan: &Plan, hosts: &Hosts) -> Result<(), OpenError> {
+        self.turn_clock_back(plan, hosts)
     }
 
     fn grains(&self) -> usize {

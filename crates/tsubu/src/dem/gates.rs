@@ -7,7 +7,7 @@ use crate::ledger::{Account, Ledger};
 impl DemEngine {
     /// Whether walls vanish after step `step`. While grains settle they stay.
     pub(super) fn gate_due(&self, step: u64) -> bool {
-        let time = step as f64 * self.clock.dt;
+        let time = self.clock.time_of(step);
         !self.settling && self.walls.iter().any(|wall| !wall.vanished() && wall.goes_by(time))
     }
 

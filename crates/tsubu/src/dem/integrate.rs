@@ -3,6 +3,7 @@
 
 use super::contact_forces::BlockContacts;
 use super::sweep::{BlockRange, Direction, sweep};
+use crate::mutation::{Mutation, mutated};
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::drift::Drift;
 use crate::neighbours::lists::{BLOCK, BlockList, shares};
@@ -125,7 +126,7 @@ impl BlockRange for Slice<'_> {
 
 impl TimeIntegration {
     pub fn new(scheme: Integrator, gravity: DVec3, rotation: bool) -> Self {
-        Self { scheme, gravity, rotation, reports: Vec::new() }
+        Self { scheme, gravity: mutated(Mutation::Gravity, 1.0) * gravity, rotation, reports: Vec::new() }
     }
 
     /// How long velocities go with the old acceleration until the second half step puts the new one in its place [s].

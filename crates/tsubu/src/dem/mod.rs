@@ -19,6 +19,7 @@ mod place;
 mod room;
 mod settle;
 mod sources;
+mod stage;
 mod start;
 mod step;
 mod sweep;

@@ -109,8 +109,16 @@ impl DemEngine {
             [self.clock.step, self.clock.grain_steps, self.contacts.sums.contacts as u64, self.grains.len() as u64];
         state.put_integer("dem.step", counts.map(|n| n as i64).to_vec());
         state.put_real("dem.moved-mass", vec![self.books.moved_mass]);
+        if self.clock.begin != (0, 0.0) {
+            let (step, time) = self.clock.begin;
+            state.put_real("dem.stage-begin", vec![step as f64, time]);
+        }
         self.orientation.save(state);
         state.put_integer("dem.streams", self.sources.counts());
+        let begun = self.sources.begun();
+        if !begun.is_empty() {
+            state.put_real("dem.streams-begun", begun);
+        }
         sections::save("dem.powers", self.books.last.clone().named(), state);
         state.put_real("dem.stored", vec![self.contacts.sums.stored]);
         let flat = |v: &[DVec3]| v.iter().flat_map(DVec3::to_array).collect::<Vec<_>>();
@@ -149,10 +157,16 @@ impl DemEngine {
         let &[mass] = state.real("dem.moved-mass")? else { return Err(missing("dem.moved-mass")) };
         self.books.moved_mass = mass;
         (self.clock.step, self.clock.grain_steps) = (step as u64, grain_steps as u64);
+        if let Ok(&[step, time]) = state.real("dem.stage-begin") {
+            self.clock.begin = (step as u64, time);
+        }
         self.contacts.sums.contacts = contacts as usize;
         self.place_gates();
         self.orientation.load(state)?;
         self.sources.set_counts(state.integer("dem.streams")?);
+        if let Ok(begun) = state.real("dem.streams-begun") {
+            self.sources.set_begun(begun);
+        }
         sections::load("dem.powers", self.books.last.named(), state)?;
         let &[stored] = state.real("dem.stored")? else { return Err(missing("dem.stored")) };
         self.contacts.sums.stored = stored;

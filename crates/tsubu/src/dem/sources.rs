@@ -30,6 +30,8 @@ struct GrainStream {
     first_id: u32,
     /// How many have come.
     placed: usize,
+    /// Since when it flows as it does [s], and how many had come by then.
+    since: (f64, usize),
     /// On which side of every wall its region lies at time 0: to look anew whenever a grain comes would take longer than a step.
     sides: Vec<Side>,
 }
@@ -78,6 +80,7 @@ impl Sources {
                     material,
                     first_id: id,
                     placed: 0,
+                    since: (0.0, 0),
                     sides: sides(walls, &Room::of(region), plan.dimension, gravity),
                 });
                 id += group.count as u32;
@@ -109,6 +112,46 @@ impl Sources {
         }
         for (drain, taken) in self.removal.iter_mut().zip(taken) {
             drain.taken = *taken as u64;
+        }
+    }
+
+    /// Since when the streams flow as they do, for a checkpoint; nothing where all have from the first.
+    pub fn begun(&self) -> Vec<f64> {
+        let begun = self.streams.iter().flat_map(|s| [s.since.0, s.since.1 as f64]);
+        if self.streams.iter().all(|s| s.since == (0.0, 0)) { Vec::new() } else { begun.collect() }
+    }
+
+    /// Takes back what [`Sources::begun`] gave.
+    pub fn set_begun(&mut self, begun: &[f64]) {
+        for (stream, [since, before]) in self.streams.iter_mut().zip(begun.as_chunks::<2>().0) {
+            stream.since = (*since, *before as usize);
+        }
+    }
+
+    /// At time 0 of another clock: all streams begin to flow anew, with the grains that are left of them.
+    pub fn begin_anew(&mut self) {
+        for stream in &mut self.streams {
+            stream.since = (0.0, stream.placed);
+        }
+    }
+
+    /// Another stage begins at `time` [s]: streams that it changes begin to flow anew, with the grains that are left of them.
+    pub fn change(&mut self, plan: &Plan, walls: &[Wall], time: f64) {
+        let gravity = DVec3::from_array(plan.gravity);
+        for stream in &mut self.streams {
+            let Some(group) = plan.particles.get(&stream.name).filter(|group| group.start != stream.group.start) else {
+                continue;
+            };
+            stream.group.start = group.start.clone();
+            stream.since = (time, stream.placed);
+            if let Start::Stream { region, .. } = &group.start {
+                stream.sides = sides(walls, &Room::of(region), plan.dimension, gravity);
+            }
+        }
+        for drain in &mut self.removal {
+            if let Some(region) = plan.removal.get(&drain.name) {
+                drain.region = region.clone();
+            }
         }
     }
 
@@ -198,12 +241,13 @@ impl DemEngine {
     /// The grains that come now.
     fn arrivals(&mut self) -> Vec<crate::state::Grain> {
         let mut arrivals = Vec::new();
-        let time = self.clock.step as f64 * self.clock.dt;
+        let time = self.clock.time();
         let (dimension, ends) = (self.sources.plan.dimension, periodic_bounds(&self.sources.plan));
         for stream in &mut self.sources.streams {
             let Start::Stream { region, rate, velocity, speed, from } = &stream.group.start else { continue };
-            let due = ((time - from) * rate).max(0.0).floor() as usize;
-            let due = due.min(stream.group.count);
+            let (since, before) = stream.since;
+            let due = ((time - since - from) * rate).max(0.0).floor() as usize;
+            let due = (before + due).min(stream.group.count);
             if stream.placed >= due {
                 continue;
             }

@@ -164,6 +164,10 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// Regions of removal behind planes, outside boxes or beyond periodic ends, where nobody comes.
 fn out_of_reach(plan: &Plan) -> Vec<Note> {
+    // A later stage may open the way.
+    if plan.stage.len() > 1 {
+        return Vec::new();
+    }
     let smallest = plan.particles.values().map(Particles::smallest_diameter).fold(f64::INFINITY, f64::min);
     // So near to a wall a centre comes before the run stops.
     let nearest = if smallest.is_finite() { (0.5 - plan.dem.largest_overlap).max(0.0) * smallest } else { 0.0 };

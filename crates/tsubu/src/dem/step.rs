@@ -117,6 +117,7 @@ impl DemEngine {
         self.evaluate_stream_at_rest();
         self.second_half_step(0.0, false);
         self.reactions.sum_wall_loads(&self.contacts);
+        self.faces.measure(&mut self.walls);
         for (wall, load) in self.walls.iter_mut().zip(&self.reactions.wall_loads) {
             wall.start(load.force, load.torque);
         }
@@ -156,13 +157,14 @@ impl DemEngine {
 
     /// What grains did to the walls goes to those who move them.
     fn apply_reactions(&mut self, hosts: &Hosts, ledger: &mut Ledger) {
-        let Self { walls, contacts, reactions, clock, .. } = self;
+        let Self { walls, faces, contacts, reactions, clock, .. } = self;
         reactions.sum_wall_loads(contacts);
         reactions.on_hosts.clear();
         reactions.on_hosts.resize(hosts.list.len(), 0.0);
         if self.settling {
             return;
         }
+        faces.measure(walls);
         for (wall, load) in walls.iter_mut().zip(&reactions.wall_loads) {
             if let Some((index, direction)) = wall.host() {
                 reactions.on_hosts[index] += load.force.dot(direction);

@@ -71,6 +71,9 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         sweep: _,
         watch,
         output: _,
+        start_from: _, // Of the run, as its stages.
+        start_at_zero: _,
+        stage: _,
         claim: _,
     } = plan;
     let mut remarks = Remarks::of("lattice");
@@ -108,6 +111,24 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         return Err(refusal);
     }
     let damper = Damper::new(scale, rules, place, &balls);
+    remark_reach(&damper, scale, lattice, &mut remarks);
+    if let Some(refusal) = remarks.refusal() {
+        return Err(refusal);
+    }
+    Ok(Built {
+        damper,
+        notes: remarks.notes,
+        wall: casing.name.to_owned(),
+        dt: lattice.time_step,
+        mass: kind.mass,
+        radius: 0.5 * kind.diameter,
+        floor_centre: casing.floor_centre,
+        spacing: kind.diameter,
+    })
+}
+
+/// Refuses what whole numbers cannot hold.
+fn remark_reach(damper: &Damper, scale: Scale, lattice: &plan::Lattice, remarks: &mut Remarks) {
     match damper.within_reach() {
         Ok(()) => {}
         Err(Beyond::Cell) => remarks.refuse(
@@ -125,19 +146,6 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
             ),
         ),
     }
-    if let Some(refusal) = remarks.refusal() {
-        return Err(refusal);
-    }
-    Ok(Built {
-        damper,
-        notes: remarks.notes,
-        wall: casing.name.to_owned(),
-        dt: lattice.time_step,
-        mass: kind.mass,
-        radius: 0.5 * kind.diameter,
-        floor_centre: casing.floor_centre,
-        spacing: kind.diameter,
-    })
 }
 
 /// The one kind of ball.

@@ -36,6 +36,8 @@ pub struct Host {
     pub direction: [f64; 3],
     base: Option<Signal>,
     force: Option<Signal>,
+    /// Since when they drive it [s].
+    driven_since: f64,
     q: Vec<f64>,
     v: Vec<f64>,
     a: Vec<f64>,
@@ -62,6 +64,7 @@ impl Host {
             direction: plan.direction,
             base: plan.base.clone(),
             force: plan.force.clone(),
+            driven_since: 0.0,
             q: seen.iter().map(|_| plan.displacement).collect(),
             v: seen.iter().map(|_| plan.velocity).collect(),
             a: vec![0.0; n],
@@ -135,6 +138,22 @@ impl Host {
         self.power = self.powers(self.drive(0.0));
     }
 
+    /// At time 0 of another clock: base and force begin now.
+    pub fn begin_anew(&mut self) {
+        self.driven_since = 0.0;
+        self.settle_acceleration(0.0);
+        self.power = self.powers(self.drive(0.0));
+    }
+
+    /// Another stage of a run begins at `time` [s]: from then on base and force are those of `plan`.
+    pub fn change(&mut self, plan: &plan::Host, time: f64) {
+        if (&self.base, &self.force) != (&plan.base, &plan.force) {
+            (self.base, self.force, self.driven_since) = (plan.base.clone(), plan.force.clone(), time);
+        }
+        self.settle_acceleration(time);
+        self.power = self.powers(self.drive(time));
+    }
+
     /// Kinetic energy and spring energy at `time` [J].
     pub fn energy(&self, time: f64) -> (f64, f64) {
         let y = self.base(time).0;
@@ -177,6 +196,9 @@ impl Host {
         values.extend(self.power);
         values.push(self.grain_force);
         state.put_real(name, values);
+        if self.driven_since != 0.0 {
+            state.put_real(&format!("{name}.driven-since"), vec![self.driven_since]);
+        }
     }
 
     /// Takes the state back.
@@ -191,11 +213,14 @@ impl Host {
         self.a.copy_from_slice(&values[2 * n..3 * n]);
         self.power.copy_from_slice(&values[3 * n..3 * n + 3]);
         self.grain_force = values[3 * n + 3];
+        if let Ok(&[since]) = state.real(&format!("{name}.driven-since")) {
+            self.driven_since = since;
+        }
         Ok(())
     }
 
     fn base(&self, time: f64) -> (f64, f64) {
-        self.base.as_ref().map_or((0.0, 0.0), |s| value_and_rate(s, time))
+        self.base.as_ref().map_or((0.0, 0.0), |s| value_and_rate(s, time - self.driven_since))
     }
 
     fn drive(&self, time: f64) -> Drive {
@@ -204,7 +229,7 @@ impl Host {
     }
 
     fn applied(&self, time: f64) -> f64 {
-        self.force.as_ref().map_or(0.0, |s| value_and_rate(s, time).0)
+        self.force.as_ref().map_or(0.0, |s| value_and_rate(s, time - self.driven_since).0)
     }
 
     /// Puts all forces on the coordinates into the first n entries of `work`; the dampers see the half-step velocities or

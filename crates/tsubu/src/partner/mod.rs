@@ -24,6 +24,20 @@ impl Hosts {
         Self { list: plan.values().map(Host::new).collect(), names: plan.keys().cloned().collect() }
     }
 
+    /// Another stage of a run begins at `time` [s], with other drives.
+    pub fn change(&mut self, plan: &BTreeMap<String, plan::Host>, time: f64) {
+        for (host, plan) in self.list.iter_mut().zip(plan.values()) {
+            host.change(plan, time);
+        }
+    }
+
+    /// At time 0 of another clock: all drives begin now.
+    pub fn begin_anew(&mut self) {
+        for host in &mut self.list {
+            host.begin_anew();
+        }
+    }
+
     /// Names, in the order of `list`.
     pub fn names(&self) -> &[String] {
         &self.names

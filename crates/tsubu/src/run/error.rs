@@ -27,6 +27,9 @@ pub enum RunError {
     /// A checkpoint of another scene, or of another version.
     #[error("{0}")]
     NotThisScene(String),
+    /// The run that this one is to start from does not fit, or cannot be read.
+    #[error("{0}")]
+    Start(String),
     /// The run went wrong; what was computed so far is in the folder.
     #[error("{0}")]
     Fault(#[from] Fault),
@@ -40,6 +43,7 @@ impl Advise for RunError {
             Self::Checkpoint(_) => Vec::new(),
             Self::NoStep { .. } => vec!["raise `duration`, or shorten the time step".into()],
             Self::NotThisScene(_) => vec!["run without `--resume` into another folder, or with `--overwrite`".into()],
+            Self::Start(_) => vec!["make the scene as it was there, and say in stages what changes".into()],
             Self::Fault(fault) => fault.hints(),
         }
     }

@@ -13,8 +13,10 @@ pub(super) const SEEN: [(&str, &str); 3] = [("kinetic energy", "J"), ("centre of
 pub(super) struct Measured {
     /// Of [`SEEN`].
     seen: Means,
-    pub(super) rows: f64,
-    pub(super) contacts: f64,
+    rows: f64,
+    contacts: f64,
+    /// Both in the stages before this one.
+    before: [f64; 2],
     /// Per host: sum, sum of squares, largest absolute value of the displacement.
     hosts: Vec<[f64; 3]>,
 }
@@ -22,6 +24,17 @@ pub(super) struct Measured {
 impl Measured {
     pub(super) fn new(hosts: &Hosts) -> Self {
         Self { hosts: vec![[0.0; 3]; hosts.list.len()], ..Self::default() }
+    }
+
+    /// For the next stage of a run.
+    pub(super) fn next(&self) -> Self {
+        let before = [self.before[0] + self.rows, self.before[1] + self.contacts];
+        Self { hosts: vec![[0.0; 3]; self.hosts.len()], before, ..Self::default() }
+    }
+
+    /// The mean number of contacts in the whole run.
+    pub(super) fn contacts_mean(&self) -> f64 {
+        (self.before[1] + self.contacts) / (self.before[0] + self.rows).max(1.0)
     }
 
     pub(super) fn take(&mut self, hosts: &Hosts, contacts: usize, seen: [f64; 3]) {
@@ -54,7 +67,7 @@ impl Measured {
     }
 
     pub(super) fn save(&self, state: &mut State) {
-        let mut values = vec![self.rows, self.contacts];
+        let mut values = vec![self.rows, self.contacts, self.before[0], self.before[1]];
         values.extend(self.hosts.iter().flatten());
         state.put_real("run.measured", values);
         state.put_real("run.seen", self.seen.numbers());
@@ -62,12 +75,12 @@ impl Measured {
 
     pub(super) fn load(&mut self, state: &State) -> Result<(), MissingSection> {
         let values = state.real("run.measured")?;
-        if values.len() != 2 + 3 * self.hosts.len() {
+        if values.len() != 4 + 3 * self.hosts.len() {
             return Err(MissingSection { name: "run.measured".to_owned(), kind: "real" });
         }
         self.seen = Means::from_numbers(state.real("run.seen")?);
-        (self.rows, self.contacts) = (values[0], values[1]);
-        for (sums, v) in self.hosts.iter_mut().zip(values[2..].chunks_exact(3)) {
+        (self.rows, self.contacts, self.before) = (values[0], values[1], [values[2], values[3]]);
+        for (sums, v) in self.hosts.iter_mut().zip(values[4..].chunks_exact(3)) {
             sums.copy_from_slice(v);
         }
         Ok(())

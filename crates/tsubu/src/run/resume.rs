@@ -1,6 +1,6 @@
 //! Going on from a checkpoint: what it must agree with.
 
-use super::{HISTORY, Run, RunError, step_of};
+use super::{HISTORY, Run, RunError};
 use crate::ledger::Ledger;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -28,13 +28,15 @@ impl Run<'_> {
         if header.scene_hash != self.scene_hash {
             return refuse(format!("belongs to another scene{}", differences(scene, folder)));
         }
+        self.enter_stage(&state)?;
         let dt = self.engine.time_step();
         self.engine.load(&state)?;
+        self.place_stage()?;
         if self.engine.time() != header.time {
             let before = header.time / header.step as f64;
             return refuse(format!("was made with a time step of {before} s, not {dt} s: set `dem.time-step`"));
         }
-        if self.engine.steps() > step_of(self.plan.duration, dt) {
+        if self.engine.steps() > self.last {
             let (time, end) = (header.time, self.plan.duration);
             return refuse(format!("is of t = {time} s, behind the end: raise `duration` = {end} s"));
         }

@@ -112,6 +112,11 @@ impl Task {
         let wanted = plan.response.clone().ok_or_else(|| {
             CasesError::Scene("the scene has no `[response]`: say which frequencies, for example `frequency-ratio = { from = 0.85, to = 1.15, step = 0.01 }`".to_owned())
         })?;
+        if scene.plans().len() > 1 {
+            return Err(CasesError::Scene(
+                "a response is of a scene of one stage: leave `[[stage]]` out, or run it".to_owned(),
+            ));
+        }
         let reference = tasks::reference_frequency(plan, &wanted.host).map_err(CasesError::Scene)?;
         let cases = cases(&wanted.vary);
         let plans = case_plans(scene, &cases)?;

@@ -102,6 +102,12 @@ impl Body {
         (0.5 * self.mass * self.velocity.length_squared(), 0.5 * self.spin().dot(self.momentum))
     }
 
+    /// Another gravity pulls from now on [m/s^2].
+    pub fn pull(&mut self, gravity: DVec3) {
+        self.acceleration += gravity - self.gravity;
+        self.gravity = gravity;
+    }
+
     /// Potential energy in gravity, from the origin [J].
     pub fn potential(&self) -> f64 {
         -self.mass * self.gravity.dot(self.centre)

@@ -7,8 +7,10 @@
 //! pose is that of the new time), [`Wall::touching`] for every grain with candidates, and [`Wall::after`] with the sum
 //! of the forces. A contact's history belongs to (grain, wall, [`Wall::key`]).
 
+mod begun;
 pub mod body;
 mod distinct;
+mod faces;
 pub mod frustum;
 pub mod half_space;
 mod inside;
@@ -25,7 +27,9 @@ mod topology;
 mod tree;
 pub mod triangle;
 
+pub use begun::Begun;
 pub use body::Body;
+pub use faces::Faces;
 pub use mover::{Exchange, Mover, Turning};
 pub use nearest::{Feature, Nearest, Touch};
 pub use outline::Outline;
@@ -74,6 +78,8 @@ pub struct Wall {
     pub turning: Option<Turning>,
     /// When it vanishes [s].
     pub until: Option<f64>,
+    /// Since when it moves as it does, and from where; nothing where it does so from the first.
+    begun: Option<Begun>,
     /// Whether it has vanished: nothing touches it then, and nobody sees it.
     vanished: bool,
     outline: Outline,
@@ -105,6 +111,7 @@ impl Wall {
             mover,
             turning,
             until: plan.until,
+            begun: None,
             vanished: false,
             outline,
             in_plane: dimension == 2,
@@ -115,9 +122,13 @@ impl Wall {
 
     /// Takes the place and motion of `time` [s]; hosts, servos and bodies give those they have now.
     pub fn follow(&mut self, time: f64, hosts: &Hosts) {
-        self.mover.place(time, hosts, &mut self.pose);
+        let begun = self.begun.unwrap_or_default();
+        self.mover.place(time - begun.moved, hosts, &mut self.pose);
         if let Some(turning) = &self.turning {
-            turning.place(time, &mut self.pose);
+            turning.place(time - begun.turned, &mut self.pose);
+        }
+        if self.begun.is_some() {
+            begun.carry(&mut self.pose, self.turning.is_some());
         }
     }
 
@@ -289,8 +300,9 @@ impl Wall {
         if self.vanished { Outline::default() } else { self.outline.placed(&self.pose) }
     }
 
-    /// Writes the state of a servo or body into a checkpoint; other walls have none.
+    /// Writes the state of a servo or body, and what a later stage has changed, into a checkpoint; other walls have none.
     pub fn save(&self, state: &mut State) {
+        self.save_begun(state);
         match &self.mover {
             Mover::Servo(servo) => servo.save(&format!("wall.{}", self.name), state),
             Mover::Body(body) => body.save(&format!("wall.{}", self.name), state),
@@ -300,6 +312,7 @@ impl Wall {
 
     /// Takes the state back from a checkpoint; [`Wall::follow`] comes next.
     pub fn load(&mut self, state: &State) -> Result<(), MissingSection> {
+        self.load_begun(state)?;
         match &mut self.mover {
             Mover::Servo(servo) => servo.load(&format!("wall.{}", self.name), state),
             Mover::Body(body) => body.load(&format!("wall.{}", self.name), state),

@@ -5,6 +5,7 @@ use super::{Axes, Sheet, Trigger, Watch, axes, open, wall_load};
 use crate::engine::Engine;
 use crate::view::{View, Wants};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::path::Path;
 use tsubu_frame::csv::split_unit;
 use tsubu_frame::state::MissingSection;
@@ -104,7 +105,7 @@ impl Watches {
     pub fn new(plan: &Plan, engine: &dyn Engine) -> Self {
         let list = plan.watch.iter().map(|(name, watch)| {
             let kind = watch.measure.name();
-            let trigger = Trigger::new(watch, engine.time_step());
+            let trigger = Trigger::new(watch, engine.time_step()).beginning(engine.stage_begin().0);
             let watch = open(&watch.measure, plan);
             let last = vec![f64::NAN; watch.scalars().len()];
             let means = [Means::new(last.len()), Means::default()];
@@ -145,6 +146,27 @@ impl Watches {
             }
         }
         if self.list.is_empty() { Ok(()) } else { folder.write_json(INDEX, &self.index()) }
+    }
+
+    /// Goes on in another stage: tables that both stages have grow on, others begin.
+    pub fn go_on(&mut self, earlier: Self, folder: &RunFolder) -> Result<(), FileError> {
+        let mut files: BTreeMap<String, (Option<Vec<String>>, Option<History>)> =
+            earlier.list.into_iter().map(|w| (w.name.clone(), (w.header(), w.file))).collect();
+        for watched in &mut self.list {
+            let Some(header) = watched.header() else { continue };
+            watched.file = match files.remove(&watched.name) {
+                Some((before, file)) if before.as_ref() == Some(&header) => file,
+                _ => Some(History::create(&folder.file(&file(&watched.name)), &header)?),
+            };
+        }
+        if self.list.is_empty() { Ok(()) } else { folder.write_json(INDEX, &self.index()) }
+    }
+
+    /// Their times count from step `begin`, with which the stage began.
+    pub fn begin(&mut self, begin: u64) {
+        for watched in &mut self.list {
+            watched.trigger = watched.trigger.beginning(begin);
+        }
     }
 
     /// Goes on with the files of a run that was cut; the checkpoint was loaded.

@@ -9,21 +9,35 @@ pub struct Trigger {
     every: f64,
     until: f64,
     dt: f64,
+    /// Step with which the stage of the run began that the times count from.
+    begin: u64,
 }
 
 impl Trigger {
     /// The trigger of a watch in a run with steps of `dt` [s].
     pub fn new(watch: &plan::Watch, dt: f64) -> Self {
-        Self { from: watch.from, every: watch.every.unwrap_or(dt), until: watch.until.unwrap_or(f64::INFINITY), dt }
+        let until = watch.until.unwrap_or(f64::INFINITY);
+        Self { from: watch.from, every: watch.every.unwrap_or(dt), until, dt, begin: 0 }
     }
 
     /// Events at all multiples of an interval [s].
     pub fn each(interval: f64, dt: f64) -> Self {
-        Self { from: 0.0, every: interval, until: f64::INFINITY, dt }
+        Self { from: 0.0, every: interval, until: f64::INFINITY, dt, begin: 0 }
+    }
+
+    /// The same in a stage that begins with step `begin`: times count from there.
+    #[must_use]
+    pub fn beginning(self, begin: u64) -> Self {
+        Self { begin, ..self }
     }
 
     /// The first look at step `now` or later; `u64::MAX` if there is none any more.
     pub fn at_or_after(&self, now: u64) -> u64 {
+        self.in_stage(now.saturating_sub(self.begin)).saturating_add(self.begin)
+    }
+
+    /// The same by the steps of the stage.
+    fn in_stage(&self, now: u64) -> u64 {
         if self.every <= self.dt {
             // A look falls to every step. They are not counted: there may be more of them than numbers tell apart.
             let step = now.max((self.from / self.dt).round() as u64);
@@ -62,7 +76,7 @@ mod tests {
     use super::*;
 
     fn looks(from: f64, every: f64, until: f64, dt: f64, last: u64) -> Vec<u64> {
-        let trigger = Trigger { from, every, until, dt };
+        let trigger = Trigger { from, every, until, dt, begin: 0 };
         (0..=last).filter(|step| trigger.due(*step)).collect()
     }
 
@@ -89,7 +103,7 @@ mod tests {
 
     #[test]
     fn the_next_look_is_found_from_anywhere() {
-        let trigger = Trigger { from: 0.2, every: 0.3, until: 0.8, dt: 0.1 };
+        let trigger = Trigger { from: 0.2, every: 0.3, until: 0.8, dt: 0.1, begin: 0 };
         assert_eq!([0, 2, 3, 6, 8, 9].map(|now| trigger.at_or_after(now)), [2, 2, 5, 8, 8, u64::MAX]);
     }
 }

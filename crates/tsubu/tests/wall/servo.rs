@@ -10,7 +10,7 @@ const MASS: f64 = 0.5;
 const STIFFNESS: f64 = 300.0;
 
 fn servo(damping: f64) -> Servo {
-    Servo::new(&plan::Servo { direction: [0.0, 0.6, -0.8], force: FORCE, mass: MASS, damping })
+    Servo::new(&plan::Servo { direction: [0.0, 0.6, -0.8], force: Some(FORCE), pressure: None, mass: MASS, damping })
 }
 
 /// Runs against a spring that stands for grains; returns displacement, and the energy residual.

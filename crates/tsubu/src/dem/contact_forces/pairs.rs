@@ -4,6 +4,7 @@ use super::{ContactSums, ForceInput, Load, Scratch, apply_law, power, skip};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::dem::contact_batch::ContactBatch;
 use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns};
+use crate::mutation::{Mutation, mutated};
 use crate::neighbours::lists::BlockList;
 
 /// Walks the grain-grain pairs of a block, law by law; `visit` sees every finished batch.
@@ -69,7 +70,7 @@ pub(super) fn scatter(batch: &ContactBatch, loads: &mut [Load], rotation: bool) 
             first.torque += Chunk::vector(&batch.torque[0], r);
         }
         let second = &mut loads[batch.second[r] as usize];
-        second.force -= force;
+        second.force -= mutated(Mutation::ThirdLaw, 1.0) * force;
         second.dissipative -= dissipative;
         if rotation {
             second.torque += Chunk::vector(&batch.torque[1], r);

@@ -77,6 +77,9 @@ fn scene(plan: &Plan, rule: SiteRule, hosts: &Hosts, remarks: &mut Remarks) -> O
         sweep: _,
         watch: _, // Once the model is there.
         output: _,
+        start_from: _, // Of the run, as its stages.
+        start_at_zero: _,
+        stage: _,
         claim: _,
     } = plan;
     remarks.world(plan, world(rule));
@@ -126,8 +129,7 @@ fn scene(plan: &Plan, rule: SiteRule, hosts: &Hosts, remarks: &mut Remarks) -> O
     let streams = start::place(plan, &ground, &mut cells, gas.is_some(), remarks);
     remark_removal(removal, &ground, &walls, &cells, &streams, remarks);
     let each = |of: &dyn Fn(usize, &plan::Particles) -> f64| -> Vec<f64> {
-        let groups = particles.values().enumerate();
-        groups.flat_map(|(number, group)| vec![of(number, group); group.count]).collect()
+        particles.values().enumerate().flat_map(|(number, group)| vec![of(number, group); group.count]).collect()
     };
     let scene = Scene {
         mass: each(&|_, group| group.mass),
