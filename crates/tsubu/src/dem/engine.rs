@@ -43,8 +43,6 @@ pub struct DemEngine {
     pub(super) reactions: Reactions,
     pub(super) books: Books,
     pub(super) limits: Limits,
-    /// While grains settle the walls and the water stand, whoever moves them.
-    pub(super) settling: bool,
     pub(super) notes: Vec<Note>,
 }
 
@@ -60,6 +58,8 @@ pub(super) struct Clock {
     pub grain_steps: u64,
     /// Whether the grains have done the first half of the next step already; never between two calls of `advance`.
     pub half_step_done: bool,
+    /// Before time 0 grains settle: walls and water stand, whoever moves them.
+    pub settling: bool,
 }
 
 impl Clock {
@@ -186,7 +186,6 @@ impl DemEngine {
                 largest_overlap: dem.largest_overlap,
                 in_space: *dimension == 3,
             },
-            settling: false,
             notes: Vec::new(),
             grains,
         };

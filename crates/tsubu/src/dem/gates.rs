@@ -8,7 +8,7 @@ impl DemEngine {
     /// Whether walls vanish after step `step`. While grains settle they stay.
     pub(super) fn gate_due(&self, step: u64) -> bool {
         let time = self.clock.time_of(step);
-        !self.settling && self.walls.iter().any(|wall| !wall.vanished() && wall.goes_by(time))
+        !self.clock.settling && self.walls.iter().any(|wall| !wall.vanished() && wall.goes_by(time))
     }
 
     /// Lets the walls vanish whose time has come. What their contacts held goes with them; motion and height of the grains

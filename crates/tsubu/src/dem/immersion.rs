@@ -255,7 +255,7 @@ impl DemEngine {
         let Some(immersion) = &mut self.immersion else { return };
         let looks = self.clock.step.is_multiple_of(EVERY);
         match &mut immersion.water.stream {
-            Stream::Coupled(coupled) if !self.settling => {
+            Stream::Coupled(coupled) if !self.clock.settling => {
                 let mut turned = coupled.step(&immersion.reaction, &immersion.entrained, dt);
                 if looks {
                     let seconds = EVERY as f64 * dt;

@@ -43,7 +43,7 @@ impl Orientation {
 impl DemEngine {
     /// Turns every grain by its spin in the middle of the step, between the two half steps.
     pub(super) fn rotate(&mut self) {
-        if !self.orientation.wanted || self.settling {
+        if !self.orientation.wanted || self.clock.settling {
             return;
         }
         let grains = &self.grains;

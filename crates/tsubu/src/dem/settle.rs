@@ -22,7 +22,7 @@ impl DemEngine {
         for wall in &mut self.walls {
             (wall.pose.velocity, wall.pose.spin) = (DVec3::ZERO, DVec3::ZERO);
         }
-        self.settling = true;
+        self.clock.settling = true;
         // Driven grains stand as walls do; they get their velocity back when the run begins.
         for (velocity, inverse_mass) in self.grains.velocity.iter_mut().zip(&self.grains.inverse_mass) {
             if *inverse_mass == 0.0 {
@@ -48,7 +48,7 @@ impl DemEngine {
         for (wall, pose) in self.walls.iter_mut().zip(poses) {
             wall.pose = pose;
         }
-        self.settling = false;
+        self.clock.settling = false;
         (self.clock.step, self.clock.grain_steps) = (0, 0);
         self.grains.velocity.fill(DVec3::ZERO);
         self.grains.spin.fill(DVec3::ZERO);

@@ -172,7 +172,7 @@ impl Sources {
 impl DemEngine {
     /// Moves the driven groups to where they are at `time`.
     pub(super) fn move_driven(&mut self, time: f64) {
-        if self.settling {
+        if self.clock.settling {
             return;
         }
         for driven in &self.sources.driven {
@@ -192,7 +192,7 @@ impl DemEngine {
     /// Whether it is time after step `step` to look at what should come or go.
     pub(super) fn insertion_due(&self, step: u64) -> bool {
         let nothing = self.sources.streams.is_empty() && self.sources.removal.is_empty();
-        !nothing && !self.settling && step.is_multiple_of(EVERY)
+        !nothing && !self.clock.settling && step.is_multiple_of(EVERY)
     }
 
     /// Lets grains come and go between two steps. What is posted is the difference of all that is held: motion, height, and

@@ -51,7 +51,7 @@ impl DemEngine {
     }
 
     fn move_walls(&mut self, time: f64, hosts: &Hosts) {
-        if self.settling {
+        if self.clock.settling {
             return;
         }
         for wall in &mut self.walls {
@@ -126,8 +126,8 @@ impl DemEngine {
 
     /// The contacts, and what their forces are computed from.
     fn contacts_and_input(&mut self) -> (&mut ContactForces, ForceInput<'_>) {
-        let Self { grains, walls, neighbours, laws, contacts, immersion, integration, clock, settling, .. } = self;
-        let water = immersion.as_ref().map(|immersion| immersion.at(clock.time(), integration.gravity, *settling));
+        let Self { grains, walls, neighbours, laws, contacts, immersion, integration, clock, .. } = self;
+        let water = immersion.as_ref().map(|immersion| immersion.at(clock.time(), integration.gravity, clock.settling));
         (contacts, ForceInput { grains, walls, neighbours, laws, dt: clock.dt, completion: 0.0, water })
     }
 
@@ -161,7 +161,7 @@ impl DemEngine {
         reactions.sum_wall_loads(contacts);
         reactions.on_hosts.clear();
         reactions.on_hosts.resize(hosts.list.len(), 0.0);
-        if self.settling {
+        if clock.settling {
             return;
         }
         faces.measure(walls);
