@@ -4,12 +4,13 @@ use crate::shell::{command, root, run, succeeds};
 
 /// Builds it with mdBook; says so where that is not there.
 pub fn book() -> Result<(), String> {
-    if succeeds(command("mdbook", &["--version"])) {
-        let folder = root().join("target/book");
-        return run(command("mdbook", &["build", "docs", "--dest-dir", &folder.to_string_lossy()]));
-    }
-    eprintln!("\nSKIPPED: the book is not built, as there is no mdbook here (`cargo install mdbook`)");
-    Ok(())
+    let own = root().join("target/tools/bin/mdbook").to_string_lossy().into_owned();
+    let Some(mdbook) = ["mdbook", &own].into_iter().find(|name| succeeds(command(name, &["--version"]))) else {
+        eprintln!("\nSKIPPED: the book is not built, as there is no mdbook here (`.ci/install`)");
+        return Ok(());
+    };
+    let folder = root().join("target/book");
+    run(command(mdbook, &["build", "docs", "--dest-dir", &folder.to_string_lossy()]))
 }
 
 #[cfg(test)]
