@@ -47,6 +47,15 @@ impl Files {
         text(name, &bytes, sources).map_err(|complaint| vec![complaint])
     }
 
+    /// The text of a file of grains: of one that is no text, its grains in rows.
+    fn rows(&mut self, name: &str, sources: &mut Vec<Source>) -> Result<String, Vec<Complaint>> {
+        let bytes = self.bytes(name).map_err(|reason| vec![unreadable(name, &reason)])?;
+        match grain_file::as_text(name, &bytes) {
+            Some(read) => read.map_err(|complaint| vec![complaint]),
+            None => text(name, &bytes, sources).map_err(|complaint| vec![complaint]),
+        }
+    }
+
     /// The grains in the file. A file that is wrong becomes a source, so that the complaints can point into it.
     pub fn grains(
         &mut self,
@@ -59,7 +68,7 @@ impl Files {
             return Ok(Arc::clone(known));
         }
         grain_file::known(name).map_err(|complaint| vec![complaint])?;
-        let text = self.text(name, sources)?;
+        let text = self.rows(name, sources)?;
         match grain_file::read(name, &text, sources.len(), how) {
             Ok(file) => {
                 let file = Arc::new(file);

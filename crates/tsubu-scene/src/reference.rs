@@ -24,7 +24,7 @@ the tables of a choice can be given. What a choice is, with formula, symbols, li
 [methods](explained/methods.md).
 
 **Files** are named from the folder of the scene file. The run folder gets copies of those with grains and meshes, so that its
-`scene.toml` runs again. Grains come from CSV, extended XYZ, LAMMPS data and LAMMPS dump files, all in SI units unless a header says otherwise:
+`scene.toml` runs again. Grains come from CSV, extended XYZ, LAMMPS data, LAMMPS dump and VTK PolyData files, all in SI units unless a header says otherwise:
 
 - `.csv` with a header: `x`, `y`, `z`, then what there is of `d` (or `diameter`) or `r` (or `radius`), `vx`, `vy`, `vz`, `wx`, `wy`,
   `wz`, in any order, with units as in `x [mm]`; other columns are passed over. Without a header: x, y, z and perhaps the
@@ -33,6 +33,8 @@ the tables of a choice can be given. What a choice is, with formula, symbols, li
 - `.data`: atom_style sphere, the sections `Atoms` and `Velocities`; densities are the materials'.
 - `.lammpstrj`: dump files as tsubu and LAMMPS write them, of several snapshots the last: `x y z` (or `xu yu zu`) and what there is of `id`, `type`,
   `vx`, `vy`, `vz`, `omegax`, `omegay`, `omegaz`, `radius` (or `diameter`), `density` and `mass`; masses must be those of the scene.
+- `.vtp`: VTK PolyData, in text or raw appended, as in `frames/` of a run: points and what there is of `velocity`, `spin`, `radius` (or `diameter`),
+  `mass`, `density`, `id` and `group`; all else is passed over.
 
 In the plane every y must be 0. Meshes come from `.stl` (text or binary) and `.obj` files.
 

@@ -181,7 +181,9 @@ fn reason(first: &str) -> &'static str {
         "walls" => "walls keep their shape and material; who moves them and when they vanish may change",
         "hosts" => "structures stay; what drives them may change",
         "materials" | "material-pair" => "the mass of grains hangs on it",
-        "water" => "the water is part of the state that goes from stage to stage",
+        "water" => {
+            "what moves along with grains hangs on it; how the water flows and what holds grains in it may change"
+        }
         "periodic" => "the places of all grains hang on it",
         "method" | "dimension" | "seed" | "dem" => "the run is one from beginning to end",
         _ => "it is of the run as a whole",

@@ -1,5 +1,8 @@
 //! Runs of several stages.
 
+mod frames;
+mod water;
+
 use std::path::Path;
 use tsubu::interrupt::{Interrupt, Watcher};
 use tsubu::run::run;

@@ -6,6 +6,7 @@
 mod csv;
 mod dump;
 mod lammps;
+mod vtp;
 mod xyz;
 
 use crate::complaint::{Complaint, Place};
@@ -45,6 +46,11 @@ pub(crate) struct How {
     pub kind: Option<u32>,
 }
 
+/// The text of a file whose bytes are none: its grains in rows.
+pub(crate) fn as_text(name: &str, bytes: &[u8]) -> Option<Result<String, Complaint>> {
+    (ending(name) == "vtp").then(|| vtp::as_dump(name, bytes))
+}
+
 /// Reads the text of the file of that name, which is the given source of complaints.
 pub(crate) fn read(name: &str, text: &str, source: usize, how: How) -> Result<GrainFile, Vec<Complaint>> {
     let mut rows = Rows { source, how, ..Rows::default() };
@@ -52,7 +58,7 @@ pub(crate) fn read(name: &str, text: &str, source: usize, how: How) -> Result<Gr
         "csv" => csv::read(text, &mut rows),
         "xyz" => xyz::read(text, &mut rows),
         "data" => lammps::read(text, &mut rows),
-        "lammpstrj" => dump::read(text, &mut rows),
+        "lammpstrj" | "vtp" => dump::read(text, &mut rows),
         // Refused before it was read.
         _ => {}
     }
@@ -76,9 +82,9 @@ pub(crate) fn read(name: &str, text: &str, source: usize, how: How) -> Result<Gr
 
 /// Whether a file of this name can be read; the complaint has yet to be placed.
 pub(crate) fn known(name: &str) -> Result<(), Complaint> {
-    const FORMATS: &str = "`.csv` (columns x, y, z, radius), `.xyz` (extended XYZ), `.data` (LAMMPS, atom_style sphere), `.lammpstrj` (a dump of LAMMPS)";
+    const FORMATS: &str = "`.csv` (columns x, y, z, radius), `.xyz` (extended XYZ), `.data` (LAMMPS, atom_style sphere), `.lammpstrj` (a dump of LAMMPS), `.vtp` (VTK PolyData)";
     match ending(name).as_str() {
-        "csv" | "xyz" | "data" | "lammpstrj" => Ok(()),
+        "csv" | "xyz" | "data" | "lammpstrj" | "vtp" => Ok(()),
         "gz" | "bz2" | "xz" | "zip" | "zst" => {
             Err(Complaint::new(format!("`{name}` is compressed")).hint("unpack it and name what was in it"))
         }

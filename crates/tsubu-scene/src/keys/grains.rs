@@ -142,12 +142,16 @@ static START: &[Variant] = &[
             Key::new(
                 "path",
                 Kind::Text,
-                "A CSV (`.csv`), extended XYZ (`.xyz`), LAMMPS data (`.data`) or LAMMPS dump (`.lammpstrj`, its last snapshot) file, from the folder of the scene file",
+                "A CSV (`.csv`), extended XYZ (`.xyz`), LAMMPS data (`.data`), LAMMPS dump (`.lammpstrj`, its last snapshot) or VTK PolyData (`.vtp`: a frame of a run) file, from the folder of the scene file",
             ),
-            Key::new("kind", Kind::Whole, "Which atom type of a LAMMPS file; left out: all of them")
-                .optional()
-                .at_least(1.0)
-                .at_most(1e9),
+            Key::new(
+                "kind",
+                Kind::Whole,
+                "Which atom type of a LAMMPS file, or group of a `.vtp` from 1; left out: all of them",
+            )
+            .optional()
+            .at_least(1.0)
+            .at_most(1e9),
             Key::new("fingerprint", Kind::Text, "CRC-32 of the file in hex, to tell that it is still the same file")
                 .derived("from the file"),
         ],

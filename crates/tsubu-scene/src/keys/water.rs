@@ -7,7 +7,10 @@ pub(super) static WATER: &[Key] = &[
     Key::new("density", Kind::Quantity(&DENSITY), "Density of the water, or of any other liquid or gas")
         .default("'1000 kg/m^3'")
         .above(0.0),
-    Key::new("viscosity", Kind::Quantity(&AREA_RATE), "Kinematic viscosity").default("'1e-6 m^2/s'").above(0.0),
+    Key::new("viscosity", Kind::Quantity(&AREA_RATE), "Kinematic viscosity")
+        .default("'1e-6 m^2/s'")
+        .above(0.0)
+        .may_change(),
     Key::new("surface", Kind::Quantity(&LENGTH), "Height z up to which there is water")
         .derived("zero-level + depth of a log-law with `depth`; otherwise there is water everywhere"),
     Key::new(
@@ -20,18 +23,20 @@ pub(super) static WATER: &[Key] = &[
     Key::new("buoyancy", Kind::OneOf(BUOYANCY), "Which part of the stress in the water carries the grains")
         .default("'vertical'"),
     Key::new("float", Kind::Flag, "Grains may be lighter than the water").default("false"),
-    Key::new("flow", Kind::Choice(FLOW), "How the water moves").default("{ still = {} }"),
+    Key::new("flow", Kind::Choice(FLOW), "How the water moves").default("{ still = {} }").may_change(),
     Key::new(
         "hindrance",
         Kind::Choice(HINDRANCE),
         "What neighbours add to the drag, by the share e that grains leave to the water in layers",
     )
-    .default("{ none = {} }"),
+    .default("{ none = {} }")
+    .may_change(),
     Key::new("drag", Kind::Choice(DRAG), "Resistance to motion through the water, by the drag coefficient")
-        .default("{ stokes-newton = {} }"),
+        .default("{ stokes-newton = {} }")
+        .may_change(),
     Key::new("torque", Kind::Choice(TORQUE), "Resistance to spin; grains must spin, `contact.rotation`")
         .default("{ none = {} }"),
-    Key::new("lift", Kind::SomeOf(LIFT), "Forces across the motion relative to the water").default("[]"),
+    Key::new("lift", Kind::SomeOf(LIFT), "Forces across the motion relative to the water").default("[]").may_change(),
     Key::new(
         "fluctuation",
         Kind::Table(FLUCTUATION),
@@ -47,7 +52,8 @@ static FLUCTUATION: &[Key] = &[
         "Root-mean-square velocity over U*, mean of the squares of the three directions; 1.78 at a rough bed",
     )
     .default("1")
-    .above(0.0),
+    .above(0.0)
+    .may_change(),
     Key::new("directions", Kind::OneOf(DIRECTIONS), "What each direction has of it").default("'even'"),
     Key::new("time", Kind::Quantity(&TIME), "Lagrangian time: how long the water around a grain keeps its velocity")
         .above(0.0)

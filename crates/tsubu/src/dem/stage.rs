@@ -2,6 +2,7 @@
 
 use super::contact_forces::ContactLaws;
 use super::engine::DemEngine;
+use super::immersion::Immersion;
 use crate::check;
 use crate::contact::{Law, Table};
 use crate::engine::{Note, OpenError, Refusal, Verdict};
@@ -9,11 +10,42 @@ use crate::partner::Hosts;
 use crate::wall::{Faces, Mover};
 use glam::DVec3;
 use tsubu_scene::Plan;
-use tsubu_scene::plan::{GrainMotion, Particles};
+use tsubu_scene::plan::{Flow, GrainMotion, Particles, Water};
 
 fn refuse(key: &str, text: String) -> OpenError {
     let notes = vec![Note { key: key.to_owned(), verdict: Verdict::Refused, text }];
     Refusal { method: "dem", notes }.into()
+}
+
+/// What of the water, or of the gravity that grains have in it, is part of their state and yet told anew: the key, and why it stays.
+fn stays_in_water(earlier: &Plan, now: &Plan) -> Option<(&'static str, &'static str)> {
+    let (before, after) = match (&earlier.water, &now.water) {
+        (None, None) => return None,
+        (Some(before), Some(after)) => (before, after),
+        _ => return Some(("water", "water is there from the first stage on, or never; it may flow by `still` first")),
+    };
+    let layers = |flow: &Flow| match *flow {
+        Flow::Coupled { bottom, top, layers, area, lid, reach, .. } => {
+            Some((bottom, top, layers, area, Some((lid, reach))))
+        }
+        Flow::Column { bottom, top, layers, area, .. } => Some((bottom, top, layers, area, None)),
+        Flow::Still {} | Flow::LogLaw { .. } | Flow::Table { .. } => None,
+    };
+    let fluctuates = |water: &Water| water.fluctuation.map(|fluctuation| (fluctuation.directions, fluctuation.time));
+    if now.gravity != earlier.gravity {
+        Some(("gravity", "in water gravity stays as it is from stage to stage"))
+    } else if layers(&before.flow) != layers(&after.flow) {
+        Some(("water.flow", "a stream in layers goes on with the same layers; what drives it may change"))
+    } else if before.surface != after.surface {
+        Some(("water.surface", "the mass of water that moves with grains hangs on it"))
+    } else if fluctuates(before) != fluctuates(after) {
+        Some((
+            "water.fluctuation",
+            "grains remember what was drawn for the water around them; its `strength` may change",
+        ))
+    } else {
+        None
+    }
 }
 
 impl DemEngine {
@@ -41,8 +73,8 @@ impl DemEngine {
         let table = Table::new(now);
         let dt = check::time_step(now, &table, hosts);
         let gravity = DVec3::from_array(now.gravity);
-        if now.water.is_some() && now.gravity != earlier.gravity {
-            return Err(refuse("gravity", "in water gravity stays as it is from stage to stage".to_owned()));
+        if let Some((key, text)) = stays_in_water(earlier, now) {
+            return Err(refuse(key, text.to_owned()));
         }
         let laws = ContactLaws::new(now, table, hosts);
         let parts = |laws: &[Law]| -> Vec<Vec<&'static str>> {
@@ -61,6 +93,9 @@ impl DemEngine {
             }
         }
         self.faces = Faces::new(now);
+        if let (Some(immersion), Some(water)) = (self.immersion.take(), &now.water) {
+            self.immersion = Some(Immersion::new(immersion.water.changed(water, gravity)));
+        }
         self.neighbours.search.reach = laws.reach();
         self.laws = laws;
         self.contacts.forget_laws();

@@ -152,6 +152,12 @@ impl Coupled {
         stream
     }
 
+    /// Goes on where an earlier stream with the same layers has come to.
+    pub(super) fn go_on_from(&mut self, earlier: Self) {
+        let Self { layers, velocity, ahead, taken, turbulent, volume, impulses, .. } = earlier;
+        *self = Self { layers, velocity, ahead, taken, turbulent, volume, impulses, ..self.clone() };
+    }
+
     /// Sets the log law that the drive holds over the highest layer which grains fill by more than a fifth; the water below
     /// stands. Begun within a bed it would be torn down by the grains at once.
     fn begin(&mut self) {

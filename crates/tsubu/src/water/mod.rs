@@ -133,6 +133,17 @@ impl Water {
         self
     }
 
+    /// The water of the next stage: as that is planned, in the state that this one has come to.
+    #[must_use]
+    pub fn changed(self, plan: &plan::Water, gravity: DVec3) -> Self {
+        let mut now = Self::new(plan, gravity);
+        if let (Some(now), Some(earlier)) = (&mut now.fluctuation, self.fluctuation) {
+            (now.seed, now.in_space) = (earlier.seed, earlier.in_space);
+        }
+        now.stream.go_on_from(self.stream);
+        now
+    }
+
     /// The parts that act.
     pub fn parts(&self) -> impl Iterator<Item = &dyn Part> {
         self.parts.iter().map(|part| &**part)

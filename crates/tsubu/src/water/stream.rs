@@ -111,6 +111,15 @@ impl Stream {
         }
     }
 
+    /// Takes the state of an earlier flow of the same layers.
+    pub(super) fn go_on_from(&mut self, earlier: Self) {
+        match (self, earlier) {
+            (Self::Coupled(now), Self::Coupled(earlier)) => now.go_on_from(*earlier),
+            (Self::Column { layers, .. }, Self::Column { layers: earlier, .. }) => *layers = earlier,
+            _ => {}
+        }
+    }
+
     /// The layers, where there are some.
     pub fn layers(&self) -> Option<&Layers> {
         match self {

@@ -41,11 +41,13 @@ impl Derive<'_> {
         let Some(path) = file.get("path").and_then(Value::as_str).map(str::to_string) else { return File::Wrong };
         let kind = file.get("kind").and_then(Value::as_integer).and_then(|kind| u32::try_from(kind).ok());
         let here = ["particles", name, "start", "file"];
-        if kind.is_some() && !["data", "lammpstrj"].contains(&crate::grain_file::ending(&path).as_str()) {
+        if kind.is_some() && !["data", "lammpstrj", "vtp"].contains(&crate::grain_file::ending(&path).as_str()) {
             self.complain(
-                Complaint::new(format!("`kind` chooses an atom type, but `{path}` is no LAMMPS file"))
-                    .at(&self.root.locate(&[&here[..], &["kind"]].concat()), "not for this file")
-                    .hint("leave it out"),
+                Complaint::new(format!(
+                    "`kind` chooses an atom type, but `{path}` is neither a LAMMPS file nor VTK PolyData"
+                ))
+                .at(&self.root.locate(&[&here[..], &["kind"]].concat()), "not for this file")
+                .hint("leave it out"),
             );
         }
         match self.files.grains(&path, How { space, kind }, self.sources) {
