@@ -21,7 +21,7 @@ fn every_shipped_scene_is_checked_runs_closes_its_books_and_is_reported() {
             let name = path.file_stem().unwrap().to_str().unwrap();
             desk.done(&format!("check {}", path.display()));
             let path = path.to_str().unwrap();
-            runs(&desk, path, &format!("{} --set claim=[]", shortened(path, "0.2 s")), "dem");
+            runs(&desk, path, &format!("{} --set claim=[]", shortened(path, "0.05 s")), "dem");
             desk.done(&format!("report {name}-dem"));
             count += 1;
         }
@@ -29,7 +29,7 @@ fn every_shipped_scene_is_checked_runs_closes_its_books_and_is_reported() {
     assert!(count >= 5);
 }
 
-/// So that what is written by `new` is tested with the scenes.
+/// So that what is written by `new` is tested with the scenes; one that names a file is written with it.
 #[test]
 fn every_template_is_a_shipped_scene() {
     let desk = Desk::empty();
@@ -38,8 +38,8 @@ fn every_template_is_a_shipped_scene() {
         desk.done(&format!("new {name}"));
         let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../scenes/{name}.toml"));
         assert_eq!(desk.read(&format!("{name}.toml")), std::fs::read_to_string(scene).unwrap(), "{name}");
-        desk.done(&format!("check {name}.toml"));
     }
+    desk.done("check mixer.toml");
     // A scene whose mesh is there already with something else in it is not written.
     std::fs::write(desk.path("mixer-blade.stl"), "solid other\nendsolid other\n").unwrap();
     assert_eq!(desk.run("new mixer again.toml").code, Some(2));

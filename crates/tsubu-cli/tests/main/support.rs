@@ -195,9 +195,16 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// The option that cuts the scene of a command short. A scene with stages is run to its end: each stage says how long it goes on.
+/// The options that cut the scene of a command short: each stage of a scene that has stages.
 pub fn shortened(command: &str, duration: &str) -> String {
     let scene = command.split_whitespace().map(Path::new).find(|word| word.extension().is_some_and(|e| e == "toml"));
-    let staged = std::fs::read_to_string(scene.expect("a scene")).unwrap().contains("[[stage]]");
-    if staged { String::new() } else { format!("--set 'duration={duration}'") }
+    let text = std::fs::read_to_string(scene.expect("a scene")).unwrap();
+    let stages = text.split("\n[[stage]]\n").skip(1).enumerate();
+    let shorter: Vec<String> = stages
+        .map(|(stage, text)| {
+            let key = if text.contains("\nat-most = ") { "at-most" } else { "duration" };
+            format!("--set 'stage.{stage}.{key}={duration}'")
+        })
+        .collect();
+    if shorter.is_empty() { format!("--set 'duration={duration}'") } else { shorter.join(" ") }
 }
