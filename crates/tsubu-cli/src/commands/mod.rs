@@ -1,7 +1,7 @@
 //! The commands, one file each.
 
 mod bench;
-mod check;
+pub mod check;
 mod claims;
 mod compare;
 mod completions;
