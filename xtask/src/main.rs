@@ -15,6 +15,7 @@ mod guard;
 #[cfg(test)]
 mod imports;
 mod mutants;
+mod python;
 mod race;
 mod shell;
 mod spelling;
@@ -33,6 +34,9 @@ cargo xtask CHORE
   gen [--check]       write the generated pages and tables, or only say which are out of date
   spelling            look for misspelt words in all texts, where there is a Python 3
   book                build the book, where there is an mdbook
+  python [ARGUMENT]...
+                      build the wheel, install it into a bare environment, and run its tests, where there is a Python 3.10 or later
+                      and a network; arguments go to pytest
   claims [NAME]...    run verification cases (without names all of up to a minute) and keep what they claim
   claims --from DIR   keep what `tsubu verify --controls -o DIR` has found, and run nothing
   mutants [WORDS]...  change a constant of the engines by 5 %, or leave a rule out, one after the other, and keep which quick
@@ -68,6 +72,7 @@ fn main() -> ExitCode {
         ["claims", names @ ..] => claims::claims(names),
         ["spelling"] => spelling::check(),
         ["book"] => book::book(),
+        ["python", rest @ ..] => python::python(rest),
         ["mutants", names @ ..] => mutants::mutants(names),
         ["chaotic"] => mutants::chaotic(),
         ["fuzz", rest @ ..] => guard::guard("fuzz", rest),

@@ -16,8 +16,9 @@ mod stream;
 mod table;
 
 pub use commands::check::judged;
+pub use commands::verify::runner::claims;
 pub use failure::Failure;
-pub use stream::without_colour;
+pub use stream::allow_colour;
 
 use clap::{CommandFactory, Parser};
 use commands::Command;

@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Whether nobody sees colour, whatever the streams lead to.
 static PLAIN: AtomicBool = AtomicBool::new(false);
 
-/// Texts have no colour from now on: who asks for them puts them elsewhere.
-pub fn without_colour() {
-    PLAIN.store(true, Ordering::Relaxed);
+/// Whether texts may have colour from now on: they should not where who asks for them puts them elsewhere.
+pub fn allow_colour(allowed: bool) {
+    PLAIN.store(!allowed, Ordering::Relaxed);
 }
 
 /// Where a text goes.

@@ -15,7 +15,7 @@ mod run;
 mod schema;
 mod standing;
 mod sweep;
-mod verify;
+pub mod verify;
 mod view;
 
 use crate::failure::Failure;

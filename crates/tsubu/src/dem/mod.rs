@@ -13,6 +13,7 @@ mod immersion;
 mod integrate;
 mod narrow_phase;
 mod orientation;
+mod outside;
 mod output;
 mod overlaps;
 mod place;
