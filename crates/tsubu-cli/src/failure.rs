@@ -61,6 +61,7 @@ impl Failure {
     }
 
     /// Adds a way out.
+    #[must_use]
     pub fn hint(mut self, hint: impl Into<Hint>) -> Self {
         self.hints.push(hint.into());
         self

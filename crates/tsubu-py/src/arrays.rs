@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use tsubu_frame::Values;
 
 /// An array of its own with the numbers of a column.
-pub fn of_values<'py>(py: Python<'py>, values: Values) -> Bound<'py, PyAny> {
+pub fn of_values(py: Python<'_>, values: Values) -> Bound<'_, PyAny> {
     match values {
         Values::Scalar(values) => values.into_pyarray(py).into_any(),
         Values::Integer(values) => values.into_pyarray(py).into_any(),

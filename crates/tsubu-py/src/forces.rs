@@ -15,7 +15,7 @@ pub type Raised = Arc<Mutex<Option<PyErr>>>;
 
 /// A function that is asked for forces.
 pub struct Function {
-    pub function: Py<PyAny>,
+    pub asked: Py<PyAny>,
     /// The columns that it is given.
     pub columns: Vec<&'static str>,
     pub raised: Raised,
@@ -43,14 +43,22 @@ fn of<'a>(grains: &'a Grains, name: &str) -> Column<'a> {
 }
 
 impl Function {
-    fn ask(&self, py: Python<'_>, time: f64, step: u64, grains: &Grains, leases: &mut Leases, push: &mut Push) -> PyResult<()> {
+    fn ask(
+        &self,
+        py: Python<'_>,
+        time: f64,
+        step: u64,
+        grains: &Grains,
+        leases: &mut Leases,
+        push: &mut Push,
+    ) -> PyResult<()> {
         let now = PyDict::new(py);
         now.set_item("time", time)?;
         now.set_item("step", step)?;
         for name in &self.columns {
             now.set_item(name, leases.array(py, name, of(grains, name))?)?;
         }
-        let answer = self.function.bind(py).call1((now,))?;
+        let answer = self.asked.bind(py).call1((now,))?;
         let fill = |column: &mut Vec<DVec3>, value: &Bound<'_, PyAny>, what: &str| -> PyResult<()> {
             if !value.is_none() {
                 *column = arrays::vectors(value, grains.len(), what)?;

@@ -5,7 +5,10 @@
 //! and the memory goes to whoever holds the array. So an array is never wrong, whatever became of the grains, and
 //! nothing that the engine writes can be read meanwhile, by other threads neither.
 
-#![allow(unsafe_code, reason = "an array of numpy that shows memory of the engine is made from a pointer; why it is valid stands there")]
+#![allow(
+    unsafe_code,
+    reason = "an array of numpy that shows memory of the engine is made from a pointer; why it is valid stands there"
+)]
 
 use glam::DVec3;
 use numpy::ndarray::{ArrayView1, ArrayView2};
@@ -45,7 +48,12 @@ pub enum Column<'a> {
 
 impl Leases {
     /// An array of a column, which lies in the engine's own memory under that name.
-    pub fn array<'py>(&mut self, py: Python<'py>, name: &'static str, column: Column<'_>) -> PyResult<Bound<'py, PyAny>> {
+    pub fn array<'py>(
+        &mut self,
+        py: Python<'py>,
+        name: &'static str,
+        column: Column<'_>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let known = self.lent.iter().find(|(lent, _)| *lent == name).and_then(|(_, kept)| kept.upgrade());
         let kept = known.unwrap_or_else(|| {
             let kept = Arc::<Kept>::default();

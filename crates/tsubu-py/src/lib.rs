@@ -3,6 +3,8 @@
 //! It opens scenes, moves them, and hands out numbers. Texts, tables and plots are Python: `python/tsubu`. It only calls the other
 //! crates; none calls it. Arrays of grains lie in the memory of the engine, see [`lease`].
 
+#![allow(clippy::needless_pass_by_value, reason = "what Python hands over is made for the call and belongs to it")]
+
 mod arrays;
 mod error;
 mod forces;

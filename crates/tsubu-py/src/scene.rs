@@ -26,6 +26,9 @@ fn read(py: Python<'_>, read: Result<tsubu_scene::Scene, Complaints>) -> PyResul
     read.map(|scene| Scene { scene }).map_err(|complaints| error::of(py, &Failure::from(&complaints)))
 }
 
+/// A judgement: good, text, advice.
+type Line = (bool, String, String);
+
 /// How long somebody waits for a verdict.
 const PATIENCE: Duration = Duration::from_secs(9);
 
@@ -95,7 +98,7 @@ impl Scene {
     }
 
     /// Whether the run would be refused or would fail, and all judgements: good, text, advice.
-    fn check(&self, py: Python<'_>) -> PyResult<(bool, Vec<(bool, String, String)>)> {
+    fn check(&self, py: Python<'_>) -> PyResult<(bool, Vec<Line>)> {
         let judged = py.detach(|| tsubu_cli::judged(&self.scene, PATIENCE));
         let verdict = judged.map_err(|failure| error::of(py, &failure))?;
         let lines = verdict.lines.into_iter().map(|line| (line.good, line.text, line.advice)).collect();
@@ -195,7 +198,8 @@ impl Scene {
 
 /// Work that can be gone on with was asked to stop.
 fn not_raised(py: Python<'_>, raised: Option<PyErr>, folder: &Path) -> PyResult<()> {
-    let told = || format!("interrupted; what is done is kept in {}: the same call goes on from there", folder.display());
+    let told =
+        || format!("interrupted; what is done is kept in {}: the same call goes on from there", folder.display());
     raised.map_or(Ok(()), |raised| Err(stopped(py, Some(raised), told())))
 }
 

@@ -57,6 +57,10 @@ impl Drop for Core {
     }
 }
 
+fn closed(py: Python<'_>) -> PyErr {
+    error::wrong(py, "the simulation is closed", "open its scene again")
+}
+
 fn failed(py: Python<'_>, error: &RunError, scene: &Scene, folder: &Path) -> PyErr {
     error::of(py, &Failure::of_scene(error, scene, folder))
 }
@@ -77,23 +81,22 @@ impl Simulation {
         Ok(Self { core: Mutex::new(Some(core)), threads, raised: Raised::default() })
     }
 
-    /// The simulation, where nobody moves it: who waited for that could wait for oneself.
-    fn lock(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Option<Core>>> {
-        let guard = match self.core.try_lock() {
-            Ok(guard) => guard,
-            Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
+    /// What is open, where nobody moves it: who waited for that could wait for oneself.
+    fn guard(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Option<Core>>> {
+        match self.core.try_lock() {
+            Ok(guard) => Ok(guard),
+            Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
             Err(TryLockError::WouldBlock) => {
                 let hint = "a force is told all that it may see; from another thread wait until `advance` has returned";
-                return Err(error::wrong(py, "the simulation is in the middle of a step", hint));
+                Err(error::wrong(py, "the simulation is in the middle of a step", hint))
             }
-        };
-        if guard.is_some() { Ok(guard) } else { Err(error::wrong(py, "the simulation is closed", "open its scene again")) }
+        }
     }
 
     fn with<T>(&self, py: Python<'_>, look: impl FnOnce(&mut Core) -> PyResult<T>) -> PyResult<T> {
-        match &mut *self.lock(py)? {
+        match &mut *self.guard(py)? {
             Some(core) => look(core),
-            None => Err(error::wrong(py, "the simulation is closed", "")),
+            None => Err(closed(py)),
         }
     }
 }
@@ -148,8 +151,8 @@ impl Simulation {
 
     /// Moves everything by so many steps, in pieces between which Ctrl-C is heard.
     fn advance(&self, py: Python<'_>, steps: u64) -> PyResult<()> {
-        let mut guard = self.lock(py)?;
-        let Some(core) = guard.as_mut() else { return Ok(()) };
+        let mut guard = self.guard(py)?;
+        let Some(core) = guard.as_mut() else { return Err(closed(py)) };
         if core.failed {
             let hint = "open its scene again, or go on from a checkpoint with `resume`";
             return Err(error::wrong(py, "the simulation has failed and does not go on", hint));
@@ -211,9 +214,7 @@ impl Simulation {
 
     /// This moment as a frame, grains in the order of their ids.
     fn frame(&self, py: Python<'_>) -> PyResult<Frame> {
-        self.with(py, |core| {
-            Ok(Frame { frame: core.opened.engine.frame(&core.opened.hosts) })
-        })
+        self.with(py, |core| Ok(Frame { frame: core.opened.engine.frame(&core.opened.hosts) }))
     }
 
     /// Names of the walls.
@@ -299,7 +300,7 @@ impl Simulation {
     /// Asks a function for forces in every `every`-th step; it is given the columns.
     fn act(&self, py: Python<'_>, function: Py<PyAny>, every: u64, columns: Vec<String>) -> PyResult<()> {
         let columns = columns.iter().map(|name| column(name)).collect::<PyResult<Vec<_>>>()?;
-        let function = Function { function, columns, raised: Arc::clone(&self.raised) };
+        let function = Function { asked: function, columns, raised: Arc::clone(&self.raised) };
         self.with(py, |core| {
             let acts = core.opened.engine.act(every, Box::new(function));
             acts.map_err(|refusal| failed(py, &RunError::Open(refusal.into()), core.opened.scene(), Path::new(".")))
@@ -316,9 +317,7 @@ impl Simulation {
 
     /// Gives its memory back.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
-        if let Ok(mut guard) = self.lock(py) {
-            *guard = None;
-        }
+        *self.guard(py)? = None;
         Ok(())
     }
 }

@@ -16,7 +16,7 @@ BALLS = {
             "material": "glass",
             "count": 60,
             "diameter": "4 mm",
-            "start": {"rows": {"low": [-0.02, 0.01], "high": [0.02, 0.08]}},
+            "start": {"rows": {"region": {"low": [-0.02, 0.01], "high": [0.02, 0.08]}}},
         }
     },
     "walls": {

@@ -24,9 +24,9 @@ def run(balls, tmp_path):
 def test_a_run_is_read_back(run):
     assert run.summary["particles"] == 60
     history = run.history
-    assert history["time"].iloc[-1] == pytest.approx(0.05) and history.attrs["units"]["kinetic energy"] == "J"
+    assert history["time"].iloc[-1] == pytest.approx(0.05, rel=1e-3) and history.attrs["units"]["kinetic energy"] == "J"
     assert "outside work" in history.columns
-    assert len(run.frames) == 6 and run.frames.times[-1] == pytest.approx(0.05)
+    assert len(run.frames) == 6 and run.frames.times[-1] == pytest.approx(0.05, rel=1e-3)
     frame = run.frames[-1]
     assert frame.grains["position"].shape == (60, 3) and frame.units["grains"]["position"] == "m"
     np.testing.assert_array_equal(frame.grains["id"], np.arange(60))
@@ -117,7 +117,7 @@ def test_a_run_is_resumed_with_the_same_bits(balls, tmp_path):
     def stops(share):
         raise KeyboardInterrupt
 
-    resumed = balls.copy().set("duration", "4 s")
+    resumed = balls.copy().set("duration", "1 s")
     with pytest.raises(KeyboardInterrupt):
         resumed.run(tmp_path / "cut", progress=stops)
     end = resumed.run(tmp_path / "cut", progress=False, resume=True)

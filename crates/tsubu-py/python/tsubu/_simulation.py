@@ -193,6 +193,7 @@ class Simulation:
         self._core = core
         self._motions: dict[str, tuple[Callable[[float], ArrayLike], int]] = {}
         self._steered: set[str] = set()
+        self._aim = (-1, 0.0)
         self._listeners: list[tuple[Callable[[Simulation], object], int]] = []
         self.scene = scene
         """The scene."""
@@ -249,13 +250,19 @@ class Simulation:
     def advance(self, seconds: float | None = None, steps: int | None = None) -> Simulation:
         """Moves everything by so many seconds, or by so many steps; without either, to the end of the present stage.
 
-        Seconds end with the step that is nearest. The interpreter is free for other threads meanwhile. Ctrl-C raises `KeyboardInterrupt`
+        Seconds end with the step that is nearest, and add up from call to call. The interpreter is free for other threads meanwhile. Ctrl-C raises `KeyboardInterrupt`
         between two steps, and the simulation can go on. What a function of Python raises is raised here when its step is done.
         """
         if seconds is not None and steps is not None:
             raise _tsubu.Error("error: `seconds` and `steps` cannot be had together")
-        if steps is None:
-            steps = self._core.steps_left() if seconds is None else self._core.steps_to(self.time + seconds)
+        if steps is None and seconds is not None:
+            # Seconds add up, whatever was rounded to whole steps before.
+            before, wanted = self._aim
+            wanted = (wanted if before == self.steps else self.time) + seconds
+            steps = self._core.steps_to(wanted) if seconds >= 0 else -1
+            self._aim = (self.steps + steps, wanted)
+        elif steps is None:
+            steps = self._core.steps_left()
         if steps < 0:
             raise _tsubu.Error("error: time does not go back\nhint: open the scene again, or a checkpoint with `resume`")
         if not self._motions and not self._listeners:

@@ -46,6 +46,6 @@ def read(path: str | os.PathLike[str]) -> pd.DataFrame:
     frame.columns = [name for name, _ in pairs]
     for name, unit in pairs:
         if unit == "text":
-            frame[name] = frame[name].fillna("").astype(str)
+            frame[name] = [text if isinstance(text, str) else "" if text != text else str(text) for text in frame[name]]
     frame.attrs["units"] = {name: unit for name, unit in pairs if unit not in ("", "text")}
     return frame

@@ -129,7 +129,11 @@ impl Outside {
 
     /// Whether somebody wants the run to stop; the wish is forgotten by that.
     pub fn wants_stop(&mut self) -> bool {
-        self.acting.iter_mut().fold(false, |stop, acting| std::mem::take(&mut acting.stop) || stop)
+        let mut stop = false;
+        for acting in &mut self.acting {
+            stop |= std::mem::take(&mut acting.stop);
+        }
+        stop
     }
 }
 

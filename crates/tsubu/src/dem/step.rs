@@ -207,7 +207,8 @@ impl DemEngine {
             return Ok(());
         }
         let held = |i: usize| self.grains.inverse_mass[i] == 0.0;
-        let driven = |wall: &Wall| matches!(wall.mover, Mover::Motion(..) | Mover::Steered(_)) || wall.turning.is_some();
+        let driven =
+            |wall: &Wall| matches!(wall.mover, Mover::Motion(..) | Mover::Steered(_)) || wall.turning.is_some();
         let second = contact.second;
         Err(Fault::Overlap {
             step: self.clock.step,

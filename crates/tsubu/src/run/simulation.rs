@@ -1,7 +1,7 @@
 //! A scene opened to be moved by hand: engine, hosts and books without a folder.
 
-use super::start::Start;
 use super::stages::{self, AT, stage_of};
+use super::start::Start;
 use super::{RunError, scene_hash, step_of};
 use crate::engine::{self, Engine, Fault};
 use crate::ledger::{Account, Energies, Ledger};
@@ -42,7 +42,11 @@ impl Simulation {
         let (header, state) = checkpoint::read(&checkpoint::path(folder))?;
         let refuse = |text: &str| RunError::NotThisScene(format!("the checkpoint in {} {text}", folder.display()));
         if header.tsubu_version != crate::VERSION {
-            return Err(refuse(&format!("was written by tsubu {}, this is tsubu {}", header.tsubu_version, crate::VERSION)));
+            return Err(refuse(&format!(
+                "was written by tsubu {}, this is tsubu {}",
+                header.tsubu_version,
+                crate::VERSION
+            )));
         }
         if header.scene_hash != scene_hash(&scene.steps_toml()) {
             return Err(refuse("belongs to another scene"));
