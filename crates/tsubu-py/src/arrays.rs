@@ -29,27 +29,29 @@ fn rows_of(py: Python<'_>, rows: usize, width: usize, flat: Vec<f64>) -> Bound<'
     }
 }
 
-/// Three numbers a row, one row a grain, from anything that numpy can make an array of; one row alone is meant for all grains.
-pub fn vectors(value: &Bound<'_, PyAny>, rows: usize, what: &str) -> PyResult<Vec<DVec3>> {
+/// Puts three numbers a row, one row a grain, into a column, from anything that numpy can make an array of; one row alone is meant for
+/// all grains.
+pub fn vectors(value: &Bound<'_, PyAny>, rows: usize, what: &str, column: &mut Vec<DVec3>) -> PyResult<()> {
     let py = value.py();
     let array = py.import("numpy")?.call_method1("ascontiguousarray", (value, "float64"))?;
     let array = array.cast_into::<PyArrayDyn<f64>>()?;
     let shape = numpy::PyUntypedArrayMethods::shape(&array).to_vec();
     let read = array.readonly();
     let flat = read.as_slice()?;
-    let finite = flat.iter().all(|number| number.is_finite());
-    let vectors: Vec<DVec3> = match shape.as_slice() {
-        [3] => vec![DVec3::from_slice(flat); rows],
-        [given, 3] if *given == rows => flat.chunks_exact(3).map(DVec3::from_slice).collect(),
+    column.clear();
+    match shape.as_slice() {
+        [3] => column.resize(rows, DVec3::from_slice(flat)),
+        [given, 3] if *given == rows => column.extend(flat.chunks_exact(3).map(DVec3::from_slice)),
         _ => {
             let text = format!("{what} have the shape {shape:?}, and there are {rows} grains");
             return Err(crate::error::wrong(py, text, &format!("give an array of the shape ({rows}, 3), or None")));
         }
-    };
-    if finite {
-        return Ok(vectors);
     }
-    let at = vectors.iter().position(|vector| !vector.is_finite()).unwrap_or_default();
+    // All of them: a loop that may end early is slower.
+    if flat.iter().fold(true, |finite, number| finite & number.is_finite()) {
+        return Ok(());
+    }
+    let at = column.iter().position(|vector| !vector.is_finite()).unwrap_or_default();
     let text = format!("{what}: row {at} is not a number");
     Err(crate::error::wrong(py, text, "every force and torque is a finite number"))
 }

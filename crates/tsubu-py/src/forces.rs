@@ -61,7 +61,7 @@ impl Function {
         let answer = self.asked.bind(py).call1((now,))?;
         let fill = |column: &mut Vec<DVec3>, value: &Bound<'_, PyAny>, what: &str| -> PyResult<()> {
             if !value.is_none() {
-                *column = arrays::vectors(value, grains.len(), what)?;
+                arrays::vectors(value, grains.len(), what, column)?;
             }
             Ok(())
         };

@@ -4,13 +4,16 @@
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::mem;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// Pools that nobody works with, and the process that they are of.
 static IDLE: Mutex<(u32, Vec<ThreadPool>)> = Mutex::new((0, Vec::new()));
 
 /// Pools that somebody works with.
 static TAKEN: AtomicUsize = AtomicUsize::new(0);
+
+/// Cores of the machine: to ask for them costs as much as some steps of a small bed.
+static CORES: OnceLock<usize> = OnceLock::new();
 
 /// Pools that are kept idle.
 const KEPT: usize = 8;
@@ -22,7 +25,7 @@ pub struct Taken {
 
 /// Takes a pool of so many threads; 0: one a core.
 pub fn take(threads: usize) -> Result<Taken, String> {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let cores = *CORES.get_or_init(|| std::thread::available_parallelism().map_or(1, usize::from));
     let threads = if threads == 0 { cores } else { threads.min(16.max(4 * cores)) };
     let mut idle = IDLE.lock().unwrap_or_else(PoisonError::into_inner);
     let here = std::process::id();

@@ -72,7 +72,7 @@ impl DemEngine {
         let g = &self.grains;
         let rest = |i: usize| {
             let all = (g.mass[i] + g.added_mass(i)) * g.acceleration[i];
-            all - g.mass[i] * self.integration.gravity - contact[i] - self.contacts.outside.on(g.id[i])
+            all - g.mass[i] * self.integration.gravity - contact[i] - self.contacts.outside.on(i)
         };
         (0..g.len()).map(|i| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { rest(i) }).collect()
     }

@@ -17,10 +17,12 @@ pub(super) struct Acting {
     every: u64,
     asked: bool,
     stop: bool,
-    push: Push,
-    /// By the number of the grain: grains are sorted between two words.
-    held: Vec<[DVec3; 2]>,
-    turns: bool,
+    /// What holds, a row a grain of `ids`; nothing where there are no forces or no torques.
+    held: Push,
+    /// Numbers of the grains in the order of the rows.
+    ids: Vec<u32>,
+    /// Room for the next word.
+    next: Push,
 }
 
 impl fmt::Debug for Acting {
@@ -45,35 +47,45 @@ impl Acting {
             return;
         }
         self.asked = true;
-        self.push.force.clear();
-        self.push.torque.clear();
-        match self.action.act(Moment { time, step, grains }, &mut self.push) {
-            Heed::Stop => self.stop = true,
-            Heed::Act => self.hold(grains),
-        }
-    }
-
-    fn hold(&mut self, grains: &Grains) {
-        let Self { push: Push { force, torque }, held, .. } = self;
-        held.fill([DVec3::ZERO; 2]);
-        self.turns = !torque.is_empty();
-        if force.is_empty() && torque.is_empty() {
-            held.clear();
+        self.next.force.clear();
+        self.next.torque.clear();
+        if self.action.act(Moment { time, step, grains }, &mut self.next) == Heed::Stop {
+            self.stop = true;
             return;
         }
-        let numbers = grains.id.iter().max().map_or(0, |id| *id as usize + 1);
-        held.resize(numbers, [DVec3::ZERO; 2]);
-        for (i, id) in grains.id.iter().enumerate() {
+        std::mem::swap(&mut self.held, &mut self.next);
+        self.ids.clone_from(&grains.id);
+        for column in self.held.columns() {
             // What is held in its place feels nothing.
-            if grains.inverse_mass[i] != 0.0 {
-                let of = |column: &[DVec3]| column.get(i).copied().unwrap_or_default();
-                held[*id as usize] = [of(force), of(torque)];
+            for (value, inverse_mass) in column.iter_mut().zip(&grains.inverse_mass) {
+                if *inverse_mass == 0.0 {
+                    *value = DVec3::ZERO;
+                }
             }
         }
     }
 
-    fn on(&self, id: u32) -> [DVec3; 2] {
-        self.held.get(id as usize).copied().unwrap_or_default()
+    /// Puts the rows into the order that the grains have now. Who has come since the last word feels nothing until the next.
+    fn follow(&mut self, grains: &Grains) {
+        if self.ids == grains.id {
+            return;
+        }
+        let numbers = self.ids.iter().max().map_or(0, |id| *id as usize + 1);
+        let mut rows = vec![None; numbers];
+        for (row, id) in self.ids.iter().enumerate() {
+            rows[*id as usize] = Some(row);
+        }
+        for column in self.held.columns().into_iter().filter(|column| !column.is_empty()) {
+            let of = |id: &u32| rows.get(*id as usize).copied().flatten().map_or(DVec3::ZERO, |row| column[row]);
+            *column = grains.id.iter().map(of).collect();
+        }
+        self.ids.clone_from(&grains.id);
+    }
+}
+
+impl Push {
+    fn columns(&mut self) -> [&mut Vec<DVec3>; 2] {
+        [&mut self.force, &mut self.torque]
     }
 }
 
@@ -89,42 +101,37 @@ impl Outside {
     }
 
     /// Adds the forces that hold to what contacts do to the grains of each block.
-    pub fn add(&self, grains: &Grains, blocks: &mut [BlockContacts]) {
-        for acting in self.acting.iter().filter(|acting| !acting.held.is_empty()) {
-            for (block, ids) in blocks.iter_mut().zip(grains.id.chunks(BLOCK)) {
-                for (load, id) in block.loads.iter_mut().zip(ids) {
-                    let [force, torque] = acting.on(*id);
-                    load.force += force;
-                    load.torque += torque;
-                }
+    pub fn add(&mut self, grains: &Grains, blocks: &mut [BlockContacts]) {
+        for acting in &mut self.acting {
+            acting.follow(grains);
+            let Push { force, torque } = &acting.held;
+            for (block, force) in blocks.iter_mut().zip(force.chunks(BLOCK)) {
+                block.loads.iter_mut().zip(force).for_each(|(load, force)| load.force += *force);
+            }
+            for (block, torque) in blocks.iter_mut().zip(torque.chunks(BLOCK)) {
+                block.loads.iter_mut().zip(torque).for_each(|(load, torque)| load.torque += *torque);
             }
         }
     }
 
     /// Power of all torques with the spins as they are now [W].
     pub fn torque_power(&self, grains: &Grains) -> f64 {
-        let turning = self.acting.iter().filter(|acting| acting.turns);
-        let of = |acting: &Acting| -> f64 {
-            grains.id.iter().zip(&grains.spin).map(|(id, spin)| acting.on(*id)[1].dot(*spin)).sum()
-        };
-        turning.map(of).sum()
+        let torques = self.acting.iter().flat_map(|acting| acting.held.torque.iter().zip(&grains.spin));
+        torques.map(|(torque, spin)| torque.dot(*spin)).sum()
     }
 
     /// What the forces do at this time level, with velocities completed.
     pub fn measure(&mut self, grains: &Grains) {
         (self.power, self.force) = (self.torque_power(grains), DVec3::ZERO);
-        for acting in self.acting.iter().filter(|acting| !acting.held.is_empty()) {
-            for (id, velocity) in grains.id.iter().zip(&grains.velocity) {
-                let [force, _] = acting.on(*id);
-                self.power += force.dot(*velocity);
-                self.force += force;
-            }
+        for (force, velocity) in self.acting.iter().flat_map(|acting| acting.held.force.iter().zip(&grains.velocity)) {
+            self.power += force.dot(*velocity);
+            self.force += force;
         }
     }
 
-    /// Force on a grain [N].
-    pub fn on(&self, id: u32) -> DVec3 {
-        self.acting.iter().map(|acting| acting.on(id)[0]).sum()
+    /// Force on the grain in row `i` [N].
+    pub fn on(&self, i: usize) -> DVec3 {
+        self.acting.iter().filter_map(|acting| acting.held.force.get(i)).sum()
     }
 
     /// Whether somebody wants the run to stop; the wish is forgotten by that.
@@ -173,8 +180,8 @@ impl DemEngine {
 
     /// Somebody acts from now on.
     pub(super) fn act_from_outside(&mut self, every: u64, action: Box<dyn Action>) {
-        let (push, held) = (Push::default(), Vec::new());
-        let acting = Acting { action, every: every.max(1), asked: false, stop: false, push, held, turns: false };
+        let (held, ids, next) = (Push::default(), Vec::new(), Push::default());
+        let acting = Acting { action, every: every.max(1), asked: false, stop: false, held, ids, next };
         self.contacts.outside.acting.push(acting);
     }
 
