@@ -51,7 +51,7 @@ def run(run: Run, columns: Sequence[str], ax: Any) -> Any:
     with matplotlib.rc_context({**STYLE, "axes.prop_cycle": cycler(color=COLOURS)}):
         if ax is None:
             _, ax = pyplot.subplots(figsize=(7, 4), layout="constrained")
-        cases = [(None, table)]
+        cases: list[tuple[Any, Any]] = [(None, table)]
         if x == "frequency" and "case" in table.columns:
             cases = list(table.groupby("case", sort=False))
         for case, rows in cases:

@@ -42,7 +42,7 @@ class Shown:
 
     def __init__(self, name: str, progress: Progress) -> None:
         self.told = Told(name) if progress is True else None
-        self.call = self.told if self.told else (progress or None)
+        self.call = self.told if self.told else progress if callable(progress) else None
 
     def __enter__(self) -> Callable[[float], object] | None:
         return self.call

@@ -363,10 +363,10 @@ class Simulation:
         return _html.table(rows, self.scene.title)
 
 
-def _three(vector: ArrayLike) -> tuple[float, float, float]:
+def _three(vector: Any) -> tuple[float, float, float]:
     """Three numbers."""
     try:
-        x, y, z = (float(number) for number in vector)  # type: ignore[union-attr]
+        x, y, z = map(float, vector)
     except (TypeError, ValueError):
         raise _tsubu.Error(
             f"error: `{vector}` is no velocity\nhint: give three numbers, along x, y and z, in m/s or rad/s"
