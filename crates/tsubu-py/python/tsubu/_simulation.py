@@ -302,7 +302,8 @@ class Simulation:
         (grains, 3), one row for all grains, a pair of forces and torques [N.m], or `None` for no force. Grains that forces do not move
         feel nothing. Work and impulse are in the books, as `outside work`. Several functions add up.
 
-        A call costs some microseconds and what the function does; with a function every step is whole, which costs some per cent. After a
+        A call costs some microseconds and what the function does; with a function every step is whole, which costs some per cent. A function that
+        names the simulation keeps it alive until :meth:`clear_forces` or :meth:`close`. After a
         resume add it again: with `every=1` the bits are those of a simulation that was never stopped.
         """
         self._core.act(function, every, list(columns))

@@ -52,7 +52,7 @@ impl DemEngine {
     /// What contacts do to every grain [N]. In water the acceleration does not tell, so the contacts are summed.
     fn contact_forces(&self, contacts: &[Contact]) -> Vec<DVec3> {
         let g = &self.grains;
-        if self.immersion.is_none() && !self.contacts.outside.acts() {
+        if self.immersion.is_none() && !self.pushed_from_outside() {
             let pull = |i: usize| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { self.integration.gravity };
             return (0..g.len()).map(|i| g.mass[i] * (g.acceleration[i] - pull(i))).collect();
         }

@@ -160,6 +160,11 @@ impl DemEngine {
         }
     }
 
+    /// Whether accelerations hold forces from outside: of those who act, or of those who did in the last step.
+    pub(super) fn pushed_from_outside(&self) -> bool {
+        self.contacts.outside.acts() || self.books.last.outside_force != DVec3::ZERO
+    }
+
     /// A wall moves as somebody tells it from now on.
     pub(super) fn steer_wall(&mut self, name: &str, velocity: Velocity) -> Result<(), Refusal> {
         let time = self.clock.time();
