@@ -16,6 +16,7 @@ mod guard;
 mod imports;
 mod mutants;
 mod optional;
+mod python;
 mod race;
 mod shell;
 mod spelling;
@@ -34,7 +35,10 @@ cargo xtask CHORE
   gen [--check]       write the generated pages and tables, or only say which are out of date
   spelling            look for misspelt words in all texts, where there is a Python 3
   book                build the book, where there is an mdbook
-  optional            what needs more than Rust and a C compiler: the book, the pages in a browser
+  optional            what needs more than Rust and a C compiler: the book, the pages in a browser, the Python package
+  python [ARGUMENT]...
+                      build the wheel, install it into a bare environment, and run its tests, where there is a Python 3.10 or later
+                      and a network; arguments go to pytest
   claims [NAME]...    run verification cases (without names all of up to a minute) and keep what they claim
   claims --from DIR   keep what `tsubu verify --controls -o DIR` has found, and run nothing
   mutants [WORDS]...  change a constant of the engines by 5 %, or leave a rule out, one after the other, and keep which quick
@@ -71,6 +75,7 @@ fn main() -> ExitCode {
         ["spelling"] => spelling::check(),
         ["book"] => book::book(),
         ["optional"] => optional::optional(),
+        ["python", rest @ ..] => python::python(rest),
         ["mutants", names @ ..] => mutants::mutants(names),
         ["chaotic"] => mutants::chaotic(),
         ["fuzz", rest @ ..] => guard::guard("fuzz", rest),

@@ -3,7 +3,6 @@
 use crate::stream::Stream;
 use std::fmt::Write as _;
 use std::path::Path;
-use std::process::ExitCode;
 use tsubu::bench::BenchError;
 use tsubu::engine::OpenError;
 use tsubu::run::RunError;
@@ -62,6 +61,7 @@ impl Failure {
     }
 
     /// Adds a way out.
+    #[must_use]
     pub fn hint(mut self, hint: impl Into<Hint>) -> Self {
         self.hints.push(hint.into());
         self
@@ -106,8 +106,8 @@ impl Failure {
     }
 
     /// What the program says to whoever started it.
-    pub fn exit_code(&self) -> ExitCode {
-        ExitCode::from(self.code)
+    pub fn code(&self) -> u8 {
+        self.code
     }
 
     /// What a method has against a scene, shown where it stands; other errors as ever.

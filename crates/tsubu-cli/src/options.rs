@@ -2,7 +2,9 @@
 
 use crate::failure::Failure;
 use clap::{Args, value_parser};
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use tsubu_frame::Existing;
 use tsubu_scene::Scene;
 
@@ -101,12 +103,19 @@ impl WorkOptions {
     }
 }
 
+/// The words of the command line.
+static TYPED: OnceLock<Vec<String>> = OnceLock::new();
+
+/// Keeps the words of the command line, the name of the program first.
+pub fn typed(words: &[OsString]) {
+    TYPED.get_or_init(|| words.iter().map(|word| word.to_string_lossy().into_owned()).collect());
+}
+
 /// The command that goes on with what this one began.
 pub fn command_to_resume() -> String {
     let mut words = vec!["tsubu".to_owned()];
-    words.extend(
-        std::env::args().skip(1).filter(|word| word != "--overwrite" && word != "--resume").map(|w| quoted(&w)),
-    );
+    let typed = TYPED.get().into_iter().flatten().skip(1);
+    words.extend(typed.filter(|word| *word != "--overwrite" && *word != "--resume").map(|w| quoted(w)));
     words.push("--resume".to_owned());
     words.join(" ")
 }

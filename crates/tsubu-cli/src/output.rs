@@ -2,7 +2,6 @@
 
 use crate::failure::Failure;
 use std::io::{ErrorKind, Write};
-use std::process::ExitCode;
 
 /// Prints results. A reader that has gone away ends the command without a fuss.
 pub fn print(text: &str) -> Result<(), Failure> {
@@ -20,7 +19,7 @@ pub fn tell(text: &str) {
 }
 
 /// Prints why a command did not end well, and gives its exit code.
-pub fn report(failure: &Failure) -> ExitCode {
+pub fn report(failure: &Failure) -> u8 {
     tell(&failure.text());
-    failure.exit_code()
+    failure.code()
 }

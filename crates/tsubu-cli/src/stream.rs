@@ -1,6 +1,15 @@
 //! The two streams: who sees colour there.
 
 use std::io::IsTerminal;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether nobody sees colour, whatever the streams lead to.
+static PLAIN: AtomicBool = AtomicBool::new(false);
+
+/// Whether texts may have colour from now on: they should not where who asks for them puts them elsewhere.
+pub fn allow_colour(allowed: bool) {
+    PLAIN.store(!allowed, Ordering::Relaxed);
+}
 
 /// Where a text goes.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -20,7 +29,7 @@ impl Stream {
         };
         let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-        terminal && !refused && !dumb
+        terminal && !PLAIN.load(Ordering::Relaxed) && !refused && !dumb
     }
 
     /// As rustc writes `error`.

@@ -1,8 +1,11 @@
 //! What every method must do.
 
 use crate::ledger::{Energies, Ledger};
+use crate::outside::Action;
 use crate::partner::Hosts;
 use crate::view::{View, Wants};
+use crate::wall::{Velocity, Wall};
+use std::any::Any;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Advise, Frame, Hint, State};
 use tsubu_scene::Plan;
@@ -135,6 +138,12 @@ pub struct Refusal {
 }
 
 impl Refusal {
+    /// A method that nobody acts on from outside.
+    fn outside(key: String) -> Self {
+        let text = "nothing acts on it from outside but what the scene says; `dem` lets itself be acted on".to_owned();
+        Self { method: "of this scene", notes: vec![Note { key, verdict: Verdict::Refused, text }] }
+    }
+
     /// A method that knows no stages.
     pub fn stages(method: &'static str) -> Self {
         let text = "it runs scenes of one stage; `dem` runs more".to_owned();
@@ -245,6 +254,30 @@ pub trait Engine: Send {
 
     /// This moment, with what is wanted of what it [offers](Engine::offers).
     fn view(&self, wants: Wants) -> View<'_>;
+
+    /// The walls, in the order of their names; a method that has walls in another form shows none.
+    fn walls(&self) -> &[Wall] {
+        &[]
+    }
+
+    /// From now on a wall moves with this velocity, whatever its scene says, until it is told another.
+    fn steer(&mut self, wall: &str, _velocity: Velocity) -> Result<(), Refusal> {
+        Err(Refusal::outside(format!("walls.{wall}.motion")))
+    }
+
+    /// From now on somebody acts on the grains from outside, asked in every `every`-th step; those who do are counted from 0.
+    fn act(&mut self, _every: u64, _action: Box<dyn Action>) -> Result<(), Refusal> {
+        Err(Refusal::outside("particles".to_owned()))
+    }
+
+    /// Nobody acts from outside any more.
+    fn leave(&mut self) {}
+
+    /// Puts a copy in the place of a column of the [view](Engine::view) that lies in the engine's own memory, and gives that memory
+    /// away: for those who look at the column longer than the engine keeps it.
+    fn renew(&mut self, _column: &str) -> Option<Box<dyn Any + Send + Sync>> {
+        None
+    }
 
     /// Writes everything that the next step depends on.
     fn save(&self, state: &mut State);

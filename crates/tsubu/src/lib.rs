@@ -20,6 +20,7 @@ pub mod methods;
 pub mod motion;
 pub mod mutation;
 pub mod neighbours;
+pub mod outside;
 pub mod partner;
 pub mod random;
 pub mod run;

@@ -3,12 +3,14 @@
 mod error;
 mod measured;
 mod resume;
+mod simulation;
 mod stages;
 mod start;
 mod steady;
 mod told;
 
 pub use error::RunError;
+pub use simulation::Simulation;
 
 use crate::engine::{self, Engine};
 use crate::interrupt::Watcher;

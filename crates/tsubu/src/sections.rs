@@ -26,6 +26,7 @@ pub fn load(prefix: &str, entries: Named, state: &State) -> Result<(), MissingSe
     Ok(())
 }
 
-fn section(prefix: &str, name: &str) -> String {
+/// The section of an entry.
+pub(crate) fn section(prefix: &str, name: &str) -> String {
     format!("{prefix}.{}", name.replace(' ', "-"))
 }

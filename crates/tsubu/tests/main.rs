@@ -9,6 +9,7 @@ mod dem;
 mod grouping;
 mod host;
 mod lattice;
+mod outside;
 mod stages;
 mod triaxial;
 mod wall;

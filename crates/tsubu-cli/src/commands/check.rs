@@ -59,7 +59,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
 }
 
 /// The verdict; if it takes longer than a user waits, as far as it has come.
-fn judged(scene: &Scene, limit: Duration) -> Result<Verdict, Failure> {
+pub fn judged(scene: &Scene, limit: Duration) -> Result<Verdict, Failure> {
     let (begun, plans) = (Instant::now(), scene.plans().to_vec());
     let (send, news) = mpsc::channel();
     std::thread::spawn(move || {

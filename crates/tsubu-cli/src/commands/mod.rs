@@ -1,7 +1,7 @@
 //! The commands, one file each.
 
 mod bench;
-mod check;
+pub mod check;
 mod claims;
 mod compare;
 mod completions;
@@ -15,7 +15,7 @@ mod run;
 mod schema;
 mod standing;
 mod sweep;
-mod verify;
+pub mod verify;
 mod view;
 
 use crate::failure::Failure;

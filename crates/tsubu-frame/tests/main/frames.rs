@@ -50,6 +50,17 @@ fn a_snapshot_comes_back() {
     same(&sample(0.25), &read_frame(&found[1].path).unwrap());
 }
 
+/// The unit of the time, which stands in every file of a moment, was taken for that of the last column that had been read before:
+/// where nothing else stands beside the time, positions came back in seconds.
+#[test]
+fn positions_come_back_in_metres() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut frame = sample(0.5);
+    frame.columns.retain(|column| column.kind != Kind::Global);
+    FrameWriter::create(folder.path(), ALL).write(&frame).unwrap();
+    same(&frame, &read_frame(&snapshots(folder.path()).unwrap()[0].path).unwrap());
+}
+
 #[test]
 fn resumed_snapshots_go_on_with_the_number_after_the_checkpoint() {
     let folder = tempfile::tempdir().unwrap();

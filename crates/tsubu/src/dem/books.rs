@@ -17,6 +17,10 @@ pub(super) struct Powers {
     pub lost: ContactLosses,
     /// Work of walls and of driven grains [W].
     pub walls: f64,
+    /// Work of whoever acts on grains and moves walls from outside [W].
+    pub outside: f64,
+    /// Force of those who act on grains from outside [N].
+    pub outside_force: DVec3,
     /// Force of walls and of fixed grains on the others [N].
     pub wall_force: DVec3,
     pub water: WaterPowers,
@@ -25,9 +29,9 @@ pub(super) struct Powers {
 impl Powers {
     /// Everything, each under its name, for a checkpoint.
     pub fn named(&mut self) -> Named<'_> {
-        let Self { lost, walls, wall_force, water } = self;
+        let Self { lost, walls, outside, outside_force, wall_force, water } = self;
         let WaterPowers { pressure, carried, stream, spin_work, fluctuation, lost: drag, held, force } = water;
-        vec![
+        let mut named = vec![
             ("normal damping", from_mut(&mut lost.normal)),
             ("sliding", from_mut(&mut lost.sliding)),
             ("rolling", from_mut(&mut lost.rolling)),
@@ -41,7 +45,12 @@ impl Powers {
             ("water drag", from_mut(drag)),
             ("water on held grains", from_mut(held)),
             ("water force", force.as_mut()),
-        ]
+        ];
+        // Written only where somebody acts: others have the same checkpoints as ever.
+        if *outside != 0.0 || *outside_force != DVec3::ZERO {
+            named.extend([("outside", from_mut(outside)), ("outside force", outside_force.as_mut())]);
+        }
+        named
     }
 }
 
@@ -83,8 +92,11 @@ impl DemEngine {
         let mut powers = Powers { lost: self.contacts.sums.lost, water, ..Powers::default() };
         for (wall, load) in self.walls.iter().zip(&self.reactions.wall_loads) {
             powers.wall_force -= load.force;
-            powers.walls -= wall.prescribed_power(load.force, load.torque);
+            let power = wall.prescribed_power(load.force, load.torque);
+            *(if wall.steered() { &mut powers.outside } else { &mut powers.walls }) -= power;
         }
+        powers.outside += self.contacts.outside.power;
+        powers.outside_force = self.contacts.outside.force;
         powers.wall_force -= self.reactions.on_fixed;
         powers.walls += self.reactions.driven_power;
         powers
@@ -99,6 +111,7 @@ impl DemEngine {
         post(Account::Sliding, |p| p.lost.sliding);
         post(Account::Rolling, |p| p.lost.rolling);
         post(Account::WallWork, |p| p.walls);
+        post(Account::Outside, |p| p.outside);
         post(Account::Buoyancy, |p| p.water.pressure);
         post(Account::StreamWork, |p| p.water.spin_work);
         post(Account::WallWork, |p| -p.water.held);
@@ -112,6 +125,7 @@ impl DemEngine {
         post(Account::Drag, |p| p.water.lost);
         for axis in 0..3 {
             ledger.water_impulse[axis] += half * (last.water.force + now.water.force)[axis];
+            ledger.outside_impulse[axis] += half * (last.outside_force + now.outside_force)[axis];
             ledger.wall_impulse[axis] += half * (last.wall_force + now.wall_force)[axis];
             ledger.gravity_impulse[axis] += self.clock.dt * self.books.moved_mass * self.integration.gravity[axis];
         }

@@ -15,6 +15,7 @@ use super::contact_history::{ContactHistory, FRESH, WallKey};
 use super::history_transfer::HistorySnapshot;
 use super::immersion::{BlockImmersion, WaterAtTime};
 use super::narrow_phase::{Spheres, TouchingPairs};
+use super::outside::Outside;
 use super::sweep::{Direction, sweep};
 use crate::check;
 use crate::contact::chunk::ROWS;
@@ -187,6 +188,8 @@ pub(super) struct ContactForces {
     pub sums: ContactSums,
     /// Energy of contacts that a rebuild of the neighbour lists has found gone [J].
     pub released: f64,
+    /// Forces on grains that no contact exerts.
+    pub outside: Outside,
     /// The snapshot of the last rebuild, kept for its memory.
     pub(super) snapshot: HistorySnapshot,
     /// A batch for every thread.

@@ -15,13 +15,15 @@ use crate::ledger::{Energies, Ledger};
 use crate::mutation::{Mutation, left_out};
 use crate::neighbours::lists::{BLOCK, shares};
 use crate::neighbours::{NeighbourLists, Search};
+use crate::outside::Action;
 use crate::partner::Hosts;
 use crate::state::Grains;
 use crate::threads::awake;
 use crate::view::{View, WallLoad, Wants};
-use crate::wall::{Faces, Mover, Wall};
+use crate::wall::{Faces, Mover, Velocity, Wall};
 use crate::water::Water;
 use glam::DVec3;
+use std::any::Any;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, State};
 use tsubu_scene::plan::{Particles, Plan};
@@ -264,7 +266,15 @@ impl Engine for DemEngine {
 
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
         let grains = self.grains.len();
-        let mut go = || (0..steps).try_for_each(|step| self.step(hosts, ledger, step + 1 < steps));
+        let mut go = || {
+            for step in 0..steps {
+                self.step(hosts, ledger, step + 1 < steps)?;
+                if self.contacts.outside.wants_stop() {
+                    break;
+                }
+            }
+            Ok(())
+        };
         if shares(grains) > 1 { awake(grains.div_ceil(BLOCK), go) } else { go() }
     }
 
@@ -300,6 +310,27 @@ impl Engine for DemEngine {
 
     fn view(&self, wants: Wants) -> View<'_> {
         self.shown(wants)
+    }
+
+    fn walls(&self) -> &[Wall] {
+        &self.walls
+    }
+
+    fn steer(&mut self, wall: &str, velocity: Velocity) -> Result<(), Refusal> {
+        self.steer_wall(wall, velocity)
+    }
+
+    fn act(&mut self, every: u64, action: Box<dyn Action>) -> Result<(), Refusal> {
+        self.act_from_outside(every, action);
+        Ok(())
+    }
+
+    fn leave(&mut self) {
+        self.leave_alone();
+    }
+
+    fn renew(&mut self, column: &str) -> Option<Box<dyn Any + Send + Sync>> {
+        self.grains.renew(column)
     }
 
     fn save(&self, state: &mut State) {

@@ -14,6 +14,7 @@ mod integrate;
 mod narrow_phase;
 mod orientation;
 mod output;
+mod outside;
 mod overlaps;
 mod place;
 mod room;

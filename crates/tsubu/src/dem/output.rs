@@ -52,7 +52,7 @@ impl DemEngine {
     /// What contacts do to every grain [N]. In water the acceleration does not tell, so the contacts are summed.
     fn contact_forces(&self, contacts: &[Contact]) -> Vec<DVec3> {
         let g = &self.grains;
-        if self.immersion.is_none() {
+        if self.immersion.is_none() && !self.pushed_from_outside() {
             let pull = |i: usize| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { self.integration.gravity };
             return (0..g.len()).map(|i| g.mass[i] * (g.acceleration[i] - pull(i))).collect();
         }
@@ -72,7 +72,7 @@ impl DemEngine {
         let g = &self.grains;
         let rest = |i: usize| {
             let all = (g.mass[i] + g.added_mass(i)) * g.acceleration[i];
-            all - g.mass[i] * self.integration.gravity - contact[i]
+            all - g.mass[i] * self.integration.gravity - contact[i] - self.contacts.outside.on(i)
         };
         (0..g.len()).map(|i| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { rest(i) }).collect()
     }
@@ -167,6 +167,9 @@ impl DemEngine {
         if let Ok(begun) = state.real("dem.streams-begun") {
             self.sources.set_begun(begun);
         }
+        // It has a place in the list only where it is not zero.
+        self.books.last.outside = f64::from(u8::from(state.real("dem.powers.outside").is_ok()));
+        self.books.last.outside_force = DVec3::ZERO;
         sections::load("dem.powers", self.books.last.named(), state)?;
         let &[stored] = state.real("dem.stored")? else { return Err(missing("dem.stored")) };
         self.contacts.sums.stored = stored;

@@ -18,7 +18,7 @@ impl DemEngine {
         // Grains come and go, and gates open, between steps; a step before that is done to its end.
         let next = self.clock.step + 1;
         let (insertion_due, gate_due) = (self.insertion_due(next), self.gate_due(next));
-        let go_on = go_on && !insertion_due && !gate_due;
+        let go_on = go_on && !insertion_due && !gate_due && !self.contacts.outside.acts();
         if !std::mem::replace(&mut self.clock.half_step_done, go_on) {
             self.integration.first_half(&mut self.grains, &mut self.neighbours, self.clock.dt);
         }
@@ -33,6 +33,7 @@ impl DemEngine {
             self.check_finite()?;
             self.rebuild_neighbours();
         }
+        self.ask_outside();
         self.evaluate_forces(self.integration.predicted_for(dt));
         self.check_overlap()?;
         // Before positions may go on to the next step: the stream looks where the grains are now.
@@ -101,6 +102,7 @@ impl DemEngine {
         if let Some(immersion) = &mut self.immersion {
             immersion.sum_powers(&self.contacts.blocks);
         }
+        self.contacts.add_outside(&self.grains);
     }
 
     /// Forces, energies and powers of a moment that no step has led to: at time 0, and after grains or walls have gone.
@@ -150,8 +152,12 @@ impl DemEngine {
     /// Accelerations from forces and gravity; completes the velocities of a step `dt` (0: leaves them).
     fn second_half_step(&mut self, dt: f64, go_on: bool) {
         let Self { grains, neighbours, contacts, integration, .. } = self;
+        let predicted = contacts.outside.torque_power(grains);
         let report = integration.second_half(grains, &contacts.blocks, neighbours, dt, go_on);
-        contacts.sums.lost.correct(report.correction);
+        contacts.outside.measure(grains);
+        // Torques from outside are in the correction too, but no loss.
+        let turned = 2.0 / 3.0 * (contacts.outside.torque_power(grains) - predicted);
+        contacts.sums.lost.correct(report.correction + turned);
         (self.reactions.on_fixed, self.reactions.driven_power) = (report.fixed_force, report.driven_power);
     }
 
@@ -201,7 +207,8 @@ impl DemEngine {
             return Ok(());
         }
         let held = |i: usize| self.grains.inverse_mass[i] == 0.0;
-        let driven = |wall: &Wall| matches!(wall.mover, Mover::Motion(..)) || wall.turning.is_some();
+        let driven =
+            |wall: &Wall| matches!(wall.mover, Mover::Motion(..) | Mover::Steered(_)) || wall.turning.is_some();
         let second = contact.second;
         Err(Fault::Overlap {
             step: self.clock.step,

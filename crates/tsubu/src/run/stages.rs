@@ -41,7 +41,7 @@ struct Told {
 }
 
 /// Sections of a checkpoint: the stage it is in; what was told of those before.
-const AT: &str = "run.stage";
+pub(super) const AT: &str = "run.stage";
 const TOLD: &str = "run.stages";
 
 impl<'a> Stages<'a> {

@@ -65,6 +65,17 @@ macro_rules! columns {
                 });
             }
 
+            /// Puts a copy in the place of the column of that name, and gives away the memory that it had.
+            pub fn renew(&mut self, column: &str) -> Option<Box<dyn std::any::Any + Send + Sync>> {
+                match column {
+                    $(stringify!($column) => {
+                        let copy = self.$column.clone();
+                        Some(Box::new(std::mem::replace(&mut self.$column, copy)))
+                    })+
+                    _ => None,
+                }
+            }
+
             /// Writes every column under `prefix`.
             pub fn save(&self, prefix: &str, state: &mut tsubu_frame::State) {
                 $($crate::state::columns::Value::put(

@@ -22,6 +22,7 @@ pub mod pose;
 mod section;
 pub mod servo;
 pub mod shell;
+pub mod steered;
 pub mod surface;
 mod topology;
 mod tree;
@@ -35,6 +36,7 @@ pub use nearest::{Feature, Nearest, Touch};
 pub use outline::Outline;
 pub use pose::Pose;
 pub use servo::Servo;
+pub use steered::{Steered, Velocity};
 pub use surface::Surface;
 
 use crate::about::About;
@@ -235,8 +237,10 @@ impl Wall {
     /// about [`Pose::origin`]; its negative is what such walls give to the grains. Hosts, servos and bodies keep their
     /// own books.
     pub fn prescribed_power(&self, force: DVec3, torque: DVec3) -> f64 {
-        let moved = if matches!(self.mover, Mover::Motion(..)) { force.dot(self.pose.velocity) } else { 0.0 };
-        let turned = if self.turning.is_some() { torque.dot(self.pose.spin) } else { 0.0 };
+        let steered = self.steered();
+        let moved =
+            if steered || matches!(self.mover, Mover::Motion(..)) { force.dot(self.pose.velocity) } else { 0.0 };
+        let turned = if steered || self.turning.is_some() { torque.dot(self.pose.spin) } else { 0.0 };
         moved + turned
     }
 
@@ -303,6 +307,7 @@ impl Wall {
     /// Writes the state of a servo or body, and what a later stage has changed, into a checkpoint; other walls have none.
     pub fn save(&self, state: &mut State) {
         self.save_begun(state);
+        self.save_steered(state);
         match &self.mover {
             Mover::Servo(servo) => servo.save(&format!("wall.{}", self.name), state),
             Mover::Body(body) => body.save(&format!("wall.{}", self.name), state),
@@ -313,6 +318,7 @@ impl Wall {
     /// Takes the state back from a checkpoint; [`Wall::follow`] comes next.
     pub fn load(&mut self, state: &State) -> Result<(), MissingSection> {
         self.load_begun(state)?;
+        self.load_steered(state)?;
         match &mut self.mover {
             Mover::Servo(servo) => servo.load(&format!("wall.{}", self.name), state),
             Mover::Body(body) => body.load(&format!("wall.{}", self.name), state),

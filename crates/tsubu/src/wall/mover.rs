@@ -1,6 +1,6 @@
 //! Who moves a wall: nobody, a motion given in advance, a host, or the grains themselves.
 
-use super::{Body, Pose, Servo};
+use super::{Body, Pose, Servo, Steered};
 use crate::about::About;
 use crate::motion::value_and_rate;
 use crate::partner::Hosts;
@@ -47,6 +47,8 @@ pub enum Mover {
     Servo(Servo),
     /// The grains and gravity alone: a free body, which turns too.
     Body(Body),
+    /// Somebody outside the program.
+    Steered(Steered),
 }
 
 /// Turning about a fixed axis, given in advance.
@@ -96,6 +98,7 @@ impl Mover {
             }
             Self::Servo(servo) => (servo.direction, (servo.displacement(), servo.velocity())),
             Self::Body(body) => return (body.centre() - body.drawn_centre(), body.velocity()),
+            Self::Steered(steered) => return steered.displacement(time),
         };
         (direction * value, direction * rate)
     }
@@ -105,6 +108,9 @@ impl Mover {
         (pose.offset, pose.velocity) = self.displacement(time, hosts);
         if let Self::Body(body) = self {
             (pose.rotation, pose.spin) = (body.rotation(), body.spin());
+        }
+        if let Self::Steered(steered) = self {
+            (pose.rotation, pose.spin) = steered.rotation(time);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! `tsubu verify`: claims held against their sources.
 
 mod against;
-mod runner;
+pub mod runner;
 
 use super::{claims, origins};
 use crate::failure::Failure;

@@ -76,6 +76,30 @@ pub fn judge(
     judged.map(|()| told)
 }
 
+/// The claims of the cases, and nothing printed; `heard` is told the share that is done and says whether to go on with more cases.
+pub fn claims(
+    cases: &[&'static Case],
+    threads: usize,
+    heard: impl Fn(f64) -> bool,
+) -> Result<Vec<(&'static str, Claim)>, Failure> {
+    let mut share = Share::of(cases);
+    let mut claims: Vec<Vec<Claim>> = vec![Vec::new(); cases.len()];
+    side_by_side(cases, threads, &How::default(), |news| {
+        match news {
+            News::Member(index) => share.member(index),
+            News::Case(index, outcome) => {
+                share.done(index);
+                claims[index] = outcome.claims;
+            }
+        }
+        if heard(share.all()) { Ok(()) } else { Err(Failure::interrupted("interrupted")) }
+    })?;
+    let named = |(case, claims): (&&'static Case, Vec<Claim>)| -> Vec<(&'static str, Claim)> {
+        claims.into_iter().map(|claim| (case.name, claim)).collect()
+    };
+    Ok(cases.iter().zip(claims).flat_map(named).collect())
+}
+
 /// How much is done, by the seconds that each case took when it was stored, or may take.
 struct Share {
     seconds: Vec<f64>,
