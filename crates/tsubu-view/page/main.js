@@ -11,7 +11,8 @@ import { parse } from "./table.js";
 import { legend } from "./legend.js";
 import { scaleBar } from "./scale_bar.js";
 import { number, withUnit } from "./numbers.js";
-import { follow } from "./live.js";
+import * as live from "./live.js";
+import * as status from "./status.js";
 import * as cut from "./cut.js";
 import * as pick from "./pick.js";
 import * as screenshot from "./screenshot.js";
@@ -29,6 +30,7 @@ const tried = (work) => (...args) => Promise.resolve().then(() => work(...args))
 
 async function begin() {
   const runs = await server.runs();
+  await live.begun(runs, say);
   const panes = runs.map((about, run) => {
     const label = Object.assign(document.createElement("div"), { className: "pane" });
     if (runs.length > 1) label.style.color = colourOf(run);
@@ -58,14 +60,17 @@ async function begin() {
   const player = new Player(clock().about.times, show);
 
   const first = await Promise.all(panes.map((pane) => wanted(pane, player.times[0])));
+  const last = await Promise.all(panes.map((pane) => wanted(pane, player.times.at(-1))));
   const flat = first.every((frame, i) => (panes[i].about.dimension ?? (frame.position.every((x, k) => k % 3 !== 1 || x === 0) ? 2 : 3)) === 2);
   panes.forEach((pane, i) => {
-    pane.measure(first[i]);
+    pane.measure([first[i], last[i]]);
     pane.grains.material.uniforms.flatland.value = flat;
     pane.reference.box.visible = !flat;
     pane.bonds.lieOn(flat);
   });
-  const box = panes.reduce((all, pane) => all.union(pane.box), new Box3());
+  const box = new Box3();
+  const unite = () => panes.forEach((pane) => box.union(pane.box));
+  unite();
   stage.view = new View(stage.canvas, flat, () => stage.draw());
   stage.drawn = () => scaleBar($("scale-bar"), stage.view.metresPerPixel(stage.grid().height));
   stage.resize();
@@ -103,11 +108,17 @@ async function begin() {
   const table = async ({ run }) => parse(await server.history(run).catch(() => ""));
   const tables = await Promise.all(panes.map(table));
   const curves = new Curves($("curves"), tables, (time) => tried(() => player.step(clock().at(time) - player.number))());
-  const names = [...new Set(tables.flatMap(({ names }) => names.slice(1)))];
-  options($("curve"), names.map((name) => [name, name]));
-  $("history").hidden = names.length === 0;
-  curves.name = names.find((name) => name.startsWith("kinetic")) ?? names[0];
-  $("curve").value = curves.name;
+  // Which curves there are: a run that goes on may have no row yet.
+  function listCurves() {
+    const names = [...new Set(curves.tables.flatMap(({ names }) => names.slice(1)))];
+    if (names.length === $("curve").options.length) return;
+    options($("curve"), names.map((name) => [name, name]));
+    $("history").hidden = names.length === 0;
+    curves.name ??= names.find((name) => name.startsWith("kinetic")) ?? names[0];
+    $("curve").value = curves.name;
+  }
+  $("history").hidden = true;
+  listCurves();
 
   player.changed = () => {
     const { times, number: now, playing } = player;
@@ -156,7 +167,8 @@ async function begin() {
   };
   $("cut-axis").onchange = $("cut").oninput = cutNow;
   $("curve").onchange = () => ((curves.name = $("curve").value), curves.draw());
-  $("speed").onchange = () => (player.speed = Number($("speed").value));
+  let speedTold = false;
+  $("speed").onchange = () => ((speedTold = true), (player.speed = Number($("speed").value)));
   $("time").oninput = tried(() => player.step(Number($("time").value) - player.number));
   $("play").onclick = () => player.toggle();
   $("fit").onclick = fit;
@@ -194,23 +206,46 @@ async function begin() {
   });
 
   // Who looks at the last frame of a run that goes on is taken along.
-  let painted = player.times.length;
+  let [painted, drawn] = [Math.max(...panes.map(live.count)), -Infinity];
   async function grown(pane) {
     const last = player.number + 1 === player.times.length && !player.playing;
-    curves.tables[pane.run] = await table(pane);
     const now = player.times[player.number];
+    const grew = pane.measure([await pane.fetch(pane.about.times.length - 1, state.colour, state.contacts)]);
+    if (grew) {
+      unite();
+      if (!stage.view.moved) fit();
+    }
     player.times = clock().about.times;
     player.number = clock().at(now);
     if (last) await player.go(Infinity);
+    // A history may be long: it is looked up once a second.
+    if (performance.now() > drawn + 1000) await curve(pane);
+    if (!speedTold) $("speed").value = player.speed = player.natural();
     player.changed();
     // The range of the colours is that of all frames: now and then it is looked up again.
-    if (player.times.length >= 2 * painted) {
-      painted = player.times.length;
+    if (live.count(pane) >= 2 * painted) {
+      painted = live.count(pane);
       await paint();
     }
   }
+  async function curve(pane) {
+    drawn = performance.now();
+    curves.tables[pane.run] = await table(pane);
+    listCurves();
+    curves.draw();
+  }
+  async function ended() {
+    await Promise.all(panes.map(curve));
+    await paint();
+  }
+  const told = (pane) => {
+    const { name, status: word } = pane.about;
+    pane.name.textContent = name + (word === "finished" ? "" : `: ${word}`);
+    status.tell(panes, say);
+  };
   await paint();
-  follow(panes, { grown, ended: paint, failed: say });
+  if (panes.some(({ about }) => about.live && about.status !== "finished")) await player.go(Infinity);
+  live.follow(panes, { grown, told, ended, failed: say });
   Object.assign(window, { tsubu: { player, stage, panes, state, ready: true } });
 }
 

@@ -44,8 +44,10 @@ export class Pane {
     return number;
   }
 
-  // A frame, from the server or from before.
-  async fetch(number, colour, contacts) {
+  // A frame by its place among those that are there, from the server or from before.
+  async fetch(place, colour, contacts) {
+    // Frames of a run that goes on have numbers of their own: not all are kept.
+    const number = this.about.numbers?.[place] ?? place;
     const key = `${number} ${contacts} ${colour}`;
     if (!this.frames.has(key)) {
       const frame = await server.frame(this.run, number, colour, contacts);
@@ -68,22 +70,42 @@ export class Pane {
     this.bonds.show(frame);
   }
 
-  // The box round all that a frame shows.
-  measure(frame) {
-    this.box.makeEmpty();
-    for (const points of [frame.position, frame.lines, frame.triangles]) {
-      for (let i = 0; i + 2 < points.length; i += 3) {
-        const point = new three.Vector3(points[i], points[i + 1], points[i + 2]);
-        if (Number.isFinite(point.lengthSq())) this.box.expandByPoint(point);
+  // The box round walls and all but a hundredth of the grains of some frames: grains that flew away do not make the rest small.
+  measure(frames) {
+    const before = this.box.clone();
+    for (const { position, radius, lines, triangles, cell } of frames) {
+      if (!radius.length && !lines.length && !triangles.length) continue;
+      for (const points of [lines, triangles]) {
+        for (let i = 0; i + 2 < points.length; i += 3) {
+          const point = new three.Vector3(points[i], points[i + 1], points[i + 2]);
+          if (Number.isFinite(point.lengthSq())) this.box.expandByPoint(point);
+        }
+      }
+      const most = radius.reduce((a, b) => Math.max(a, b), 0);
+      const ends = [0, 1, 2].map((k) => middle(position, k));
+      if (ends.every((end) => end)) {
+        this.box.expandByPoint(new three.Vector3(...ends.map(([low]) => low - most)));
+        this.box.expandByPoint(new three.Vector3(...ends.map(([, high]) => high + most)));
+      }
+      if (cell) {
+        const [low, high, repeats] = cell;
+        ["x", "y", "z"].forEach((axis, k) => {
+          if (repeats[k]) [this.box.min[axis], this.box.max[axis]] = [low[k], high[k]];
+        });
       }
     }
-    this.box.expandByScalar(frame.radius.reduce((a, b) => Math.max(a, b), 0));
-    if (frame.cell) {
-      const [low, high, repeats] = frame.cell;
-      ["x", "y", "z"].forEach((axis, k) => {
-        if (repeats[k]) [this.box.min[axis], this.box.max[axis]] = [low[k], high[k]];
-      });
-    }
     this.reference.show(this.box);
+    return !before.equals(this.box);
   }
+}
+
+// Between which numbers all but a hundredth of a component lie, by some of them.
+function middle(vectors, axis) {
+  const step = 3 * Math.max(1, Math.floor(vectors.length / 3 / 20000));
+  const values = [];
+  for (let i = axis; i < vectors.length; i += step) if (Number.isFinite(vectors[i])) values.push(vectors[i]);
+  if (!values.length) return undefined;
+  values.sort((a, b) => a - b);
+  const off = Math.floor(values.length / 200);
+  return [values[off], values[values.length - 1 - off]];
 }

@@ -11,6 +11,7 @@ export class Player {
   // A speed at which the whole takes some ten seconds.
   natural() {
     const whole = this.times.at(-1) - this.times[0];
+    if (!(whole > 0)) return 1;
     return SPEEDS.reduce((best, speed) => (Math.abs(Math.log(whole / speed / 10)) < Math.abs(Math.log(whole / best / 10)) ? speed : best));
   }
 

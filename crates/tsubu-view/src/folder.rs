@@ -37,6 +37,8 @@ impl Folder {
     pub fn about(&self) -> Result<Value, ViewError> {
         let times: Vec<f64> = self.snapshots()?.iter().map(|snapshot| snapshot.time).collect();
         let summary = self.existing("summary.json")?.map(|path| Summary::read(&path)).transpose()?;
+        let verdict = self.existing("check.txt")?.map(|path| fs::read_to_string(&path).map_err(FileError::read(&path)));
+        let stages = summary.iter().flat_map(|summary| &summary.stages);
         Ok(json!({
             "name": self.name,
             "times": times,
@@ -44,6 +46,8 @@ impl Folder {
             "dimension": summary.as_ref().map(|summary| summary.dimension),
             "method": summary.as_ref().map(|summary| summary.method.clone()),
             "claims": summary.as_ref().map(|summary| &summary.claims),
+            "stages": stages.map(|stage| &stage.name).collect::<Vec<_>>(),
+            "verdict": verdict.transpose()?.unwrap_or_default(),
         }))
     }
 

@@ -2,5 +2,6 @@
 
 mod browser;
 mod chromium;
+mod live;
 mod server;
 mod support;

@@ -292,7 +292,11 @@ impl Engine for DemEngine {
     }
 
     fn frame(&self, _hosts: &Hosts) -> Frame {
-        self.picture()
+        self.picture(true)
+    }
+
+    fn glimpse(&self, _hosts: &Hosts) -> Frame {
+        self.picture(false)
     }
 
     fn offers(&self) -> Wants {
