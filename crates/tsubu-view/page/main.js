@@ -61,9 +61,14 @@ async function begin() {
 
   const first = await Promise.all(panes.map((pane) => wanted(pane, player.times[0])));
   const last = await Promise.all(panes.map((pane) => wanted(pane, player.times.at(-1))));
+  // Where a run begins or ends without a grain, those between tell how much room they take.
+  const { times } = player;
+  const bare = (frame) => !frame.radius.length;
+  const between = first.some(bare) || last.some(bare) ? [0.25, 0.5, 0.75].map((share) => times[Math.floor(share * times.length)]) : [];
+  const inner = await Promise.all(panes.map((pane) => Promise.all(between.map((time) => wanted(pane, time)))));
   const flat = first.every((frame, i) => (panes[i].about.dimension ?? (frame.position.every((x, k) => k % 3 !== 1 || x === 0) ? 2 : 3)) === 2);
   panes.forEach((pane, i) => {
-    pane.measure([first[i], last[i]]);
+    pane.measure([first[i], last[i], ...inner[i]]);
     pane.grains.material.uniforms.flatland.value = flat;
     pane.reference.box.visible = !flat;
     pane.bonds.lieOn(flat);
@@ -245,6 +250,11 @@ async function begin() {
   };
   await paint();
   if (panes.some(({ about }) => about.live && about.status !== "finished")) await player.go(Infinity);
+  // What a page carries itself is played, over and over, unless the reader wants things still.
+  if ("embedded" in document.documentElement.dataset) {
+    player.loop = true;
+    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) player.play();
+  }
   live.follow(panes, { grown, told, ended, failed: say });
   Object.assign(window, { tsubu: { player, stage, panes, state, ready: true } });
 }

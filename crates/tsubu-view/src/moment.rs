@@ -2,33 +2,60 @@
 
 use std::collections::HashMap;
 
+#[cfg(feature = "server")]
 use serde_json::json;
 use tsubu_frame::{Frame, Kind};
 
+#[cfg(feature = "server")]
 use crate::packet::Packet;
+#[cfg(feature = "server")]
 use crate::paint::{Paint, paints, range, values};
 
 /// A frame in bytes, grains coloured by `colour`.
+#[cfg(feature = "server")]
 pub fn packet(frame: &Frame, colour: &str) -> Vec<u8> {
-    let position = frame.vectors(Kind::Grain, "position");
     let shown = values(frame, colour).unwrap_or_default();
     let mut packet = Packet::default();
-    packet.vectors("position", position);
-    packet.reals("radius", radii(frame));
+    for (name, _, numbers) in arrays(frame, true) {
+        if WHOLE.contains(&name) {
+            packet.integers(name, numbers.into_iter().map(|x| x as i64));
+        } else {
+            packet.reals(name, numbers);
+        }
+    }
     packet.reals("colour", shown.iter().copied());
-    packet.integers("group", frame.integers(Kind::Grain, "group").iter().copied());
-    packet.integers("id", frame.integers(Kind::Grain, "id").iter().copied());
-    add_walls(frame, &mut packet);
-    add_contacts(frame, &mut packet);
     let columns = paints(frame).into_iter().map(|Paint { name, unit }| json!({ "name": name, "unit": unit }));
     packet.seal(json!({
         "time": frame.time,
         "step": frame.step,
-        "grains": position.len(),
+        "grains": frame.vectors(Kind::Grain, "position").len(),
         "columns": columns.collect::<Vec<_>>(),
         "range": range(&shown),
         "cell": frame.periodic(),
     }))
+}
+
+/// The arrays of whole numbers.
+#[cfg(feature = "server")]
+const WHOLE: [&str; 2] = ["group", "id"];
+
+/// What is drawn of a frame: names, numbers a row (3 for vectors), and the numbers. Contacts are left out unless `bonds`.
+pub fn arrays(frame: &Frame, bonds: bool) -> Vec<(&'static str, usize, Vec<f64>)> {
+    let flat = |vectors: &[[f64; 3]]| vectors.as_flattened().to_vec();
+    let whole = |name| frame.integers(Kind::Grain, name).iter().map(|x| *x as f64).collect::<Vec<_>>();
+    let mut arrays = vec![
+        ("position", 3, flat(frame.vectors(Kind::Grain, "position"))),
+        ("radius", 1, radii(frame)),
+        ("group", 1, whole("group")),
+        ("id", 1, whole("id")),
+    ];
+    let [lines, triangles] = walls(frame);
+    arrays.extend([("lines", 3, flat(&lines)), ("triangles", 3, flat(&triangles))]);
+    if bonds {
+        let (ends, forces) = contacts(frame);
+        arrays.extend([("bonds", 3, flat(&ends)), ("forces", 1, forces)]);
+    }
+    arrays
 }
 
 /// Radii of grains; those without one are drawn small against all that is there.
@@ -43,7 +70,7 @@ fn radii(frame: &Frame) -> Vec<f64> {
 }
 
 /// Walls: pairs of points of lines, and corners of triangles.
-fn add_walls(frame: &Frame, packet: &mut Packet) {
+fn walls(frame: &Frame) -> [Vec<[f64; 3]>; 2] {
     let corners = frame.vectors(Kind::Surface, "position");
     let faces = frame.integers(Kind::Surface, "face");
     let (mut lines, mut triangles) = (Vec::new(), Vec::new());
@@ -54,24 +81,23 @@ fn add_walls(frame: &Frame, packet: &mut Packet) {
         start += outline.len();
         match around {
             [first, rest @ ..] if solid => {
-                rest.windows(2).for_each(|pair| triangles.extend([first, &pair[0], &pair[1]]));
+                rest.windows(2).for_each(|pair| triangles.extend([*first, pair[0], pair[1]]));
             }
             [first, .., last] => {
                 around.windows(2).for_each(|pair| lines.extend(pair));
                 if around.len() > 2 {
-                    lines.extend([last, first]);
+                    lines.extend([*last, *first]);
                 }
             }
             _ => {}
         }
     }
-    packet.vectors("lines", lines);
-    packet.vectors("triangles", triangles);
+    [lines, triangles]
 }
 
 /// Contacts: two points and a force [N] each. A bond goes from middle to middle, or as far as the contact, where that is with a wall or
 /// across a periodic end.
-fn add_contacts(frame: &Frame, packet: &mut Packet) {
+fn contacts(frame: &Frame) -> (Vec<[f64; 3]>, Vec<f64>) {
     let (place, force) = (frame.vectors(Kind::Contact, "position"), frame.vectors(Kind::Contact, "force"));
     let ends = ["first", "second"].map(|name| frame.integers(Kind::Contact, name));
     let (id, centre) = (frame.integers(Kind::Grain, "id"), frame.vectors(Kind::Grain, "position"));
@@ -82,11 +108,10 @@ fn add_contacts(frame: &Frame, packet: &mut Packet) {
         for end in ends {
             let row = end.get(contact).and_then(|id| rows.get(id)).filter(|row| **row < centre.len());
             let near = row.filter(|row| distance(&centre[**row], at) < 1.5 * radius[**row]);
-            bonds.push(near.map_or(at, |row| &centre[*row]));
+            bonds.push(near.map_or(*at, |row| centre[*row]));
         }
     }
-    packet.vectors("bonds", bonds);
-    packet.reals("forces", force.iter().map(|f| f.iter().map(|c| c * c).sum::<f64>().sqrt()));
+    (bonds, force.iter().map(|f| f.iter().map(|c| c * c).sum::<f64>().sqrt()).collect())
 }
 
 fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {

@@ -60,6 +60,19 @@ impl Page {
         Some(page)
     }
 
+    /// Asks for motion to be reduced, as a system does, and opens the address again.
+    pub fn stilled(&mut self, address: &str) {
+        let feature = json!({ "features": [{ "name": "prefers-reduced-motion", "value": "reduce" }] });
+        self.call("Emulation.setEmulatedMedia", &feature);
+        self.call("Page.navigate", &json!({ "url": address }));
+    }
+
+    /// Makes the window a phone's.
+    pub fn narrow(&mut self) {
+        let window = json!({ "width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": true });
+        self.call("Emulation.setDeviceMetricsOverride", &window);
+    }
+
     /// Opens the page of a server, and waits until it shows a frame.
     pub fn ready(address: &str) -> Option<Self> {
         let mut page = Self::open(address)?;

@@ -2,6 +2,7 @@
 
 mod browser;
 mod chromium;
+mod embedded;
 mod live;
 mod server;
 mod support;
