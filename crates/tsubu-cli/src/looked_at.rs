@@ -54,7 +54,8 @@ impl LookedAt {
     pub fn begin(name: String, plan: &Plan, page: PageOptions) -> Result<Self, Failure> {
         let words = "interrupted before time 0; nothing was computed";
         let stop = Box::new(move || _ = stop::interrupt(words).ask());
-        let live = Arc::new(Live::new(name, plan.method.name(), u32::from(plan.dimension), stop));
+        let live = Live::new(name, plan.method.name(), u32::from(plan.dimension), stop);
+        let live = Arc::new(live.with_groups(plan.particles.keys().cloned().collect()));
         let server = Server::of_live(live.clone(), page.port).map_err(|error| Failure::of_words(&error))?;
         page.open(&server.address())?;
         let over = Arc::new(AtomicBool::new(false));

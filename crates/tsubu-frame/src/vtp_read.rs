@@ -45,12 +45,14 @@ pub fn parse(bytes: &[u8], kind: Kind, frame: &mut Frame) -> Result<(), String> 
         return Err("its data are not 64-bit little-endian".into());
     }
     let mut section = "";
+    // Whether the last array has become a column: times, steps and what is known already have units too.
+    let mut added = false;
     for tag in head.split('<').skip(1) {
         let name = tag.split([' ', '>', '/']).next().unwrap_or_default();
         match name {
             "FieldData" | "PointData" | "Points" | "Verts" | "Lines" | "Polys" => section = name,
-            "DataArray" => array(tag, section, kind, data, frame)?,
-            "InformationKey" if !matches!(section, "Verts" | "Lines" | "Polys") => {
+            "DataArray" => added = array(tag, section, kind, data, frame)?,
+            "InformationKey" if added => {
                 let label = tag.split_once('>').map_or("", |(_, text)| text);
                 if let Some(last) = frame.columns.last_mut() {
                     last.unit = interned(&unescape(label));
@@ -65,9 +67,10 @@ pub fn parse(bytes: &[u8], kind: Kind, frame: &mut Frame) -> Result<(), String> 
     Ok(())
 }
 
-fn array(tag: &str, section: &str, kind: Kind, data: &[u8], frame: &mut Frame) -> Result<(), String> {
+/// Takes an array, and says whether it has become a column.
+fn array(tag: &str, section: &str, kind: Kind, data: &[u8], frame: &mut Frame) -> Result<bool, String> {
     if matches!(section, "Verts" | "Lines" | "Polys") {
-        return Ok(());
+        return Ok(false);
     }
     let name = unescape(attribute(tag, "Name").ok_or("an array has no name")?);
     let values = values(tag, data).ok_or_else(|| format!("array `{name}` is cut short or not ours"))?;
@@ -83,9 +86,10 @@ fn array(tag: &str, section: &str, kind: Kind, data: &[u8], frame: &mut Frame) -
         _ if frame.column(kind, &name).is_some() => {}
         _ => {
             frame.columns.push(Column { name: interned(&name), unit: "-", kind, values });
+            return Ok(true);
         }
     }
-    Ok(())
+    Ok(false)
 }
 
 fn values(tag: &str, data: &[u8]) -> Option<Values> {

@@ -15,7 +15,8 @@ pub(crate) fn view(source: &mut Source, history: Option<&Table>) -> Option<Block
     let found = source.told(read).unwrap_or_default();
     let title = source.title();
     let history = history.map(|table| thinned(table).to_csv()).unwrap_or_default();
-    let run = Run { name: &title, history: &history };
+    let scene = source.text("scene.toml").unwrap_or_default();
+    let run = Run { name: &title, history: &history, scene: &scene };
     let made = embed(found.len(), &run, &mut |number| read_frame(&found[number].path));
     let view = source.told(made)??;
     let caption = format!("The grains, to be turned, played and looked into. {}", view.left_out);

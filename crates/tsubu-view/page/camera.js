@@ -36,6 +36,7 @@ export class View {
   // Shows all of a box.
   fit(box) {
     this.moved = false;
+    if (box.isEmpty()) return;
     const middle = box.getCenter(new three.Vector3());
     const size = box.getSize(new three.Vector3());
     const reach = Math.max(size.length() / 2, 1e-9);

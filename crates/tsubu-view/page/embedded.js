@@ -59,7 +59,7 @@ function moment(number) {
   if (!moments.has(number)) {
     const { time, step, cell, arrays } = decoded[number];
     const found = { number, time, step, cell, columns: columns.map(({ name, unit }) => ({ name, unit })) };
-    for (const name of ["position", "lines", "triangles", "bonds"]) found[name] = reals(name, arrays[name] ?? new Uint16Array(0), 3);
+    for (const name of ["position", "lines", "triangles", "bonds", "outlines"]) found[name] = reals(name, arrays[name] ?? new Uint16Array(0), 3);
     for (const name of ["radius", "forces"]) found[name] = reals(name, arrays[name] ?? new Uint16Array(0));
     for (const name of ["id", "id high", "group"]) found[name] = whole(name, arrays[name] ?? new Uint16Array(0));
     found.id = found.id.map((id, i) => id + 32768 * found["id high"][i]);
@@ -74,8 +74,8 @@ const painted = (number, colour) => {
   return values ? reals(`colour ${colour}`, values) : new Float32Array(0);
 };
 
-export async function frame(_, number, colour) {
-  return { ...moment(number), colour: painted(number, colour) };
+export async function frame(_, number, { colour }) {
+  return { ...moment(number), colour: painted(number, colour), range: columns.find(({ name }) => name === colour)?.range };
 }
 
 export async function grain(_, number, row) {

@@ -3,8 +3,9 @@
 import * as three from "./three.min.js";
 import * as server from "./server.js";
 import { Grains } from "./grains.js";
-import { Walls } from "./walls.js";
+import { Walls, put } from "./walls.js";
 import { Bonds } from "./bonds.js";
+import { Arrows } from "./arrows.js";
 import { FrameOfReference } from "./frame_of_reference.js";
 
 // Bytes of frames that are kept for being shown again.
@@ -17,9 +18,14 @@ export class Pane {
     this.grains = new Grains();
     this.walls = new Walls();
     this.bonds = new Bonds();
+    this.arrows = new Arrows();
+    // Grains that are no spheres and no discs have outlines.
+    this.outlines = new three.LineSegments(new three.BufferGeometry(), new three.LineBasicMaterial());
+    this.outlines.frustumCulled = false;
+    this.outlines.renderOrder = 1;
     this.reference = new FrameOfReference();
     this.scene = new three.Scene();
-    this.scene.add(this.grains.mesh, this.walls.group, this.bonds.mesh, this.reference.group);
+    this.scene.add(this.grains.mesh, this.walls.group, this.bonds.mesh, this.arrows.mesh, this.outlines, this.reference.group);
   }
 
   // Letters at the ends of the axes, in pixels of the pane.
@@ -30,7 +36,8 @@ export class Pane {
       return letter;
     });
     this.letters.forEach((letter, k) => {
-      const end = this.reference.ends[k].clone().project(camera);
+      const end = this.reference.ends?.[k].clone().project(camera);
+      if (!end) return (letter.hidden = true);
       letter.hidden = Math.abs(end.z) > 1 || (camera.isOrthographicCamera && k === 1);
       Object.assign(letter.style, { left: `${((end.x + 1) / 2) * width}px`, top: `${((1 - end.y) / 2) * height}px` });
     });
@@ -45,12 +52,12 @@ export class Pane {
   }
 
   // A frame by its place among those that are there, from the server or from before.
-  async fetch(place, colour, contacts) {
+  async fetch(place, { colour, contacts, arrows }) {
     // Frames of a run that goes on have numbers of their own: not all are kept.
     const number = this.about.numbers?.[place] ?? place;
-    const key = `${number} ${contacts} ${colour}`;
+    const key = `${number} ${contacts} ${arrows} ${colour}`;
     if (!this.frames.has(key)) {
-      const frame = await server.frame(this.run, number, colour, contacts);
+      const frame = await server.frame(this.run, number, { colour, contacts, arrows });
       frame.number = number;
       this.frames.set(key, frame);
       this.kept += frame.position.buffer.byteLength;
@@ -63,8 +70,10 @@ export class Pane {
     return this.frames.get(key);
   }
 
-  show(frame) {
+  show(frame, longest) {
     this.frame = frame;
+    this.arrows.show(frame, longest);
+    put(this.outlines.geometry, frame.outlines ?? []);
     this.grains.show(frame);
     this.walls.show(frame);
     this.bonds.show(frame);
@@ -94,7 +103,7 @@ export class Pane {
         });
       }
     }
-    this.reference.show(this.box);
+    if (!this.box.isEmpty()) this.reference.show(this.box);
     return !before.equals(this.box);
   }
 }

@@ -29,7 +29,7 @@ export const history = async (run) => (await ask(`run/${run}/history`)).text();
 export const range = async (run, colour) => (await ask(`run/${run}/range?colour=${encodeURIComponent(colour)}`)).json();
 export const grain = async (run, frame, row) => (await ask(`run/${run}/frame/${frame}/grain/${row}`)).json();
 
-export async function frame(run, number, colour, contacts) {
-  const wishes = `colour=${encodeURIComponent(colour)}&contacts=${contacts ? 1 : 0}`;
+export async function frame(run, number, { colour, contacts, arrows }) {
+  const wishes = `colour=${encodeURIComponent(colour)}&contacts=${contacts ? 1 : 0}&arrows=${encodeURIComponent(arrows)}`;
   return unpack(await (await ask(`run/${run}/frame/${number}?${wishes}`)).arrayBuffer());
 }

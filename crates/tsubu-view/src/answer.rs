@@ -76,7 +76,7 @@ pub fn answer(sources: &[Source], asked: &str) -> Answer {
         ["run", run, "frame", number] => {
             let (Some(folder), Ok(number)) = (of(run), number.parse()) else { return Answer::Nothing };
             let contacts = given("contacts").is_some_and(|wish| wish == "1");
-            frame(folder, number, &colour, contacts)
+            frame(folder, number, [&colour, &given("arrows").unwrap_or_default()], contacts)
         }
         ["run", run, "frame", number, "grain", row] => {
             let (Some(folder), Ok(number), Ok(row)) = (of(run), number.parse(), row.parse()) else {
@@ -103,11 +103,11 @@ fn json(value: &Value) -> Answer {
     Answer::Bytes("application/json", value.to_string().into_bytes().into())
 }
 
-fn frame(folder: &Source, number: usize, colour: &str, contacts: bool) -> Result<Answer, ViewError> {
+fn frame(folder: &Source, number: usize, [colour, arrows]: [&str; 2], contacts: bool) -> Result<Answer, ViewError> {
     let kinds: &[Kind] = if contacts { &[Kind::Surface, Kind::Contact] } else { &[Kind::Surface] };
     let frame = folder.frame(number, kinds)?;
     Ok(frame.map_or(Answer::Nothing, |frame| {
-        Answer::Bytes("application/octet-stream", moment::packet(&frame, colour).into())
+        Answer::Bytes("application/octet-stream", moment::packet(&frame, colour, arrows).into())
     }))
 }
 

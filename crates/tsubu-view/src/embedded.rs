@@ -35,6 +35,17 @@ pub struct Run<'a> {
     pub name: &'a str,
     /// The history as CSV, already thinned.
     pub history: &'a str,
+    /// The scene as it was run, which names the groups of grains; empty if it is not known.
+    pub scene: &'a str,
+}
+
+/// Names of the groups of grains of a scene, in the order of their numbers; none where the text is no scene.
+pub fn groups(scene: &str) -> Vec<String> {
+    let table: toml::Table = scene.parse().unwrap_or_default();
+    let particles = table.get("particles").and_then(toml::Value::as_table);
+    let mut names: Vec<String> = particles.into_iter().flat_map(toml::Table::keys).cloned().collect();
+    names.sort();
+    names
 }
 
 /// A page with its frames.
@@ -134,6 +145,7 @@ fn left_out(count: usize, frames: usize, first: &Frame, parts: &Parts) -> String
     if !parts.bonds && first.rows(tsubu_frame::Kind::Contact) > 0 {
         said.push("Contacts are left out.".to_owned());
     }
+    said.push("Arrows are left out.".to_owned());
     said.push("All of it: `tsubu view` with this folder.".to_owned());
     said.join(" ")
 }
@@ -151,7 +163,7 @@ fn packed(run: &Run, parts: &Parts, moments: &[Moment]) -> String {
     let (mut head, bytes) = pack(moments);
     let times: Vec<&Value> = moments.iter().map(|moment| &moment.head["time"]).collect();
     head["about"] = json!({
-        "name": run.name, "times": times, "status": "finished", "stages": [], "verdict": "",
+        "name": run.name, "times": times, "status": "finished", "stages": [], "verdict": "", "groups": groups(run.scene),
     });
     head["columns"] = parts.colours.iter().map(|(name, unit)| column(name, unit, moments)).collect();
     head["history"] = run.history.into();

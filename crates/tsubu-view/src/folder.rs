@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use tsubu_frame::{FileError, Frame, Kind, Snapshot, Summary, snapshots, vtp, vtp_read};
 
 use crate::ViewError;
+use crate::embedded::groups;
 
 /// A run folder.
 pub struct Folder {
@@ -47,8 +48,15 @@ impl Folder {
             "method": summary.as_ref().map(|summary| summary.method.clone()),
             "claims": summary.as_ref().map(|summary| &summary.claims),
             "stages": stages.map(|stage| &stage.name).collect::<Vec<_>>(),
+            "groups": self.groups()?,
             "verdict": verdict.transpose()?.unwrap_or_default(),
         }))
+    }
+
+    /// Names of the groups of grains, by the scene that was run; none where it cannot be told.
+    fn groups(&self) -> Result<Vec<String>, ViewError> {
+        let Some(path) = self.existing("scene.toml")? else { return Ok(Vec::new()) };
+        Ok(groups(&fs::read_to_string(&path).map_err(FileError::read(&path))?))
     }
 
     /// The table of the history; nothing if there is none.

@@ -34,6 +34,7 @@ pub struct Live {
     name: String,
     method: String,
     dimension: u32,
+    groups: Vec<String>,
     stop: Box<dyn Fn() + Send + Sync>,
     paused: AtomicBool,
     contacts: AtomicBool,
@@ -65,9 +66,16 @@ struct Seen {
 impl Live {
     /// A run under a name. `stop` asks it to write a checkpoint and to end.
     pub fn new(name: String, method: &str, dimension: u32, stop: Box<dyn Fn() + Send + Sync>) -> Self {
+        let groups = Vec::new();
         let method = method.to_owned();
         let (paused, contacts) = (AtomicBool::new(false), AtomicBool::new(false));
-        Self { name, method, dimension, stop, paused, contacts, seen: Mutex::default() }
+        Self { name, method, dimension, groups, stop, paused, contacts, seen: Mutex::default() }
+    }
+
+    /// The same, with the names of the groups of grains in the order of their numbers.
+    #[must_use]
+    pub fn with_groups(self, groups: Vec<String>) -> Self {
+        Self { groups, ..self }
     }
 
     fn seen(&self) -> MutexGuard<'_, Seen> {
@@ -198,6 +206,7 @@ impl Live {
             "status": status,
             "told": told,
             "dimension": self.dimension,
+            "groups": self.groups,
             "method": self.method,
             "stages": seen.stages.iter().filter(|name| !name.is_empty()).collect::<Vec<_>>(),
             "verdict": seen.verdict,

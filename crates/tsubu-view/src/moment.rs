@@ -11,12 +11,12 @@ use crate::packet::Packet;
 #[cfg(feature = "server")]
 use crate::paint::{Paint, paints, range, values};
 
-/// A frame in bytes, grains coloured by `colour`.
+/// A frame in bytes, grains coloured by `colour`, with the vectors of the column `arrows` if it has them.
 #[cfg(feature = "server")]
-pub fn packet(frame: &Frame, colour: &str) -> Vec<u8> {
+pub fn packet(frame: &Frame, colour: &str, arrows: &str) -> Vec<u8> {
     let shown = values(frame, colour).unwrap_or_default();
     let mut packet = Packet::default();
-    for (name, _, numbers) in arrays(frame, true) {
+    for (name, _, numbers) in self::arrays(frame, true) {
         if WHOLE.contains(&name) {
             packet.integers(name, numbers.into_iter().map(|x| x as i64));
         } else {
@@ -24,6 +24,7 @@ pub fn packet(frame: &Frame, colour: &str) -> Vec<u8> {
         }
     }
     packet.reals("colour", shown.iter().copied());
+    packet.reals("arrows", frame.vectors(Kind::Grain, arrows).as_flattened().iter().copied());
     let columns = paints(frame).into_iter().map(|Paint { name, unit }| json!({ "name": name, "unit": unit }));
     packet.seal(json!({
         "time": frame.time,
@@ -34,6 +35,9 @@ pub fn packet(frame: &Frame, colour: &str) -> Vec<u8> {
         "cell": frame.periodic(),
     }))
 }
+
+/// Grains whose outlines are drawn.
+const OUTLINED: usize = 20_000;
 
 /// The arrays of whole numbers.
 #[cfg(feature = "server")]
@@ -51,6 +55,7 @@ pub fn arrays(frame: &Frame, bonds: bool) -> Vec<(&'static str, usize, Vec<f64>)
     ];
     let [lines, triangles] = walls(frame);
     arrays.extend([("lines", 3, flat(&lines)), ("triangles", 3, flat(&triangles))]);
+    arrays.push(("outlines", 3, flat(&outlines(frame))));
     if bonds {
         let (ends, forces) = contacts(frame);
         arrays.extend([("bonds", 3, flat(&ends)), ("forces", 1, forces)]);
@@ -93,6 +98,27 @@ fn walls(frame: &Frame) -> [Vec<[f64; 3]>; 2] {
         }
     }
     [lines, triangles]
+}
+
+/// Grains with outlines: pairs of points of lines. Of more than [`OUTLINED`] none: a line round each would hide what it goes round.
+fn outlines(frame: &Frame) -> Vec<[f64; 3]> {
+    let shapes = frame.integers(Kind::Grain, "shape");
+    let corners = frame.vectors(Kind::Global, "corner");
+    if shapes.len() > OUTLINED || corners.is_empty() {
+        return Vec::new();
+    }
+    let mut round: HashMap<i64, Vec<[f64; 3]>> = HashMap::new();
+    for (shape, corner) in frame.integers(Kind::Global, "shape of corner").iter().zip(corners) {
+        round.entry(*shape).or_default().push(*corner);
+    }
+    let at = |centre: &[f64; 3], corner: &[f64; 3]| [0, 1, 2].map(|axis| centre[axis] + corner[axis]);
+    let grains = frame.vectors(Kind::Grain, "position").iter().zip(shapes);
+    let line = |(centre, shape): (&[f64; 3], &i64)| {
+        let corners = round.get(shape).map_or(&[][..], Vec::as_slice);
+        let next = corners.iter().cycle().skip(1);
+        corners.iter().zip(next).flat_map(|(a, b)| [at(centre, a), at(centre, b)]).collect::<Vec<_>>()
+    };
+    grains.flat_map(line).collect()
 }
 
 /// Contacts: two points and a force [N] each. A bond goes from middle to middle, or as far as the contact, where that is with a wall or

@@ -6,7 +6,11 @@ use std::time::Duration;
 use tsubu_frame::{FileError, Frame, Kind};
 use tsubu_view::embedded::{BYTES, Run, embed};
 
-const RUN: Run = Run { name: "made", history: "time [s],kinetic energy [J]\n0,0\n0.5,25\n" };
+const RUN: Run = Run {
+    name: "made",
+    history: "time [s],kinetic energy [J]\n0,0\n0.5,25\n",
+    scene: "[particles.large]\n[particles.small]\n",
+};
 
 fn made(count: usize) -> (String, String) {
     let mut read = |number: usize| Ok::<Frame, FileError>(frame(number as u32));
@@ -48,7 +52,7 @@ fn a_page_from_the_disk_shows_plays_and_tells() {
     let place = page.place(0, [1.0, 0.0, 1.1]);
     page.click(place);
     page.wait("document.getElementById('grain').innerText.includes('grain 9')");
-    page.wait("document.getElementById('curve').options.length === 1");
+    page.wait("document.getElementById('curve').options.length === 2");
     // Contacts have come along.
     page.value("document.getElementById('contacts').click()");
     page.wait("tsubu.panes[0].bonds.geometry.instanceCount === 2 && tsubu.panes[0].frame.forces[0] === 5");

@@ -3,6 +3,8 @@
 mod browser;
 mod chromium;
 mod embedded;
+mod large;
 mod live;
+mod looks;
 mod server;
 mod support;
