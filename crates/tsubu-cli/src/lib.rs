@@ -6,6 +6,7 @@
 
 mod commands;
 mod failure;
+mod looked_at;
 mod machine;
 mod options;
 mod output;

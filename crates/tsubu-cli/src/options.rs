@@ -67,6 +67,11 @@ impl FolderOptions {
         self.output.clone().unwrap_or_else(|| scene.default_folder(suffix))
     }
 
+    /// Whether the user has named one.
+    pub fn is_told(&self) -> bool {
+        self.output.is_some()
+    }
+
     /// What to do with an existing one.
     pub fn existing(&self) -> Existing {
         if self.overwrite { Existing::Overwrite } else { Existing::Refuse }
@@ -88,6 +93,11 @@ pub struct WorkOptions {
 const MOST: usize = 16;
 
 impl WorkOptions {
+    /// Whether the user has named a number of threads.
+    pub fn is_told(&self) -> bool {
+        self.threads.is_some()
+    }
+
     /// The threads to work with.
     pub fn pool(&self) -> Result<rayon::ThreadPool, Failure> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);

@@ -2,6 +2,7 @@
 
 use crate::output;
 use std::process::exit;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, OnceLock};
 use std::thread;
 use std::time::Duration;
@@ -15,6 +16,9 @@ static WORDS: OnceLock<String> = OnceLock::new();
 /// What to say where a command without a state ends.
 static SO_FAR: Mutex<String> = Mutex::new(String::new());
 
+/// Whether all is done, and only looked at.
+static DONE: AtomicBool = AtomicBool::new(false);
+
 /// How long those have who stop by themselves.
 const GRACE: Duration = Duration::from_millis(1500);
 
@@ -26,6 +30,7 @@ pub fn listen() {
     let _ = ctrlc::set_handler(|| {
         let again = INTERRUPT.ask();
         match WORDS.get() {
+            Some(_) if DONE.load(Ordering::Relaxed) => {}
             Some(_) if again => exit(INTERRUPTED),
             Some(words) => {
                 output::tell("\nstopping at the next step; once more to stop at once\n");
@@ -46,6 +51,16 @@ pub fn listen() {
 pub fn interrupt(words: &str) -> &'static Interrupt {
     WORDS.get_or_init(|| words.to_owned());
     &INTERRUPT
+}
+
+/// From now on there is nothing to save: the command ends by itself when it is asked to, with the exit code that it has.
+pub fn nothing_to_save() {
+    DONE.store(true, Ordering::Relaxed);
+}
+
+/// Whether the end was asked for.
+pub fn is_asked() -> bool {
+    INTERRUPT.asked()
 }
 
 /// How far a command has come that has no state to save, to be said behind "interrupted".

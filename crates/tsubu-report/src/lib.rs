@@ -19,6 +19,7 @@ pub mod figure;
 mod gallery;
 mod legend;
 mod moments;
+mod moving;
 pub mod page;
 mod plot;
 pub mod raster;

@@ -72,7 +72,9 @@ fn draw(source: &mut Source, history: Option<&Table>, found: &[Snapshot], stem: 
     let columns = if panels.iter().any(|p| p.balls.space) { IN_SPACE } else { columns };
     let mut blocks = vec![source.drawing(&format!("{stem}strip"), strip(&panels, &look, columns), &caption)];
     if found.len() > 2 && panels.iter().all(|p| p.balls.centres.len() <= MOST_ANIMATED) {
-        blocks.extend(animated(source, found, resolved.is_some(), stem)?);
+        let moving = animated(source, found, resolved.is_some(), stem)?;
+        // The page of one run has what can be turned instead; its file is for talks.
+        blocks.extend(moving.filter(|_| !stem.is_empty()));
     }
     blocks.extend(told_apart(source, found, stem)?);
     Ok(blocks)
@@ -168,6 +170,7 @@ fn width(window: Option<[f64; 4]>) -> u32 {
     (HEIGHT * shape).clamp(290.0, 600.0) as u32
 }
 
+/// Puts an animation and its last picture into the folder of figures.
 fn animated(source: &mut Source, found: &[Snapshot], periodic: bool, stem: &str) -> Result<Option<Block>, FileError> {
     let chosen: Vec<usize> = if periodic {
         (found.len().saturating_sub(MOST_FRAMES)..found.len()).collect()

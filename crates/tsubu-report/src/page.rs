@@ -90,6 +90,13 @@ pub enum Block {
         /// What is seen.
         caption: String,
     },
+    /// A page in the page: grains that can be turned and played.
+    View {
+        /// The document (trusted, made by `tsubu-view`).
+        html: String,
+        /// What is seen, and what is left out.
+        caption: String,
+    },
     /// A table.
     Table(Grid),
     /// Text as typed.
@@ -139,7 +146,7 @@ impl Report {
         }
     }
 
-    /// The page: one file, no scripts, nothing fetched.
+    /// The page: one file, nothing fetched; a view of grains runs its scripts inside a frame of its own.
     pub fn to_html(&self) -> String {
         let mut out = format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -228,6 +235,14 @@ fn write_block(out: &mut String, block: &Block) {
             "<figure><img alt=\"{}\" src=\"data:{media};base64,{}\">{}</figure>",
             escape(&plain(caption)),
             base64(bytes),
+            caption_html(caption)
+        ),
+        // What is inside may run its scripts, and reach neither this page nor any other.
+        Block::View { html, caption } => writeln!(
+            out,
+            "<figure class=\"view\"><iframe title=\"{}\" sandbox=\"allow-scripts allow-downloads\" srcdoc=\"{}\"></iframe>{}</figure>",
+            escape(&plain(caption)),
+            escape(html),
             caption_html(caption)
         ),
         Block::Table(grid) => {

@@ -7,6 +7,7 @@ use tsubu_frame::{Status, Summary, Table, csv::split_unit};
 use crate::claims::claims_table;
 use crate::figure::{Axis, Figure, Series};
 use crate::moments;
+use crate::moving;
 use crate::page::{Block, Report, Tone};
 use crate::source::{
     Source, card, cost_table, energy_blocks, method_name, quantity, result_cards, results_table, spoken, summary_cards,
@@ -40,7 +41,8 @@ pub(crate) fn build(source: &mut Source) -> Report {
     let watches = Watches::read(source);
     let motion = history.as_ref().map(|h| motion_blocks(source, h, &watches)).unwrap_or_default();
     let watched = watches.blocks(source, history.as_ref());
-    let pictures = moments::blocks(source, history.as_ref(), "");
+    let mut pictures: Vec<Block> = moving::view(source, history.as_ref()).into_iter().collect();
+    pictures.extend(moments::blocks(source, history.as_ref(), ""));
     let mut energy = history.as_ref().map(|h| energy_over_time(source, h)).unwrap_or_default();
     if let Some(summary) = &summary {
         energy.extend(energy_blocks(source, &[(summary.method.as_str(), summary)]));

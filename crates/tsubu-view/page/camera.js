@@ -15,6 +15,9 @@ export class View {
       this.controls.touches.ONE = three.TOUCH.PAN;
     }
     this.controls.addEventListener("change", changed);
+    // Who has moved the camera keeps it.
+    this.moved = false;
+    this.controls.addEventListener("start", () => (this.moved = true));
     this.aspect = 1;
   }
 
@@ -32,6 +35,8 @@ export class View {
 
   // Shows all of a box.
   fit(box) {
+    this.moved = false;
+    if (box.isEmpty()) return;
     const middle = box.getCenter(new three.Vector3());
     const size = box.getSize(new three.Vector3());
     const reach = Math.max(size.length() / 2, 1e-9);

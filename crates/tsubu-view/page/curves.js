@@ -20,7 +20,11 @@ export class Curves {
     pen.scale(ratio, ratio);
     const style = getComputedStyle(canvas);
     const ink = (variable) => style.getPropertyValue(variable);
-    const curves = tables.map(({ names, columns }) => [columns[0], columns[names.indexOf(name)]]).map(([x, y]) => (y ? [x, y] : [[], []]));
+    const { grain } = this;
+    const curves =
+      grain && grain.name === name
+        ? tables.map((_, run) => (run === grain.run ? [grain.x, grain.y] : [[], []]))
+        : tables.map(({ names, columns }) => [columns[0], columns[names.indexOf(name)]]).map(([x, y]) => (y ? [x, y] : [[], []]));
     const [x0, x1] = ends(curves.map(([x]) => x));
     const [y0, y1] = ends(curves.map(([, y]) => y));
     this.scale = undefined;
@@ -45,8 +49,14 @@ export class Curves {
       pen.lineWidth = 1.5;
       pen.beginPath();
       // More points than pixels look the same.
+      let apart = true;
       const step = Math.max(1, Math.floor(x.length / (4 * width)));
-      for (let i = 0; i < x.length; i += step) if (Number.isFinite(y[i])) pen.lineTo(across(x[i]), up(y[i]));
+      for (let i = 0; i < x.length; i += step) {
+        // Where a grain is not there its curve has a gap.
+        if (!Number.isFinite(y[i])) apart = true;
+        else if (apart) (pen.moveTo(across(x[i]), up(y[i])), (apart = false));
+        else pen.lineTo(across(x[i]), up(y[i]));
+      }
       pen.stroke();
     });
     pen.strokeStyle = ink("--mark");
@@ -64,6 +74,7 @@ function ends(columns) {
   let [low, high] = [Infinity, -Infinity];
   for (const column of columns) {
     for (const x of column) {
+      if (!Number.isFinite(x)) continue;
       if (x < low) low = x;
       if (x > high) high = x;
     }

@@ -16,7 +16,7 @@ export function plane(axis, share, box) {
 }
 
 export function apply(pane, cut) {
-  for (const { material } of [pane.grains, pane.bonds]) material.uniforms.cut.value.copy(cut);
+  for (const { material } of [pane.grains, pane.bonds, pane.arrows]) material.uniforms.cut.value.copy(cut);
   const planes = cut === NO_CUT ? [] : [new three.Plane(new three.Vector3(-cut.x, -cut.y, -cut.z), cut.w)];
   for (const material of [pane.walls.line, pane.walls.face]) material.clippingPlanes = planes;
 }

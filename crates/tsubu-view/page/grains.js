@@ -49,7 +49,8 @@ void main() {
   seen = marked > 0.5 && facing < 0.6 ? vec4(0.98, 0.45, 0.05, 1.0) : vec4(paint * light, 1.0);
 }`;
 
-const palette = texture();
+const [palette, groups] = [texture(), new Map()];
+const ofGroups = (count) => groups.get(count) ?? groups.set(count, texture(count)).get(count);
 
 export class Grains {
   constructor() {
@@ -70,6 +71,13 @@ export class Grains {
     this.mesh = new three.Mesh(this.geometry, this.material);
     this.mesh.frustumCulled = false;
     this.capacity = 0;
+  }
+
+  // Colours stand for numbers of a range, or for so many groups.
+  paint(range, things) {
+    const { uniforms } = this.material;
+    uniforms.palette.value = things ? ofGroups(things) : palette;
+    uniforms.range.value.set(...(things ? [-0.5, things - 0.5] : range));
   }
 
   // Shows the grains of a frame. Buffers grow and are used again.

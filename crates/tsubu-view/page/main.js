@@ -8,10 +8,13 @@ import { View } from "./camera.js";
 import { Player, SPEEDS } from "./player.js";
 import { Curves, colourOf } from "./curves.js";
 import { parse } from "./table.js";
-import { legend } from "./legend.js";
+import * as legend from "./legend.js";
+import { longest } from "./arrows.js";
+import * as film from "./film.js";
 import { scaleBar } from "./scale_bar.js";
 import { number, withUnit } from "./numbers.js";
-import { follow } from "./live.js";
+import * as live from "./live.js";
+import * as status from "./status.js";
 import * as cut from "./cut.js";
 import * as pick from "./pick.js";
 import * as screenshot from "./screenshot.js";
@@ -29,6 +32,7 @@ const tried = (work) => (...args) => Promise.resolve().then(() => work(...args))
 
 async function begin() {
   const runs = await server.runs();
+  await live.begun(runs, say);
   const panes = runs.map((about, run) => {
     const label = Object.assign(document.createElement("div"), { className: "pane" });
     if (runs.length > 1) label.style.color = colourOf(run);
@@ -43,29 +47,46 @@ async function begin() {
     const last = 0.99 * Math.max(...panes.map(end));
     return panes.filter((pane) => end(pane) >= last).reduce((a, b) => (b.about.times.length > a.about.times.length ? b : a));
   };
-  const state = { colour: "velocity", contacts: false, cut: cut.NO_CUT, range: [0, 1], picked: undefined };
-  const wanted = (pane, time) => pane.fetch(pane.at(time), state.colour, state.contacts);
+  const state = { colour: "velocity", contacts: false, arrows: "", cut: cut.NO_CUT, range: [0, 1], picked: undefined, cost: 0 };
+  const wanted = (pane, time) => pane.fetch(pane.at(time), state);
 
   async function show(number) {
     const time = player.times[number];
     const frames = await Promise.all(panes.map((pane) => wanted(pane, time)));
-    panes.forEach((pane, i) => pane.show(frames[i]));
+    const begun = performance.now();
+    const most = Math.max(...frames.map(longest));
+    panes.forEach((pane, i) => pane.show(frames[i], most));
+    tellScales(frames, most);
     mark();
+    // Milliseconds that this moment took outside of the graphics card, but for the drawing itself.
+    state.cost = performance.now() - begun;
     stage.draw();
     // The next one comes while this one is seen.
     if (number + 1 < player.times.length) for (const pane of panes) wanted(pane, player.times[number + 1]).catch(() => {});
   }
+  // What arrows and bonds stand for at this moment.
+  function tellScales(frames, most) {
+    const told = [];
+    if (state.arrows && most > 0) told.push(`longest arrow: ${number(most)} ${unitOf(state.arrows)}`);
+    const force = Math.max(0, ...frames.map(({ forces }) => forces?.reduce((a, b) => Math.max(a, b), 0) ?? 0));
+    if (state.contacts && force > 0) told.push(`thickest bond: ${number(force)} N`);
+    $("scales").textContent = told.join("; ");
+  }
+  const unitOf = (name) => first[0].columns.find((column) => column.name === name)?.unit;
   const player = new Player(clock().about.times, show);
+  window.tsubu = { player, stage, panes, state };
 
   const first = await Promise.all(panes.map((pane) => wanted(pane, player.times[0])));
   const flat = first.every((frame, i) => (panes[i].about.dimension ?? (frame.position.every((x, k) => k % 3 !== 1 || x === 0) ? 2 : 3)) === 2);
   panes.forEach((pane, i) => {
-    pane.measure(first[i]);
+    pane.measure([first[i]]);
     pane.grains.material.uniforms.flatland.value = flat;
     pane.reference.box.visible = !flat;
     pane.bonds.lieOn(flat);
   });
-  const box = panes.reduce((all, pane) => all.union(pane.box), new Box3());
+  const box = new Box3();
+  const unite = () => panes.forEach((pane) => box.union(pane.box));
+  unite();
   stage.view = new View(stage.canvas, flat, () => stage.draw());
   stage.drawn = () => scaleBar($("scale-bar"), stage.view.metresPerPixel(stage.grid().height));
   stage.resize();
@@ -76,16 +97,45 @@ async function begin() {
   options($("colour"), columns.map(({ name, unit }) => [name, withUnit(name, unit)]));
   if (!columns.some(({ name }) => name === state.colour)) state.colour = columns.at(0)?.name ?? "";
   $("colour").value = state.colour;
+  // Of a vector there are components; frames that a page carries have no arrows.
+  const vectors = columns.filter(({ name }) => columns.some((other) => other.name === `${name} x`) && name !== "position");
+  options($("arrows"), [["", "none"], ...vectors.map(({ name, unit }) => [name, withUnit(name, unit)])]);
+  $("arrows").parentElement.hidden = !vectors.length;
 
   // Colours mean the same at all times and in all panes.
   async function paint() {
-    const ranges = (await Promise.all(panes.map(({ run }) => server.range(run, state.colour)))).filter((range) => range);
-    state.range = ranges.length ? [Math.min(...ranges.map(([a]) => a)), Math.max(...ranges.map(([, b]) => b))] : [0, 1];
-    for (const pane of panes) pane.grains.material.uniforms.range.value.set(...state.range);
-    const { name, unit } = columns.find(({ name }) => name === state.colour) ?? { name: "", unit: "" };
-    legend($("legend"), withUnit(name, unit), state.range);
+    scale(await Promise.all(panes.map(({ run }) => server.range(run, state.colour))));
     await player.go(player.wish ?? player.number);
   }
+  function scale(found) {
+    const ranges = found.filter((range) => range);
+    state.range = ranges.length ? [Math.min(...ranges.map(([a]) => a)), Math.max(...ranges.map(([, b]) => b))] : [0, 1];
+    const groups = state.colour === "group" ? groupNames() : undefined;
+    for (const pane of panes) pane.grains.paint(state.range, groups?.length);
+    const { name, unit } = columns.find(({ name }) => name === state.colour) ?? { name: "", unit: "" };
+    if (groups) legend.names($("legend"), "group", groups);
+    else legend.legend($("legend"), withUnit(name, unit), state.range);
+  }
+  // Names of the groups; their numbers where nobody has told names.
+  function groupNames() {
+    const named = panes.map(({ about }) => about.groups ?? []).reduce((a, b) => (b.length > a.length ? b : a));
+    const count = Math.max(named.length, Math.round(state.range[1]) + 1);
+    return Array.from({ length: count }, (_, i) => named[i] ?? String(i));
+  }
+  // The first picture does not wait for what the colours of the whole run are.
+  scale(first.map(({ range }) => range));
+  panes.forEach((pane, i) => pane.show(first[i]));
+  stage.drawNow();
+  // Nor for where the grains go.
+  const last = await Promise.all(panes.map((pane) => wanted(pane, player.times.at(-1))));
+  // Where a run begins or ends without a grain, those between tell how much room they take.
+  const { times } = player;
+  const bare = (frame) => !frame.radius.length;
+  const between = first.some(bare) || last.some(bare) ? [0.25, 0.5, 0.75].map((share) => times[Math.floor(share * times.length)]) : [];
+  const inner = await Promise.all(panes.map((pane) => Promise.all(between.map((time) => wanted(pane, time)))));
+  panes.forEach((pane, i) => pane.measure([last[i], ...inner[i]]));
+  unite();
+  if (!stage.view.moved) stage.view.fit(box);
 
   // The picked grain keeps its mark from frame to frame, by its id.
   function mark() {
@@ -103,11 +153,17 @@ async function begin() {
   const table = async ({ run }) => parse(await server.history(run).catch(() => ""));
   const tables = await Promise.all(panes.map(table));
   const curves = new Curves($("curves"), tables, (time) => tried(() => player.step(clock().at(time) - player.number))());
-  const names = [...new Set(tables.flatMap(({ names }) => names.slice(1)))];
-  options($("curve"), names.map((name) => [name, name]));
-  $("history").hidden = names.length === 0;
-  curves.name = names.find((name) => name.startsWith("kinetic")) ?? names[0];
-  $("curve").value = curves.name;
+  // Which curves there are: a run that goes on may have no row yet.
+  function listCurves() {
+    const names = [...new Set(curves.tables.flatMap(({ names }) => names.slice(1)))];
+    if (curves.grain) names.push(curves.grain.name);
+    options($("curve"), names.map((name) => [name, name]));
+    $("history").hidden = names.length === 0;
+    curves.name ??= names.find((name) => name.startsWith("kinetic")) ?? names[0];
+    $("curve").value = curves.name;
+  }
+  $("history").hidden = true;
+  listCurves();
 
   player.changed = () => {
     const { times, number: now, playing } = player;
@@ -135,12 +191,24 @@ async function begin() {
     theme.set(theme.other(), stage);
     curves.draw();
   };
-  const shoot = async () => {
-    const ends = [...$("legend").querySelectorAll("span")].map((span) => span.textContent);
-    const title = $("legend").querySelector(".title").textContent;
-    screenshot.save(await screenshot.picture(stage, { title, ends, now: $("now").textContent }), "tsubu.png");
+  const around = () => ({ title: $("legend").querySelector(".title").textContent, ends: legend.told($("legend")), now: $("now").textContent });
+  const shoot = async () => screenshot.save(await screenshot.picture(stage, around()), "tsubu.png");
+  const record = async () => {
+    player.pause();
+    $("film").disabled = true;
+    try {
+      screenshot.save(await film.film(stage, player, around), "tsubu.webm");
+    } finally {
+      $("film").disabled = false;
+    }
   };
-  $("colour").onchange = tried(() => ((state.colour = $("colour").value), paint()));
+  $("film").hidden = !film.possible();
+  $("film").onclick = tried(record);
+  $("colour").onchange = tried(async () => {
+    state.colour = $("colour").value;
+    await paint();
+    await grainCurve();
+  });
   $("contacts").onchange = tried(() => {
     state.contacts = $("contacts").checked;
     for (const pane of panes) {
@@ -150,13 +218,15 @@ async function begin() {
     }
     return player.go(player.number);
   });
+  $("arrows").onchange = tried(() => ((state.arrows = $("arrows").value), player.go(player.number)));
   $("walls").onchange = () => {
     for (const pane of panes) pane.walls.group.visible = $("walls").checked;
     stage.draw();
   };
   $("cut-axis").onchange = $("cut").oninput = cutNow;
   $("curve").onchange = () => ((curves.name = $("curve").value), curves.draw());
-  $("speed").onchange = () => (player.speed = Number($("speed").value));
+  let speedTold = false;
+  $("speed").onchange = () => ((speedTold = true), (player.speed = Number($("speed").value)));
   $("time").oninput = tried(() => player.step(Number($("time").value) - player.number));
   $("play").onclick = () => player.toggle();
   $("fit").onclick = fit;
@@ -173,7 +243,26 @@ async function begin() {
     if (!state.picked) $("grain").hidden = true;
     mark();
     stage.draw();
+    await grainCurve();
   }));
+
+  // The picked grain has a curve beside those of the history: of what it is coloured by.
+  async function grainCurve() {
+    const { picked } = state;
+    const shown = curves.grain && curves.grain.name === curves.name;
+    curves.grain = undefined;
+    if (picked) {
+      const [x, y] = await server.curve(picked.pane.run, picked.id, state.colour);
+      const { unit } = columns.find(({ name }) => name === state.colour) ?? {};
+      const name = withUnit(`grain ${picked.id}: ${state.colour}`, unit);
+      curves.grain = { name, run: picked.pane.run, x, y: y.map((value) => value ?? NaN) };
+      curves.name = name;
+    } else if (shown) {
+      curves.name = undefined;
+    }
+    listCurves();
+    curves.draw();
+  }
 
   const keys = {
     " ": () => player.toggle(),
@@ -194,24 +283,52 @@ async function begin() {
   });
 
   // Who looks at the last frame of a run that goes on is taken along.
-  let painted = player.times.length;
+  let [painted, drawn] = [Math.max(...panes.map(live.count)), -Infinity];
   async function grown(pane) {
     const last = player.number + 1 === player.times.length && !player.playing;
-    curves.tables[pane.run] = await table(pane);
     const now = player.times[player.number];
+    const grew = pane.measure([await pane.fetch(pane.about.times.length - 1, state)]);
+    if (grew) {
+      unite();
+      if (!stage.view.moved) fit();
+    }
     player.times = clock().about.times;
     player.number = clock().at(now);
     if (last) await player.go(Infinity);
+    // A history may be long: it is looked up once a second.
+    if (performance.now() > drawn + 1000) await curve(pane);
+    if (!speedTold) $("speed").value = player.speed = player.natural();
     player.changed();
     // The range of the colours is that of all frames: now and then it is looked up again.
-    if (player.times.length >= 2 * painted) {
-      painted = player.times.length;
+    if (live.count(pane) >= 2 * painted) {
+      painted = live.count(pane);
       await paint();
     }
   }
+  async function curve(pane) {
+    drawn = performance.now();
+    curves.tables[pane.run] = await table(pane);
+    listCurves();
+    curves.draw();
+  }
+  async function ended() {
+    await Promise.all(panes.map(curve));
+    await paint();
+  }
+  const told = (pane) => {
+    const { name, status: word } = pane.about;
+    pane.name.textContent = name + (word === "finished" ? "" : `: ${word}`);
+    status.tell(panes, say);
+  };
   await paint();
-  follow(panes, { grown, ended: paint, failed: say });
-  Object.assign(window, { tsubu: { player, stage, panes, state, ready: true } });
+  if (panes.some(({ about }) => about.live && about.status !== "finished")) await player.go(Infinity);
+  // What a page carries itself is played, over and over, unless the reader wants things still.
+  if ("embedded" in document.documentElement.dataset) {
+    player.loop = true;
+    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) player.play();
+  }
+  live.follow(panes, { grown, told, ended, failed: say });
+  window.tsubu.ready = true;
 }
 
 begin().catch(say);

@@ -13,10 +13,15 @@ export function at(t) {
   return VIRIDIS[low].map((c, k) => Math.round(c + (place - low) * (VIRIDIS[low + 1][k] - c)));
 }
 
-// The colours as a texture of one row.
-export function texture(width = 256) {
+// What has no order has colours that are told apart, by people who see fewer of them too (Okabe and Ito).
+const APART = [[0, 114, 178], [230, 159, 0], [0, 158, 115], [204, 121, 167], [86, 180, 233], [213, 94, 0], [240, 228, 66], [120, 120, 120]];
+export const apart = (number) => APART[number % APART.length];
+
+// Colours as a texture of one row: those of numbers from 0 to 1, or of so many things.
+export function texture(things, width = 256) {
   const data = new Uint8Array(4 * width);
-  for (let i = 0; i < width; i++) data.set([...at(i / (width - 1)), 255], 4 * i);
+  const of = (i) => (things ? apart(Math.min(Math.floor((i / width) * things), things - 1)) : at(i / (width - 1)));
+  for (let i = 0; i < width; i++) data.set([...of(i), 255], 4 * i);
   const map = new DataTexture(data, width, 1, RGBAFormat);
   map.minFilter = map.magFilter = LinearFilter;
   map.needsUpdate = true;

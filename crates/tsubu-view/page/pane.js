@@ -3,8 +3,9 @@
 import * as three from "./three.min.js";
 import * as server from "./server.js";
 import { Grains } from "./grains.js";
-import { Walls } from "./walls.js";
+import { Walls, put } from "./walls.js";
 import { Bonds } from "./bonds.js";
+import { Arrows } from "./arrows.js";
 import { FrameOfReference } from "./frame_of_reference.js";
 
 // Bytes of frames that are kept for being shown again.
@@ -17,9 +18,14 @@ export class Pane {
     this.grains = new Grains();
     this.walls = new Walls();
     this.bonds = new Bonds();
+    this.arrows = new Arrows();
+    // Grains that are no spheres and no discs have outlines.
+    this.outlines = new three.LineSegments(new three.BufferGeometry(), new three.LineBasicMaterial());
+    this.outlines.frustumCulled = false;
+    this.outlines.renderOrder = 1;
     this.reference = new FrameOfReference();
     this.scene = new three.Scene();
-    this.scene.add(this.grains.mesh, this.walls.group, this.bonds.mesh, this.reference.group);
+    this.scene.add(this.grains.mesh, this.walls.group, this.bonds.mesh, this.arrows.mesh, this.outlines, this.reference.group);
   }
 
   // Letters at the ends of the axes, in pixels of the pane.
@@ -30,7 +36,8 @@ export class Pane {
       return letter;
     });
     this.letters.forEach((letter, k) => {
-      const end = this.reference.ends[k].clone().project(camera);
+      const end = this.reference.ends?.[k].clone().project(camera);
+      if (!end) return (letter.hidden = true);
       letter.hidden = Math.abs(end.z) > 1 || (camera.isOrthographicCamera && k === 1);
       Object.assign(letter.style, { left: `${((end.x + 1) / 2) * width}px`, top: `${((1 - end.y) / 2) * height}px` });
     });
@@ -44,11 +51,13 @@ export class Pane {
     return number;
   }
 
-  // A frame, from the server or from before.
-  async fetch(number, colour, contacts) {
-    const key = `${number} ${contacts} ${colour}`;
+  // A frame by its place among those that are there, from the server or from before.
+  async fetch(place, { colour, contacts, arrows }) {
+    // Frames of a run that goes on have numbers of their own: not all are kept.
+    const number = this.about.numbers?.[place] ?? place;
+    const key = `${number} ${contacts} ${arrows} ${colour}`;
     if (!this.frames.has(key)) {
-      const frame = await server.frame(this.run, number, colour, contacts);
+      const frame = await server.frame(this.run, number, { colour, contacts, arrows });
       frame.number = number;
       this.frames.set(key, frame);
       this.kept += frame.position.buffer.byteLength;
@@ -61,29 +70,51 @@ export class Pane {
     return this.frames.get(key);
   }
 
-  show(frame) {
+  show(frame, longest) {
     this.frame = frame;
+    this.arrows.show(frame, longest);
+    put(this.outlines.geometry, frame.outlines ?? []);
     this.grains.show(frame);
     this.walls.show(frame);
     this.bonds.show(frame);
   }
 
-  // The box round all that a frame shows.
-  measure(frame) {
-    this.box.makeEmpty();
-    for (const points of [frame.position, frame.lines, frame.triangles]) {
-      for (let i = 0; i + 2 < points.length; i += 3) {
-        const point = new three.Vector3(points[i], points[i + 1], points[i + 2]);
-        if (Number.isFinite(point.lengthSq())) this.box.expandByPoint(point);
+  // The box round walls and all but a hundredth of the grains of some frames: grains that flew away do not make the rest small.
+  measure(frames) {
+    const before = this.box.clone();
+    for (const { position, radius, lines, triangles, cell } of frames) {
+      if (!radius.length && !lines.length && !triangles.length) continue;
+      for (const points of [lines, triangles]) {
+        for (let i = 0; i + 2 < points.length; i += 3) {
+          const point = new three.Vector3(points[i], points[i + 1], points[i + 2]);
+          if (Number.isFinite(point.lengthSq())) this.box.expandByPoint(point);
+        }
+      }
+      const most = radius.reduce((a, b) => Math.max(a, b), 0);
+      const ends = [0, 1, 2].map((k) => middle(position, k));
+      if (ends.every((end) => end)) {
+        this.box.expandByPoint(new three.Vector3(...ends.map(([low]) => low - most)));
+        this.box.expandByPoint(new three.Vector3(...ends.map(([, high]) => high + most)));
+      }
+      if (cell) {
+        const [low, high, repeats] = cell;
+        ["x", "y", "z"].forEach((axis, k) => {
+          if (repeats[k]) [this.box.min[axis], this.box.max[axis]] = [low[k], high[k]];
+        });
       }
     }
-    this.box.expandByScalar(frame.radius.reduce((a, b) => Math.max(a, b), 0));
-    if (frame.cell) {
-      const [low, high, repeats] = frame.cell;
-      ["x", "y", "z"].forEach((axis, k) => {
-        if (repeats[k]) [this.box.min[axis], this.box.max[axis]] = [low[k], high[k]];
-      });
-    }
-    this.reference.show(this.box);
+    if (!this.box.isEmpty()) this.reference.show(this.box);
+    return !before.equals(this.box);
   }
+}
+
+// Between which numbers all but a hundredth of a component lie, by some of them.
+function middle(vectors, axis) {
+  const step = 3 * Math.max(1, Math.floor(vectors.length / 3 / 20000));
+  const values = [];
+  for (let i = axis; i < vectors.length; i += step) if (Number.isFinite(vectors[i])) values.push(vectors[i]);
+  if (!values.length) return undefined;
+  values.sort((a, b) => a - b);
+  const off = Math.floor(values.length / 200);
+  return [values[off], values[values.length - 1 - off]];
 }

@@ -5,12 +5,13 @@ export const SPEEDS = [0.001, 0.01, 0.1, 0.25, 0.5, 1, 2, 5, 10, 100, 1000];
 export class Player {
   // `show(number)` shows a moment, and is done when it is seen.
   constructor(times, show) {
-    Object.assign(this, { times, show, number: 0, speed: 1, playing: false, busy: false, changed: () => {} });
+    Object.assign(this, { times, show, number: 0, speed: 1, playing: false, busy: false, loop: false, changed: () => {} });
   }
 
   // A speed at which the whole takes some ten seconds.
   natural() {
     const whole = this.times.at(-1) - this.times[0];
+    if (!(whole > 0)) return 1;
     return SPEEDS.reduce((best, speed) => (Math.abs(Math.log(whole / speed / 10)) < Math.abs(Math.log(whole / best / 10)) ? speed : best));
   }
 
@@ -58,7 +59,14 @@ export class Player {
           [began, from, number] = [now, this.times[next], 0];
           await this.go(next).catch(() => this.pause());
         }
-        if (next + 1 >= this.times.length) this.pause();
+        if (next + 1 >= this.times.length) {
+          if (!this.loop) return this.pause();
+          // The end stays for a while before it begins anew.
+          if (now - began > 1000) {
+            await this.go(0).catch(() => this.pause());
+            [began, from, number] = [now, this.times[0], 0];
+          }
+        }
       }
       requestAnimationFrame(tick);
     };

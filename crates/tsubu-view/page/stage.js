@@ -15,6 +15,7 @@ export class Stage {
     this.drawn = () => {};
     // Milliseconds that the last picture took outside of the graphics card.
     this.cost = 0;
+    this.drawings = 0;
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
 
@@ -57,6 +58,8 @@ export class Stage {
   drawNow() {
     if (!this.view) return;
     const began = performance.now();
+    // When the first picture was ready to be drawn, in milliseconds since the page was asked for.
+    this.first ??= began;
     const { renderer } = this;
     renderer.setScissorTest(false);
     renderer.clear();
@@ -70,6 +73,7 @@ export class Stage {
       pane.letter(this.view.camera, width, height);
     });
     this.cost = performance.now() - began;
+    this.drawings++;
     this.drawn();
   }
 }

@@ -5,8 +5,8 @@ export function set(theme, stage) {
   const style = getComputedStyle(document.documentElement);
   stage.renderer.setClearColor(style.getPropertyValue("--back").trim());
   const ink = style.getPropertyValue("--ink").trim();
-  for (const { walls, reference } of stage.panes) {
-    for (const material of [walls.line, walls.face, reference.ink]) material.color.set(ink);
+  for (const { walls, reference, outlines } of stage.panes) {
+    for (const material of [walls.line, walls.face, reference.ink, outlines.material]) material.color.set(ink);
   }
   stage.draw();
 }

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use serde_json::{Value, json};
 use tsubu_frame::{Column, Kind, Values};
 
-use crate::folder::Folder;
+use crate::source::Source;
 use crate::{ViewError, moment, page, paint};
 
 /// What goes back.
@@ -21,20 +21,50 @@ pub enum Answer {
 /// Frames that are looked at for the range of a colour over a run.
 const SAMPLES: usize = 8;
 
+/// Frames that are looked at for the curve of a grain.
+const POINTS: usize = 100;
+
+/// Whether something behind the token is asked for that changes what is done, and not only shown.
+pub fn is_command(asked: &str) -> bool {
+    let path = asked.split_once('?').map_or(asked, |(path, _)| path);
+    match path.split('/').collect::<Vec<_>>()[..] {
+        ["run", _, word] => ["pause", "go-on", "stop", "bye"].contains(&word),
+        _ => false,
+    }
+}
+
+/// Does what is asked for.
+pub fn command(sources: &[Source], asked: &str) -> Answer {
+    let (path, query) = asked.split_once('?').unwrap_or((asked, ""));
+    let [_, run, word] = path.split('/').collect::<Vec<_>>()[..] else { return Answer::Nothing };
+    let Some(live) = run.parse().ok().and_then(|run: usize| sources.get(run)?.live()) else { return Answer::Nothing };
+    if word == "bye" {
+        live.page(query, false);
+        return json(&json!("bye"));
+    }
+    if live.command(word) { json(&live.about()) } else { Answer::Nothing }
+}
+
 /// Answers what stands behind the token in an address.
-pub fn answer(folders: &[Folder], asked: &str) -> Answer {
+pub fn answer(sources: &[Source], asked: &str) -> Answer {
     let (path, query) = asked.split_once('?').unwrap_or((asked, ""));
     let parts: Vec<&str> = path.split('/').collect();
     let given = |key: &str| form_urlencoded::parse(query.as_bytes()).find(|(k, _)| k == key).map(|(_, v)| v);
     let colour = given("colour").unwrap_or_default();
-    let of = |number: &str| folders.get(number.parse::<usize>().ok()?);
+    let of = |number: &str| sources.get(number.parse::<usize>().ok()?);
     let done = match parts[..] {
         [""] => return file("index.html"),
         ["page", name] => return file(name),
-        ["runs"] => folders.iter().map(Folder::about).collect::<Result<Vec<_>, _>>().map(|all| json(&all.into())),
+        ["runs"] => sources.iter().map(Source::about).collect::<Result<Vec<_>, _>>().map(|all| json(&all.into())),
         ["run", run, what] => {
             let Some(folder) = of(run) else { return Answer::Nothing };
             match what {
+                "news" => {
+                    if let Some(live) = folder.live() {
+                        live.page(query, true);
+                    }
+                    folder.about().map(|about| json(&about))
+                }
                 "about" => folder.about().map(|about| json(&about)),
                 "history" => {
                     folder.history().map(|found| found.map_or(Answer::Nothing, |text| Answer::Bytes(CSV, text.into())))
@@ -46,13 +76,17 @@ pub fn answer(folders: &[Folder], asked: &str) -> Answer {
         ["run", run, "frame", number] => {
             let (Some(folder), Ok(number)) = (of(run), number.parse()) else { return Answer::Nothing };
             let contacts = given("contacts").is_some_and(|wish| wish == "1");
-            frame(folder, number, &colour, contacts)
+            frame(folder, number, [&colour, &given("arrows").unwrap_or_default()], contacts)
         }
         ["run", run, "frame", number, "grain", row] => {
             let (Some(folder), Ok(number), Ok(row)) = (of(run), number.parse(), row.parse()) else {
                 return Answer::Nothing;
             };
             grain(folder, number, row)
+        }
+        ["run", run, "grain", id] => {
+            let (Some(folder), Ok(id)) = (of(run), id.parse()) else { return Answer::Nothing };
+            curve(folder, id, &colour).map(|curve| json(&json!(curve)))
         }
         _ => return Answer::Nothing,
     };
@@ -69,20 +103,18 @@ fn json(value: &Value) -> Answer {
     Answer::Bytes("application/json", value.to_string().into_bytes().into())
 }
 
-fn frame(folder: &Folder, number: usize, colour: &str, contacts: bool) -> Result<Answer, ViewError> {
+fn frame(folder: &Source, number: usize, [colour, arrows]: [&str; 2], contacts: bool) -> Result<Answer, ViewError> {
     let kinds: &[Kind] = if contacts { &[Kind::Surface, Kind::Contact] } else { &[Kind::Surface] };
     let frame = folder.frame(number, kinds)?;
     Ok(frame.map_or(Answer::Nothing, |frame| {
-        Answer::Bytes("application/octet-stream", moment::packet(&frame, colour).into())
+        Answer::Bytes("application/octet-stream", moment::packet(&frame, colour, arrows).into())
     }))
 }
 
 /// Lowest and highest value of a colour in some frames from first to last.
-fn range(folder: &Folder, colour: &str) -> Result<Option<[f64; 2]>, ViewError> {
-    let count = folder.snapshots()?.len();
-    let step = count.saturating_sub(1).div_ceil(SAMPLES).max(1);
+fn range(folder: &Source, colour: &str) -> Result<Option<[f64; 2]>, ViewError> {
     let mut all: Option<[f64; 2]> = None;
-    for number in (0..count).step_by(step).chain(count.checked_sub(1)) {
+    for (number, _) in some(&folder.moments()?, SAMPLES) {
         let frame = folder.frame(number, &[])?;
         let values = frame.and_then(|frame| paint::values(&frame, colour)).unwrap_or_default();
         if let Some([low, high]) = paint::range(&values) {
@@ -92,8 +124,28 @@ fn range(folder: &Folder, colour: &str) -> Result<Option<[f64; 2]>, ViewError> {
     Ok(all)
 }
 
+/// Some moments from the first to the last.
+fn some(moments: &[(usize, f64)], wanted: usize) -> Vec<(usize, f64)> {
+    let last = moments.len().saturating_sub(1);
+    let step = last.div_ceil(wanted).max(1);
+    moments.iter().enumerate().filter(|(place, _)| place % step == 0 || *place == last).map(|(_, m)| *m).collect()
+}
+
+/// Times [s], and what a grain has in a column at them; nothing at those at which it is not there.
+fn curve(folder: &Source, id: i64, colour: &str) -> Result<[Vec<Option<f64>>; 2], ViewError> {
+    let mut curve = [Vec::new(), Vec::new()];
+    for (number, time) in some(&folder.moments()?, POINTS) {
+        let Some(frame) = folder.frame(number, &[])? else { continue };
+        let row = frame.integers(Kind::Grain, "id").iter().position(|known| *known == id);
+        let value = row.and_then(|row| paint::values(&frame, colour)?.get(row).copied());
+        curve[0].push(Some(time));
+        curve[1].push(value.filter(|value| value.is_finite()));
+    }
+    Ok(curve)
+}
+
 /// All columns of one grain: names, units, numbers.
-fn grain(folder: &Folder, number: usize, row: usize) -> Result<Answer, ViewError> {
+fn grain(folder: &Source, number: usize, row: usize) -> Result<Answer, ViewError> {
     let Some(frame) = folder.frame(number, &[])? else { return Ok(Answer::Nothing) };
     if row >= frame.rows(Kind::Grain) {
         return Ok(Answer::Nothing);

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use tsubu_frame::{FileError, Frame, Kind, Snapshot, Summary, snapshots, vtp, vtp_read};
 
 use crate::ViewError;
+use crate::embedded::groups;
 
 /// A run folder.
 pub struct Folder {
@@ -37,6 +38,8 @@ impl Folder {
     pub fn about(&self) -> Result<Value, ViewError> {
         let times: Vec<f64> = self.snapshots()?.iter().map(|snapshot| snapshot.time).collect();
         let summary = self.existing("summary.json")?.map(|path| Summary::read(&path)).transpose()?;
+        let verdict = self.existing("check.txt")?.map(|path| fs::read_to_string(&path).map_err(FileError::read(&path)));
+        let stages = summary.iter().flat_map(|summary| &summary.stages);
         Ok(json!({
             "name": self.name,
             "times": times,
@@ -44,7 +47,16 @@ impl Folder {
             "dimension": summary.as_ref().map(|summary| summary.dimension),
             "method": summary.as_ref().map(|summary| summary.method.clone()),
             "claims": summary.as_ref().map(|summary| &summary.claims),
+            "stages": stages.map(|stage| &stage.name).collect::<Vec<_>>(),
+            "groups": self.groups()?,
+            "verdict": verdict.transpose()?.unwrap_or_default(),
         }))
+    }
+
+    /// Names of the groups of grains, by the scene that was run; none where it cannot be told.
+    fn groups(&self) -> Result<Vec<String>, ViewError> {
+        let Some(path) = self.existing("scene.toml")? else { return Ok(Vec::new()) };
+        Ok(groups(&fs::read_to_string(&path).map_err(FileError::read(&path))?))
     }
 
     /// The table of the history; nothing if there is none.

@@ -5,9 +5,11 @@
 
 use axum::http::{HeaderMap, Method, Uri};
 
+use crate::answer::is_command;
 use crate::token;
 
-/// What stands behind the token in the address, for those who are let in.
+/// What stands behind the token in the address, for those who are let in. What changes what is done must be posted, which no address
+/// that somebody follows can do.
 pub fn admitted<'a>(method: &Method, uri: &'a Uri, headers: &HeaderMap, token: &str, port: u16) -> Option<&'a str> {
     let ours = [format!("127.0.0.1:{port}"), format!("localhost:{port}")];
     let named = |host: &str| ours.iter().any(|name| name.eq_ignore_ascii_case(host));
@@ -17,5 +19,6 @@ pub fn admitted<'a>(method: &Method, uri: &'a Uri, headers: &HeaderMap, token: &
     let origin = origins.iter().all(|origin| origin.strip_prefix("http://").is_some_and(named));
     let asked = uri.path_and_query()?.as_str();
     let (word, rest) = asked.strip_prefix('/')?.split_once('/')?;
-    (*method == Method::GET && host && origin && token::same(word, token)).then_some(rest)
+    let wanted = if is_command(rest) { Method::POST } else { Method::GET };
+    (*method == wanted && host && origin && token::same(word, token)).then_some(rest)
 }

@@ -2,33 +2,65 @@
 
 use std::collections::HashMap;
 
+#[cfg(feature = "server")]
 use serde_json::json;
 use tsubu_frame::{Frame, Kind};
 
+#[cfg(feature = "server")]
 use crate::packet::Packet;
+#[cfg(feature = "server")]
 use crate::paint::{Paint, paints, range, values};
 
-/// A frame in bytes, grains coloured by `colour`.
-pub fn packet(frame: &Frame, colour: &str) -> Vec<u8> {
-    let position = frame.vectors(Kind::Grain, "position");
+/// A frame in bytes, grains coloured by `colour`, with the vectors of the column `arrows` if it has them.
+#[cfg(feature = "server")]
+pub fn packet(frame: &Frame, colour: &str, arrows: &str) -> Vec<u8> {
     let shown = values(frame, colour).unwrap_or_default();
     let mut packet = Packet::default();
-    packet.vectors("position", position);
-    packet.reals("radius", radii(frame));
+    for (name, _, numbers) in self::arrays(frame, true) {
+        if WHOLE.contains(&name) {
+            packet.integers(name, numbers.into_iter().map(|x| x as i64));
+        } else {
+            packet.reals(name, numbers);
+        }
+    }
     packet.reals("colour", shown.iter().copied());
-    packet.integers("group", frame.integers(Kind::Grain, "group").iter().copied());
-    packet.integers("id", frame.integers(Kind::Grain, "id").iter().copied());
-    add_walls(frame, &mut packet);
-    add_contacts(frame, &mut packet);
+    packet.reals("arrows", frame.vectors(Kind::Grain, arrows).as_flattened().iter().copied());
     let columns = paints(frame).into_iter().map(|Paint { name, unit }| json!({ "name": name, "unit": unit }));
     packet.seal(json!({
         "time": frame.time,
         "step": frame.step,
-        "grains": position.len(),
+        "grains": frame.vectors(Kind::Grain, "position").len(),
         "columns": columns.collect::<Vec<_>>(),
         "range": range(&shown),
         "cell": frame.periodic(),
     }))
+}
+
+/// Grains whose outlines are drawn.
+const OUTLINED: usize = 20_000;
+
+/// The arrays of whole numbers.
+#[cfg(feature = "server")]
+const WHOLE: [&str; 2] = ["group", "id"];
+
+/// What is drawn of a frame: names, numbers a row (3 for vectors), and the numbers. Contacts are left out unless `bonds`.
+pub fn arrays(frame: &Frame, bonds: bool) -> Vec<(&'static str, usize, Vec<f64>)> {
+    let flat = |vectors: &[[f64; 3]]| vectors.as_flattened().to_vec();
+    let whole = |name| frame.integers(Kind::Grain, name).iter().map(|x| *x as f64).collect::<Vec<_>>();
+    let mut arrays = vec![
+        ("position", 3, flat(frame.vectors(Kind::Grain, "position"))),
+        ("radius", 1, radii(frame)),
+        ("group", 1, whole("group")),
+        ("id", 1, whole("id")),
+    ];
+    let [lines, triangles] = walls(frame);
+    arrays.extend([("lines", 3, flat(&lines)), ("triangles", 3, flat(&triangles))]);
+    arrays.push(("outlines", 3, flat(&outlines(frame))));
+    if bonds {
+        let (ends, forces) = contacts(frame);
+        arrays.extend([("bonds", 3, flat(&ends)), ("forces", 1, forces)]);
+    }
+    arrays
 }
 
 /// Radii of grains; those without one are drawn small against all that is there.
@@ -43,7 +75,7 @@ fn radii(frame: &Frame) -> Vec<f64> {
 }
 
 /// Walls: pairs of points of lines, and corners of triangles.
-fn add_walls(frame: &Frame, packet: &mut Packet) {
+fn walls(frame: &Frame) -> [Vec<[f64; 3]>; 2] {
     let corners = frame.vectors(Kind::Surface, "position");
     let faces = frame.integers(Kind::Surface, "face");
     let (mut lines, mut triangles) = (Vec::new(), Vec::new());
@@ -54,24 +86,44 @@ fn add_walls(frame: &Frame, packet: &mut Packet) {
         start += outline.len();
         match around {
             [first, rest @ ..] if solid => {
-                rest.windows(2).for_each(|pair| triangles.extend([first, &pair[0], &pair[1]]));
+                rest.windows(2).for_each(|pair| triangles.extend([*first, pair[0], pair[1]]));
             }
             [first, .., last] => {
                 around.windows(2).for_each(|pair| lines.extend(pair));
                 if around.len() > 2 {
-                    lines.extend([last, first]);
+                    lines.extend([*last, *first]);
                 }
             }
             _ => {}
         }
     }
-    packet.vectors("lines", lines);
-    packet.vectors("triangles", triangles);
+    [lines, triangles]
+}
+
+/// Grains with outlines: pairs of points of lines. Of more than [`OUTLINED`] none: a line round each would hide what it goes round.
+fn outlines(frame: &Frame) -> Vec<[f64; 3]> {
+    let shapes = frame.integers(Kind::Grain, "shape");
+    let corners = frame.vectors(Kind::Global, "corner");
+    if shapes.len() > OUTLINED || corners.is_empty() {
+        return Vec::new();
+    }
+    let mut round: HashMap<i64, Vec<[f64; 3]>> = HashMap::new();
+    for (shape, corner) in frame.integers(Kind::Global, "shape of corner").iter().zip(corners) {
+        round.entry(*shape).or_default().push(*corner);
+    }
+    let at = |centre: &[f64; 3], corner: &[f64; 3]| [0, 1, 2].map(|axis| centre[axis] + corner[axis]);
+    let grains = frame.vectors(Kind::Grain, "position").iter().zip(shapes);
+    let line = |(centre, shape): (&[f64; 3], &i64)| {
+        let corners = round.get(shape).map_or(&[][..], Vec::as_slice);
+        let next = corners.iter().cycle().skip(1);
+        corners.iter().zip(next).flat_map(|(a, b)| [at(centre, a), at(centre, b)]).collect::<Vec<_>>()
+    };
+    grains.flat_map(line).collect()
 }
 
 /// Contacts: two points and a force [N] each. A bond goes from middle to middle, or as far as the contact, where that is with a wall or
 /// across a periodic end.
-fn add_contacts(frame: &Frame, packet: &mut Packet) {
+fn contacts(frame: &Frame) -> (Vec<[f64; 3]>, Vec<f64>) {
     let (place, force) = (frame.vectors(Kind::Contact, "position"), frame.vectors(Kind::Contact, "force"));
     let ends = ["first", "second"].map(|name| frame.integers(Kind::Contact, name));
     let (id, centre) = (frame.integers(Kind::Grain, "id"), frame.vectors(Kind::Grain, "position"));
@@ -82,11 +134,10 @@ fn add_contacts(frame: &Frame, packet: &mut Packet) {
         for end in ends {
             let row = end.get(contact).and_then(|id| rows.get(id)).filter(|row| **row < centre.len());
             let near = row.filter(|row| distance(&centre[**row], at) < 1.5 * radius[**row]);
-            bonds.push(near.map_or(at, |row| &centre[*row]));
+            bonds.push(near.map_or(*at, |row| centre[*row]));
         }
     }
-    packet.vectors("bonds", bonds);
-    packet.reals("forces", force.iter().map(|f| f.iter().map(|c| c * c).sum::<f64>().sqrt()));
+    (bonds, force.iter().map(|f| f.iter().map(|c| c * c).sum::<f64>().sqrt()).collect())
 }
 
 fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {

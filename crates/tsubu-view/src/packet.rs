@@ -18,11 +18,6 @@ impl Packet {
         self.add(name, "f32", values.into_iter().map(|x| (x as f32).to_le_bytes()));
     }
 
-    /// Adds the components of vectors.
-    pub fn vectors<'a>(&mut self, name: &str, values: impl IntoIterator<Item = &'a [f64; 3]>) {
-        self.reals(name, values.into_iter().flatten().copied());
-    }
-
     /// Adds whole numbers.
     pub fn integers(&mut self, name: &str, values: impl IntoIterator<Item = i64>) {
         self.add(name, "i32", values.into_iter().map(|x| (x as i32).to_le_bytes()));

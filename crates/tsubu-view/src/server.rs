@@ -13,8 +13,10 @@ use axum::response::{IntoResponse, Response};
 use tokio::runtime::{Builder, Runtime};
 
 use crate::ViewError;
-use crate::answer::{Answer, answer};
+use crate::answer::{Answer, answer, command, is_command};
 use crate::folder::Folder;
+use crate::live::Live;
+use crate::source::Source;
 use crate::{guard, token};
 
 /// Requests that are worked on at the same time, each with one frame in memory at most.
@@ -38,7 +40,7 @@ const HEADERS: [(&str, &str); 6] = [
 
 const PLAIN: &str = "text/plain; charset=utf-8";
 
-/// A server of some run folders.
+/// A server of some runs.
 pub struct Server {
     runtime: Runtime,
     listener: TcpListener,
@@ -49,20 +51,29 @@ pub struct Server {
 struct Room {
     port: u16,
     token: String,
-    folders: Vec<Folder>,
+    sources: Vec<Source>,
 }
 
 impl Server {
     /// Opens the folders, and listens on a port of loopback; on any free one for 0.
     pub fn bind(folders: &[PathBuf], port: u16) -> Result<Self, ViewError> {
-        let folders = folders.iter().map(|path| Folder::open(path)).collect::<Result<_, _>>()?;
+        let open = |path: &PathBuf| Folder::open(path).map(Source::Folder);
+        Self::of(folders.iter().map(open).collect::<Result<_, _>>()?, port)
+    }
+
+    /// A server of a run that goes on in this program.
+    pub fn of_live(live: Arc<Live>, port: u16) -> Result<Self, ViewError> {
+        Self::of(vec![Source::Live(live)], port)
+    }
+
+    fn of(sources: Vec<Source>, port: u16) -> Result<Self, ViewError> {
         let token = token::draw()?;
         let refused = |source: io::Error| ViewError::Port { port, source };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(refused)?;
         listener.set_nonblocking(true).map_err(refused)?;
         let port = listener.local_addr().map_err(refused)?.port();
         let runtime = Builder::new_current_thread().enable_all().max_blocking_threads(THREADS).build();
-        let room = Arc::new(Room { port, token, folders });
+        let room = Arc::new(Room { port, token, sources });
         Ok(Self { runtime: runtime.map_err(refused)?, listener, room })
     }
 
@@ -95,7 +106,8 @@ async fn respond(room: Arc<Room>, request: Request<Body>) -> Response {
         return reply(StatusCode::FORBIDDEN, PLAIN, "refused: open the address that tsubu view printed\n".into());
     };
     let asked = asked.to_owned();
-    let answered = tokio::task::spawn_blocking(move || answer(&room.folders, &asked)).await;
+    let work = if is_command(&asked) { command } else { answer };
+    let answered = tokio::task::spawn_blocking(move || work(&room.sources, &asked)).await;
     match answered.unwrap_or_else(|_| Answer::Broken("the server could not answer".to_owned())) {
         Answer::Bytes(kind, bytes) => reply(StatusCode::OK, kind, bytes.into()),
         Answer::Nothing => reply(StatusCode::NOT_FOUND, PLAIN, "there is no such thing\n".into()),

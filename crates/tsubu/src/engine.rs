@@ -249,6 +249,11 @@ pub trait Engine: Send {
     /// The answer of this moment.
     fn frame(&self, hosts: &Hosts) -> Frame;
 
+    /// The same without the list of contacts, where that costs less.
+    fn glimpse(&self, hosts: &Hosts) -> Frame {
+        self.frame(hosts)
+    }
+
     /// What it can show to those who look on.
     fn offers(&self) -> Wants;
 

@@ -2,6 +2,7 @@
 
 mod error;
 mod measured;
+mod onlooker;
 mod resume;
 mod simulation;
 mod stages;
@@ -10,6 +11,7 @@ mod steady;
 mod told;
 
 pub use error::RunError;
+pub use onlooker::{Onlooker, Wish};
 pub use simulation::Simulation;
 
 use crate::engine::{self, Engine};
@@ -34,6 +36,17 @@ pub fn run(scene: &Scene, folder: &Path, existing: Existing, watcher: &Watcher) 
     run_with(scene, folder, existing, true, watcher)
 }
 
+/// The same, with somebody who looks on. The run is the same to the last bit.
+pub fn run_seen(
+    scene: &Scene,
+    folder: &Path,
+    existing: Existing,
+    watcher: &Watcher,
+    onlooker: &dyn Onlooker,
+) -> Result<Summary, RunError> {
+    work(scene, folder, existing, true, watcher, Some(onlooker))
+}
+
 /// The same. One of many runs (`alone` false) keeps no checkpoint of its end, and does not wait for the disk there: after a power cut
 /// it is done again.
 pub(crate) fn run_with(
@@ -42,6 +55,17 @@ pub(crate) fn run_with(
     existing: Existing,
     alone: bool,
     watcher: &Watcher,
+) -> Result<Summary, RunError> {
+    work(scene, folder, existing, alone, watcher, None)
+}
+
+fn work(
+    scene: &Scene,
+    folder: &Path,
+    existing: Existing,
+    alone: bool,
+    watcher: &Watcher,
+    onlooker: Option<&dyn Onlooker>,
 ) -> Result<Summary, RunError> {
     let resumed = existing == Existing::Resume;
     let scene = &if resumed { resume::scene(scene, folder) } else { scene.clone() };
@@ -63,6 +87,8 @@ pub(crate) fn run_with(
         first: engine.steps(),
         hosts,
         engine,
+        onlooker,
+        idle: Duration::ZERO,
     };
     // From here on there is something to lose.
     let _held = watcher.interrupt.hold();
@@ -135,6 +161,9 @@ struct Run<'a> {
     stages: Stages<'a>,
     /// The step it begins with.
     first: u64,
+    onlooker: Option<&'a dyn Onlooker>,
+    /// How long it has stood still because an onlooker wished so.
+    idle: Duration,
 }
 
 /// What grows as the run goes.
@@ -181,6 +210,7 @@ impl Run<'_> {
         let clock = |interval: f64| Trigger::each(interval, self.engine.time_step()).beginning(begin);
         let (rows, saves) = (clock(output.history_interval), clock(output.checkpoint_interval));
         let pictures = output.frame_interval.map(clock);
+        self.tell_stage();
         if self.engine.steps() == self.first {
             self.watches.look(&*self.engine)?;
             out.history.append(&self.row())?;
@@ -219,6 +249,9 @@ impl Run<'_> {
             if target == next_picture {
                 out.frames.write(&self.engine.frame(&self.hosts))?;
             }
+            let share = (target - begin) as f64 / (last - begin).max(1) as f64;
+            let share = self.stages.share_done(share);
+            self.be_seen(share, target == last, watcher.interrupt);
             let stop = watcher.interrupt.asked();
             let due = target == next_save && saved.elapsed() >= BETWEEN_CHECKPOINTS;
             let end = target == last && self.stages.is_last();
@@ -226,8 +259,7 @@ impl Run<'_> {
                 self.save(folder, out)?;
                 saved = Instant::now();
             }
-            let share = (target - begin) as f64 / (last - begin).max(1) as f64;
-            (watcher.progress)(self.stages.share_done(share));
+            (watcher.progress)(share);
             if stop && !end {
                 let summary = self.summary(Status::Interrupted);
                 Self::end(folder, &summary)?;
@@ -302,7 +334,11 @@ impl Run<'_> {
         let seen = self.seen(&energies);
         self.measured.take(&self.hosts, self.engine.contacts(), seen);
         self.stages.steady.take(self.engine.time() - self.engine.stage_begin().1, &self.hosts);
-        self.in_columns(row)
+        let row = self.in_columns(row);
+        if let Some(onlooker) = self.onlooker {
+            onlooker.row(&self.stages.columns, &row);
+        }
+        row
     }
 
     /// What every scene has to tell of itself, in the order of [`SEEN`].
@@ -336,7 +372,7 @@ impl Run<'_> {
     }
 
     fn wall_seconds(&self) -> f64 {
-        self.wall_before + self.started.elapsed().as_secs_f64()
+        self.wall_before + self.started.elapsed().saturating_sub(self.idle).as_secs_f64()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::claims;
 use crate::failure::Failure;
+use crate::looked_at::{LookedAt, PageOptions};
 use crate::options::{FolderOptions, SceneOptions, WorkOptions};
 use crate::session::{Session, judge, resume};
 use crate::stream::Stream;
@@ -20,6 +21,7 @@ Examples:
   tsubu run damper.toml                                     into out/damper
   tsubu run damper.toml -o few --set particles.balls.count=10
   tsubu run damper.toml --resume                            go on after Ctrl-C or a power cut
+  tsubu run damper.toml --view                              look at it in the browser as it goes on
 
 The folder holds scene.toml (as run, with every default), summary.json, history.csv,
 frames/ (for ParaView) and checkpoint/. `tsubu report DIR` makes figures and a page of it.")]
@@ -31,17 +33,62 @@ pub struct Options {
     /// Go on from the checkpoint in the folder
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
+    /// Look at it in the browser while it goes on: pause it, go on, stop it
+    #[arg(long)]
+    view: bool,
+    #[command(flatten)]
+    page: PageOptions,
     #[command(flatten)]
     work: WorkOptions,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
-    let session = Session::begin("run", "", &options.scene, &options.folder, &options.work)?;
-    let Session { scene, folder, .. } = &session;
-    let existing = if options.resume { Existing::Resume } else { options.folder.existing() };
+    let Options { scene, folder, resume, view, page, work } = options;
+    if !view && (page.port != 0 || page.no_open) {
+        return Err(Failure::wrong("`--port` and `--no-open` are of the page: add `--view`"));
+    }
+    let existing = if *resume { Existing::Resume } else { folder.existing() };
+    let session = Session::begin("run", "", scene, folder, work)?;
+    if *view { run_shown(&session, existing, *page) } else { run_alone(&session, existing) }
+}
+
+/// Said where a run is asked to stop that has not begun.
+const NOT_BEGUN: &str = "interrupted before time 0; nothing was computed";
+
+fn run_alone(session: &Session, existing: Existing) -> Result<(), Failure> {
+    let Session { scene, folder, .. } = session;
     let work = |watcher: &Watcher| alone(|| tsubu::run::run(scene, folder, existing, watcher));
-    let (done, _) = session.work("interrupted before time 0; nothing was computed", work);
+    let (done, _) = session.work(NOT_BEGUN, work);
     let summary = done.map_err(|error| Failure::of_scene(&error, scene, folder))?;
+    ended(session, &summary)
+}
+
+/// A run that a page shows.
+pub fn run_shown(session: &Session, existing: Existing, page: PageOptions) -> Result<(), Failure> {
+    let Session { scene, folder, .. } = session;
+    let seen = LookedAt::begin(folder.display().to_string(), scene.plan(), page)?;
+    let work = |watcher: &Watcher| alone(|| tsubu::run::run_seen(scene, folder, existing, watcher, &seen));
+    let (done, _) = session.work(NOT_BEGUN, work);
+    match done {
+        Err(error) => {
+            seen.end(None, error.to_string());
+            Err(Failure::of_scene(&error, scene, folder))
+        }
+        Ok(summary) => {
+            let end = ended(session, &summary);
+            let told = match summary.status {
+                Status::Interrupted => resume(),
+                _ => format!("results in {}", folder.display()),
+            };
+            seen.end(Some(summary), told);
+            end
+        }
+    }
+}
+
+/// How the command ends with a run that came to some end.
+fn ended(session: &Session, summary: &Summary) -> Result<(), Failure> {
+    let Session { scene, folder, .. } = session;
     if summary.status == Status::Interrupted {
         let message = format!(
             "interrupted at t = {} s, step {}; the checkpoint is in {}",
@@ -58,7 +105,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         });
         written.map_err(|error| Failure::of_file(&error, folder))?;
     }
-    session.show(&told(&scene.plan().title, &summary), None)?;
+    session.show(&told(&scene.plan().title, summary), None)?;
     judge(&summary.claims)
 }
 

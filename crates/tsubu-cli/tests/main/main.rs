@@ -14,6 +14,7 @@ mod companions;
 mod folder;
 /// Signals, locks, and intervals that would never end.
 mod interrupts;
+mod live;
 /// What is said when something is wrong.
 mod messages;
 /// The table of what works.

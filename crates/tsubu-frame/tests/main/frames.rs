@@ -198,3 +198,23 @@ fn vtk_reads_every_snapshot() {
     assert!(said.contains("walls: 3 files, 27 points, 9 cells"), "{said}");
     assert!(said.contains("velocity [m/s]"), "{said}");
 }
+
+/// The unit of the time in the file of the walls was taken for that of the last column of the grains: positions were in seconds.
+#[test]
+fn units_stay_with_their_columns() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut frame = Frame { time: 0.5, ..Frame::default() };
+    frame.vector(Kind::Grain, "velocity", "m/s", vec![[0.0; 3]]);
+    frame.vector(Kind::Grain, "position", "m", vec![[0.0; 3]]);
+    frame.integer(Kind::Surface, "outline", "-", vec![0, 0]);
+    frame.vector(Kind::Surface, "position", "m", vec![[0.0; 3], [1.0; 3]]);
+    let mut writer = FrameWriter::create(folder.path(), Formats::default());
+    writer.write(&frame).unwrap();
+    writer.flush().unwrap();
+    let read = read_frame(&snapshots(folder.path()).unwrap()[0].path).unwrap();
+    for (kind, name, unit) in
+        [(Kind::Grain, "velocity", "m/s"), (Kind::Grain, "position", "m"), (Kind::Surface, "position", "m")]
+    {
+        assert_eq!(read.column(kind, name).map(|column| column.unit), Some(unit), "{name}");
+    }
+}

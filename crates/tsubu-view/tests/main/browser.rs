@@ -115,7 +115,7 @@ fn a_picture_is_a_png_with_the_grains_in_it() {
     let Some(mut page) = Page::ready(&served.address) else { return };
     let size = page.value(
         "import(new URL('page/screenshot.js', location.href).href)
-            .then(({ picture }) => picture(tsubu.stage, { title: 't', ends: ['1'], now: 'n' }))
+            .then(({ picture }) => picture(tsubu.stage, { title: 't', ends: [{ text: '1' }], now: 'n' }))
             .then(async (blob) => [blob.type, blob.size, (await createImageBitmap(blob)).width === tsubu.stage.canvas.width])",
     );
     assert_eq!((size[0].as_str(), size[2].as_bool()), (Some("image/png"), Some(true)));

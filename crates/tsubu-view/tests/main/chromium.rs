@@ -12,11 +12,12 @@ use tungstenite::{Message, WebSocket};
 
 const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
-const OPTIONS: [&str; 8] = [
+const OPTIONS: [&str; 9] = [
     "--headless",
     "--no-sandbox",
     "--no-first-run",
     "--disable-dev-shm-usage",
+    "--disable-background-networking",
     "--use-gl=angle",
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
@@ -36,8 +37,20 @@ pub struct Page {
 }
 
 impl Page {
-    /// Opens an address in a window of 900 by 600; nothing where there is no browser, which is said.
+    /// Opens an address; nothing where there is no browser, which is said.
     pub fn open(address: &str) -> Option<Self> {
+        let mut page = Self::blank()?;
+        page.go(address);
+        Some(page)
+    }
+
+    /// Goes to an address.
+    pub fn go(&mut self, address: &str) {
+        self.call("Page.navigate", &json!({ "url": address }));
+    }
+
+    /// A window of 900 by 600 without anything in it; nothing where there is no browser, which is said.
+    pub fn blank() -> Option<Self> {
         let profile = tempfile::tempdir().expect("a folder");
         let start = |name: &&str| {
             let profile = format!("--user-data-dir={}", profile.path().display());
@@ -56,8 +69,20 @@ impl Page {
         page.session = page.call("Target.attachToTarget", &attached)["sessionId"].as_str().map(str::to_owned);
         let window = json!({ "width": 900, "height": 600, "deviceScaleFactor": 1, "mobile": false });
         page.call("Emulation.setDeviceMetricsOverride", &window);
-        page.call("Page.navigate", &json!({ "url": address }));
         Some(page)
+    }
+
+    /// Asks for motion to be reduced, as a system does, and opens the address again.
+    pub fn stilled(&mut self, address: &str) {
+        let feature = json!({ "features": [{ "name": "prefers-reduced-motion", "value": "reduce" }] });
+        self.call("Emulation.setEmulatedMedia", &feature);
+        self.go(address);
+    }
+
+    /// Makes the window a phone's.
+    pub fn narrow(&mut self) {
+        let window = json!({ "width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": true });
+        self.call("Emulation.setDeviceMetricsOverride", &window);
     }
 
     /// Opens the page of a server, and waits until it shows a frame.

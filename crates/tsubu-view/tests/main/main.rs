@@ -2,5 +2,9 @@
 
 mod browser;
 mod chromium;
+mod embedded;
+mod large;
+mod live;
+mod looks;
 mod server;
 mod support;

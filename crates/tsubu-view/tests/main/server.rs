@@ -32,13 +32,13 @@ fn whoever_knows_the_address_is_given_the_page_and_the_frames() {
     for (name, length, first) in [
         ("position", 6, -1.0_f32),
         ("radius", 2, 0.5),
-        ("colour", 2, 0.0),
         ("group", 2, 0.0),
         ("id", 2, f32::from_bits(7)),
         ("lines", 24, -2.0),
         ("triangles", 0, 0.0),
         ("bonds", 12, -1.0),
         ("forces", 2, 5.0),
+        ("colour", 2, 0.0),
     ] {
         let place = head["arrays"].as_array().and_then(|all| all.iter().find(|array| array["name"] == name));
         assert_eq!(place.and_then(|array| array["length"].as_u64()), Some(length), "{name}");

@@ -10,7 +10,7 @@ use std::thread::JoinHandle;
 use tempfile::TempDir;
 use tsubu_frame::series::{Formats, FrameWriter};
 use tsubu_frame::{Frame, Kind};
-use tsubu_view::Server;
+use tsubu_view::{Live, Server};
 
 /// Two grains in a frame: one at rest at the left, one at the right that rises and whose speed grows.
 pub fn frame(number: u32) -> Frame {
@@ -68,7 +68,14 @@ pub struct Served {
 impl Served {
     pub fn of(folders: &[&Path]) -> Self {
         let folders: Vec<PathBuf> = folders.iter().map(|path| path.to_path_buf()).collect();
-        let server = Server::bind(&folders, 0).expect("served");
+        Self::by(Server::bind(&folders, 0).expect("served"))
+    }
+
+    pub fn of_live(live: Arc<Live>) -> Self {
+        Self::by(Server::of_live(live, 0).expect("served"))
+    }
+
+    fn by(server: Server) -> Self {
         let address = server.address();
         let (host, token) = address["http://".len()..].split_once('/').expect("a path");
         let port = host.rsplit_once(':').and_then(|(_, port)| port.parse().ok()).expect("a port");

@@ -301,7 +301,11 @@ impl Engine for DemEngine {
     }
 
     fn frame(&self, _hosts: &Hosts) -> Frame {
-        self.picture()
+        self.picture(true)
+    }
+
+    fn glimpse(&self, _hosts: &Hosts) -> Frame {
+        self.picture(false)
     }
 
     fn offers(&self) -> Wants {

@@ -12,8 +12,8 @@ use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, Kind, State};
 
 impl DemEngine {
-    /// Grains in the order of their ids, contacts, and the walls.
-    pub(super) fn picture(&self) -> Frame {
+    /// Grains in the order of their ids, and the walls; with `told` the contacts too.
+    pub(super) fn picture(&self, told: bool) -> Frame {
         let order = self.grains.by_id();
         let vectors = |column: &[DVec3]| order.iter().map(|&i| column[i].to_array()).collect::<Vec<_>>();
         let scalars = |column: &[f64]| order.iter().map(|&i| column[i]).collect::<Vec<_>>();
@@ -26,7 +26,7 @@ impl DemEngine {
         frame.vector(Kind::Grain, "spin", "rad/s", vectors(&self.grains.spin));
         frame.scalar(Kind::Grain, "radius", "m", scalars(&self.grains.radius));
         frame.scalar(Kind::Grain, "mass", "kg", scalars(&self.grains.mass));
-        let contacts = self.contact_list();
+        let contacts = if told || self.immersion.is_some() { self.contact_list() } else { Vec::new() };
         let force = self.contact_forces(&contacts);
         let turned: Option<Vec<_>> = order.iter().map(|&i| self.orientation.of(self.grains.id[i])).collect();
         if let Some(turned) = turned {
@@ -36,6 +36,14 @@ impl DemEngine {
         if self.immersion.is_some() {
             frame.vector(Kind::Grain, "water force", "N", vectors(&self.water_forces(&force)));
         }
+        if told {
+            self.list_contacts(&contacts, &mut frame);
+        }
+        self.draw_walls(&mut frame);
+        frame
+    }
+
+    fn list_contacts(&self, contacts: &[Contact], frame: &mut Frame) {
         let id = |i: usize| i64::from(self.grains.id[i]);
         // A wall is told as -1 less its number.
         let second = |c: &Contact| if c.wall { -1 - c.second as i64 } else { id(c.second) };
@@ -45,8 +53,6 @@ impl DemEngine {
         frame.vector(Kind::Contact, "force", "N", contacts.iter().map(|c| c.force.to_array()).collect());
         frame.vector(Kind::Contact, "normal", "-", contacts.iter().map(|c| c.normal.to_array()).collect());
         frame.scalar(Kind::Contact, "overlap", "m", contacts.iter().map(|c| c.overlap).collect());
-        self.draw_walls(&mut frame);
-        frame
     }
 
     /// What contacts do to every grain [N]. In water the acceleration does not tell, so the contacts are summed.

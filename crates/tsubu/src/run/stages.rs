@@ -62,6 +62,11 @@ impl<'a> Stages<'a> {
         stages
     }
 
+    /// The number of the present stage.
+    pub(super) fn at(&self) -> usize {
+        self.at
+    }
+
     pub(super) fn is_last(&self) -> bool {
         self.at + 1 == self.plans.len()
     }
