@@ -111,7 +111,7 @@ def main():
         for _ in range(chosen.rounds):
             for count in lengths:
                 short = bed.copy().set("start-from", f"{folder}/bed")
-                short.set("duration", chosen.settle + count * time_step)
+                short.set("duration", count * time_step)
                 work = lambda: short.run(f"{folder}/run", progress=False, overwrite=True, threads=1)
                 lengths[count] = np.minimum(lengths[count], measured(work))
         run = (lengths[50 + 2 * steps] - lengths[50]) / 2
