@@ -107,15 +107,14 @@ def main():
         # A run writes and opens as well: two lengths of it, and the difference.
         time_step = ways["at once"][0].time_step
         touching = ways["at once"][0].touching
-        run = np.full(2, np.inf)
+        lengths = {50: np.full(2, np.inf), 50 + 2 * steps: np.full(2, np.inf)}
         for _ in range(chosen.rounds):
-            lengths = []
-            for count in (50, 50 + steps):
+            for count in lengths:
                 short = bed.copy().set("start-from", f"{folder}/bed")
-                short.set("duration", chosen.settle + count * time_step)
+                short.set("duration", count * time_step)
                 work = lambda: short.run(f"{folder}/run", progress=False, overwrite=True, threads=1)
-                lengths.append(measured(work))
-            run = np.minimum(run, lengths[1] - lengths[0])
+                lengths[count] = np.minimum(lengths[count], measured(work))
+        run = (lengths[50 + 2 * steps] - lengths[50]) / 2
     print(f"{GRAINS} grains, {touching} touching pairs, {steps} steps, least of {chosen.rounds} rounds, one thread")
     print(f"Python {platform.python_version()}, NumPy {np.__version__}, {platform.machine()}")
     base = times["at once"]

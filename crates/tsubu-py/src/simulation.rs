@@ -14,6 +14,7 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
+use tsubu::engine::OpenError;
 use tsubu::ledger::Account;
 use tsubu::run::{RunError, Simulation as Opened};
 use tsubu::view::Wants;
@@ -167,7 +168,7 @@ impl Simulation {
             let done = py.detach(|| pool.install(|| opened.advance(block)));
             if let Err(fault) = done {
                 core.failed = true;
-                return Err(failed(py, &fault.into(), core.opened.scene(), Path::new(".")));
+                return Err(error::of(py, &Failure::from(&OpenError::Running(fault))));
             }
             if let Some(raised) = self.raised.lock().unwrap_or_else(PoisonError::into_inner).take() {
                 return Err(raised);
