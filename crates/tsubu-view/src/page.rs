@@ -9,7 +9,7 @@ pub fn file(name: &str) -> Option<(&'static str, &'static [u8])> {
 pub fn modules(carried: bool) -> impl Iterator<Item = (&'static str, &'static str)> {
     let kept = move |name: &str| !carried || !["server.js", "packet.js", "begin.js"].contains(&name);
     let named = move |name| if carried && name == "embedded.js" { "server.js" } else { name };
-    let scripts = FILES.iter().filter(move |(name, _)| name.ends_with(".js") && kept(name));
+    let scripts = FILES.iter().filter(move |(name, _)| kind(name).starts_with("text/javascript") && kept(name));
     scripts.filter_map(move |(name, bytes)| Some((named(name), std::str::from_utf8(bytes).ok()?)))
 }
 
