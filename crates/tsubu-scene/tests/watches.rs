@@ -201,3 +201,26 @@ fn groups_and_directions_that_are_missing() {
         "[watch.a]\nsegregation.cell = 1\n[watch.b]\nsegregation = { cell = 1, groups = [\"balls\"] }\n[watch.c]\nwall-load = { wall = \"box\", area = 1 }\n[watch.d]\nwall-load = { wall = \"box\", direction = \"x\" }\n[watch.e]\nprofile.axis = \"y\""
     ));
 }
+
+/// What cannot be mixed, sorted or stayed in is refused, with the place and what to do.
+#[test]
+fn mixing_residence_and_sizes_are_refused_where_they_mean_nothing() {
+    for (watch, said) in [
+        ("discharge.sizes = [\"2 mm\", \"1 mm\"]", "`sizes` needs diameters that rise"),
+        ("discharge.sizes = []", "`sizes` needs diameters that rise"),
+        ("discharge.sizes = [\"2 kg\"]", "kg"),
+        ("discharge.sizes = [0]", "0"),
+        ("mixing = { cell = 1, groups = [\"balls\"] }", "mixing is of two groups or more"),
+        ("mixing = { cell = 1, groups = [\"balls\", \"balls\"] }", "\"balls\" twice"),
+        ("mixing = { cell = 1, groups = [\"balls\", \"sand\"] }", "sand"),
+        ("mixing.cell = 0", "0"),
+        ("mixing.cell = 1", "has nothing to mix"),
+        ("mixing = {}", "cell"),
+        ("residence.region = { low = [0, 0], high = [0, 0] }", "region"),
+        ("residence = { region = { low = [0, 0], high = [1, 1] }, group = \"sand\" }", "sand"),
+        ("residence.time = 1", "time"),
+    ] {
+        let text = about(&format!("[watch.a]\n{watch}"));
+        assert!(text.contains(said) && text.contains("error"), "{watch}: {text}");
+    }
+}

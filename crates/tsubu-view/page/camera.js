@@ -23,7 +23,14 @@ export class View {
 
   // Width over height of a pane.
   shape(aspect) {
-    this.aspect = aspect;
+    // A page that is not laid out yet has no shape.
+    this.aspect = aspect > 0 && Number.isFinite(aspect) ? aspect : 1;
+    if (this.whole && !this.moved) this.fit(this.whole);
+    else this.project();
+  }
+
+  project() {
+    const { aspect } = this;
     if (this.flat) {
       const half = this.half ?? 1;
       Object.assign(this.camera, { left: -half * aspect, right: half * aspect, top: half, bottom: -half });
@@ -37,6 +44,7 @@ export class View {
   fit(box) {
     this.moved = false;
     if (box.isEmpty()) return;
+    this.whole = box;
     const middle = box.getCenter(new three.Vector3());
     const size = box.getSize(new three.Vector3());
     const reach = Math.max(size.length() / 2, 1e-9);
@@ -52,7 +60,7 @@ export class View {
       this.camera.position.copy(middle).addScaledVector(new three.Vector3(0.45, -0.85, 0.28).normalize(), far);
       Object.assign(this.camera, { near: 0.002 * reach, far: 40 * reach });
     }
-    this.shape(this.aspect);
+    this.project();
     this.controls.update();
   }
 

@@ -170,7 +170,7 @@ async function begin() {
     Object.assign($("time"), { max: times.length - 1, value: now });
     $("now").textContent = `${number(times[now])} s, frame ${now + 1} of ${times.length}`;
     $("time").setAttribute("aria-valuetext", $("now").textContent);
-    $("play").textContent = playing ? "⏸" : "▶";
+    $("play").textContent = playing ? "‖" : "▶";
     $("play").setAttribute("aria-label", playing ? "pause" : "play");
     curves.time = times[now];
     curves.draw();

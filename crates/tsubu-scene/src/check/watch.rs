@@ -5,7 +5,7 @@ use super::place::Room;
 use super::{Parts, named};
 use crate::complaint::Complaint;
 use crate::key::{Kind, Word};
-use crate::plan::watch::{Bedload, CoarseGrain, Hops, Track, WallLoad};
+use crate::plan::watch::{Bedload, CoarseGrain, Discharge, Hops, Mixing, Track, WallLoad};
 use crate::plan::{self, Bed, Face, GrainMotion, Measure, Particles, Region, Watch};
 use crate::suggest;
 
@@ -157,6 +157,29 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
                         .at(&at("points"), format!("more than {MOST_POINTS} in all")),
                 );
             }
+        }
+        Measure::Discharge(Discharge { sizes: Some(sizes), .. })
+            if sizes.is_empty() || sizes.windows(2).any(|pair| pair[0] >= pair[1]) =>
+        {
+            complaints.push(
+                Complaint::new("`sizes` needs diameters that rise")
+                    .at(&at("sizes"), format!("{sizes:?} m"))
+                    .hint("sizes = [\"1 mm\", \"2 mm\"] parts grains below 1 mm, up to 2 mm, and from there on"),
+            );
+        }
+        Measure::Mixing(Mixing { groups: Some(groups), .. }) if groups.len() < 2 => complaints.push(
+            Complaint::new("mixing is of two groups or more")
+                .at(&at("groups"), format!("{} in this list", groups.len()))
+                .hint("leave `groups` out to have all of them"),
+        ),
+        // A list that is wrong has its own complaint.
+        Measure::Mixing(Mixing { groups: None, .. })
+            if parts.particles.len() < 2 && parts.root.find(&["watch", name, kind, "groups"]).is_none() =>
+        {
+            complaints.push(
+                Complaint::new(format!("the watch `{name}` has nothing to mix"))
+                    .at(&parts.root.locate(&["watch", name, kind]), "needs two groups of particles or more"),
+            );
         }
         Measure::Hops(asked) => hops(parts, name, asked, complaints),
         Measure::WallLoad(WallLoad { area: None, direction: Some(_), .. }) => complaints.push(

@@ -176,6 +176,15 @@ kinds! {
         normal: Vector = Key::new("normal", Kind::Direction, "Direction in which grains pass").default("'-z'"),
         /// Only grains of this group.
         group: Option<String> = GROUP,
+        /// Diameters between which passed grains are counted apart [m].
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        sizes: Option<Vec<f64>> = Key::new(
+            "sizes",
+            Kind::Quantities(&LENGTH),
+            "Diameters, rising: what passed is told for the grains below, between and from them on, too",
+        )
+        .above(0.0)
+        .optional(),
     }
 
     hops::Hops "hops"
@@ -291,6 +300,24 @@ kinds! {
         cell: f64 = Key::new("cell", Kind::Quantity(&LENGTH), "Edge of the cells in which grains are counted").above(0.0),
         /// Only grains inside.
         region: Option<Region> = WITHIN,
+    }
+
+    mixing::Mixing "mixing" "How well any number of groups are mixed: Lacey index and entropy index" {
+        /// The groups; `None`: all.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        groups: Option<Vec<String>> =
+            Key::new("groups", Kind::Names(Family::Group), "Only these groups; without it all groups").optional(),
+        /// Edge of the cells [m].
+        cell: f64 = Key::new("cell", Kind::Quantity(&LENGTH), "Edge of the cells in which grains are counted").above(0.0),
+        /// Only grains inside.
+        region: Option<Region> = WITHIN,
+    }
+
+    residence::Residence "residence" "How long grains stay in a region: residence time with spread, and age of those inside" {
+        /// Where grains stay.
+        region: Region = REGION,
+        /// Only grains of this group.
+        group: Option<String> = GROUP,
     }
 
     wall_load::WallLoad "wall-load" "Force and torque of the grains on a wall, and its pressure" {

@@ -27,6 +27,10 @@ fn on_disk(html: &str) -> (tempfile::TempDir, String) {
     (folder, address)
 }
 
+fn near(a: [u8; 3], b: [u8; 3]) -> bool {
+    a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= 4)
+}
+
 #[test]
 fn a_page_from_the_disk_shows_plays_and_tells() {
     let (html, left_out) = made(6);
@@ -60,6 +64,19 @@ fn a_page_from_the_disk_shows_plays_and_tells() {
     page.wait("window.tsubu?.ready === true && tsubu.player.loop");
     std::thread::sleep(Duration::from_millis(600));
     assert_eq!(page.value("[tsubu.player.playing, tsubu.player.number]"), serde_json::json!([false, 0]));
+}
+
+/// In a report the page had no height yet when it began, and nothing was ever seen in it.
+#[test]
+fn a_page_that_is_laid_out_late_is_framed_then() {
+    let (html, _) = made(2);
+    let (_folder, address) = on_disk(&html);
+    let Some(mut page) = Page::ready(&address) else { return };
+    page.value("document.getElementById('stage').style.display = 'none'; tsubu.stage.resize(); 0");
+    page.value("document.getElementById('stage').style.display = ''; tsubu.stage.resize(); 0");
+    page.wait("Number.isFinite(tsubu.stage.view.half) && Number.isFinite(tsubu.stage.view.camera.left)");
+    let seen = page.place(0, [-1.0, 0.0, 0.0]);
+    assert!(near(page.colours(&[seen])[0], [68, 1, 84]), "the grain is not where it was");
 }
 
 /// As a report carries it: in a frame that reaches nothing.

@@ -17,6 +17,7 @@ passed grains  number                                                           
 passed mass    their mass                                                        [kg]
 rate           change of the number since the last look over the time between    [1/s]
 mass rate      the same for the mass                                             [kg/s]
+With `sizes` also `passed mass below 1 mm`, `passed mass 1 mm to 2 mm`, `passed mass from 2 mm`: the mass of grains by diameter. [kg]
 A grain has passed when its centre has. Where the world repeats itself along the normal, every passage counts. Grains that
 come into the world in front of the plane do not count. One that vanished (see `removal`) between two looks counts if in
 free fall from where and as fast as it was last seen it would have passed by now: look often enough to see grains that pass.
@@ -32,6 +33,8 @@ struct Seen {
     /// Whole periods that it has passed; without periods -1 behind the plane and 0 in front.
     side: i64,
     mass: f64,
+    /// Diameter [m].
+    diameter: f64,
     /// Distance in front of the plane [m] and speed along the normal [m/s].
     ahead: f64,
     speed: f64,
@@ -53,13 +56,17 @@ pub(super) struct Discharge {
     waiting: i64,
     passed: i64,
     mass: f64,
+    /// Diameters that part the classes [m], and the mass of each class that has passed [kg].
+    sizes: Vec<f64>,
+    by_size: Vec<f64>,
 }
 
 /// An outlet that nothing has passed for this share of the time is worth a word.
 const QUIET: f64 = 0.25;
 
 pub(super) fn open(asked: &watch::Discharge, plan: &Plan) -> Discharge {
-    let watch::Discharge { point, normal, group } = asked;
+    let watch::Discharge { point, normal, group, sizes } = asked;
+    let sizes = sizes.clone().unwrap_or_default();
     Discharge {
         point: DVec3::from_array(*point),
         normal: DVec3::from_array(*normal),
@@ -72,6 +79,8 @@ pub(super) fn open(asked: &watch::Discharge, plan: &Plan) -> Discharge {
         waiting: 0,
         passed: 0,
         mass: 0.0,
+        by_size: vec![0.0; if sizes.is_empty() { 0 } else { sizes.len() + 1 }],
+        sizes,
     }
 }
 
@@ -82,13 +91,36 @@ impl Discharge {
         view.periodic[axis].map(|[low, high]| high - low)
     }
 
+    /// Books a grain that has passed so many times.
+    fn pass(&mut self, times: i64, grain: &Seen) {
+        self.passed += times;
+        self.mass += times as f64 * grain.mass;
+        let class = self.sizes.partition_point(|size| *size <= grain.diameter);
+        if let Some(mass) = self.by_size.get_mut(class) {
+            *mass += times as f64 * grain.mass;
+        }
+    }
+
+    /// What the masses by size are called.
+    fn classes(&self) -> impl Iterator<Item = String> {
+        let told = |size: &f64| format!("{} mm", (size * 1e9).round() / 1e6);
+        let last = self.sizes.len();
+        let word = move |k: usize| match k {
+            0 => format!("below {}", told(&self.sizes[0])),
+            k if k == last => format!("from {}", told(&self.sizes[k - 1])),
+            k => format!("{} to {}", told(&self.sizes[k - 1]), told(&self.sizes[k])),
+        };
+        (0..self.by_size.len()).map(move |k| format!("passed mass {} [kg]", word(k)))
+    }
+
     fn look(&self, view: &View, i: usize, period: Option<f64>) -> Seen {
         let ahead = (view.unwrapped(i) - self.point).dot(self.normal);
         let side = match period {
             Some(period) => (ahead / period).floor() as i64,
             None => i64::from(ahead >= 0.0) - 1,
         };
-        Seen { side, mass: view.grains.mass[i], ahead, speed: view.grains.velocity[i].dot(self.normal) }
+        let diameter = 2.0 * view.grains.radius[i];
+        Seen { side, mass: view.grains.mass[i], diameter, ahead, speed: view.grains.velocity[i].dot(self.normal) }
     }
 }
 
@@ -102,7 +134,8 @@ impl Watch for Discharge {
     }
 
     fn scalars(&self) -> Vec<String> {
-        ["passed grains [-]", "passed mass [kg]", "rate [1/s]", "mass rate [kg/s]"].map(String::from).to_vec()
+        let all = ["passed grains [-]", "passed mass [kg]", "rate [1/s]", "mass rate [kg/s]"].map(String::from);
+        all.into_iter().chain(self.classes()).collect()
     }
 
     fn take(&mut self, view: &View) -> Sample {
@@ -118,18 +151,16 @@ impl Watch for Discharge {
             let id = view.grains.id[i];
             let now = self.look(view, i, period);
             if let Some(old) = gone.remove(&id) {
-                self.passed += now.side - old.side;
-                self.mass += (now.side - old.side) as f64 * now.mass;
+                self.pass(now.side - old.side, &now);
             }
             self.waiting += i64::from(period.is_none() && now.side < 0 && view.free(i));
             self.seen.insert(id, now);
         }
         let pull = self.gravity.dot(self.normal);
-        for old in gone.values() {
+        for old in &gone.into_values().collect::<Vec<_>>() {
             let fallen = old.ahead + old.speed * elapsed + 0.5 * pull * elapsed * elapsed;
             if period.is_none() && old.side < 0 && fallen >= 0.0 {
-                self.passed += 1;
-                self.mass += old.mass;
+                self.pass(1, old);
             }
         }
         self.first = self.first.or(Some(view.time));
@@ -138,7 +169,8 @@ impl Watch for Discharge {
             self.passage = self.last;
         }
         let rates = [(self.passed - before) as f64 / elapsed, (self.mass - mass_before) / elapsed];
-        Sample { scalars: vec![self.passed as f64, self.mass, rates[0], rates[1]], rows: Vec::new() }
+        let all = [self.passed as f64, self.mass, rates[0], rates[1]];
+        Sample { scalars: all.into_iter().chain(self.by_size.iter().copied()).collect(), rows: Vec::new() }
     }
 
     /// Of outlets, which grains fall through, that have come to a stop with grains above them.
@@ -162,6 +194,11 @@ impl Watch for Discharge {
         let counts = [self.passed, self.waiting];
         state.put_integer(&format!("{name}.seen"), counts.into_iter().chain(whole).collect::<Vec<_>>());
         let real = self.seen.values().flat_map(|seen| [seen.mass, seen.ahead, seen.speed]);
+        if !self.sizes.is_empty() {
+            let diameters = self.seen.values().map(|seen| seen.diameter);
+            let sizes = self.by_size.iter().copied().chain(diameters);
+            state.put_real(&format!("{name}.sizes"), sizes.collect::<Vec<_>>());
+        }
         let [first, last, passage] = [self.first, self.last, self.passage].map(|time| time.unwrap_or(f64::NAN));
         let head = [self.mass, first, last, passage];
         state.put_real(&format!("{name}.seen-real"), head.into_iter().chain(real).collect::<Vec<_>>());
@@ -182,9 +219,19 @@ impl Watch for Discharge {
         (self.passed, self.waiting, self.mass) = (*passed, *waiting, *mass);
         let times: [f64; 3] = *times;
         [self.first, self.last, self.passage] = times.map(|time| Some(time).filter(|t| !t.is_nan()));
-        let pairs = whole.as_chunks::<2>().0.iter().zip(real.as_chunks::<3>().0);
-        let seen = |(&[id, side], &[mass, ahead, speed]): (&[i64; 2], &[f64; 3])| {
-            (id as u32, Seen { side, mass, ahead, speed })
+        // Without classes nobody asks how large they are.
+        let mut diameters = vec![0.0; whole.len() / 2];
+        if !self.sizes.is_empty() {
+            let sizes = state.real(&format!("{name}.sizes"))?;
+            if sizes.len() != self.by_size.len() + diameters.len() {
+                return Err(wrong());
+            }
+            let (by_size, of_grains) = sizes.split_at(self.by_size.len());
+            (self.by_size, diameters) = (by_size.to_vec(), of_grains.to_vec());
+        }
+        let pairs = whole.as_chunks::<2>().0.iter().zip(real.as_chunks::<3>().0).zip(diameters);
+        let seen = |((&[id, side], &[mass, ahead, speed]), diameter): ((&[i64; 2], &[f64; 3]), f64)| {
+            (id as u32, Seen { side, mass, diameter, ahead, speed })
         };
         self.seen = pairs.map(seen).collect();
         Ok(())

@@ -10,6 +10,7 @@ mod kernel;
 mod profile;
 mod single;
 mod slope;
+mod stays;
 mod stress_path;
 mod temperature;
 mod transport;
