@@ -65,7 +65,7 @@ pub use chaotic::{Chaotic, chaotic, one_draw};
 pub use control::is_missing as lacks_control;
 pub use keep::Archive;
 pub use moved::{Moved, moved};
-pub use mutants::{Mutant, mutants, mutants_not_run};
+pub use mutants::{MUTATED_LONGEST, Mutant, mutants, mutants_not_run};
 pub use reasons::reason;
 pub use recorded::{recorded, recorded_run};
 pub use registry::CASES;
