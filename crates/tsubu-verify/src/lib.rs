@@ -1,5 +1,6 @@
 //! What tsubu is held against: every claim re-run by one command, `tsubu verify`.
 
+mod apparent_mass;
 mod bedload;
 mod beds;
 mod bench;
@@ -22,6 +23,7 @@ mod drum_regimes;
 mod ensemble;
 mod expansion;
 mod film;
+mod gdr_midi_2004;
 mod held;
 mod host;
 mod impact_damper;

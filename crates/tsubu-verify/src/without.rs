@@ -10,8 +10,7 @@ const LONG: &str = "a long case, not run since controls are kept with the claims
 const ROLLS: &str = "it rolls without a loss: gravity and motion are all that its books hold, and no mutation touches one without the other";
 
 /// A factor of two is wide.
-const HEIGHT: &str =
-    "a stream of three times the shear velocity is refused by length and speed of the hops, not by a factor of 2 in their height";
+const HEIGHT: &str = "a stream of three times the shear velocity is refused by length and speed of the hops, not by a factor of 2 in their height";
 
 /// Case, how the names of its claims begin (all of the case: nothing), and why.
 pub(crate) const CONTROL: &[(&str, &str, &str)] = &[
@@ -21,9 +20,7 @@ pub(crate) const CONTROL: &[(&str, &str, &str)] = &[
     ("saltation-space", "leaping grains in space, Shields number 0.3: mean hop height", HEIGHT),
     ("saltation", "leaping grain, Shields number 0.3: mean hop height", HEIGHT),
     ("fhp-viscosity", "FHP-III", NOT_STORED),
-    ("fhp-channel", "FHP-III", NOT_STORED),
     ("common-shaken", "shaken, ", NOT_STORED),
-    ("common-collapse", "collapse, the wall stays", NOT_STORED),
     ("pile-twin", "", NOT_STORED),
     ("litwiniszyn", "Litwiniszyn: B of the lattice", "it compares two constants; nothing is run"),
     (
@@ -31,7 +28,6 @@ pub(crate) const CONTROL: &[(&str, &str, &str)] = &[
         "DEM: ",
         "what forces in any pressed bed look like; a bed in which they do not is still to be found",
     ),
-    ("dam-break-space", "", LONG),
     ("drum-regimes", "", LONG),
     ("rheology", "", LONG),
     ("beverloo", "", LONG),
