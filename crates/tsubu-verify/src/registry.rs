@@ -188,13 +188,13 @@ pub static CASES: &[Case] = &[
         sediment_2004::dam_break_rolling,
     )),
     gap(case("avalanche", "sediment-2004", 1800, "rock at 40 degrees (figures 13 to 16)", sediment_2004::avalanche)),
-    gap(case(
+    case(
         "mobile-bed",
         "sediment-2004",
         1800,
         "a mobile bed, rotation locked and free (figure 22)",
         sediment_2004::mobile_bed,
-    )),
+    ),
     gap(case(
         "dense-flow",
         "sediment-2004",

@@ -29,7 +29,7 @@ pub(super) const TEST: Test = Test {
         "equal-dem=dem:particles.large.diameter=2.778 mm,",
         "equal-switched=cl-ca:particles.large.diameter=2.778 mm:",
         switched!(),
-        ",soft=dem:materials.aluminium.young-modulus=1e6"
+        ",soft=dem:materials.aluminium.young-modulus=1e6:dem.largest-overlap=0.9"
     ),
     spoil: |plan| {
         for wall in plan.walls.values_mut() {
