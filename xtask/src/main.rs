@@ -41,8 +41,9 @@ cargo xtask CHORE
                       and a network; arguments go to pytest
   claims [NAME]...    run verification cases (without names all of up to a minute) and keep what they claim
   claims --from DIR   keep what `tsubu verify --controls -o DIR` has found, and run nothing
-  mutants [WORDS]...  change a constant of the engines by 5 %, or leave a rule out, one after the other, and keep which quick
-                      verification cases notice; fails where none does
+  mutants [WORDS]...  change a constant of the engines by 5 %, or leave a rule out, one after the other, and keep which verification
+                      cases of up to four seconds notice (or cases that are named, of any length, or mutations in their
+                      words); fails where none does
   chaotic             run the verification cases of up to ten seconds from two starts that differ in the last bit, and keep which
                       claims that moves
   fuzz [--seed N] [--seconds S] [--cases N] [--only KIND] [--case N]

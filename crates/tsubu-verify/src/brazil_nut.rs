@@ -83,9 +83,10 @@ fn rises(what: &str, [start, end]: [f64; 2]) -> [Claim; 2] {
 
 /// V-38: a grain of four diameters comes up from the floor and stays on top; grains of the bed's own size go everywhere.
 pub(super) fn brazil_nut(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let mut claims = Vec::new();
+    let (mut claims, mut highest) = (Vec::new(), 0.0_f64);
     for seed in 1..=3 {
         let found = heights(4.0, seed, perturbation, |_| vec![0])?;
+        highest = highest.max(found[1]);
         claims.extend(rises(&format!("shaken bed, seed {seed}, a grain of 4 diameters"), found));
     }
     let lowest = |z: &[f64]| {
@@ -98,6 +99,7 @@ pub(super) fn brazil_nut(perturbation: f64) -> Result<Vec<Claim>, String> {
     let source = own("grains of equal size have no reason to rise").after();
     let name = "shaken bed, the 19 lowest of equal grains: height over the bed's mean after 90 shakes";
     claims.push(within(name, control[1], 1.0, 0.25, source));
+    claims.push(refused("a grain of 4 diameters for equal ones", &[within(name, highest, 1.0, 0.25, source)], 1));
     claims.push(refused("the grain no larger than the others", &rises("", control)[1..], 1));
     Ok(claims)
 }

@@ -1,6 +1,7 @@
 //! A small sphere between two large ones (V-16), and a linear tangential spring without slip (V-15).
 
 use super::bench::{Rig, near, within};
+use super::control::refused;
 use super::throw::Throw;
 use crate::origin::{closed_form, own};
 use tsubu_frame::Claim;
@@ -80,7 +81,7 @@ pub(super) fn three_spheres(perturbation: f64) -> Result<Vec<Claim>, String> {
         ));
         let mut rig = squeezed(ratio, 0.97, perturbation)?;
         rig.steps(20_000)?;
-        let speed = rig.vector("velocity", 0).length();
+        let (speed, held) = (rig.vector("velocity", 0).length(), -rig.vector("position", 0).z / RADIUS);
         claims.push(within(
             format!("three spheres, ratio {ratio}: speed at 0.97 of the limit m/s"),
             speed,
@@ -91,8 +92,12 @@ pub(super) fn three_spheres(perturbation: f64) -> Result<Vec<Claim>, String> {
         let mut rig = squeezed(ratio, 1.03, perturbation)?;
         rig.steps(20_000)?;
         let fell = -rig.vector("position", 0).z / RADIUS;
-        let name = format!("three spheres, ratio {ratio}: fall at 1.03 of the limit, in radii");
-        claims.push(Claim::judge(name, fell, Some(0.1), None, own("beyond the limit it falls").after()));
+        let falls = |fell: f64| {
+            let name = format!("three spheres, ratio {ratio}: fall at 1.03 of the limit, in radii");
+            Claim::judge(name, fell, Some(0.1), None, own("beyond the limit it falls").after())
+        };
+        claims.push(falls(fell));
+        claims.push(refused(&format!("0.97 of the limit, ratio {ratio}"), &[falls(held)], 1));
     }
     Ok(claims)
 }

@@ -1,6 +1,7 @@
 //! Structures: loss factor by three ways, and the added mass of a bed that stays on the floor.
 
 use super::bench;
+use super::control::refused;
 use crate::origin::{closed_form, own};
 use tsubu::interrupt::Interrupt;
 use tsubu::study::response::{CaseResult, Point, measure};
@@ -128,24 +129,25 @@ pub(super) fn loss_factor_with_grains(_spoiler: f64) -> Result<Vec<Claim>, Strin
     host.base = None;
     host.displacement = sag + 1.15 * peak.amplitude;
     plan.duration = 1.5;
-    let mut losses = Vec::new();
-    for seed in 1..=5 {
-        plan.seed = seed;
-        let cycles = ring_down(&plan, sag).map_err(|e| e.to_string())?;
-        let near = |c: &&tsubu::study::ring_down::Cycle| (c.amplitude / peak.amplitude - 1.0).abs() < 0.1;
-        losses.extend(
-            cycles.iter().filter(near).map(|c| c.loss / (std::f64::consts::PI * K * c.amplitude * c.amplitude)),
-        );
-    }
-    let rung = losses.iter().sum::<f64>() / losses.len() as f64;
-    let source = own("two ways to one number: driven at the peak, and ringing down through the same amplitude").after();
-    Ok(vec![Claim::judge(
-        "loss factor with 30 balls, ring-down over driven",
-        rung / driven,
-        Some(0.8),
-        Some(1.2),
-        source,
-    )])
+    let mut gate = |count: usize, seeds: std::ops::RangeInclusive<u64>| {
+        set_count(&mut plan, count);
+        let mut losses = Vec::new();
+        for seed in seeds {
+            plan.seed = seed;
+            let cycles = ring_down(&plan, sag).map_err(|e| e.to_string())?;
+            let near = |c: &&tsubu::study::ring_down::Cycle| (c.amplitude / peak.amplitude - 1.0).abs() < 0.1;
+            losses.extend(
+                cycles.iter().filter(near).map(|c| c.loss / (std::f64::consts::PI * K * c.amplitude * c.amplitude)),
+            );
+        }
+        let rung = losses.iter().sum::<f64>() / losses.len() as f64;
+        let source =
+            own("two ways to one number: driven at the peak, and ringing down through the same amplitude").after();
+        let name = "loss factor with 30 balls, ring-down over driven";
+        Ok::<_, String>(Claim::judge(name, rung / driven, Some(0.8), Some(1.2), source))
+    };
+    let claim = gate(30, 1..=5)?;
+    Ok(vec![claim, refused("half the balls while it rings down", &[gate(15, 1..=2)?], 1)])
 }
 
 fn set_count(plan: &mut Plan, count: usize) {

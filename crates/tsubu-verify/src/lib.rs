@@ -1,5 +1,6 @@
 //! What tsubu is held against: every claim re-run by one command, `tsubu verify`.
 
+mod apparent_mass;
 mod bedload;
 mod beds;
 mod bench;
@@ -22,6 +23,7 @@ mod drum_regimes;
 mod ensemble;
 mod expansion;
 mod film;
+mod gdr_midi_2004;
 mod held;
 mod host;
 mod impact_damper;
@@ -65,7 +67,7 @@ pub use chaotic::{Chaotic, chaotic, one_draw};
 pub use control::is_missing as lacks_control;
 pub use keep::Archive;
 pub use moved::{Moved, moved};
-pub use mutants::{Mutant, mutants, mutants_not_run};
+pub use mutants::{MUTATED_LONGEST, Mutant, mutants, mutants_not_run};
 pub use reasons::reason;
 pub use recorded::{recorded, recorded_run};
 pub use registry::CASES;

@@ -77,7 +77,7 @@ fn dip(rule: Rule, perturbation: f64) -> f64 {
 pub(super) fn pile(perturbation: f64) -> Result<Vec<Claim>, String> {
     let size = 40;
     let total = triangle(size).grains() as f64;
-    let carried = |rule: Rule| base(triangle(size), rule, 1, 1.0).1[1] / total;
+    let carried = |rule: Rule| base(triangle(size), rule, 1, perturbation).1[1] / total;
     let arch = Rule { arching: 0.3, ..BALANCE };
     let mut claims = Vec::new();
     for (name, rule) in [

@@ -2,10 +2,10 @@
 
 use crate::case::{Case, Judged};
 use crate::{
-    bedload, brazil_nut, chung_ooi_2011, chute, cl_ca_2001, cohesion, common_test, contact, cooling, damper_2003, drop,
-    drum, drum_regimes, expansion, film, held, host, impact_damper, lattice_grain, lattice_review, lump,
-    open_dem_benchmark, order, orifice, outlet, pile_stress, pile_twin, plastic, random_loads, rheology, rolling,
-    sediment_2004, shapes, sieving, silo, spin_in_water, stack, triaxial, twisting, voids, water,
+    apparent_mass, bedload, brazil_nut, chung_ooi_2011, chute, cl_ca_2001, cohesion, common_test, contact, cooling,
+    damper_2003, drop, drum, drum_regimes, expansion, film, gdr_midi_2004, held, host, impact_damper, lattice_grain,
+    lattice_review, lump, open_dem_benchmark, order, orifice, outlet, pile_stress, pile_twin, plastic, random_loads,
+    rheology, rolling, sediment_2004, shapes, sieving, silo, spin_in_water, stack, triaxial, twisting, voids, water,
 };
 
 /// All cases, in the order they are listed and run.
@@ -95,7 +95,7 @@ pub static CASES: &[Case] = &[
     gap(case("saltation-softest", "sediment-2004", 1, "the softest contacts (figure 6)", sediment_2004::softest)),
     case("saltation-spin", "sediment-2004", 30, "the same with spin (figures 20 and 21)", sediment_2004::spinning),
     case("saltation-space", "sediment-2004", 5, "leaping grains in space", sediment_2004::saltation_space),
-    case("dam-break-space", "sediment-2004", 90, "a dam break in space: run-out", sediment_2004::dam_break_space),
+    gap(case("dam-break-space", "sediment-2004", 90, "a dam break in space: run-out", sediment_2004::dam_break_space)),
     case("fhp-collisions", "lattice-review", 1, "what collisions make of a stress", lattice_review::collisions),
     case("fhp-viscosity", "lattice-review", 10, "viscosity of the lattice gases FHP", lattice_review::viscosity),
     case("fhp-sound", "lattice-review", 1, "speed of sound of the lattice gases", lattice_review::sound),
@@ -170,6 +170,9 @@ pub static CASES: &[Case] = &[
     case("pipe-spectrum", "lattice-review", 90, "spectrum of the density in a pipe", lattice_review::pipe_spectrum),
     gap(case("drum-regimes", "dem-benchmarks", 30, "rolling, cascading, cataracting", drum_regimes::regimes)),
     case("rheology", "dem-benchmarks", 1800, "friction against inertial number", rheology::friction),
+    gap(case("plane-shear", "gdr-midi-2004", 600, "plane shear under a constant pressure", gdr_midi_2004::plane_shear)),
+    gap(case("vertical-chute", "gdr-midi-2004", 600, "down between two rough walls", gdr_midi_2004::vertical_chute)),
+    gap(case("apparent-mass", "masmoudi-2016", 300, "a measured particle damper", apparent_mass::measured)),
     gap(case("beverloo", "dem-benchmarks", 1800, "discharge through a slot, in the plane", outlet::beverloo)),
     gap(case("beverloo-3d", "dem-benchmarks", 1800, "discharge through a round hole", orifice::beverloo)),
     gap(case("janssen", "dem-benchmarks", 1800, "pressure in a silo, in the plane", silo::janssen)),
@@ -185,13 +188,13 @@ pub static CASES: &[Case] = &[
         sediment_2004::dam_break_rolling,
     )),
     gap(case("avalanche", "sediment-2004", 1800, "rock at 40 degrees (figures 13 to 16)", sediment_2004::avalanche)),
-    gap(case(
+    case(
         "mobile-bed",
         "sediment-2004",
         1800,
         "a mobile bed, rotation locked and free (figure 22)",
         sediment_2004::mobile_bed,
-    )),
+    ),
     gap(case(
         "dense-flow",
         "sediment-2004",

@@ -133,7 +133,9 @@ impl Flow {
         let name = |what: &str| format!("discs at {} degrees: {what}", self.degrees);
         let source = remembered("da Cruz et al. 2005: mu = 0.25 + 1.1 I, share of the area 0.81 - 0.3 I");
         let [friction, filled] = published(self.inertial);
+        let holds = remembered("where the law is said to hold");
         vec![
+            Claim::judge(name("inertial number"), self.inertial, Some(0.001), Some(0.2), holds),
             within(name("friction less that of the law"), self.friction() - friction, 0.0, 0.03, source),
             within(name("share of the area less that of the law"), self.filled - filled, 0.0, 0.02, source),
             within(
@@ -153,14 +155,6 @@ pub(super) fn friction(perturbation: f64) -> Result<Vec<Claim>, String> {
     let flows = flows.into_iter().collect::<Result<Vec<_>, _>>()?;
     let mut claims: Vec<Claim> = Vec::new();
     for flow in &flows {
-        let name = format!("discs at {} degrees: inertial number", flow.degrees);
-        claims.push(Claim::judge(
-            name,
-            flow.inertial,
-            Some(0.001),
-            Some(0.2),
-            remembered("where the law is said to hold"),
-        ));
         claims.extend(flow.gates());
     }
     let (steep, rest) = line(&flows.iter().map(|f| (f.inertial, f.friction())).collect::<Vec<_>>());

@@ -82,11 +82,14 @@ pub(super) fn chute(perturbation: f64) -> Result<Vec<Claim>, String> {
     let closed = closed_form(
         "closed form: n/(1-n) = exp((z0-z)/h), speed as exp(-(z0-z)/h), h = 1/ln(downward chances / upward)",
     );
-    let [odds, speed] = profile(perturbation);
-    let mut claims = vec![
-        near("chute after Savage: fall-off of voids with depth over closed form", odds, 1.0, 0.1, closed),
-        near("chute after Savage: fall-off of speed with depth over closed form", speed, 1.0, 0.1, closed),
-    ];
+    let falls = |[odds, speed]: [f64; 2]| {
+        [
+            near("chute after Savage: fall-off of voids with depth over closed form", odds, 1.0, 0.1, closed),
+            near("chute after Savage: fall-off of speed with depth over closed form", speed, 1.0, 0.1, closed),
+        ]
+    };
+    let mut claims = falls(profile(perturbation)).to_vec();
+    claims.push(refused("upward moves 20 % more likely", &falls(profile(1.2)), 2));
     let gates = |found: &[(f64, f64)]| {
         let (first, last) = (found[0], found[found.len() - 1]);
         let source = own("inverse grading that grows on the way (kinetic sieving)").after();
@@ -109,14 +112,13 @@ pub(super) fn chute(perturbation: f64) -> Result<Vec<Claim>, String> {
     };
     let (mixed, equal) = (sorted(0.6, perturbation), sorted(1.0, perturbation));
     claims.extend(gates(&mixed));
-    let none = equal[equal.len() - 1].1;
-    claims.push(Claim::judge(
-        "chute after Savage: equal sizes, one colour over the other, rows",
-        none,
-        Some(-0.6),
-        Some(0.6),
-        closed_form("no sieving, no sorting; noise 0.25"),
-    ));
+    let none = |found: &[(f64, f64)]| {
+        let name = "chute after Savage: equal sizes, one colour over the other, rows";
+        let source = closed_form("no sieving, no sorting; noise 0.25");
+        Claim::judge(name, found[found.len() - 1].1, Some(-0.6), Some(0.6), source)
+    };
+    claims.push(none(&equal));
     claims.push(refused("equal sizes", &gates(&equal), 1));
+    claims.push(refused("two sizes for one", &[none(&mixed)], 1));
     Ok(claims)
 }

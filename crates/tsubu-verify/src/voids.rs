@@ -3,7 +3,7 @@
 //! The perturbation multiplies the probability that a void goes to the left.
 
 use super::bench::within;
-use super::control::{refused, refused_number};
+use super::control::refused;
 use crate::origin::{closed_form, own, regression, remembered};
 use tsubu::lattice::caram_hong::{CaramHong, Chances};
 use tsubu::lattice::litwiniszyn::{Litwiniszyn, SPREAD, frequency};
@@ -99,15 +99,16 @@ pub(super) fn litwiniszyn_case(perturbation: f64) -> Result<Vec<Claim>, String> 
     let passed = litwiniszyn(&sheet, left, 150, 300);
     let mut claims = spread_gates("Litwiniszyn, voids", &passed, &sheet);
     claims.extend(spread_gates("Litwiniszyn, mean", &frequency(&sheet, left), &sheet));
-    let flux = |row| moments(&passed, &sheet, row)[0];
-    let uneven = (1..40).map(|row| (flux(row) / flux(1) - 1.0).abs()).fold(0.0, f64::max);
-    claims.push(within(
-        "Litwiniszyn: flux at 40 heights less that at the outlet",
-        uneven,
-        0.0,
-        1e-12,
-        closed_form("no void is lost"),
-    ));
+    let even = |passed: &[f64]| {
+        let flux = |row| moments(passed, &sheet, row)[0];
+        let uneven = (1..40).map(|row| (flux(row) / flux(1) - 1.0).abs()).fold(0.0, f64::max);
+        let name = "Litwiniszyn: flux at 40 heights less that at the outlet";
+        within(name, uneven, 0.0, 1e-12, closed_form("no void is lost"))
+    };
+    claims.push(even(&passed));
+    let mut leaking = sheet.clone();
+    leaking.cells[sheet.index(MIDDLE + 5, 20)] = OUT;
+    claims.push(refused("a second outlet in the middle of the bed", &[even(&litwiniszyn(&leaking, left, 5, 300))], 1));
     let (low, far) = (SPREAD, 1.0);
     let source = remembered(
         "measured: 1 to 3.5 grain diameters (as the literature has it); one site a grain spreads far too little",
@@ -169,15 +170,16 @@ fn walls_reflect(left: f64) -> Vec<Claim> {
         inner.map(|s| (mean[s] / images(sheet.point(s)[0], row) - 1.0).abs()).fold(0.0, f64::max)
     };
     let source = closed_form("closed form: diffusion between mirrors, by images");
+    let all = |mean: &[f64]| {
+        let name = "Litwiniszyn: between walls, 300 rows up, all voids";
+        within(name, moments(mean, &sheet, 300)[0], 1.0, 1e-12, closed_form("no void is lost"))
+    };
+    let mut leaking = sheet.clone();
+    leaking.cells[sheet.index(12, 100)] = OUT;
     vec![
         within("Litwiniszyn: between walls, 150 rows up, worst site", worst(150), 0.0, 0.02, source),
-        within(
-            "Litwiniszyn: between walls, 300 rows up, all voids",
-            moments(&mean, &sheet, 300)[0],
-            1.0,
-            1e-12,
-            closed_form("no void is lost"),
-        ),
+        all(&mean),
+        refused("a second outlet between the walls", &[all(&frequency(&leaking, left))], 1),
     ]
 }
 
@@ -201,7 +203,7 @@ fn discharge(left: f64) -> Vec<Claim> {
     };
     vec![
         gate(left_after(160) / left_after(40)),
-        refused_number("water, by Torricelli", &[gate((160.0_f64 / 40.0).sqrt())], 1),
+        refused("a bed of 4 rows, which runs empty", &[gate(left_after(4) / left_after(40))], 1),
     ]
 }
 
@@ -211,6 +213,8 @@ pub(super) fn caram_hong_case(perturbation: f64) -> Result<Vec<Claim>, String> {
     let sheet = bed(COLUMNS, 102, MIDDLE..=MIDDLE);
     let passed = caram_hong(&sheet, Chances { left, rate: 0.1 }, 80, 300);
     let mut claims = spread_gates("after Caram and Hong, rare voids", &passed, &sheet);
+    let leaning = caram_hong(&sheet, Chances { left: 0.65, rate: 0.1 }, 40, 300);
+    claims.push(refused("probabilities 0.65 and 0.35", &spread_gates("", &leaning, &sheet), 2));
     claims.extend(crowd(left));
     claims.extend(shadow(left));
     claims.extend(emptied(left)?);
@@ -233,9 +237,12 @@ fn crowd(left: f64) -> Vec<Claim> {
             regression("regression value 1.37; voids that meet a void go aside"),
         )
     };
-    let rare = share(0.01);
-    let name = "after Caram and Hong: rare voids of a wide outlet, variance over that of free ones";
-    vec![within(name, rare, 1.0, 0.04, CLOSED), gate(share(1.0)), refused("rare voids", &[gate(rare)], 1)]
+    let free = |share| {
+        let name = "after Caram and Hong: rare voids of a wide outlet, variance over that of free ones";
+        within(name, share, 1.0, 0.04, CLOSED)
+    };
+    let (rare, dense) = (share(0.01), share(1.0));
+    vec![free(rare), gate(dense), refused("rare voids", &[gate(rare)], 1), refused("crowded voids", &[free(dense)], 1)]
 }
 
 /// Over a wall of 7 sites lies a triangle in which nothing moves; higher up the flow closes again, from the sides.
@@ -254,40 +261,42 @@ fn shadow(left: f64) -> Vec<Claim> {
     let passed = caram_hong(&sheet, Chances { left, rate: 0.1 }, 20, 1000);
     let in_triangle = |passed: &[f64]| triangle.iter().map(|&s| passed[s]).sum::<f64>();
     let free = caram_hong(&bed(COLUMNS, 102, MIDDLE - 9..=MIDDLE + 9), Chances { left, rate: 0.1 }, 5, 1000);
-    let centre = |row: usize| {
+    let centre = |passed: &[f64], row: usize| {
         let near = (MIDDLE - 1..=MIDDLE + 1).map(|c| passed[sheet.index(c, row)]).sum::<f64>();
-        let whole = moments(&passed, &sheet, row)[0];
+        let whole = moments(passed, &sheet, row)[0];
         near / whole
-    };
-    let gate = |moved| {
-        within(
-            "after Caram and Hong: voids in the shadow of a wall",
-            moved,
-            0.0,
-            0.0,
-            closed_form("60 degrees, by the rule"),
-        )
     };
     let source =
         own("the flow closes over an obstacle: from none at its back to most of what passes without it").after();
-    vec![
-        gate(in_triangle(&passed)),
-        Claim::judge(
-            "after Caram and Hong: flow over the middle of a wall, 40 rows up over 8 rows up",
-            centre(50) / centre(18),
-            Some(2.0),
-            None,
-            source,
-        ),
-        refused("no wall", &[gate(in_triangle(&free))], 1),
-    ]
+    let gates = |passed: &[f64]| {
+        let name = "after Caram and Hong: flow over the middle of a wall, 40 rows up over 8 rows up";
+        [
+            within(
+                "after Caram and Hong: voids in the shadow of a wall",
+                in_triangle(passed),
+                0.0,
+                0.0,
+                closed_form("60 degrees, by the rule"),
+            ),
+            Claim::judge(name, centre(passed, 50) / centre(passed, 18), Some(2.0), None, source),
+        ]
+    };
+    let mut claims = gates(&passed).to_vec();
+    claims.push(refused("no wall", &gates(&free), 2));
+    claims
 }
 
-/// A bed that has run out: slopes of 60 degrees down to the outlet, none missing.
-fn emptied(left: f64) -> Result<Vec<Claim>, String> {
-    let sheet = bed(COLUMNS, 42, MIDDLE - 1..=MIDDLE + 1);
+/// A bed over an outlet until nothing runs any more; where `thief`, a grain is taken out of it that nobody counts. Gates on its slopes
+/// and on what left it.
+fn run_empty(left: f64, outlet: std::ops::RangeInclusive<usize>, thief: bool) -> Result<[Claim; 5], String> {
+    let sheet = bed(COLUMNS, 42, outlet);
     let (grains, holes) = (sheet.grains(), sheet.sites(EMPTY).count());
     let mut model = CaramHong::new(sheet, Chances { left, rate: 1.0 }, 1);
+    if thief {
+        let taken = model.sheet.index(MIDDLE, 20);
+        model.sheet.cells[taken] = EMPTY;
+        model.count_anew();
+    }
     let (mut gone, mut last) = (0, usize::MAX);
     let mut early = None;
     while gone != last {
@@ -301,43 +310,32 @@ fn emptied(left: f64) -> Result<Vec<Claim>, String> {
     }
     let early = early.ok_or("too few grains ran out")?;
     let end = surface(&model.sheet);
-    let level = surface(&bed(COLUMNS, 42, MIDDLE - 1..=MIDDLE + 1));
     let balance = (holes + gone) as f64 - model.sheet.sites(EMPTY).count() as f64;
     let lost = grains as f64 - (model.sheet.grains() + gone) as f64;
-    let gates = |early: &[usize], end: &[usize], balance: f64, lost: f64| {
-        let angle = |columns: std::ops::Range<usize>| {
-            let points: Vec<_> = columns.map(|c| (c as f64, ROW_SPACING * end[c] as f64)).collect();
-            slope(&points).atan().to_degrees()
-        };
-        let depth = early[MIDDLE - 20] as f64 - early[MIDDLE] as f64;
-        let side = closed_form("slope of the lattice");
-        let name = |what: &str| format!("after Caram and Hong: {what}");
-        vec![
-            Claim::judge(
-                name("depth of the depression over the outlet, rows"),
-                depth,
-                Some(5.0),
-                None,
-                own("a V over the outlet").after(),
-            ),
-            within(name("slope left of the outlet, degrees"), angle(12..MIDDLE - 3), -60.0, 2.0, side),
-            within(name("slope right of the outlet, degrees"), angle(MIDDLE + 4..51), 60.0, 2.0, side),
-            within(
-                name("voids that came in or were there, less those there now"),
-                balance,
-                0.0,
-                0.0,
-                closed_form("voids are conserved"),
-            ),
-            within(name("grains lost"), lost, 0.0, 0.0, closed_form("grains are conserved")),
-        ]
+    let angle = |columns: std::ops::Range<usize>| {
+        let points: Vec<_> = columns.map(|c| (c as f64, ROW_SPACING * end[c] as f64)).collect();
+        slope(&points).atan().to_degrees()
     };
-    let mut claims = gates(&early, &end, balance, lost);
-    claims.push(refused_number(
-        "a level surface, a void and a grain that are forgotten",
-        &gates(&level, &level, 1.0, 1.0),
-        5,
-    ));
+    let depth = early[MIDDLE - 20] as f64 - early[MIDDLE] as f64;
+    let (v, side) = (own("a V over the outlet").after(), closed_form("slope of the lattice"));
+    let conserved = closed_form("voids and grains are conserved");
+    let name = |what: &str| format!("after Caram and Hong: {what}");
+    Ok([
+        Claim::judge(name("depth of the depression over the outlet, rows"), depth, Some(5.0), None, v),
+        within(name("slope left of the outlet, degrees"), angle(12..MIDDLE - 3), -60.0, 2.0, side),
+        within(name("slope right of the outlet, degrees"), angle(MIDDLE + 4..51), 60.0, 2.0, side),
+        within(name("voids that came in or were there, less those there now"), balance, 0.0, 0.0, conserved),
+        within(name("grains lost"), lost, 0.0, 0.0, conserved),
+    ])
+}
+
+/// A bed that has run out: slopes of 60 degrees down to the outlet, none missing.
+fn emptied(left: f64) -> Result<Vec<Claim>, String> {
+    let mut claims = run_empty(left, MIDDLE - 1..=MIDDLE + 1, false)?.to_vec();
+    let wide = run_empty(left, 1..=COLUMNS - 2, false)?;
+    claims.push(refused("an outlet as wide as the bed", &wide[..3], 3));
+    let robbed = run_empty(left, MIDDLE - 1..=MIDDLE + 1, true)?;
+    claims.push(refused("a grain that is taken out of the bed", &robbed[3..], 2));
     Ok(claims)
 }
 

@@ -121,8 +121,11 @@ pub(super) fn released(perturbation: f64) -> Result<Vec<Claim>, String> {
     Ok(claims)
 }
 
-/// A column of beads that water rises through [m/s], settled.
-fn column(velocity: f64, perturbation: f64) -> Result<Rig, String> {
+/// When beads of a column have settled [s].
+const SETTLED: f64 = 1.2;
+
+/// A column of beads that water rises through [m/s], after some time [s]; they have settled after 1.2.
+fn column(velocity: f64, time: f64, perturbation: f64) -> Result<Rig, String> {
     let text = format!(
         r#"
         dimension = 3
@@ -149,7 +152,7 @@ fn column(velocity: f64, perturbation: f64) -> Result<Rig, String> {
         "#
     );
     let mut rig = Rig::new(&text, perturbation)?;
-    rig.until(1.2)?;
+    rig.until(time)?;
     Ok(rig)
 }
 
@@ -177,13 +180,20 @@ pub(super) fn packed(perturbation: f64) -> Result<Vec<Claim>, String> {
     };
     let mut claims = Vec::new();
     for u in [2e-3, 8e-3, 15e-3] {
-        let (open, loss) = loss(&column(u, perturbation)?);
+        let (open, lost) = loss(&column(u, SETTLED, perturbation)?);
         let name = |what: &str| format!("packed column, {} mm/s: {what}", u * 1e3);
         let gate = |u: f64| {
-            near(name("loss of pressure over Ergun's"), loss / ergun(open, u), 1.0, 0.03, printed("Ergun 1952"))
+            near(name("loss of pressure over Ergun's"), lost / ergun(open, u), 1.0, 0.03, printed("Ergun 1952"))
         };
         claims.push(gate(u));
-        claims.push(within(name("void fraction"), open, 0.42, 0.05, own("loose random packings of spheres").after()));
+        let loose = |open: f64| {
+            within(name("void fraction"), open, 0.42, 0.05, own("loose random packings of spheres").after())
+        };
+        claims.push(loose(open));
+        if u < 3e-3 {
+            let falling = loss(&column(u, 0.0, perturbation)?).0;
+            claims.push(refused("grains that have not fallen yet", &[loose(falling)], 1));
+        }
         if u > 10e-3 {
             claims.push(refused_number(
                 "the velocity between the grains in place of the superficial one",
@@ -201,7 +211,7 @@ pub(super) fn fluidised(perturbation: f64) -> Result<Vec<Claim>, String> {
     let e = 0.42f64;
     let (a, b) = (1.75 * 1000.0 / (e.powi(3) * 2e-3), 150.0 * 1e-3 * (1.0 - e) / (e.powi(3) * 4e-6));
     let least = ((b * b + 4.0 * a * 1500.0 * 9.8).sqrt() - b) / (2.0 * a);
-    let height = |velocity: f64| Ok::<f64, String>(column(velocity, perturbation)?.engine.centre_of_mass()[2]);
+    let height = |velocity: f64| Ok::<f64, String>(column(velocity, SETTLED, perturbation)?.engine.centre_of_mass()[2]);
     let (rest, below, above) = (height(1e-3)?, height(0.85 * least)?, height(1.4 * least)?);
     let source = printed("Ergun 1952, loss = weight under water");
     let stays = |height: f64| {

@@ -1,86 +1,41 @@
-//! Cases with a claim that no wrong model is known to be refused by, and why: a list that may only become shorter.
+//! Claims that no wrong model is known to be refused by, and why: a list that may only become shorter.
 
-/// Reason, and the cases it is said of.
-pub(crate) const CONTROL: &[(&str, &[&str])] = &[
+/// Their control is in the code, but was not run yet.
+const NOT_STORED: &str = "its control is in the code; the case has not been stored since";
+
+/// Nothing is known of their controls.
+const LONG: &str = "a long case, not run since controls are kept with the claims";
+
+/// They roll without a loss.
+const ROLLS: &str = "it rolls without a loss: gravity and motion are all that its books hold, and no mutation touches one without the other";
+
+/// A factor of two is wide.
+const HEIGHT: &str = "a stream of three times the shear velocity is refused by length and speed of the hops, not by a factor of 2 in their height";
+
+/// Case, how the names of its claims begin (all of the case: nothing), and why.
+pub(crate) const CONTROL: &[(&str, &str, &str)] = &[
+    ("incline", "slope of 35.0 degrees, sphere rolls: energy residual", ROLLS),
+    ("incline", "slope of 31.0 degrees, disc rolls: energy residual", ROLLS),
+    ("starts-to-roll", "start of rolling: energy residual", ROLLS),
+    ("saltation-space", "leaping grains in space, Shields number 0.3: mean hop height", HEIGHT),
+    ("saltation", "leaping grain, Shields number 0.3: mean hop height", HEIGHT),
+    ("pile-twin", "", NOT_STORED),
+    ("litwiniszyn", "Litwiniszyn: B of the lattice", "it compares two constants; nothing is run"),
     (
-        "what is conserved or symmetric holds for any constants: its control would be a broken engine",
-        &[
-            "chung-ooi-normal",
-            "chung-ooi-restitution",
-            "chung-ooi-spin",
-            "restitution-shapes",
-            "stacked",
-            "pull-off",
-            "dent",
-            "slide-to-roll",
-            "incline",
-            "spin-down",
-            "rebound-on-steel",
-            "starts-to-roll",
-            "wet-rebound",
-            "fhp-channel",
-            "cl-ca-invariants",
-            "gutt-haff",
-            "twist-down",
-            "meeting-lattice",
-            "pipe-limit",
-        ],
+        "plate-twin",
+        "DEM: ",
+        "what forces in any pressed bed look like; a bed in which they do not is still to be found",
     ),
-    (
-        "whether grains rest or creep does not hang on 5 %: a law without rest is to be run",
-        &["three-spheres", "rolling-models"],
-    ),
-    (
-        "one of its gates is copied by no control, or by a number that was not run: a wrong model is to be run",
-        &[
-            "impact-damper",
-            "ring-down",
-            "overlap-band",
-            "bed-at-rest",
-            "spin-in-water",
-            "packed-column",
-            "saltation",
-            "saltation-spin",
-            "saltation-space",
-            "fhp-viscosity",
-            "collapse",
-            "convection",
-            "poured-heap",
-            "turning",
-            "litwiniszyn",
-            "caram-hong",
-            "savage",
-            "gutt-haff-silo",
-            "hemmingsson-herrmann",
-            "hopper-order",
-            "pile-angle",
-            "pile-avalanches",
-            "pile-segregation",
-            "common-collapse",
-            "common-shaken",
-            "pile-twin",
-            "plate-twin",
-            "silo-layers",
-        ],
-    ),
-    (
-        "not run since controls are kept with the claims",
-        &[
-            "dam-break-space",
-            "saltation-softest",
-            "drum-regimes",
-            "rheology",
-            "beverloo",
-            "beverloo-3d",
-            "janssen",
-            "chute",
-            "brazil-nut",
-            "dam-break",
-            "dam-break-rolling",
-            "avalanche",
-            "mobile-bed",
-            "dense-flow",
-            "avalanche-stiff",
-        ],
-    ),
+    ("rheology", "discs at", "a flow that is not steady is to be run"),
+    ("rheology", "discs: ", "the line through flows of other grains is to be run"),
+    ("brazil-nut", "shaken bed, seed", "where the grain is put at the start: the scene says it"),
+    ("beverloo", "", LONG),
+    ("beverloo-3d", "", LONG),
+    ("janssen", "", LONG),
+    ("chute", "", LONG),
+    ("dam-break", "", LONG),
+    ("dam-break-rolling", "", LONG),
+    ("dense-flow", "", LONG),
+    ("avalanche", "avalanche, ", "a difference that is large: a wrong model that has none is to be run"),
+    ("avalanche-stiff", "avalanche, ", "a difference that is large: a wrong model that has none is to be run"),
 ];

@@ -48,6 +48,10 @@ pub enum Mutation {
     UnloadingRescale,
     /// Springs are kept when neighbour lists are rebuilt.
     HistoryTransfer,
+    /// Bodies that touch resist that they slide.
+    Sliding,
+    /// Places and velocities are brought on together, to second order in time.
+    SecondOrder,
     /// Balls of the damper automaton collide.
     BallCollision,
     /// Three particles of an FHP gas that meet turn.
@@ -59,8 +63,8 @@ pub enum Mutation {
 
 use Mutation::{
     AddedMass, BallCollision, Buoyancy, Cohesion, Damping, Drag, FilmViscosity, Friction, Gravity, HistoryTransfer,
-    Inertia, LinearStiffness, Losses, Poisson, RollingArm, RollingFriction, TangentialStiffness, ThirdLaw,
-    TripleCollision, TwistingFriction, UnloadingRescale, Young,
+    Inertia, LinearStiffness, Losses, Poisson, RollingArm, RollingFriction, SecondOrder, Sliding, TangentialStiffness,
+    ThirdLaw, TripleCollision, TwistingFriction, UnloadingRescale, Young,
 };
 
 /// How much larger a mutated constant is.
@@ -68,7 +72,7 @@ const FACTOR: f64 = 1.05;
 
 impl Mutation {
     /// All, in the order of tables, each with what it does in words.
-    pub const ALL: [(Self, &str); 22] = [
+    pub const ALL: [(Self, &str); 24] = [
         (Young, "Young's modulus 5 % too large"),
         (Poisson, "Poisson's ratio 5 % too large"),
         (LinearStiffness, "stiffness of linear springs 5 % too large"),
@@ -89,6 +93,8 @@ impl Mutation {
         (Losses, "losses of energy are booked 5 % too large"),
         (UnloadingRescale, "a tangential spring that gets softer holds what it held"),
         (HistoryTransfer, "springs are forgotten when neighbour lists are rebuilt"),
+        (Sliding, "what slides is not resisted"),
+        (SecondOrder, "forward differences in place of the step of second order"),
         (BallCollision, "balls of the damper automaton do not collide"),
         (TripleCollision, "three particles of an FHP gas that meet do not turn"),
     ];

@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use tsubu_frame::{Claim, Origin, Verdict};
 use tsubu_verify::{
-    CASES, CaseRun, Chaotic, chaotic, lacks_control, mutants, mutants_not_run, one_draw, reason, recorded, recorded_run,
+    CASES, Case, CaseRun, Chaotic, chaotic, lacks_control, mutants, mutants_not_run, one_draw, reason, recorded,
+    recorded_run,
 };
 
 const HEAD: &str = "\
@@ -35,9 +36,10 @@ The last takes a night. Ctrl-C stops it, and the same command goes on where it w
 const MUTATIONS: &str = "
 ## Whether a mistake is noticed
 
-A constant of the engines is made 5 % too large, or a rule is left out, one after the other, and all quick cases in which that changes
-something are run. A case notices where a claim that held does not hold any more. `cargo xtask mutants` does it again. What a case does not
-notice is not wrong in it: an angle of repose does not hang on 5 % of a stiffness.
+A constant of the engines is made 5 % too large, or a rule is left out, one after the other, and all cases of at most four seconds in which
+that changes something are run, and a few longer ones. A case notices where a claim that held does not hold any more; that is a control
+of the claim. `cargo xtask mutants` does it again. What a case does not notice is not wrong in it: an angle of repose does not hang on
+5 % of a stiffness.
 
 ";
 
@@ -46,6 +48,14 @@ const CHAOTIC: &str = "
 
 Cases of at most ten seconds were run from two starts that differ in the last bit of the place of one grain (on lattices, whose places are whole
 numbers: in the random numbers). Claims that this moves are to be ensembles. `cargo xtask chaotic` does it again.
+
+";
+
+const COST: &str = "
+## What everything costs
+
+Computing time of every case when it was last stored, without that of its controls. A case that has not been run since costs counts with its
+budget, which is the most that it may take: `tsubu verify --all` takes less than the sum.
 
 ";
 
@@ -66,7 +76,9 @@ pub fn page() -> String {
     page += CHAOTIC;
     page += &hanging(&all);
     page += "\n## With what it was run\n\n";
-    page + &runs()
+    page += &runs();
+    page += COST;
+    page + &costs()
 }
 
 /// The claims by where their ranges come from.
@@ -143,14 +155,18 @@ pub(super) fn sentence(text: &str) -> String {
 fn mutations() -> String {
     let rows = mutants().into_iter().map(|mutant| {
         let names: Vec<String> = mutant.noticed.iter().map(|(name, _)| format!("`{name}`")).collect();
-        let (noticed, reached) = (names.len(), mutant.reached);
+        let (noticed, reached) = (names.len(), mutant.reached.len());
         format!("| {} | {noticed} of {reached} | {} |\n", mutant.mutation, names.join(", "))
     });
     let mut table =
         format!("| wrong on purpose | cases that notice | which |\n|---|---|---|\n{}", rows.collect::<String>());
     let others = mutants_not_run();
     if !others.is_empty() {
-        let _ = write!(table, "\nNot run since the engines last changed: {}.\n", others.join("; "));
+        let _ = write!(
+            table,
+            "\nNot run since the engines last changed, or noticed by no case that was run: {}.\n",
+            others.join("; ")
+        );
     }
     table
 }
@@ -198,6 +214,36 @@ fn runs() -> String {
         let _ = writeln!(text, "\nNothing is stored yet of {}.", missing.join(", "));
     }
     text
+}
+
+/// What every case takes, the longest first.
+fn costs() -> String {
+    let mut rows: Vec<(f64, &Case, Option<CaseRun>)> = CASES
+        .iter()
+        .map(|case| {
+            let run = recorded_run(case.name);
+            (run.as_ref().map_or(f64::from(case.budget), |run| run.seconds), case, run)
+        })
+        .collect();
+    rows.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut table = "| case | study | seconds | runs of ensembles |\n|---|---|---|---|\n".to_owned();
+    for (seconds, case, run) in rows.iter().filter(|(seconds, ..)| *seconds >= 1.0) {
+        let (measured, members) = match run {
+            Some(run) if run.members > 0 => (String::new(), run.members.to_string()),
+            Some(_) => (String::new(), String::new()),
+            None => ("at most ".to_owned(), String::new()),
+        };
+        let _ = writeln!(table, "| `{}` | `{}` | {measured}{seconds:.0} | {members} |", case.name, case.study);
+    }
+    let sum = |told: bool| rows.iter().filter(|(.., run)| run.is_some() == told).map(|row| row.0).sum::<f64>() / 3600.0;
+    let short = rows.iter().filter(|(seconds, ..)| *seconds < 1.0).count();
+    let _ = writeln!(
+        table,
+        "\n{short} more take less than a second each. In all {:.1} hours were measured; the budgets of the others are {:.1} hours, on one core.",
+        sum(true),
+        sum(false)
+    );
+    table
 }
 
 #[cfg(test)]

@@ -68,28 +68,28 @@ pub(in super::super) fn slope(grains: &[DVec3], wall: f64) -> (f64, f64, f64) {
 pub(in super::super) fn collapse(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut rig = collapsing("cl-ca", perturbation == 1.0, &[])?;
     rig.until(0.5)?;
-    let mut claims = vec![between("initial: grains that still move", moved(&mut rig, 0.09, 1e-9)?, 0.0, 0.0, SOURCE)];
+    let still = |when: &str, moved: f64| between(format!("{when}: grains that still move"), moved, 0.0, 0.0, SOURCE);
+    let mut claims = vec![still("initial", moved(&mut rig, 0.09, 1e-9)?)];
     rig.until(0.62)?;
-    claims.push(at_least("middle: grains that move within 20 ms", moved(&mut rig, 0.02, 1e-9)?, 20.0, SOURCE));
+    let moving = moved(&mut rig, 0.02, 1e-9)?;
+    claims.push(at_least("middle: grains that move within 20 ms", moving, 20.0, SOURCE));
     rig.until(1.4)?;
-    claims.push(between("late: grains that still move", moved(&mut rig, 0.1, 1e-9)?, 0.0, 0.0, SOURCE));
+    claims.push(still("late", moved(&mut rig, 0.1, 1e-9)?));
+    claims.push(refused("a bed that has just lost its wall, as one at rest", &[still("middle", moving)], 1));
     let (outside, front, angle) = slope(&rig.vectors("position"), WALL);
     claims.push(between("late: grains beyond the place of the wall", outside, 20.0, 270.0, SOURCE));
     claims.push(between("late: front mm", front, 100.0, 300.0, SOURCE));
     let lattice = own("between nothing and the steepest side of the lattice, 60 degrees").after();
     claims.push(between("late: slope degrees", angle, 20.0, 60.0, lattice));
-    let standing = {
-        let mut rig = collapsing("cl-ca", false, &[])?;
+    let beyond = |opened: bool| -> Result<Claim, String> {
+        let mut rig = collapsing("cl-ca", opened, &[])?;
         rig.until(1.4)?;
-        slope(&rig.vectors("position"), WALL).0
+        let grains = slope(&rig.vectors("position"), WALL).0;
+        let name = "control, the wall stays: grains beyond it";
+        Ok(between(name, grains, 0.0, 0.0, closed_form("nothing else lets them out")))
     };
-    claims.push(between(
-        "control, the wall stays: grains beyond it",
-        standing,
-        0.0,
-        0.0,
-        closed_form("nothing else lets them out"),
-    ));
+    claims.push(beyond(false)?);
+    claims.push(refused("a wall that goes for one that stays", &[beyond(true)?], 1));
     Ok(claims)
 }
 
@@ -141,42 +141,41 @@ pub(in super::super) fn turning(perturbation: f64) -> Result<Vec<Claim>, String>
     // 6 and 21 points, for the 7 and 19 of the hexagons.
     const TRIANGLES: &str = "cl-ca.shapes={ small = { polygon = { corners = [[0, 0], [0, 4], [2, 2]] } }, \
                              large = { polygon = { corners = [[0, 0], [0, 10], [5, 5]] } } }";
-    let run = |shapes: &[&str], turning: bool| -> Result<_, String> {
+    let run = |shapes: &[&str], turning: bool, opened: bool| -> Result<_, String> {
         let turning = format!("cl-ca.turning={}", turning && perturbation == 1.0);
-        let mut rig = collapsing("cl-ca", true, &[shapes, &[turning.as_str()]].concat())?;
+        let mut rig = collapsing("cl-ca", opened, &[shapes, &[turning.as_str()]].concat())?;
         rig.until(0.59)?;
         let height = rig.engine.centre_of_mass()[2];
         rig.until(1.4)?;
         let (_, front, slope) = slope(&rig.vectors("position"), WALL);
         Ok((height, front - 1e3 * WALL, slope))
     };
-    let (stiff, turned) = (run(&[TRIANGLES], false)?, run(&[TRIANGLES], true)?);
-    let (hexagons, same) = (run(&[], false)?, run(&[], true)?);
+    let (stiff, turned) = (run(&[TRIANGLES], false, true)?, run(&[TRIANGLES], true, true)?);
+    let (hexagons, same) = (run(&[], false, true)?, run(&[], true, true)?);
     let room = own("grains that turn find room that others leave open").after();
     let closer = |name: &str, turned: f64, stiff: f64| between(name, turned / stiff, 0.5, 0.95, room);
     let pattern =
         own("the lattice makes the slope, not whether grains turn: what comes out is close to what does not turn")
             .after();
-    Ok(vec![
-        closer("height of the bed at rest, triangles that turn over those that do not", turned.0, stiff.0),
-        refused(
-            "hexagons, which look alike when turned",
-            &[closer("height of the bed at rest, triangles that turn over those that do not", same.0, hexagons.0)],
-            1,
-        ),
-        between(
-            "way of the front, triangles that turn over those that do not",
-            turned.1 / stiff.1,
-            0.75,
-            1.33,
-            pattern,
-        ),
-        between(
-            "slope in degrees, triangles that turn less those that do not",
-            turned.2 - stiff.2,
-            -10.0,
-            10.0,
-            pattern,
-        ),
-    ])
+    let alike = |turned: (f64, f64, f64)| {
+        let way = turned.1 / stiff.1;
+        [
+            between("way of the front, triangles that turn over those that do not", way, 0.75, 1.33, pattern),
+            between(
+                "slope in degrees, triangles that turn less those that do not",
+                turned.2 - stiff.2,
+                -10.0,
+                10.0,
+                pattern,
+            ),
+        ]
+    };
+    let height = "height of the bed at rest, triangles that turn over those that do not";
+    let mut claims = vec![
+        closer(height, turned.0, stiff.0),
+        refused("hexagons, which look alike when turned", &[closer(height, same.0, hexagons.0)], 1),
+    ];
+    claims.extend(alike(turned));
+    claims.push(refused("triangles whose wall stays", &alike(run(&[TRIANGLES], true, false)?), 2));
+    Ok(claims)
 }

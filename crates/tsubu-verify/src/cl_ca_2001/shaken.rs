@@ -1,6 +1,7 @@
 //! C-x1 and C-x2: a shaken box, in which a large grain rises and rough walls make grains roll round.
 
 use super::super::bench::{Rig, at_least, between};
+use super::super::control::refused;
 use crate::origin::own;
 use glam::DVec3;
 use tsubu_frame::Claim;
@@ -134,10 +135,13 @@ pub(in super::super) fn convection(perturbation: f64) -> Result<Vec<Claim>, Stri
     let outer = |v: &[f64; 7]| 0.5 * (v[0] + v[6]);
     let inner = |v: &[f64; 7]| 0.5 * (v[1] + v[5]);
     let strength = |v: &[f64; 7]| inner(v) - outer(v);
+    let none =
+        |rolls: &[f64; 7]| between("smooth walls: strength of the roll mm a cycle", strength(rolls), -0.1, 0.1, source);
     Ok(vec![
         between("rough walls: rise at the walls mm a cycle", outer(&rough), -5.0, -0.05, source),
         between("rough walls: rise beside that mm a cycle", inner(&rough), 0.05, 5.0, source),
-        between("smooth walls: strength of the roll mm a cycle", strength(&smooth), -0.1, 0.1, source),
+        none(&smooth),
+        refused("rough walls for smooth ones", &[none(&rough)], 1),
         at_least("strength, rough over smooth", strength(&rough) / strength(&smooth).abs().max(0.02), 5.0, source),
     ])
 }

@@ -75,7 +75,11 @@ fn judge(of: &Measured) -> Vec<Claim> {
     claims.push(refused("collapse, locked discs for free ones", &[further("locked", "dem")], 1));
     claims.extend(alike("cl-ca"));
     claims.push(refused("collapse, free discs for hexagons", &alike("dem"), 2));
-    let stays = closed_form("nothing else lets them out");
-    claims.push(between("collapse, the wall stays: share beyond it", of.value("stays", BEYOND), 0.0, 0.0, stays));
+    let stays = |name: &str| {
+        let source = closed_form("nothing else lets them out");
+        between("collapse, the wall stays: share beyond it", of.value(name, BEYOND), 0.0, 0.0, source)
+    };
+    claims.push(stays("stays"));
+    claims.push(refused("collapse, a wall that goes for one that stays", &[stays("cl-ca")], 1));
     claims
 }

@@ -28,7 +28,8 @@ pub(super) const TEST: Test = Test {
     controls: concat!(
         "equal-dem=dem:particles.large.diameter=2.778 mm,",
         "equal-switched=cl-ca:particles.large.diameter=2.778 mm:",
-        switched!()
+        switched!(),
+        ",soft=dem:materials.aluminium.young-modulus=1e6:dem.largest-overlap=0.9"
     ),
     spoil: |plan| {
         for wall in plan.walls.values_mut() {
@@ -96,5 +97,6 @@ fn judge(of: &Measured) -> Vec<Claim> {
     claims.push(still("switched"));
     claims.push(refused("shaken, discs that rub for hexagons that do not", &[still("dem")], 1));
     claims.extend(["dem", "switched", "cl-ca"].map(sinks));
+    claims.push(refused("shaken, discs that are too soft for a floor", &[sinks("soft")], 1));
     claims
 }

@@ -30,13 +30,25 @@ fn from_middle(column: usize) -> f64 {
     (column as f64 - 0.5 * (COLUMNS - 1) as f64).abs()
 }
 
-/// A hopper with rough walls; what falls out below comes in above. Two grains a site at first.
-fn hopper(elongated: bool) -> Grains {
-    let habits = Habits { gravity: 0.2, dissipation: 0.3, roughness: 1.0 };
+/// How a hopper is made.
+#[derive(Clone, Copy)]
+struct Make {
+    /// Share of the walls' sites that send grains back.
+    roughness: f64,
+    /// Whether the throat is shut.
+    shut: bool,
+}
+
+/// The hopper of the claims.
+const HOPPER: Make = Make { roughness: 1.0, shut: false };
+
+/// A hopper; what falls out below comes in above. Two grains a site at first.
+fn hopper(elongated: bool, Make { roughness, shut }: Make) -> Grains {
+    let habits = Habits { gravity: 0.2, dissipation: 0.3, roughness };
     let mut grains = Grains::new(COLUMNS, ROWS, [true, true], habits, 1);
     for column in 0..COLUMNS {
         for row in 0..ROWS {
-            if from_middle(column) > half_width(row) {
+            if from_middle(column) > half_width(row) || shut && row == 33 {
                 grains.set_wall(column, row, Some(0));
             } else if row > THROAT {
                 let drawn = words(1, Purpose::Placement, (column * ROWS + row) as u32, 0);
@@ -69,8 +81,8 @@ struct Seen {
     sites: Vec<u8>,
 }
 
-fn run(alignment: Option<Alignment>) -> Seen {
-    let mut grains = hopper(alignment.is_some());
+fn run(alignment: Option<Alignment>, make: Make) -> Seen {
+    let mut grains = hopper(alignment.is_some(), make);
     let (mut upright, mut speed, mut flow, mut looks) = ([[0.0; 2]; 2], [[0.0; 2]; 2], 0.0, 0.0);
     let mut sides = [[0.0; 2]; 2];
     let inside: Vec<(usize, usize)> = (0..COLUMNS).flat_map(|c| (0..ROWS).map(move |r| (c, r))).collect();
@@ -122,53 +134,57 @@ fn run(alignment: Option<Alignment>) -> Seen {
 pub(crate) fn hopper_order(perturbation: f64) -> Result<Vec<Claim>, String> {
     // The perturbation heats the grains.
     let temperature = 1.0 / perturbation.powi(60);
-    let with = run(Some(Alignment { neighbours: 0.5, way: 1.0, temperature }));
-    let without = run(Some(Alignment { neighbours: 0.0, way: 0.0, temperature: 1.0 }));
-    let round = run(None);
-    let differ = without.sites.iter().zip(&round.sites).filter(|(a, b)| a != b).count();
-    let gate = |name: &str, seen: &Seen| Claim::judge(name, seen.throat - seen.above, Some(0.05), None, SOURCE);
-    let order = |name: &str, seen: &Seen| Claim::judge(name, seen.throat, Some(0.8), None, SOURCE);
-    Ok(vec![
-        order("hopper: share of upright grains in the throat", &with),
-        gate("hopper: that share less the one above the slope", &with),
-        refused(
-            "no alignment",
-            &[
-                order("hopper: share of upright grains in the throat", &without),
-                gate("hopper: that share less the one above the slope", &without),
-            ],
-            2,
-        ),
-        within(
-            "hopper: share of upright grains in the throat without alignment",
-            without.throat,
-            1.0 / 3.0,
-            0.03,
-            closed_form("symmetry"),
-        ),
-        within(
-            "hopper: sites that differ from round grains",
-            differ as f64,
-            0.0,
-            0.0,
-            closed_form("grains that are alike on all sides are those after Peng and Herrmann"),
-        ),
-        Claim::judge("hopper: grains through the throat in a step", with.flow, Some(1.0), None, SOURCE),
-        Claim::judge(
-            "hopper: speed near the walls of the slope over that in the middle",
-            with.corner / with.middle,
-            None,
-            Some(0.6),
-            SOURCE,
-        ),
-    ])
+    let with = run(Some(Alignment { neighbours: 0.5, way: 1.0, temperature }), HOPPER);
+    let without = run(Some(Alignment { neighbours: 0.0, way: 0.0, temperature: 1.0 }), HOPPER);
+    let round = run(None, HOPPER);
+    let (smooth, shut) = (run(None, Make { roughness: 0.0, ..HOPPER }), run(None, Make { shut: true, ..HOPPER }));
+    let gates = |seen: &Seen| {
+        [
+            Claim::judge("hopper: share of upright grains in the throat", seen.throat, Some(0.8), None, SOURCE),
+            Claim::judge(
+                "hopper: that share less the one above the slope",
+                seen.throat - seen.above,
+                Some(0.05),
+                None,
+                SOURCE,
+            ),
+        ]
+    };
+    let alike = |seen: &Seen| {
+        let differ = seen.sites.iter().zip(&round.sites).filter(|(a, b)| a != b).count();
+        let source = closed_form("grains that are alike on all sides are those after Peng and Herrmann");
+        [
+            within(
+                "hopper: share of upright grains in the throat without alignment",
+                seen.throat,
+                1.0 / 3.0,
+                0.03,
+                closed_form("symmetry"),
+            ),
+            within("hopper: sites that differ from round grains", differ as f64, 0.0, 0.0, source),
+        ]
+    };
+    let flow =
+        |seen: &Seen| Claim::judge("hopper: grains through the throat in a step", seen.flow, Some(1.0), None, SOURCE);
+    let slow = |seen: &Seen| {
+        let name = "hopper: speed near the walls of the slope over that in the middle";
+        Claim::judge(name, seen.corner / seen.middle, None, Some(0.6), SOURCE)
+    };
+    let mut claims = gates(&with).to_vec();
+    claims.push(refused("no alignment", &gates(&without), 2));
+    claims.extend(alike(&without));
+    claims.push(refused("grains that align", &alike(&with)[..1], 1));
+    claims.extend([flow(&with), slow(&with)]);
+    claims.push(refused("smooth walls", &[slow(&smooth), alike(&smooth)[1].clone()], 2));
+    claims.push(refused("a throat that is shut", &[flow(&shut)], 1));
+    Ok(claims)
 }
 
 /// Order was to grow near walls as well as along the slope.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
 pub(crate) fn hopper_walls(perturbation: f64) -> Result<Vec<Claim>, String> {
     let gate = |alignment: Alignment| {
-        let [walls, middle] = run(Some(alignment)).shoulder;
+        let [walls, middle] = run(Some(alignment), HOPPER).shoulder;
         let name =
             "hopper, above the slope: share of upright grains within four columns of the walls less that in the middle";
         Claim::judge(name, walls - middle, Some(0.1), None, SOURCE)

@@ -82,8 +82,15 @@ pub(crate) fn viscosity(perturbation: f64) -> Result<Vec<Claim>, String> {
     claims.push(refused_number("viscosity of another form, or of a gas 10 % thinner", &gates, 6));
     for (rules, name, d, columns) in [(Rules::One, "FHP-I", 0.35, 64), (Rules::Three, "FHP-III", 0.5, 32)] {
         let wave = Wave { amplitude: 0.2, ..Wave::new(rules, d * perturbation, [columns, 65_536]) };
-        let text = format!("{name}: viscosity of a shear wave over the formula, d = {d}, {columns} columns");
-        claims.push(near(text, wave.viscosity(), 1.0, 0.03, FRISCH));
+        let gate = |over: f64| {
+            let text = format!("{name}: viscosity of a shear wave over the formula, d = {d}, {columns} columns");
+            near(text, over, 1.0, 0.03, FRISCH)
+        };
+        claims.push(gate(wave.viscosity()));
+        // The same collisions but for those of a particle at rest and a mover, or of three that meet.
+        let wrong = Wave { rules: Rules::Two, rows: 16_384, ..wave };
+        let over = wrong.viscosity() * formula(Rules::Two, wave.density) / formula(rules, d);
+        claims.push(refused(&format!("the collisions of FHP-II for those of {name}"), &[gate(over)], 1));
     }
     Ok(claims)
 }

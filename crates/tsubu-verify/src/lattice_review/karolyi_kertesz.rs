@@ -1,6 +1,6 @@
 //! piles and avalanches, after Karolyi and Kertesz.
 
-use super::super::control::{refused, refused_number};
+use super::super::control::refused;
 use super::fhp::slope;
 use crate::origin::{closed_form, own};
 use tsubu::lattice::gas::pile::{Habits, Pile};
@@ -60,11 +60,14 @@ pub(crate) fn pile_angle(perturbation: f64) -> Result<Vec<Claim>, String> {
     // The perturbation takes friction away.
     let angles = [0.02, 0.1, 0.2].map(|friction| angle(friction * perturbation.powi(60)));
     let gate = |name: &str, rise: f64| Claim::judge(name, rise, Some(4.0), None, SOURCE);
-    let mut claims =
-        vec![Claim::judge("pile: slope at friction 0.02 [degrees]", angles[0], Some(30.0), Some(40.0), SOURCE)];
+    let flat =
+        |angle: f64| Claim::judge("pile: slope at friction 0.02 [degrees]", angle, Some(30.0), Some(40.0), SOURCE);
+    let steep = |angle: f64| Claim::judge("pile: slope at friction 0.2 [degrees]", angle, None, Some(75.0), SOURCE);
+    let mut claims = vec![flat(angles[0])];
     claims.push(gate("pile: rise of the slope from friction 0.02 to 0.1 [degrees]", angles[1] - angles[0]));
     claims.push(gate("pile: rise of the slope from friction 0.1 to 0.2 [degrees]", angles[2] - angles[1]));
-    claims.push(Claim::judge("pile: slope at friction 0.2 [degrees]", angles[2], None, Some(75.0), SOURCE));
+    claims.push(steep(angles[2]));
+    claims.push(refused("grains five times as rough", &[flat(angles[1])], 1));
     let again = angle(0.1 * perturbation.powi(60));
     claims.push(refused(
         "the same friction twice",
@@ -84,33 +87,22 @@ fn exponent(fell: &[f64], from: f64, to: f64) -> f64 {
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
 pub(crate) fn pile_avalanches(perturbation: f64) -> Result<Vec<Claim>, String> {
     let (pile, fell) = heap(0.1 * perturbation, 60, 30_000);
-    let fell: Vec<f64> = fell[8000..].iter().map(|f| *f as f64).collect();
-    let gates = |fell: &[f64], name: &str| {
+    let fell: Vec<f64> = fell.iter().map(|f| *f as f64).collect();
+    let gates = |fell: &[f64]| {
         let steeper = exponent(fell, 64.0, 256.0) - exponent(fell, 1.0, 8.0);
-        Claim::judge(
-            format!("{name}: exponent beyond 64 grains over that below 8, difference"),
-            steeper,
-            Some(1.0),
-            None,
-            SOURCE,
-        )
+        let mean = fell.iter().sum::<f64>() / fell.len() as f64;
+        let largest = fell.iter().fold(0.0_f64, |most, f| most.max(*f)) / pile.grains() as f64;
+        let scale = "pile: avalanches over the edge: exponent beyond 64 grains over that below 8, difference";
+        let balance = "pile: grains that fall off for one that is dropped";
+        vec![
+            Claim::judge(scale, steeper, Some(1.0), None, SOURCE),
+            Claim::judge("pile: largest of 22 000 avalanches over the pile", largest, Some(0.01), Some(0.3), SOURCE),
+            Claim::judge(balance, mean, Some(0.9), Some(1.1), closed_form("a pile in balance")),
+        ]
     };
-    let mean = fell.iter().sum::<f64>() / fell.len() as f64;
-    let largest = fell.iter().fold(0.0_f64, |most, f| most.max(*f)) / pile.grains() as f64;
-    // The same number of avalanches without a scale: shares 1/size.
-    let scale_free: Vec<f64> = (1..=fell.len()).map(|rank| (fell.len() as f64 / rank as f64).floor()).collect();
-    Ok(vec![
-        gates(&fell, "pile: avalanches over the edge"),
-        refused_number("avalanches without a scale", &[gates(&scale_free, "scale-free")], 1),
-        Claim::judge("pile: largest of 22 000 avalanches over the pile", largest, Some(0.01), Some(0.3), SOURCE),
-        Claim::judge(
-            "pile: grains that fall off for one that is dropped",
-            mean,
-            Some(0.9),
-            Some(1.1),
-            closed_form("a pile in balance"),
-        ),
-    ])
+    let mut claims = gates(&fell[8000..]);
+    claims.push(refused("a pile that has not come to the edge yet", &gates(&fell[..2000]), 3));
+    Ok(claims)
 }
 
 /// Columns and rows of a silo.
@@ -148,13 +140,14 @@ fn farther(pile: &Pile) -> f64 {
 pub(crate) fn pile_segregation(perturbation: f64) -> Result<Vec<Claim>, String> {
     let rough = 0.02 + 0.38 * perturbation.powi(60);
     let gate = |name: &str, value: f64| Claim::judge(name, value, Some(4.0), None, SOURCE);
-    let equal = farther(&silo([0.2; 2]));
+    let (equal, parted) = (farther(&silo([0.2; 2])), farther(&silo([0.02, rough])));
+    let same = |value: f64| {
+        Claim::judge("silo: the same for equal grains", value, Some(-2.0), Some(2.0), closed_form("symmetry"))
+    };
     Ok(vec![
-        gate(
-            "silo: smooth grains lie farther from the spout than rough ones [columns of 78]",
-            farther(&silo([0.02, rough])),
-        ),
-        Claim::judge("silo: the same for equal grains", equal, Some(-2.0), Some(2.0), closed_form("symmetry")),
+        gate("silo: smooth grains lie farther from the spout than rough ones [columns of 78]", parted),
+        same(equal),
+        refused("a smooth and a rough kind for equal ones", &[same(parted)], 1),
         refused(
             "grains of equal friction",
             &[gate("silo: smooth grains lie farther from the spout than rough ones [columns of 78]", equal)],
@@ -186,18 +179,18 @@ pub(crate) fn silo_layers(perturbation: f64) -> Result<Vec<Claim>, String> {
     let gate = |name: &str, value: f64| Claim::judge(name, value, Some(0.1), None, SOURCE);
     let at_rest = |pile: Pile| move |c: usize, r: usize| pile.at_rest(c, r);
     let drawn = |c: usize, r: usize| Some((r + c.div_ceil(2)) / 4 % 2);
+    let mixed = |c: usize, r: usize| Some((words(1, Purpose::Stream, (c * ROWS + r) as u32, 0)[0] & 1) as usize);
+    let by_hand = |found: f64| {
+        let name = "silo: the same where layers of four rows are drawn";
+        Claim::judge(name, found, Some(0.1), None, own("by hand").after())
+    };
     Ok(vec![
         gate(
             "silo: share of like neighbours down the slope less that of those above each other",
             layered(at_rest(silo([0.02, rough]))),
         ),
-        Claim::judge(
-            "silo: the same where layers of four rows are drawn",
-            layered(drawn),
-            Some(0.1),
-            None,
-            own("by hand").after(),
-        ),
+        by_hand(layered(drawn)),
+        refused("kinds that are drawn at random", &[by_hand(layered(mixed))], 1),
         refused(
             "grains of equal friction",
             &[gate(

@@ -151,7 +151,8 @@ pub(in super::super) fn dense_flow(perturbation: f64) -> Result<Vec<Claim>, Stri
             closed_form("grains slow a stream that hears of them"),
         ),
     ];
-    let wrong = [upper(gentle.upper, ""), strong(gentle.zigzag, ""), equal(gentle.fraction, "", 38.0)];
+    let wrong =
+        [upper(gentle.upper, ""), strong(gentle.zigzag, ""), deep(gentle.depth, ""), equal(gentle.fraction, "", 38.0)];
     claims.push(refused("a slope of 2 degrees", &wrong, 2));
     claims.push(refused_number(
         "Takahashi's fraction for a friction of 25 degrees",

@@ -116,6 +116,8 @@ fn leaps(stiffness: f64, changes: &[&str], hops: usize, perturbation: f64) -> Re
 
 /// Locked, with the contacts of the paper's figure 20.
 const LOCKED: &[&str] = &["contact.rotation=false"];
+/// Nine times as deep, which makes three times the shear velocity.
+const DEEP: &[&str] = &["water.flow.log-law.depth=0.18"];
 pub(super) const FREE: &[&str] = &["contact.rotation=true"];
 pub(super) const IN_WATER: &[&str] = &["contact.rotation=true", "water.torque={finite-reynolds={}}"];
 /// Hops that means of hops are taken over: 30 are too few to tell two stiffnesses apart.
@@ -148,7 +150,8 @@ pub(in super::super) fn saltation(perturbation: f64) -> Result<Vec<Claim>, Strin
     };
     claims.push(same("mean hop height", paper.height, stiff.height));
     claims.push(same("mean hop length", paper.length, stiff.length));
-    let gates = [same("", soft.height, stiff.height), same("", soft.length, stiff.length)];
+    let gates =
+        [same("mean hop height", soft.height, stiff.height), same("mean hop length", soft.length, stiff.length)];
     claims.push(refused("contacts of 1 N/cm, in which the grain sinks between those of the bed", &gates, 2));
     let source = remembered("Sklar and Dietrich 2004, of measured hops, a factor of 2");
     let twice = |name: &str, value: f64, wanted: f64| {
@@ -160,9 +163,16 @@ pub(in super::super) fn saltation(perturbation: f64) -> Result<Vec<Claim>, Strin
             source,
         )
     };
-    claims.push(twice("mean hop height over d", paper.height / D, 3.4));
-    claims.push(twice("mean hop length over d", paper.length / D, 36.8));
-    claims.push(twice("mean speed [m/s]", paper.speed, 0.741));
+    let hops = |found: &Leaps| {
+        [
+            twice("mean hop height over d", found.height / D, 3.4),
+            twice("mean hop length over d", found.length / D, 36.8),
+            twice("mean speed [m/s]", found.speed, 0.741),
+        ]
+    };
+    claims.extend(hops(&paper));
+    let torrent = leaps(1e4, &[LOCKED, DEEP].concat(), HOPS, perturbation)?;
+    claims.push(refused("a stream of three times the shear velocity", &hops(&torrent), 2));
     Ok(claims)
 }
 
@@ -170,17 +180,12 @@ pub(in super::super) fn saltation(perturbation: f64) -> Result<Vec<Claim>, Strin
 pub(in super::super) fn softest(perturbation: f64) -> Result<Vec<Claim>, String> {
     let found = leaps(100.0, LOCKED, MANY, perturbation)?;
     let source = own("why the contact ends early").after();
-    let moved = found.contact * found.speed / D;
-    Ok(vec![
-        contact_claim(100.0, &found),
-        Claim::judge(
-            "leaping grain, k = 1 N/cm: way along the bed in a contact, over d",
-            moved,
-            Some(0.3),
-            None,
-            source,
-        ),
-    ])
+    let goes_on = |found: &Leaps| {
+        let name = "leaping grain, k = 1 N/cm: way along the bed in a contact, over d";
+        Claim::judge(name, found.contact * found.speed / D, Some(0.3), None, source)
+    };
+    let harder = leaps(1e4, LOCKED, HOPS, perturbation)?;
+    Ok(vec![contact_claim(100.0, &found), goes_on(&found), refused("contacts of 100 N/cm", &[goes_on(&harder)], 1)])
 }
 
 /// B-F20, B-F21: free to spin, grains leap higher and farther, friction holds them half as much, and they spin up to what rolling
@@ -201,33 +206,36 @@ pub(in super::super) fn spinning(perturbation: f64) -> Result<Vec<Claim>, String
             own("rolling without slip; figure 21").after(),
         )
     };
-    let fastest = free.fastest * 0.5 * D;
-    let mut claims = vec![
-        more("mean hop height", locked.height, free.height),
-        more("mean hop length", locked.length, free.length),
-        near(
-            "leaping grain, friction over normal impulse at impacts, free over locked",
-            free.resistance / locked.resistance,
-            0.5,
-            0.3,
-            source,
-        ),
-        spins(&free),
-        Claim::judge(
-            "leaping grain, largest |w| d/2 [m/s]",
-            fastest,
-            None,
-            Some(1.41),
-            closed_form("not above the fastest water, at the surface"),
-        ),
-        Claim::judge(
-            "leaping grain, mean |w| d/2 with the torque of the water over without",
-            wet.rim / free.rim,
-            None,
-            Some(0.5),
-            own("a spin lasts 0.04 s in water, less than a hop (Dennis et al. 1980)").after(),
-        ),
-    ];
+    let frees = |locked: &Leaps, free: &Leaps| {
+        [
+            more("mean hop height", locked.height, free.height),
+            more("mean hop length", locked.length, free.length),
+            near(
+                "leaping grain, friction over normal impulse at impacts, free over locked",
+                free.resistance / locked.resistance,
+                0.5,
+                0.3,
+                source,
+            ),
+        ]
+    };
+    let bounded = |found: &Leaps| {
+        let name = "leaping grain, largest |w| d/2 [m/s]";
+        let source = closed_form("not above the fastest water, at the surface");
+        Claim::judge(name, found.fastest * 0.5 * D, None, Some(1.41), source)
+    };
+    let torque = |wet: &Leaps| {
+        let name = "leaping grain, mean |w| d/2 with the torque of the water over without";
+        let source = own("a spin lasts 0.04 s in water, less than a hop (Dennis et al. 1980)").after();
+        Claim::judge(name, wet.rim / free.rim, None, Some(0.5), source)
+    };
+    let mut claims = frees(&locked, &free).to_vec();
+    claims.extend([spins(&free), bounded(&free), torque(&wet)]);
+    let still_locked = leaps(1e4, LOCKED, HOPS, perturbation)?;
+    claims.push(refused("locked grains for free ones", &frees(&locked, &still_locked), 3));
+    let torrent = leaps(1e4, &[FREE, DEEP].concat(), HOPS, perturbation)?;
+    claims.push(refused("a stream of three times the shear velocity", &[bounded(&torrent)], 1));
+    claims.push(refused("water without a torque", &[torque(&leaps(1e4, FREE, HOPS, perturbation)?)], 1));
     claims.extend(spin_up::claims(perturbation)?);
     claims.push(refused("grains in water that does not resist their spin, as spins of real ones", &[spins(&wet)], 1));
     Ok(claims)

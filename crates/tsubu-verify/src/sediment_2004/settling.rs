@@ -116,14 +116,19 @@ pub(in super::super) fn settling(perturbation: f64) -> Result<Vec<Claim>, String
     // A little above, the soft bed boils and the hard one nearly rests, which is the paper's picture.
     let source = digitised("about half vibrate at 1 N/cm, none at 100 N/cm (Osada 2004, figures 9, 10)").after();
     let near = Way { integrator: FORWARD, steps: 12 };
-    for (stiffness, least, most) in [(SOFT, Some(0.5), None), (HARD, None, Some(0.25))] {
+    let share = |stiffness: f64| {
         let shares: Result<Vec<f64>, String> =
             (1..=5).map(|seed| Ok(rest(stiffness, near, seed, perturbation)?.vibrating)).collect();
-        let name = format!(
-            "42 grains, {} N/cm, forward differences, 12 steps: share that vibrates, mean of five",
-            stiffness / 100.0
-        );
-        claims.push(Claim::judge(name, mean(&shares?).0, least, most, source));
-    }
+        Ok::<f64, String>(mean(&shares?).0)
+    };
+    let gates = |soft: f64, hard: f64| {
+        [("1", soft, Some(0.5), None), ("100", hard, None, Some(0.25))].map(|(stiffness, value, least, most)| {
+            let way = "forward differences, 12 steps: share that vibrates, mean of five";
+            Claim::judge(format!("42 grains, {stiffness} N/cm, {way}"), value, least, most, source)
+        })
+    };
+    let (soft, hard) = (share(SOFT)?, share(HARD)?);
+    claims.extend(gates(soft, hard));
+    claims.push(refused("soft grains and hard ones changed for each other", &gates(hard, soft), 2));
     Ok(claims)
 }

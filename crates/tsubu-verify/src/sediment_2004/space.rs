@@ -63,11 +63,16 @@ pub(in super::super) fn saltation_space(perturbation: f64) -> Result<Vec<Claim>,
     };
     let found = hops(&[], perturbation)?;
     let mut claims = gates(found).to_vec();
-    let name = "leaping grains in space: contact time over pi sqrt(m/k)";
-    let source = closed_form("Osada et al. 2004, figure 6 and (B8): general agreement");
-    claims.push(near(name, found[3] / contact_seconds(D, 1e4), 1.0, 0.1, source));
-    let faster = ["water.flow.log-law={shear-velocity=0.2,roughness=0.002,zero-level=-0.0005}", "water.surface=0.0195"];
-    claims.push(refused("a stream twice as fast", &gates(hops(&faster, perturbation)?), 2));
+    let contact = |found: [f64; 4]| {
+        let name = "leaping grains in space: contact time over pi sqrt(m/k)";
+        let source = closed_form("Osada et al. 2004, figure 6 and (B8): general agreement");
+        near(name, found[3] / contact_seconds(D, 1e4), 1.0, 0.1, source)
+    };
+    claims.push(contact(found));
+    let faster = ["water.flow.log-law={shear-velocity=0.3,roughness=0.002,zero-level=-0.0005}", "water.surface=0.0195"];
+    claims.push(refused("a stream three times as fast", &gates(hops(&faster, perturbation)?), 2));
+    let softer = hops(&["contact.normal.hooke.stiffness=5e3", "duration=1.5"], perturbation)?;
+    claims.push(refused("half the stiffness", &[contact(softer)], 1));
     Ok(claims)
 }
 

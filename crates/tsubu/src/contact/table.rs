@@ -1,7 +1,7 @@
 //! The contact table: everything about a pair of materials that does not change during a run, its law included.
 
 use super::law::Law;
-use crate::mutation::{Mutation, mutated};
+use crate::mutation::{Mutation, left_out, mutated};
 use std::collections::BTreeSet;
 use tsubu_scene::plan::{Contact, Material, MaterialPair, Plan};
 
@@ -203,7 +203,11 @@ fn combine(m: &Material, n: &Material, found: Option<&MaterialPair>) -> Constant
         effective_modulus: of_pair(plane, plane_of_other),
         shear_modulus: mutated(Mutation::TangentialStiffness, of_pair(shear, shear_of_other)),
         restitution: mix(told(|p| p.restitution), m.restitution, n.restitution),
-        friction: mutable(Mutation::Friction, told(|p| p.friction), m.friction, n.friction),
+        friction: if left_out(Mutation::Sliding) {
+            0.0
+        } else {
+            mutable(Mutation::Friction, told(|p| p.friction), m.friction, n.friction)
+        },
         rolling: mutable(
             Mutation::RollingFriction,
             told(|p| p.rolling_friction),

@@ -3,7 +3,7 @@
 
 use super::contact_forces::BlockContacts;
 use super::sweep::{BlockRange, Direction, sweep};
-use crate::mutation::{Mutation, mutated};
+use crate::mutation::{Mutation, left_out, mutated};
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::drift::Drift;
 use crate::neighbours::lists::{BLOCK, BlockList, shares};
@@ -126,6 +126,7 @@ impl BlockRange for Slice<'_> {
 
 impl TimeIntegration {
     pub fn new(scheme: Integrator, gravity: DVec3, rotation: bool) -> Self {
+        let scheme = if left_out(Mutation::SecondOrder) { Integrator::ForwardEuler } else { scheme };
         Self { scheme, gravity: mutated(Mutation::Gravity, 1.0) * gravity, rotation, reports: Vec::new() }
     }
 
