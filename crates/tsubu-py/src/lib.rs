@@ -1,7 +1,7 @@
 //! The door to Python: the module `tsubu._tsubu`, which the package `tsubu` is written on.
 //!
 //! It opens scenes, moves them, and hands out numbers. Texts, tables and plots are Python: `python/tsubu`. It only calls the other
-//! crates; none calls it. Arrays of grains lie in the memory of the engine, see [`lease`].
+//! crates; none calls it. Arrays of grains lie in the memory of the engine, see `lease.rs`.
 
 #![allow(clippy::needless_pass_by_value, reason = "what Python hands over is made for the call and belongs to it")]
 
