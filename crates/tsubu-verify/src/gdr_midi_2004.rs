@@ -53,6 +53,15 @@ struct Seen {
     mass: f64,
 }
 
+/// What is seen at one time: height, speed along x and radius of every grain, force on the floor along x and up, force on the lid along x, and
+/// height of the highest grain.
+struct Look {
+    grains: Vec<[f64; 3]>,
+    floor: [f64; 2],
+    lid: f64,
+    top: f64,
+}
+
 impl Flow {
     fn rig(&self, perturbation: f64) -> Result<Rig, String> {
         let Self { length, layers, friction, speed, gravity, seed } = *self;
@@ -127,16 +136,17 @@ impl Flow {
                 }
             }
             let top = grains.iter().map(|g| g[0] + g[2]).fold(0.0, f64::max);
-            (grains, floor, lid, top)
+            Look { grains, floor, lid, top }
         })?;
         let times = looks.len() as f64;
-        let mean = |of: &dyn Fn(&(Vec<[f64; 3]>, [f64; 2], f64, f64)) -> f64| looks.iter().map(of).sum::<f64>() / times;
-        let height = mean(&|look| look.3);
+        let mean = |of: fn(&Look) -> f64| looks.iter().map(of).sum::<f64>() / times;
+        let height = mean(|look| look.top);
         let count = (height / thick).round().max(1.0);
         let thick = height / count;
         let slabs = (0..count as usize).map(|slab| {
             let low = slab as f64 * thick;
-            let inside = || looks.iter().flat_map(|look| &look.0).filter(move |g| (low..low + thick).contains(&g[0]));
+            let inside =
+                || looks.iter().flat_map(|look| &look.grains).filter(move |g| (low..low + thick).contains(&g[0]));
             let speed = inside().map(|g| g[1]).sum::<f64>() / inside().count() as f64;
             let area = inside().map(|g| std::f64::consts::PI * g[2] * g[2]).sum::<f64>() / times;
             [low + 0.5 * thick, speed, area / (thick * self.length)]
@@ -144,8 +154,8 @@ impl Flow {
         Ok(Seen {
             height,
             slabs: slabs.collect(),
-            drag: [mean(&|look| look.1[0]) / self.length, mean(&|look| look.2) / self.length],
-            pressure: -mean(&|look| look.1[1]) / self.length,
+            drag: [mean(|look| look.floor[0]) / self.length, mean(|look| look.lid) / self.length],
+            pressure: -mean(|look| look.floor[1]) / self.length,
             mass,
         })
     }
