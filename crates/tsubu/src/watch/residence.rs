@@ -67,7 +67,9 @@ impl Watch for Residence {
     }
 
     fn scalars(&self) -> Vec<String> {
-        ["inside [-]", "left [-]", "residence time [s]", "residence time spread [s]", "age [s]"].map(String::from).to_vec()
+        ["inside [-]", "left [-]", "residence time [s]", "residence time spread [s]", "age [s]"]
+            .map(String::from)
+            .to_vec()
     }
 
     fn sheet(&self) -> Option<Sheet> {
