@@ -1,4 +1,5 @@
-//! What needs more than Rust and a C compiler: the book, the browser, Python. What is missing is said and skipped; `.ci/install` installs it.
+//! What needs more than Rust and a C compiler, or more patience: the book, the browser, Python, the slower of the quick verification
+//! cases. What is missing is said and skipped; `.ci/install` installs it.
 
 use crate::shell::{cargo, cargo_path, command, succeeds};
 use crate::{book, python};
@@ -12,5 +13,15 @@ pub fn optional() -> Result<(), String> {
     } else {
         cargo(&["test", "--package", "tsubu-view"])?;
     }
+    patient()?;
     python::python(&[])
+}
+
+/// The quick verification cases that the tests leave out for the time that they take.
+fn patient() -> Result<(), String> {
+    if succeeds(command(&cargo_path(), &["nextest", "--version"])) {
+        cargo(&["nextest", "run", "--workspace", "--run-ignored", "only", "-E", "binary(cases) & test(/^patient::/)"])
+    } else {
+        cargo(&["test", "--package", "tsubu-verify", "--test", "cases", "--", "--ignored", "patient::"])
+    }
 }

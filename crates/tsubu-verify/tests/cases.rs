@@ -1,5 +1,6 @@
 //! Every case is a test of its own, made from the list of cases: none can be forgotten, and one that fails hides no other.
 //!
+//! Quick cases that take more than a few seconds are named `patient::` and run by `cargo xtask optional`.
 //! Long cases are ignored unless asked for: `cargo nextest run --release -p tsubu-verify --run-ignored only beverloo`.
 
 use libtest_mimic::{Arguments, Failed, Trial, run};
@@ -10,6 +11,9 @@ use tsubu_verify::{CASES, Case, recorded};
 /// Cases up to this budget [s] run a second time, with a law that is wrong, unless they try something wrong of their own; the others do so
 /// when they are asked to.
 const CHEAP: u32 = 5;
+
+/// Quick cases above this budget [s] wait for whoever has patience: six of them take a quarter of the time of all tests.
+const PROMPT: u32 = 15;
 
 /// Cases against closed forms: a wrong law must show in a third of their claims at least. What is left holds for any constants:
 /// energy, rest, symmetry, and rates on which these constants have no say.
@@ -53,8 +57,10 @@ fn main() {
     let arguments = Arguments::from_args();
     let mut trials = Vec::new();
     for case in CASES {
-        let passes = Trial::test(format!("{}::passes", case.name), || passes(case));
-        trials.push(passes.with_ignored_flag(!case.is_quick()));
+        let patient = case.is_quick() && case.budget > PROMPT;
+        let kind = if patient { "patient::" } else { "" };
+        let passes = Trial::test(format!("{kind}{}::passes", case.name), || passes(case));
+        trials.push(passes.with_ignored_flag(!case.is_quick() || patient));
         let can_fail = Trial::test(format!("{}::can_fail", case.name), || can_fail(case));
         let dear = !case.is_quick() || case.budget > CHEAP;
         trials.push(can_fail.with_ignored_flag(dear || tries_something_wrong(case)));
