@@ -2,9 +2,14 @@
 
 use crate::shell::{cargo, cargo_path, command, python_with, run, succeeds};
 
-/// Runs all tests of the workspace.
+/// Whether cargo has nextest, which runs the tests of all crates side by side.
+pub fn has_nextest() -> bool {
+    succeeds(command(&cargo_path(), &["nextest", "--version"]))
+}
+
+/// Runs the tests of the workspace.
 pub fn test() -> Result<(), String> {
-    if succeeds(command(&cargo_path(), &["nextest", "--version"])) {
+    if has_nextest() {
         cargo(&["nextest", "run", "--workspace"])?;
         cargo(&["test", "--workspace", "--doc", "--quiet"])?;
     } else {

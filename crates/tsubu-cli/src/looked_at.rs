@@ -52,8 +52,7 @@ const FAREWELL: Duration = Duration::from_secs(3);
 impl LookedAt {
     /// Begins to serve a run that is about to begin.
     pub fn begin(name: String, plan: &Plan, page: PageOptions) -> Result<Self, Failure> {
-        let words = "interrupted before time 0; nothing was computed";
-        let stop = Box::new(move || _ = stop::interrupt(words).ask());
+        let stop = Box::new(|| _ = stop::interrupt(stop::NOT_BEGUN).ask());
         let live = Live::new(name, plan.method.name(), u32::from(plan.dimension), stop);
         let live = Arc::new(live.with_groups(plan.particles.keys().cloned().collect()));
         let server = Server::of_live(live.clone(), page.port).map_err(|error| Failure::of_words(&error))?;

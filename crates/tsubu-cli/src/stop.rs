@@ -19,6 +19,9 @@ static SO_FAR: Mutex<String> = Mutex::new(String::new());
 /// Whether all is done, and only looked at.
 static DONE: AtomicBool = AtomicBool::new(false);
 
+/// Said where a run is asked to stop that has not begun.
+pub const NOT_BEGUN: &str = "interrupted before time 0; nothing was computed";
+
 /// How long those have who stop by themselves.
 const GRACE: Duration = Duration::from_millis(1500);
 

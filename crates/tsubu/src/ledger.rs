@@ -276,25 +276,15 @@ impl Ledger {
     /// Writes the books into a checkpoint.
     pub fn save(&self, state: &mut State) {
         let mut books = self.clone();
-        let mut entries = books.named();
-        // A run that nobody acts on from outside has the same checkpoints and the same hash as ever.
-        entries.retain(|(name, values)| !is_outside(name) || values.iter().any(|value| *value != 0.0));
-        sections::save("ledger", entries, state);
+        sections::save("ledger", books.named(), state);
         sections::save("ledger.opening", books.opening.named(), state);
     }
 
     /// Reads the books from a checkpoint.
     pub fn load(state: &State) -> Result<Self, MissingSection> {
         let mut books = Self::default();
-        let mut entries = books.named();
-        entries.retain(|(name, _)| !is_outside(name) || state.real(&sections::section("ledger", name)).is_ok());
-        sections::load("ledger", entries, state)?;
+        sections::load("ledger", books.named(), state)?;
         sections::load("ledger.opening", books.opening.named(), state)?;
         Ok(books)
     }
-}
-
-/// Whether an entry of the books is written only where it is used.
-fn is_outside(name: &str) -> bool {
-    name.starts_with("outside ")
 }

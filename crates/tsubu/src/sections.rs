@@ -6,9 +6,14 @@ use tsubu_frame::state::MissingSection;
 /// Numbers with the name of their section, below a prefix.
 pub type Named<'a> = Vec<(&'static str, &'a mut [f64])>;
 
+/// How the names of entries begin that are written only where they are not zero: a run that nobody acts on from outside has the
+/// checkpoint and the hash that it would have without them.
+const WHERE_USED: &str = "outside";
+
 /// Writes every entry as the section `PREFIX.NAME`.
 pub fn save(prefix: &str, entries: Named, state: &mut State) {
-    for (name, values) in entries {
+    let used = |name: &str, values: &[f64]| !name.starts_with(WHERE_USED) || values.iter().any(|value| *value != 0.0);
+    for (name, values) in entries.into_iter().filter(|(name, values)| used(name, values)) {
         state.put_real(&section(prefix, name), values.to_vec());
     }
 }
@@ -17,7 +22,13 @@ pub fn save(prefix: &str, entries: Named, state: &mut State) {
 pub fn load(prefix: &str, entries: Named, state: &State) -> Result<(), MissingSection> {
     for (name, values) in entries {
         let section = section(prefix, name);
-        let saved = state.real(&section)?;
+        let saved = match state.real(&section) {
+            Err(_) if name.starts_with(WHERE_USED) => {
+                values.fill(0.0);
+                continue;
+            }
+            saved => saved?,
+        };
         if saved.len() != values.len() {
             return Err(MissingSection { name: section, kind: "real" });
         }
@@ -26,7 +37,6 @@ pub fn load(prefix: &str, entries: Named, state: &State) -> Result<(), MissingSe
     Ok(())
 }
 
-/// The section of an entry.
-pub(crate) fn section(prefix: &str, name: &str) -> String {
+fn section(prefix: &str, name: &str) -> String {
     format!("{prefix}.{}", name.replace(' ', "-"))
 }

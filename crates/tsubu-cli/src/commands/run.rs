@@ -6,7 +6,7 @@ use crate::looked_at::{LookedAt, PageOptions};
 use crate::options::{FolderOptions, SceneOptions, WorkOptions};
 use crate::session::{Session, judge, resume};
 use crate::stream::Stream;
-use crate::{machine, table};
+use crate::{machine, stop, table};
 use clap::Args;
 use std::fmt::Write as _;
 use tsubu::check::human_time;
@@ -52,13 +52,10 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     if *view { run_shown(&session, existing, *page) } else { run_alone(&session, existing) }
 }
 
-/// Said where a run is asked to stop that has not begun.
-const NOT_BEGUN: &str = "interrupted before time 0; nothing was computed";
-
 fn run_alone(session: &Session, existing: Existing) -> Result<(), Failure> {
     let Session { scene, folder, .. } = session;
     let work = |watcher: &Watcher| alone(|| tsubu::run::run(scene, folder, existing, watcher));
-    let (done, _) = session.work(NOT_BEGUN, work);
+    let (done, _) = session.work(stop::NOT_BEGUN, work);
     let summary = done.map_err(|error| Failure::of_scene(&error, scene, folder))?;
     ended(session, &summary)
 }
@@ -68,7 +65,7 @@ pub fn run_shown(session: &Session, existing: Existing, page: PageOptions) -> Re
     let Session { scene, folder, .. } = session;
     let seen = LookedAt::begin(folder.display().to_string(), scene.plan(), page)?;
     let work = |watcher: &Watcher| alone(|| tsubu::run::run_seen(scene, folder, existing, watcher, &seen));
-    let (done, _) = session.work(NOT_BEGUN, work);
+    let (done, _) = session.work(stop::NOT_BEGUN, work);
     match done {
         Err(error) => {
             seen.end(None, error.to_string());

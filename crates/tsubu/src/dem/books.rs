@@ -31,7 +31,7 @@ impl Powers {
     pub fn named(&mut self) -> Named<'_> {
         let Self { lost, walls, outside, outside_force, wall_force, water } = self;
         let WaterPowers { pressure, carried, stream, spin_work, fluctuation, lost: drag, held, force } = water;
-        let mut named = vec![
+        vec![
             ("normal damping", from_mut(&mut lost.normal)),
             ("sliding", from_mut(&mut lost.sliding)),
             ("rolling", from_mut(&mut lost.rolling)),
@@ -45,12 +45,9 @@ impl Powers {
             ("water drag", from_mut(drag)),
             ("water on held grains", from_mut(held)),
             ("water force", force.as_mut()),
-        ];
-        // Written only where somebody acts: others have the same checkpoints as ever.
-        if *outside != 0.0 || *outside_force != DVec3::ZERO {
-            named.extend([("outside", from_mut(outside)), ("outside force", outside_force.as_mut())]);
-        }
-        named
+            ("outside", from_mut(outside)),
+            ("outside force", outside_force.as_mut()),
+        ]
     }
 }
 

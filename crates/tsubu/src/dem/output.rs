@@ -173,9 +173,6 @@ impl DemEngine {
         if let Ok(begun) = state.real("dem.streams-begun") {
             self.sources.set_begun(begun);
         }
-        // It has a place in the list only where it is not zero.
-        self.books.last.outside = f64::from(u8::from(state.real("dem.powers.outside").is_ok()));
-        self.books.last.outside_force = DVec3::ZERO;
         sections::load("dem.powers", self.books.last.named(), state)?;
         let &[stored] = state.real("dem.stored")? else { return Err(missing("dem.stored")) };
         self.contacts.sums.stored = stored;

@@ -192,6 +192,6 @@ impl DemEngine {
 
     /// Nobody acts any more. What they did in the last step is still to be posted with the next.
     pub(super) fn leave_alone(&mut self) {
-        self.contacts.outside = super::outside::Outside::default();
+        self.contacts.outside = Outside::default();
     }
 }

@@ -5,8 +5,8 @@ use crate::ledger::Ledger;
 use std::fmt::Write as _;
 use std::path::Path;
 use tsubu_frame::state::MissingSection;
-use tsubu_frame::{Mark, checkpoint};
-use tsubu_scene::Scene;
+use tsubu_frame::{Header, Mark, checkpoint};
+use tsubu_scene::{Difference, Scene};
 
 /// The scene as the run in `folder` goes on with it: intervals that nobody tells stay as they were there.
 pub(super) fn scene(scene: &Scene, folder: &Path) -> Scene {
@@ -21,9 +21,8 @@ impl Run<'_> {
         let (header, state) = checkpoint::read(&checkpoint::path(folder))?;
         let refuse =
             |text: String| Err(RunError::NotThisScene(format!("the checkpoint in {} {text}", folder.display())));
-        if header.tsubu_version != crate::VERSION {
-            let (found, this) = (header.tsubu_version, crate::VERSION);
-            return refuse(format!("was written by tsubu {found}, this is tsubu {this}: go on with the other"));
+        if let Some(why) = of_another_version(&header) {
+            return refuse(why);
         }
         if header.scene_hash != self.scene_hash {
             return refuse(format!("belongs to another scene{}", differences(scene, folder)));
@@ -50,6 +49,12 @@ impl Run<'_> {
     }
 }
 
+/// Why this program cannot read a checkpoint, where another version wrote it.
+pub(super) fn of_another_version(header: &Header) -> Option<String> {
+    let (found, this) = (&header.tsubu_version, crate::VERSION);
+    (found != this).then(|| format!("was written by tsubu {found}, this is tsubu {this}: go on with the other"))
+}
+
 /// Differences that a message names.
 const NAMED: usize = 8;
 
@@ -60,7 +65,12 @@ fn differences(scene: &Scene, folder: &Path) -> String {
     if all.is_empty() {
         return ", and the scene.toml beside it does not tell which".to_owned();
     }
-    let mut text = String::from("; what differs:");
+    format!("; what differs:{}", lines(&all))
+}
+
+/// A line for each of the first differences.
+pub(super) fn lines(all: &[Difference]) -> String {
+    let mut text = String::new();
     for difference in all.iter().take(NAMED) {
         let [before, now] = [&difference.before, &difference.now].map(|value| value.as_deref().unwrap_or("nothing"));
         let _ = write!(text, "\n  `{}` was {before}, is {now}", difference.key);

@@ -1,8 +1,8 @@
 //! A scene opened to be moved by hand: engine, hosts and books without a folder.
 
-use super::stages::{self, AT, stage_of};
+use super::stages::{self, AT};
 use super::start::Start;
-use super::{RunError, scene_hash, step_of};
+use super::{RunError, resume, scene_hash, step_of};
 use crate::engine::{self, Engine, Fault};
 use crate::ledger::{Account, Energies, Ledger};
 use crate::partner::Hosts;
@@ -41,24 +41,14 @@ impl Simulation {
     pub fn resume(scene: &Scene, folder: &Path) -> Result<Self, RunError> {
         let (header, state) = checkpoint::read(&checkpoint::path(folder))?;
         let refuse = |text: &str| RunError::NotThisScene(format!("the checkpoint in {} {text}", folder.display()));
-        if header.tsubu_version != crate::VERSION {
-            return Err(refuse(&format!(
-                "was written by tsubu {}, this is tsubu {}",
-                header.tsubu_version,
-                crate::VERSION
-            )));
+        if let Some(why) = resume::of_another_version(&header) {
+            return Err(refuse(&why));
         }
         if header.scene_hash != scene_hash(&scene.steps_toml()) {
             return Err(refuse("belongs to another scene"));
         }
-        let mut opened = Self::open(scene)?;
-        for _ in 0..stage_of(&state, scene.plans())? {
-            opened.change()?;
-        }
-        opened.engine.load(&state)?;
-        opened.hosts.load(&state)?;
-        opened.ledger = Ledger::load(&state)?;
-        Ok(opened)
+        let (Start { engine, hosts, ledger }, stage) = Start::at(scene, &state)?;
+        Ok(Self { scene: scene.clone(), engine, hosts, ledger, stage })
     }
 
     /// The scene.
@@ -98,16 +88,11 @@ impl Simulation {
         if self.stage + 1 == self.scene.plans().len() {
             return Ok(false);
         }
-        let stored = self.change()?;
-        self.ledger.post(Account::Stages, stored);
-        Ok(true)
-    }
-
-    fn change(&mut self) -> Result<f64, RunError> {
         let [earlier, now] = [0, 1].map(|ahead| &self.scene.plans()[self.stage + ahead]);
         let stored = stages::change(&mut *self.engine, &mut self.hosts, [earlier, now])?;
+        self.ledger.post(Account::Stages, stored);
         self.stage += 1;
-        Ok(stored)
+        Ok(true)
     }
 
     /// What grains and hosts hold now.

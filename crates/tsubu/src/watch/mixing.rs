@@ -1,9 +1,9 @@
 //! Mixing of any number of groups.
 
-use super::{Axes, Inside, Sample, Watch, axes, group_number};
+use super::cells::Cells;
+use super::{Sample, Watch};
 use crate::about::About;
 use crate::view::{View, Wants};
-use std::collections::BTreeMap;
 use tsubu_scene::plan::{Plan, watch};
 
 pub(super) const ABOUT: About = About {
@@ -30,19 +30,16 @@ Frozen and driven grains are left out.",
 /// Counts grains in cells.
 #[derive(Clone, Debug)]
 pub(super) struct Mixing {
-    groups: Vec<u32>,
-    cell: f64,
-    region: Inside,
-    axes: Axes,
+    cells: Cells,
 }
 
 pub(super) fn open(asked: &watch::Mixing, plan: &Plan) -> Mixing {
     let watch::Mixing { groups, cell, region } = asked;
-    let groups = match groups {
-        Some(names) => names.iter().map(|name| group_number(plan, name)).collect(),
-        None => (0..plan.particles.len() as u32).collect(),
+    let cells = match groups {
+        Some(names) => Cells::new(names.iter(), *cell, region.as_ref(), plan),
+        None => Cells::new(plan.particles.keys(), *cell, region.as_ref(), plan),
     };
-    Mixing { groups, cell: *cell, region: Inside::new(region.as_ref(), plan), axes: axes(plan) }
+    Mixing { cells }
 }
 
 impl Watch for Mixing {
@@ -59,32 +56,15 @@ impl Watch for Mixing {
     }
 
     fn take(&mut self, view: &View) -> Sample {
-        let mut cells: BTreeMap<Vec<i64>, Vec<f64>> = BTreeMap::new();
-        let mut whole = vec![0.0; self.groups.len()];
-        for i in 0..view.len() {
-            let Some(k) = self.groups.iter().position(|group| *group == view.grains.group[i]) else { continue };
-            let p = view.position(i);
-            if !view.free(i) || !self.region.holds(p) {
-                continue;
-            }
-            let cell = self.axes.iter().map(|&a| (p[a] / self.cell).floor() as i64).collect();
-            cells.entry(cell).or_insert_with(|| vec![0.0; self.groups.len()])[k] += 1.0;
-            whole[k] += 1.0;
-        }
-        let all: f64 = whole.iter().sum();
-        let share: Vec<f64> = whole.iter().map(|n| n / all).collect();
-        let apart: f64 = share.iter().map(|p| p * (1.0 - p)).sum();
-        let random = apart * cells.len() as f64 / all;
-        let (mut variance, mut disorder) = (0.0, 0.0);
-        for counts in cells.values() {
+        let counts = self.cells.count(view, |_, _| ());
+        let all = counts.all();
+        let of_cell = |counts: &Vec<f64>| {
             let here: f64 = counts.iter().sum();
-            let off: f64 = counts.iter().zip(&share).map(|(n, p)| (n / here - p).powi(2)).sum();
-            variance += here / all * off;
-            disorder += here / all * entropy(counts.iter().map(|n| n / here));
-        }
-        let entropy = disorder / entropy(share.iter().copied());
-        let scalars = vec![(apart - variance) / (apart - random), entropy, cells.len() as f64];
-        Sample { scalars, rows: Vec::new() }
+            here / all * entropy(counts.iter().map(|n| n / here))
+        };
+        let disorder: f64 = counts.cells.values().map(of_cell).sum();
+        let entropy = disorder / entropy(counts.shares().into_iter());
+        Sample { scalars: vec![counts.lacey(), entropy, counts.cells.len() as f64], rows: Vec::new() }
     }
 }
 

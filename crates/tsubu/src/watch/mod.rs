@@ -4,6 +4,7 @@
 //! [`Watches`] are those of a run: when they look ([`Trigger`]), where their rows go, what their means are, and what of
 //! them a checkpoint holds. One file a watch; each says what it measures, in which units, after whom, and where it ends.
 
+mod cells;
 mod course;
 pub mod kernel;
 pub(crate) mod means;

@@ -1,9 +1,9 @@
 //! Mixing of two groups.
 
-use super::{Axes, Inside, Sample, Watch, axes, group_number};
+use super::cells::Cells;
+use super::{Sample, Watch};
 use crate::about::About;
 use crate::view::{View, Wants};
-use std::collections::BTreeMap;
 use tsubu_scene::plan::{Plan, watch};
 
 pub(super) const ABOUT: About = About {
@@ -27,20 +27,12 @@ Frozen and driven grains are left out.",
 /// Counts grains in cells.
 #[derive(Clone, Debug)]
 pub(super) struct Segregation {
-    groups: [u32; 2],
-    cell: f64,
-    region: Inside,
-    axes: Axes,
+    cells: Cells,
 }
 
 pub(super) fn open(asked: &watch::Segregation, plan: &Plan) -> Segregation {
     let watch::Segregation { groups, cell, region } = asked;
-    Segregation {
-        groups: [0, 1].map(|k| group_number(plan, &groups[k])),
-        cell: *cell,
-        region: Inside::new(region.as_ref(), plan),
-        axes: axes(plan),
-    }
+    Segregation { cells: Cells::new(groups.iter(), *cell, region.as_ref(), plan) }
 }
 
 impl Watch for Segregation {
@@ -57,27 +49,13 @@ impl Watch for Segregation {
     }
 
     fn take(&mut self, view: &View) -> Sample {
-        let mut cells: BTreeMap<Vec<i64>, [f64; 2]> = BTreeMap::new();
-        let (mut number, mut mass, mut moment) = ([0.0; 2], [0.0; 2], [0.0; 2]);
-        for i in 0..view.len() {
-            let Some(k) = self.groups.iter().position(|group| *group == view.grains.group[i]) else { continue };
-            let p = view.position(i);
-            if !view.free(i) || !self.region.holds(p) {
-                continue;
-            }
-            let cell = self.axes.iter().map(|&a| (p[a] / self.cell).floor() as i64).collect();
-            cells.entry(cell).or_default()[k] += 1.0;
-            number[k] += 1.0;
+        let (mut mass, mut moment) = ([0.0; 2], [0.0; 2]);
+        let counts = self.cells.count(view, |k, i| {
             mass[k] += view.grains.mass[i];
-            moment[k] += view.grains.mass[i] * p.z;
-        }
-        let all = number[0] + number[1];
-        let share = number[0] / all;
-        let apart = share * (1.0 - share);
-        let variance: f64 = cells.values().map(|[a, b]| (a + b) / all * (a / (a + b) - share).powi(2)).sum();
-        let random = apart * cells.len() as f64 / all;
+            moment[k] += view.grains.mass[i] * view.position(i).z;
+        });
         let height = |k: usize| moment[k] / mass[k];
-        let scalars = vec![(apart - variance) / (apart - random), height(0) - height(1), share, cells.len() as f64];
+        let scalars = vec![counts.lacey(), height(0) - height(1), counts.shares()[0], counts.cells.len() as f64];
         Sample { scalars, rows: Vec::new() }
     }
 }
