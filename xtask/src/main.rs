@@ -32,11 +32,12 @@ cargo xtask CHORE
                       tests, every scene in ten ways for a moment, a minute of the guards
   fmt [--check]       lay all code out, or only say what is not: cargo fmt, and the watches, which it does not come to
   test                the tests; with Python 3, also those that read written frames back with VTK
+  patient             the tests that take from five seconds to a minute each: every scene checked, run and reported, large beds,
+                      the slower of the quick verification cases
   gen [--check]       write the generated pages and tables, or only say which are out of date
   spelling            look for misspelt words in all texts, where there is a Python 3
   book                build the book, where there is an mdbook
-  optional            what needs more than Rust and a C compiler: the book, the pages in a browser, the Python package;
-                      and the slower of the quick verification cases
+  optional            what needs more than Rust and a C compiler: the book, the pages in a browser, the Python package
   python [ARGUMENT]...
                       build the wheel, install it into a bare environment, and run its tests, where there is a Python 3.10 or later
                       and a network; arguments go to pytest
@@ -76,6 +77,7 @@ fn main() -> ExitCode {
         ["claims", names @ ..] => claims::claims(names),
         ["spelling"] => spelling::check(),
         ["book"] => book::book(),
+        ["patient"] => test::patient(),
         ["optional"] => optional::optional(),
         ["python", rest @ ..] => python::python(rest),
         ["mutants", names @ ..] => mutants::mutants(names),

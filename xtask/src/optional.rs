@@ -1,5 +1,5 @@
-//! What needs more than Rust and a C compiler, or more patience: the book, the browser, Python, the slower of the quick verification
-//! cases. What is missing is said and skipped; `.ci/install` installs it.
+//! What needs more than Rust and a C compiler: the book, the browser, Python. What is missing is said and skipped; `.ci/install`
+//! installs it.
 
 use crate::shell::cargo;
 use crate::test::has_nextest;
@@ -14,15 +14,5 @@ pub fn optional() -> Result<(), String> {
     } else {
         cargo(&["test", "--package", "tsubu-view"])?;
     }
-    patient()?;
     python::python(&[])
-}
-
-/// The quick verification cases that the tests leave out for the time that they take.
-fn patient() -> Result<(), String> {
-    if has_nextest() {
-        cargo(&["nextest", "run", "--workspace", "--run-ignored", "only", "-E", "binary(cases) & test(/^patient::/)"])
-    } else {
-        cargo(&["test", "--package", "tsubu-verify", "--test", "cases", "--", "--ignored", "patient::"])
-    }
 }

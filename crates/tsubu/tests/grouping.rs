@@ -100,16 +100,21 @@ fn hold(name: &str, open: &(dyn Fn() -> Opened + Sync), total: u64, cases: u32) 
     done.unwrap_or_else(|error| panic!("{name}: {error}"));
 }
 
-/// Every shipped scene, for as many steps as take a moment.
-#[test]
-fn shipped_scenes() {
-    for template in TEMPLATES {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
-        let open = || run_text(template.text, std::path::Path::new(folder), &[]);
-        let opened = open();
-        // Enough for grains to touch, come and go and for gates to open in the small ones, and for a few looks of the water.
-        let total = (200_000 / opened.0.grains().max(20) as u64).clamp(110, 1000);
-        hold(template.name, &open, total, 2);
+mod patient {
+    use super::*;
+
+    /// Every shipped scene, for as many steps as take a moment.
+    #[test]
+    #[ignore = "half a minute: cargo xtask patient"]
+    fn shipped_scenes() {
+        for template in TEMPLATES {
+            let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
+            let open = || run_text(template.text, std::path::Path::new(folder), &[]);
+            let opened = open();
+            // Enough for grains to touch, come and go and for gates to open in the small ones, and for a few looks of the water.
+            let total = (200_000 / opened.0.grains().max(20) as u64).clamp(110, 1000);
+            hold(template.name, &open, total, 2);
+        }
     }
 }
 

@@ -114,7 +114,8 @@ fn an_interval_below_a_step_is_a_step() {
 #[test]
 fn a_folder_has_one_writer() {
     let desk = Desk::new();
-    let options = "-o one -q --set 'duration=100 s' --set 'output.checkpoint-interval=0.05 s'";
+    let often = "--set 'output.checkpoint-interval=0.05 s' --set 'output.frame-interval=100 s'";
+    let options = format!("-o one -q --set 'duration=100 s' {often}");
     let mut child = desk.start(&format!("run balls.toml {options}"));
     wait_for(&desk.path("one/checkpoint/state.tsubu"));
     for line in

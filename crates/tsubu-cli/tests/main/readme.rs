@@ -51,6 +51,9 @@ fn every_row_of_what_works_does() {
             for name in names.split_whitespace() {
                 assert!(known.contains(name), "the table names `{name}`, which `tsubu verify --list` does not know");
             }
+        } else if let Some(scene) = command.strip_prefix("run ").filter(|rest| !rest.contains(' ')) {
+            // Every shipped scene is run elsewhere.
+            assert!(Path::new(scene).exists(), "{scene}");
         } else if command.starts_with("run ") || command.starts_with("compare ") {
             desk.done(&format!("{command} -q -o {folder} {} --set claim=[]", shortened(&command, "0.05 s")));
         } else if command.starts_with("response ") {

@@ -1,6 +1,6 @@
 //! The film of liquid, as a part of every law.
 
-use super::{Numbers, Subject, constants, stack};
+use super::{Numbers, Subject, stack};
 use std::f64::consts::PI;
 use tsubu::contact::Chunk;
 use tsubu_scene::plan::{Contact, Film};
@@ -32,15 +32,16 @@ fn row(subject: &Subject, gap: f64, closing: f64) -> Box<Chunk> {
 }
 
 fn wet(contact: &Contact, in_contact: bool) -> Subject {
-    Subject::new(&Contact { film: film(in_contact), ..contact.clone() }, constants())
+    stack::subject(&Contact { film: film(in_contact), ..contact.clone() })
 }
 
 /// Across a gap every law of the bench has nothing but the film: no friction, no rolling or twisting resistance, no attraction,
 /// nothing stored. What the film takes is lost normally, in approach and in parting. Where bodies touch, the dry law is left as it is.
 #[test]
 fn across_a_gap_there_is_the_film_alone() {
-    for name in stack::PAIRS.iter().map(|subject| &subject.contact) {
-        let (dry, law) = (&Subject::new(name, constants()), wet(name, false));
+    for dry in stack::PAIRS.iter() {
+        let name = &dry.contact;
+        let law = wet(name, false);
         for (gap, closing) in [(1e-8, 0.3), (5e-6, 0.3), (5e-5, -0.3), (2e-4, 0.3)] {
             let chunk = row(&law, gap, closing);
             let reached = if gap < REACH { 6.0 * PI * VISCOSITY * RADIUS * RADIUS / gap.max(ROUGHNESS) } else { 0.0 };
