@@ -26,6 +26,7 @@ pub mod raster;
 mod response;
 mod run;
 mod source;
+mod steady;
 pub mod strip;
 mod sweep;
 pub mod text;

@@ -5,9 +5,11 @@ use tsubu_frame::summary::read_json;
 use tsubu_frame::{Table, csv::split_unit};
 
 use crate::field;
-use crate::figure::{Axis, Figure, Series, Style};
-use crate::page::Block;
+use crate::figure::{Axis, Figure, Series, Style, prefix};
+use crate::page::{Block, Grid, Tone};
 use crate::source::{Source, folded};
+use crate::steady::Steady;
+use crate::text::short;
 
 /// Figures of a watch that are seen without unfolding.
 const OPEN: usize = 2;
@@ -68,7 +70,25 @@ impl Watches {
                 blocks.push(folded(&what, vec![Block::Typed(entry.about.clone())]));
             }
         }
+        blocks.extend(history.and_then(|history| self.steady(history)));
         blocks
+    }
+
+    /// Mean and error in the steady part of what has one and varies, as a table.
+    fn steady(&self, history: &Table) -> Option<Block> {
+        let times = numbers(history, 0);
+        let mut grid = Grid::new(["in the steady part", "mean", "± (95 %)", "unit", "from t [s]"]);
+        for scalar in self.0.iter().flat_map(|entry| &entry.scalars) {
+            let Some(column) = history.header.iter().position(|header| header == scalar) else { continue };
+            let values = numbers(history, column);
+            let Some(found) = Steady::of(&values).filter(|found| found.error > 0.0) else { continue };
+            let (name, unit) = split_unit(scalar);
+            let (factor, unit) = prefix(unit.unwrap_or("-"), found.mean.abs());
+            let unit = if unit == "-" { String::new() } else { unit };
+            let [mean, error] = [found.mean, found.error].map(|x| short(x * factor));
+            grid.push(Tone::Plain, [name.to_owned(), mean, error, unit, short(times[found.first])]);
+        }
+        (!grid.rows.is_empty()).then_some(Block::Table(grid))
     }
 }
 

@@ -14,6 +14,7 @@ mod gases;
 mod grains;
 mod hosts;
 mod methods;
+mod region;
 mod sites;
 mod stage;
 mod study;
@@ -28,12 +29,13 @@ pub use contact::{
 };
 pub(crate) use contact::{READ_A_DENSITY, READ_A_FORCE, SLIP_LEVER};
 pub use gases::{BaxterBehringer, Fhp, FhpRules, GasWalls, KarolyiKertesz, PengHerrmann};
-pub use grains::{GrainMotion, GrainShape, GrainTable, Particles, Periodic, Region, Removal, Size, Start, submerged};
+pub use grains::{GrainMotion, GrainShape, GrainTable, Particles, Periodic, Removal, Size, Start, submerged};
 pub use hosts::{Host, Mode, Signal, Structure};
 pub use methods::{
     Arithmetic, ClCa, ClCaRule, Collision, Dem, GrainPoints, GravitySwitch, Integrator, Lattice, LatticeMode,
     ObliqueGravity,
 };
+pub use region::{Ball, Cylinder, Region};
 pub use sites::{GuttHaff, Heap, Savage, Split, Voids};
 pub use stage::{Stage, Until};
 pub use study::{Claim, Output, Response, Sweep};

@@ -148,10 +148,28 @@ fn places_and_drawn_sizes_exclude_each_other() {
 }
 
 #[test]
+fn regions_may_be_round() {
+    let start = |text: &str| edited(START, &format!("start.random = {{ region.{text} }}"));
+    let Start::Random { region: Some(ball), .. } =
+        &plan(&start("sphere = { centre = [0, 0, \"2 m\"], radius = \"1 m\" }")).particles["sand"].start.clone()
+    else {
+        panic!("no region")
+    };
+    assert_eq!((ball.low, ball.high), ([-1.0, -1.0, 1.0], [1.0, 1.0, 3.0]));
+    let wrong = [
+        "low = [0, 0, 0]",
+        "sphere.centre = [0, 0, 0]",
+        "sphere = { centre = [0, 0, 2], radius = 1 }, region.low = [0, 0, 0]",
+        "cylinder = { radius = 1, length = 1 }, region.sphere.radius = 1",
+    ];
+    insta::assert_snapshot!(all(&wrong.map(|text| edited(START, &format!("start.random = {{ region.{text} }}")))));
+}
+
+#[test]
 fn grains_start_in_regions() {
     let region = "region = { low = [-0.1, -0.1, 0], high = [0.1, 0.1, \"20 cm\"] }";
     let start = |text: &str| plan(&edited(START, text)).particles["sand"].start.clone();
-    let expected = Region { low: [-0.1, -0.1, 0.0], high: [0.1, 0.1, 0.2] };
+    let expected = Region::of_box([-0.1, -0.1, 0.0], [0.1, 0.1, 0.2]);
     let random = start(&format!("start.random = {{ {region}, velocity = [0, 0, \"-1 m/s\"] }}"));
     let down = [0.0, 0.0, -1.0];
     assert_eq!(random, Start::Random { region: Some(expected.clone()), velocity: down, speed: 0.0 });
@@ -217,7 +235,7 @@ fn grains_vanish_where_they_are_told_to() {
         "[removal.out.inside]\nregion = { low = [0, 0, 0], high = [1, 1, 1] }\n[removal.low]\nbehind.normal = [0, 0, 2]",
     );
     let removal = plan(&text).removal;
-    assert_eq!(removal["out"], Removal::Inside { region: Region { low: [0.0; 3], high: [1.0; 3] } });
+    assert_eq!(removal["out"], Removal::Inside { region: Region::of_box([0.0; 3], [1.0; 3]) });
     assert_eq!(removal["low"], Removal::Behind { point: [0.0; 3], normal: [0.0, 0.0, 1.0] });
     let change = |text: &str| read(&with("[removal.low.behind]"), &[text]);
     let moved = change("removal.low.behind.point=[0, 0, -1]").unwrap_or_else(|wrong| panic!("{wrong}"));

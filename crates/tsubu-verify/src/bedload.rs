@@ -6,7 +6,7 @@ use super::ensemble;
 use crate::origin::{closed_form, own};
 use tsubu::state::sphere;
 use tsubu::view::Wants;
-use tsubu::water::Stream;
+use tsubu::water::{FORMULAS, Stream};
 use tsubu_frame::Claim;
 
 /// Diameter of the grains [m], and density over that of water.
@@ -131,27 +131,19 @@ fn transport(
     })
 }
 
-/// A published rate over sqrt((s-1) g d^3) at a Shields number.
-type Formula = (&'static str, fn(f64) -> f64);
-
-const FORMULAS: [Formula; 2] = [
-    ("Meyer-Peter and Mueller 1948", |shields| 8.0 * (shields - 0.047).powf(1.5)),
-    ("Wong and Parker 2006", |shields| 3.97 * (shields - 0.0495).powf(1.5)),
-];
-
 /// What is claimed of a stream: its rate is within a factor of 2 of each formula by itself, and it is steady. By the mean of five beds.
 fn gates(name: &str, stream: [f64; 2], kind: Kind, span: [f64; 2], perturbation: f64) -> Result<Vec<Claim>, String> {
     let [slope, water] = stream;
     let name = format!("bedload, {name}, slope {slope}, {water} d of water");
     let [balance, rates @ ..] = ensemble::members(&format!("{name}, from {} s", span[0]), 1..=5, |seed| {
         let load = transport(stream, kind, span, seed, perturbation)?;
-        Ok([load.balance, load.rate / FORMULAS[0].1(load.shields), load.rate / FORMULAS[1].1(load.shields)])
+        Ok([load.balance, load.rate / FORMULAS[0].rate(load.shields), load.rate / FORMULAS[1].rate(load.shields)])
     })?;
     let source = own("a factor of 2, as measured rates scatter about either formula").after();
     let steady = closed_form("momentum of a steady stream: what drives it arrives at the bed");
     let text = format!("{name}: stress at the bed over weight of the water along the slope");
     let mut claims = vec![Claim::judge_ensemble(text, balance, Some(0.95), Some(1.05), steady)];
-    for ((formula, _), rate) in FORMULAS.into_iter().zip(rates) {
+    for (formula, rate) in FORMULAS.map(|formula| formula.source).into_iter().zip(rates) {
         let text = format!("{name}: rate over that of {formula}");
         claims.push(Claim::judge_ensemble(text, rate, Some(0.5), Some(2.0), source));
     }

@@ -1,6 +1,7 @@
 //! One run: from a scene to a run folder.
 
 mod error;
+mod lost;
 mod measured;
 mod onlooker;
 mod resume;
@@ -20,6 +21,7 @@ use crate::ledger::{Account, Energies, Ledger};
 use crate::partner::Hosts;
 use crate::scene_files;
 use crate::watch::{Trigger, Watches};
+use lost::Lost;
 use measured::Measured;
 use stages::Stages;
 use start::Start;
@@ -76,6 +78,7 @@ fn work(
     let mut run = Run {
         ledger,
         measured: Measured::new(&hosts),
+        lost: Lost::new(&*engine),
         watches: Watches::new(plan, &*engine),
         scene_hash: scene_hash(&scene.steps_toml()),
         wall_before: 0.0,
@@ -151,6 +154,7 @@ struct Run<'a> {
     hosts: Hosts,
     ledger: Ledger,
     measured: Measured,
+    lost: Lost,
     watches: Watches,
     scene_hash: String,
     wall_before: f64,
@@ -333,6 +337,7 @@ impl Run<'_> {
         row.extend(self.watches.row(&*self.engine));
         let seen = self.seen(&energies);
         self.measured.take(&self.hosts, self.engine.contacts(), seen);
+        self.lost.look(self.plan, &*self.engine);
         self.stages.steady.take(self.engine.time() - self.engine.stage_begin().1, &self.hosts);
         let row = self.in_columns(row);
         if let Some(onlooker) = self.onlooker {
@@ -350,6 +355,7 @@ impl Run<'_> {
         let mark = self.sync(folder, out)?;
         let mut state = self.state();
         self.measured.save(&mut state);
+        self.lost.save(&mut state);
         self.watches.save(&mut state);
         self.stages.save(&mut state);
         state.put_real("run.wall-seconds", vec![self.wall_seconds()]);

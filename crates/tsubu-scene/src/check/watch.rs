@@ -3,7 +3,7 @@
 use super::fill::has_size;
 use super::place::Room;
 use super::{Parts, named};
-use crate::complaint::Complaint;
+use crate::complaint::{Complaint, Place};
 use crate::key::{Kind, Word};
 use crate::plan::watch::{Bedload, CoarseGrain, Discharge, Hops, Mixing, Track, WallLoad};
 use crate::plan::{self, Bed, Face, GrainMotion, Measure, Particles, Region, Watch};
@@ -158,15 +158,7 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
                 );
             }
         }
-        Measure::Discharge(Discharge { sizes: Some(sizes), .. })
-            if sizes.is_empty() || sizes.windows(2).any(|pair| pair[0] >= pair[1]) =>
-        {
-            complaints.push(
-                Complaint::new("`sizes` needs diameters that rise")
-                    .at(&at("sizes"), format!("{sizes:?} m"))
-                    .hint("sizes = [\"1 mm\", \"2 mm\"] parts grains below 1 mm, up to 2 mm, and from there on"),
-            );
-        }
+        Measure::Discharge(Discharge { sizes, .. }) => complaints.extend(classes(sizes.as_deref(), &at("sizes"))),
         Measure::Mixing(Mixing { groups: Some(groups), .. }) if groups.len() < 2 => complaints.push(
             Complaint::new("mixing is of two groups or more")
                 .at(&at("groups"), format!("{} in this list", groups.len()))
@@ -233,9 +225,17 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
 }
 
 /// Speeds in their order, and a fluid that grains sink in.
+/// Diameters that part classes must rise.
+fn classes(sizes: Option<&[f64]>, place: &Place) -> Option<Complaint> {
+    let sizes = sizes.filter(|sizes| sizes.is_empty() || sizes.windows(2).any(|pair| pair[0] >= pair[1]))?;
+    let wrong = Complaint::new("`sizes` needs diameters that rise").at(place, format!("{sizes:?} m"));
+    Some(wrong.hint("sizes = [\"1 mm\", \"2 mm\"] parts grains below 1 mm, up to 2 mm, and from there on"))
+}
+
 fn bedload(parts: &Parts<'_>, name: &str, asked: &Bedload, complaints: &mut Vec<Complaint>) {
-    let Bedload { group, width, moving_speed, resting_speed, fluid_density, .. } = asked;
+    let Bedload { group, width, moving_speed, resting_speed, fluid_density, sizes, .. } = asked;
     let at = |key: &str| parts.root.locate(&["watch", name, "bedload", key]);
+    complaints.extend(classes(sizes.as_deref(), &at("sizes")));
     if resting_speed > moving_speed {
         complaints.push(
             Complaint::new(format!("grains of the watch `{name}` would come to rest faster than they begin to move"))

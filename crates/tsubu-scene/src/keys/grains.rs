@@ -107,7 +107,7 @@ static START: &[Variant] = &[
             Key::new("speed", Kind::Quantity(&SPEED), "Speed of each grain, in a random direction")
                 .default("0")
                 .at_least(0.0),
-            Key::new("region", Kind::Table(Region::KEYS), "Where, instead of the inside of the box").optional(),
+            Key::new("region", Kind::Table(Region::ROUND_KEYS), "Where, instead of the inside of the box").optional(),
         ],
     },
     Variant {
@@ -116,7 +116,7 @@ static START: &[Variant] = &[
         keys: &[
             Key::new(
                 "region",
-                Kind::Table(Region::KEYS),
+                Kind::Table(Region::ROUND_KEYS),
                 "Where, instead of the inside of the box; grains lie wholly in it",
             )
             .optional(),
@@ -128,7 +128,7 @@ static START: &[Variant] = &[
         name: "stream",
         about: "Not there at first: put into a region one after the other, where there is room",
         keys: &[
-            Key::new("region", Kind::Table(Region::KEYS), "Where; grains lie wholly in it").may_change(),
+            Key::new("region", Kind::Table(Region::ROUND_KEYS), "Where; grains lie wholly in it").may_change(),
             Key::new("rate", Kind::Quantity(&RATE), "Grains per second").above(0.0).may_change(),
             VELOCITY.may_change(),
             SPEED_ADDED.may_change(),

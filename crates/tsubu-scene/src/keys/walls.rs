@@ -155,11 +155,11 @@ pub(super) static PERIODIC: &[Key] = &[
 pub(super) static REMOVAL: &[Variant] = &[
     Variant {
         name: "inside",
-        about: "Grains whose centres are inside a box of space",
+        about: "Grains whose centres are inside a region of space",
         keys: &[Key::new(
             "region",
-            Kind::Table(Region::KEYS),
-            "The box; it stands still, whatever walls are around it",
+            Kind::Table(Region::ROUND_KEYS),
+            "The region; it stands still, whatever walls are around it",
         )],
     },
     Variant {

@@ -1,8 +1,6 @@
 //! Groups of grains, and where they come and go.
 
-use super::{Signal, Vector};
-use crate::key::{Key, Kind};
-use crate::units::LENGTH;
+use super::{Region, Signal, Vector};
 use serde::{Deserialize, Serialize};
 
 /// A group of grains of one material.
@@ -97,24 +95,6 @@ pub enum GrainMotion {
     },
 }
 
-/// An axis-parallel box of space. In the plane the y entries are zero and not looked at.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub struct Region {
-    /// Corner with the smallest coordinates [m].
-    pub low: Vector,
-    /// Corner with the largest coordinates [m].
-    pub high: Vector,
-}
-
-impl Region {
-    /// What a scene may say.
-    pub(crate) const KEYS: &'static [Key] = &[
-        Key::new("low", Kind::Vector(&LENGTH), "Corner with the smallest coordinates"),
-        Key::new("high", Kind::Vector(&LENGTH), "Corner with the largest coordinates"),
-    ];
-}
-
 /// Axes along which the world repeats: a grain that leaves at one end comes in at the other.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
@@ -131,9 +111,9 @@ pub struct Periodic {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Removal {
-    /// Centres inside a box.
+    /// Centres inside a region.
     Inside {
-        /// The box.
+        /// The region.
         region: Region,
     },
     /// Centres behind a plane.
@@ -149,7 +129,7 @@ impl Removal {
     /// Whether a grain with its centre there [m] vanishes. In the plane both y are zero, and so is the centre's.
     pub fn takes(&self, at: Vector) -> bool {
         match self {
-            Self::Inside { region: Region { low, high } } => (0..3).all(|k| at[k] >= low[k] && at[k] <= high[k]),
+            Self::Inside { region } => region.holds(at),
             Self::Behind { point, normal } => (0..3).map(|k| (at[k] - point[k]) * normal[k]).sum::<f64>() < 0.0,
         }
     }

@@ -91,9 +91,19 @@ const REGION: Key = Key::new(
     "Where: a box of space; it stands still, whatever walls are around it",
 )
 .derived("the inside of the box as drawn, where there is one box");
+const STAYS: Key =
+    Key::new("region", Kind::Table(Region::ROUND_KEYS), "Where; it stands still, whatever walls are around it")
+        .derived("the inside of the box as drawn, where there is one box");
 const WITHIN: Key =
-    Key::new("region", Kind::Table(Region::KEYS), "Only grains whose centres are inside; a box that stands still")
+    Key::new("region", Kind::Table(Region::ROUND_KEYS), "Only grains whose centres are inside; it stands still")
         .optional();
+const SIZES: Key = Key::new(
+    "sizes",
+    Kind::Quantities(&LENGTH),
+    "Diameters, rising: it is told for the grains below, between and from them on, too",
+)
+.above(0.0)
+.optional();
 const WALLS: Key = Key::new("walls", Kind::Flag, "Whether contacts with walls count");
 const GROUP: Key = Key::new("group", Kind::Name(Family::Group), "Only the grains of this group").optional();
 
@@ -178,13 +188,7 @@ kinds! {
         group: Option<String> = GROUP,
         /// Diameters between which passed grains are counted apart [m].
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        sizes: Option<Vec<f64>> = Key::new(
-            "sizes",
-            Kind::Quantities(&LENGTH),
-            "Diameters, rising: what passed is told for the grains below, between and from them on, too",
-        )
-        .above(0.0)
-        .optional(),
+        sizes: Option<Vec<f64>> = SIZES,
     }
 
     hops::Hops "hops"
@@ -235,6 +239,9 @@ kinds! {
             Key::new("fluid-density", Kind::Quantity(&DENSITY), "Density of the fluid; gives the Einstein number")
                 .above(0.0)
                 .optional(),
+        /// Diameters between which grains are counted apart [m].
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        sizes: Option<Vec<f64>> = SIZES,
     }
 
     run_out::RunOut "run-out" "Front, travel and fall of the centre of mass, and the deposit" {
@@ -315,7 +322,7 @@ kinds! {
 
     residence::Residence "residence" "How long grains stay in a region: residence time with spread, and age of those inside" {
         /// Where grains stay.
-        region: Region = REGION,
+        region: Region = STAYS,
         /// Only grains of this group.
         group: Option<String> = GROUP,
     }

@@ -2,6 +2,7 @@
 
 mod films;
 mod grains;
+mod regions;
 mod signals;
 mod walls;
 mod watch;
@@ -40,6 +41,7 @@ pub(crate) fn derive(
     derive.signals(resolved);
     derive.films(resolved);
     settings(resolved, root);
+    derive.regions(resolved);
     derive.watches(resolved);
     derive.response(resolved);
     derive.complaints

@@ -13,6 +13,9 @@ use tsubu_scene::plan::{Plan, Region, Shape, Start};
 /// Attempts to find a free place for one grain before giving up.
 const ATTEMPTS: u64 = 20_000;
 
+/// Why a round region is refused.
+const BOXES: &str = "grains of lattice points begin in boxes; give `low` and `high`, or use `method = \"dem\"`";
+
 /// A grain to be placed: its number in the plan and its kind.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grain {
@@ -24,7 +27,7 @@ pub(super) struct Grain {
 pub(super) fn place(plan: &Plan, stage: &Stage, grains: &[Vec<Grain>], bed: &mut Bed, remarks: &mut Remarks) {
     let casing = plan.walls.values().find_map(|wall| match wall.shape {
         Shape::Box { width, height, floor_centre: [x, _, z], .. } => {
-            Some(Region { low: [x - 0.5 * width, 0.0, z], high: [x + 0.5 * width, 0.0, z + height] })
+            Some(Region::of_box([x - 0.5 * width, 0.0, z], [x + 0.5 * width, 0.0, z + height]))
         }
         _ => None,
     });
@@ -46,7 +49,11 @@ pub(super) fn place(plan: &Plan, stage: &Stage, grains: &[Vec<Grain>], bed: &mut
         match (&group.start, region) {
             (Start::At { position, .. }, _) => at(&key, position, own, stage, bed, remarks),
             (Start::File { grains, .. }, _) => at(&key, &grains.position, own, stage, bed, remarks),
+            (Start::Stream { region, .. }, _) if region.is_round() => {
+                remarks.refuse(format!("{key}.stream.region"), BOXES)
+            }
             (Start::Stream { .. }, _) => {}
+            (_, Some(region)) if region.is_round() => remarks.refuse(key, BOXES),
             (_, None) => remarks.refuse(
                 key,
                 "needs a wall with `shape.box` to be placed in, or a `region`; or give positions with `start.at`",

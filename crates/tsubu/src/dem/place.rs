@@ -69,7 +69,7 @@ fn room(plan: &Plan, walls: &[Wall]) -> Option<Room> {
     plan.walls.values().zip(walls).find_map(|(wall, built)| match &wall.shape {
         Shape::Box { width, height, depth, floor_centre } => {
             let centre = DVec3::from_array(*floor_centre) + built.pose.offset;
-            Some(Room { centre, size: DVec3::new(*width, *depth, *height) })
+            Some(Room::of_box(centre, DVec3::new(*width, *depth, *height)))
         }
         _ => None,
     })
@@ -118,7 +118,7 @@ struct Placing<'a> {
 impl Placing<'_> {
     /// A region, or else the box.
     fn inside(&self, region: Option<&Region>) -> Option<Room> {
-        region.map(Room::of).or(self.room)
+        region.map(Room::of).or_else(|| self.room.clone())
     }
 
     fn push(&mut self, group: &Particles, number: usize, position: DVec3, diameter: f64) {
@@ -175,7 +175,7 @@ impl Placing<'_> {
         jitter: f64,
         stack: bool,
     ) -> Result<(), String> {
-        let Room { centre, size } = room;
+        let (centre, size) = (room.centre, room.size);
         let space = self.plan.dimension == 3;
         let floor = if stack { self.floor } else { 0.0 };
         // ContactBatch are as wide as the widest grain.
@@ -217,7 +217,7 @@ impl Placing<'_> {
                 let (x, y, z) = (place % nx, place / nx % ny, place / (nx * ny));
                 if place > count && z >= layers {
                     return Err(format!(
-                        "there is room for {count} of {} grains only, for walls lie in their places; take a smaller `spacing`, \
+                        "there is room for {count} of {} grains only, for walls or the ends of the region lie in their places; take a smaller `spacing`, \
                          fewer grains, or `start.random`",
                         group.count
                     ));
@@ -229,7 +229,7 @@ impl Placing<'_> {
                 if space {
                     p.y += shake(v[0], v[1]);
                 }
-                if !free_to_move || clearance.fits(p, 0.5 * diameter) {
+                if room.holds(p, 0.5 * diameter) && (!free_to_move || clearance.fits(p, 0.5 * diameter)) {
                     break p;
                 }
             };
@@ -261,7 +261,8 @@ impl Placing<'_> {
             let radius = 0.5 * diameter;
             let free = (0..ATTEMPTS).find_map(|attempt| {
                 let p = room.anywhere(self.plan, radius, Purpose::Placement, id, 3 + attempt);
-                let free = clearance.free(p, radius)
+                let free = room.holds(p, radius)
+                    && clearance.free(p, radius)
                     && images(&ends, p, 2.0 * radius).all(|image| occupied.free(image, radius));
                 free.then_some(p)
             });

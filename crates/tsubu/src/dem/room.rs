@@ -10,17 +10,30 @@ use tsubu_scene::plan::{Plan, Region};
 const PROBES: usize = 8;
 
 /// A box of space: centre of the floor and size [m].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Room {
     pub centre: DVec3,
     pub size: DVec3,
+    /// Less than the box, where the region is round.
+    round: Option<Region>,
 }
 
 impl Room {
     pub fn of(region: &Region) -> Self {
         let (low, high) = (DVec3::from_array(region.low), DVec3::from_array(region.high));
         let middle = 0.5 * (low + high);
-        Self { centre: DVec3::new(middle.x, middle.y, low.z), size: high - low }
+        let round = region.is_round().then(|| region.clone());
+        Self { centre: DVec3::new(middle.x, middle.y, low.z), size: high - low, round }
+    }
+
+    /// The inside of a box of walls: centre of its floor and size [m].
+    pub const fn of_box(centre: DVec3, size: DVec3) -> Self {
+        Self { centre, size, round: None }
+    }
+
+    /// Whether a ball that lies in the box lies in the region wholly.
+    pub fn holds(&self, centre: DVec3, radius: f64) -> bool {
+        self.round.as_ref().is_none_or(|round| round.rounds(centre.to_array(), radius))
     }
 
     /// A random place for a sphere of some radius; across periodic ends the sphere may reach.

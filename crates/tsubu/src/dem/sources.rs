@@ -271,7 +271,7 @@ impl DemEngine {
                 let place = (0..ATTEMPTS).find_map(|attempt| {
                     let step = self.clock.step * ATTEMPTS + attempt;
                     let p = room.anywhere(&self.sources.plan, radius, Purpose::Stream, id, step);
-                    (occupied.free(p, radius) && clearance.free(p, radius)).then_some(p)
+                    (room.holds(p, radius) && occupied.free(p, radius) && clearance.free(p, radius)).then_some(p)
                 });
                 let Some(p) = place else { break };
                 for image in images(&ends, p, 2.0 * largest) {

@@ -225,7 +225,7 @@ fn sides(middle: [f64; 3], half: [f64; 3], axes: &[usize]) -> Vec<Bound> {
 /// Whether a region has no point inside of the bounds; `false` where it may have.
 fn never_meets(removal: &Removal, bounds: &[Bound]) -> bool {
     match removal {
-        Removal::Inside { region: Region { low, high } } => bounds.iter().any(|(point, normal)| {
+        Removal::Inside { region: Region { low, high, .. } } => bounds.iter().any(|(point, normal)| {
             let farthest = [0, 1, 2].map(|k| if normal[k] > 0.0 { high[k] } else { low[k] } - point[k]);
             dot(farthest, *normal) < 0.0
         }),
@@ -255,7 +255,7 @@ mod tests {
     fn a_region_beyond_a_box_is_never_met() {
         let walls = sides([0.0, 0.0, 1.0], [1.0, 1.0, 1.0], &[0, 1, 2]);
         let behind = |point: [f64; 3], normal: [f64; 3]| Removal::Behind { point, normal };
-        let inside = |low: [f64; 3], high: [f64; 3]| Removal::Inside { region: Region { low, high } };
+        let inside = |low: [f64; 3], high: [f64; 3]| Removal::Inside { region: Region::of_box(low, high) };
         let slanted = [0.6, 0.0, 0.8];
         for (removal, never) in [
             (behind([0.0, 0.0, -0.1], [0.0, 0.0, 1.0]), true),

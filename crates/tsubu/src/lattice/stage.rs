@@ -192,7 +192,7 @@ pub fn region(plan: &Plan, walls: &[Wall], margin: f64) -> Option<Region> {
     };
     let (left, right) = ends(low.x, high.x, 0, 3.0 * height);
     let (bottom, top) = ends(low.z, high.z, 1, margin);
-    Some(Region { low: [left, 0.0, bottom], high: [right, 0.0, top] })
+    Some(Region::of_box([left, 0.0, bottom], [right, 0.0, top]))
 }
 
 #[cfg(test)]
@@ -205,7 +205,7 @@ mod tests {
     /// Places and nearest vectors undo each other, also a little off; a region of whole columns keeps them.
     #[test]
     fn places_and_vectors_agree() {
-        let region = Region { low: [0.0; 3], high: [100.0 * 0.75_f64.sqrt(), 0.0, 40.0] };
+        let region = Region::of_box([0.0; 3], [100.0 * 0.75_f64.sqrt(), 0.0, 40.0]);
         let stage = Stage::new(&region, 1.0).expect("inside");
         assert_eq!((stage.columns, stage.rows), (132, 72));
         let grid = stage.grid();

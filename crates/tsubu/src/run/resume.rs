@@ -42,6 +42,7 @@ impl Run<'_> {
         self.hosts.load(&state)?;
         self.ledger = Ledger::load(&state)?;
         self.measured.load(&state)?;
+        self.lost.load(&state)?;
         self.watches.load(&state)?;
         self.wall_before = state.real("run.wall-seconds")?.first().copied().unwrap_or(0.0);
         let missing = || MissingSection { name: HISTORY.to_owned(), kind: "integer" };

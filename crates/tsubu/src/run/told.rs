@@ -50,6 +50,7 @@ impl Run<'_> {
         for note in self.engine.notes() {
             summary.warnings.push(format!("{}: {}", note.key, note.text));
         }
+        summary.warnings.extend(self.lost.told(self.plan));
         self.stages.tell(&mut summary);
         self.tell(&mut summary);
         summary

@@ -6,6 +6,7 @@
 
 use super::Wall;
 use super::frustum::Frustum;
+use super::half_space::HalfSpace;
 use super::mesh::Mesh;
 use super::surface::Surface;
 use glam::{DQuat, DVec3};
@@ -66,6 +67,18 @@ impl Wall {
                 false
             }
             Surface::HalfSpaces { .. } => false,
+        }
+    }
+
+    /// Whether straight below a point there is any of the wall; a plane or a box goes on without end.
+    pub fn stops(&self, point: DVec3, down: DVec3) -> bool {
+        match &self.surface {
+            Surface::HalfSpaces { planes, .. } => {
+                let (own, fall) = (self.pose.to_own(point), self.pose.to_own(point + down) - self.pose.to_own(point));
+                let stops = |p: &HalfSpace| fall.dot(p.normal) < -1e-9 && (own - p.point).dot(p.normal) > 0.0;
+                !self.vanished() && planes.iter().any(stops)
+            }
+            _ => self.lies_below(point, down),
         }
     }
 

@@ -1,14 +1,16 @@
 //! What grains carry along a bed, and how many start and stop.
 
+use super::classes::Classes;
 use super::{Inside, Sample, Watch, axes, group_number};
 use crate::about::About;
 use crate::state::sphere;
 use crate::view::{View, Wants};
+use crate::water::FORMULAS;
 use glam::DVec3;
 use std::f64::consts::PI;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
-use tsubu_scene::plan::{self, Axis, Plan, watch};
+use tsubu_scene::plan::{self, Axis, Flow, Plan, watch};
 
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.bedload",
@@ -16,13 +18,18 @@ pub(super) const ABOUT: About = About {
 Transport of grains along a horizontal axis over the plan area A of a region, by free grains whose centres are in it.
 transport rate        q = sum V u / A, V the volume of a grain, u its velocity along the axis      [m^2/s]
 mean transport rate   of the looks so far                                                          [m^2/s]
+mass rate             the same of masses: sum m u / A; in the plane with `width` only               [kg/(m.s)]
 fluctuation           standard deviation of q over the looks so far                                [m^2/s]
 moving grains         number of those that move                                                    [-]
 moving speed          mean of u over them, by volume                                               [m/s]
 started, stopped      grains that began to move, or came to rest, since the last look              [-]
 entrainment           started over A and the time since the last look                              [1/(m^2.s)]
 deposition            stopped over the same                                                        [1/(m^2.s)]
+`transport rate below 1 mm`, ... with `sizes`: q of the grains of that diameter alone                [m^2/s]
 Einstein number       q / sqrt((s - 1) g d^3), s the density of the grains over `fluid-density`     [-]
+Shields number        as the watch `stream` tells it, where the water is a stream               [-]
+Meyer-Peter and Mueller 1948, Wong and Parker 2006: the Einstein number by their formulas, 8 (Shields number - 0.047)^1.5 and
+                      3.97 (Shields number - 0.0495)^1.5                                          [-]
 A grain moves from the look on at which it is faster than `moving-speed`, until it is slower than `resting-speed`: a grain
 that rocks in its pocket between the two does not start again and again. It counts where it is when that is seen; one that
 is new, or comes into the region moving, has not started.
@@ -32,7 +39,7 @@ free groups, or of the one that is asked for, as the scene tells them.",
     symbols: "",
     limits: "Q is of volumes without voids; a grain that starts and stops between two looks is not seen; entrainment \
 depends on the two speeds, so tell them with it.",
-    reference: "q as in Ancey et al. 2008 (J. Fluid Mech. 595, 83); Einstein 1950",
+    reference: "q as in Ancey et al. 2008 (J. Fluid Mech. 595, 83); Einstein 1950; Meyer-Peter and Mueller 1948; Wong and Parker 2006",
 };
 
 /// Sums up volumes on their way.
@@ -46,10 +53,15 @@ pub(super) struct Bedload {
     /// In the plane: width of the bed [m], if grains are spheres.
     width: Option<f64>,
     flat: bool,
+    classes: Classes,
     /// Speeds at which a grain begins and ceases to move [m/s].
     speeds: [f64; 2],
     /// sqrt((s - 1) g d^3), if the Einstein number is asked for [m^2/s].
     scale: Option<f64>,
+    /// Whether a stream's stress on the bed is known, for the Shields number; density [kg/m^3] and diameter [m] of its grains.
+    sheared: bool,
+    grain: (f64, f64),
+    gravity: f64,
     /// Whether a grain moves, by its number; nobody knows before it has been seen.
     moves: Vec<Option<bool>>,
     last: f64,
@@ -58,9 +70,11 @@ pub(super) struct Bedload {
 }
 
 pub(super) fn open(asked: &watch::Bedload, plan: &Plan) -> Bedload {
-    let watch::Bedload { axis, region, group, width, moving_speed, resting_speed, fluid_density } = asked;
+    let watch::Bedload { axis, region, group, width, moving_speed, resting_speed, fluid_density, sizes } = asked;
     let (density, diameter) = plan::submerged(plan.particles.iter(), group.as_deref());
     let gravity = DVec3::from_array(plan.gravity).length();
+    let flow = plan.water.as_ref().map(|water| &water.flow);
+    let flows = matches!(flow, Some(Flow::Coupled { .. } | Flow::LogLaw { .. }));
     let size = |a: usize| region.high[a] - region.low[a];
     Bedload {
         axis: axis.index(),
@@ -69,7 +83,11 @@ pub(super) fn open(asked: &watch::Bedload, plan: &Plan) -> Bedload {
         group: group.as_ref().map(|name| group_number(plan, name)),
         width: *width,
         flat: plan.dimension == 2,
+        classes: Classes::new(sizes.as_ref()),
         speeds: [*moving_speed, *resting_speed],
+        sheared: fluid_density.is_some() && flows,
+        grain: (density, diameter),
+        gravity,
         scale: fluid_density.map(|fluid| ((density / fluid - 1.0) * gravity * diameter.powi(3)).sqrt()),
         moves: Vec::new(),
         last: f64::NAN,
@@ -84,6 +102,11 @@ impl Bedload {
         } else {
             sphere::volume(radius) / self.width.unwrap_or(1.0)
         }
+    }
+
+    /// Whether masses can be told per width.
+    fn weighs(&self) -> bool {
+        !self.flat || self.width.is_some()
     }
 
     /// Whether the grain moves now, and whether it did before.
@@ -130,13 +153,20 @@ impl Watch for Bedload {
         .map(String::from)
         .to_vec();
         names.extend([format!("entrainment [{per}]"), format!("deposition [{per}]")]);
+        names.extend(self.weighs().then(|| "mass rate [kg/(m.s)]".to_owned()));
+        names.extend(self.classes.names().map(|class| format!("transport rate {class} [m^2/s]")));
         names.extend(self.scale.map(|_| "Einstein number [-]".to_owned()));
+        if self.sheared {
+            names.push("Shields number [-]".to_owned());
+            names.extend(FORMULAS.map(|formula| format!("{} [-]", formula.source)));
+        }
         names
     }
 
     fn take(&mut self, view: &View) -> Sample {
         let g = &view.grains;
-        let (mut flux, mut carried, mut carrying) = (0.0, 0.0, 0.0);
+        let (mut flux, mut mass, mut carried, mut carrying) = (0.0, 0.0, 0.0, 0.0);
+        let mut of_class = vec![0.0; self.classes.len()];
         let (mut moving, mut started, mut stopped) = (0.0, 0.0, 0.0);
         for i in 0..view.len() {
             if !view.free(i) || self.group.is_some_and(|group| g.group[i] != group) {
@@ -149,6 +179,10 @@ impl Watch for Bedload {
             }
             let volume = self.volume(r);
             flux += volume * u;
+            mass += g.mass[i] * u;
+            if let Some(flux) = of_class.get_mut(self.classes.of(2.0 * r)) {
+                *flux += volume * u;
+            }
             if now {
                 moving += 1.0;
                 carried += volume * u;
@@ -164,7 +198,16 @@ impl Watch for Bedload {
         let per = 1.0 / (self.area * elapsed);
         let mut scalars = vec![rate, mean, (squares / count).sqrt(), moving, carried / carrying, started, stopped];
         scalars.extend([started * per, stopped * per]);
+        scalars.extend(self.weighs().then(|| mass / (self.area * self.width.unwrap_or(1.0))));
+        scalars.extend(of_class.into_iter().map(|flux| flux / self.area));
         scalars.extend(self.scale.map(|scale| rate / scale));
+        if self.sheared {
+            let stress =
+                view.water.and_then(|water| Some(water.shields(water.bed_stress()?, self.grain, self.gravity)));
+            let shields = stress.unwrap_or(f64::NAN);
+            scalars.push(shields);
+            scalars.extend(FORMULAS.map(|formula| formula.rate(shields)));
+        }
         Sample { scalars, rows: Vec::new() }
     }
 

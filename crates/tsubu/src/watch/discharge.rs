@@ -1,5 +1,6 @@
 //! Grains that have passed a plane.
 
+use super::classes::Classes;
 use super::{Sample, Watch, group_number};
 use crate::about::About;
 use crate::view::{View, Wants};
@@ -56,8 +57,8 @@ pub(super) struct Discharge {
     waiting: i64,
     passed: i64,
     mass: f64,
-    /// Diameters that part the classes [m], and the mass of each class that has passed [kg].
-    sizes: Vec<f64>,
+    /// The classes by diameter, and the mass of each that has passed [kg].
+    classes: Classes,
     by_size: Vec<f64>,
 }
 
@@ -66,7 +67,7 @@ const QUIET: f64 = 0.25;
 
 pub(super) fn open(asked: &watch::Discharge, plan: &Plan) -> Discharge {
     let watch::Discharge { point, normal, group, sizes } = asked;
-    let sizes = sizes.clone().unwrap_or_default();
+    let classes = Classes::new(sizes.as_ref());
     Discharge {
         point: DVec3::from_array(*point),
         normal: DVec3::from_array(*normal),
@@ -79,8 +80,8 @@ pub(super) fn open(asked: &watch::Discharge, plan: &Plan) -> Discharge {
         waiting: 0,
         passed: 0,
         mass: 0.0,
-        by_size: vec![0.0; if sizes.is_empty() { 0 } else { sizes.len() + 1 }],
-        sizes,
+        by_size: vec![0.0; classes.len()],
+        classes,
     }
 }
 
@@ -95,22 +96,9 @@ impl Discharge {
     fn pass(&mut self, times: i64, grain: &Seen) {
         self.passed += times;
         self.mass += times as f64 * grain.mass;
-        let class = self.sizes.partition_point(|size| *size <= grain.diameter);
-        if let Some(mass) = self.by_size.get_mut(class) {
+        if let Some(mass) = self.by_size.get_mut(self.classes.of(grain.diameter)) {
             *mass += times as f64 * grain.mass;
         }
-    }
-
-    /// What the masses by size are called.
-    fn classes(&self) -> impl Iterator<Item = String> {
-        let told = |size: &f64| format!("{} mm", (size * 1e9).round() / 1e6);
-        let last = self.sizes.len();
-        let word = move |k: usize| match k {
-            0 => format!("below {}", told(&self.sizes[0])),
-            k if k == last => format!("from {}", told(&self.sizes[k - 1])),
-            k => format!("{} to {}", told(&self.sizes[k - 1]), told(&self.sizes[k])),
-        };
-        (0..self.by_size.len()).map(move |k| format!("passed mass {} [kg]", word(k)))
     }
 
     fn look(&self, view: &View, i: usize, period: Option<f64>) -> Seen {
@@ -135,7 +123,8 @@ impl Watch for Discharge {
 
     fn scalars(&self) -> Vec<String> {
         let all = ["passed grains [-]", "passed mass [kg]", "rate [1/s]", "mass rate [kg/s]"].map(String::from);
-        all.into_iter().chain(self.classes()).collect()
+        let of_class = self.classes.names().map(|class| format!("passed mass {class} [kg]"));
+        all.into_iter().chain(of_class).collect()
     }
 
     fn take(&mut self, view: &View) -> Sample {
@@ -194,7 +183,7 @@ impl Watch for Discharge {
         let counts = [self.passed, self.waiting];
         state.put_integer(&format!("{name}.seen"), counts.into_iter().chain(whole).collect::<Vec<_>>());
         let real = self.seen.values().flat_map(|seen| [seen.mass, seen.ahead, seen.speed]);
-        if !self.sizes.is_empty() {
+        if !self.by_size.is_empty() {
             let diameters = self.seen.values().map(|seen| seen.diameter);
             let sizes = self.by_size.iter().copied().chain(diameters);
             state.put_real(&format!("{name}.sizes"), sizes.collect::<Vec<_>>());
@@ -221,7 +210,7 @@ impl Watch for Discharge {
         [self.first, self.last, self.passage] = times.map(|time| Some(time).filter(|t| !t.is_nan()));
         // Without classes nobody asks how large they are.
         let mut diameters = vec![0.0; whole.len() / 2];
-        if !self.sizes.is_empty() {
+        if !self.by_size.is_empty() {
             let sizes = state.real(&format!("{name}.sizes"))?;
             if sizes.len() != self.by_size.len() + diameters.len() {
                 return Err(wrong());

@@ -5,6 +5,7 @@
 //! them a checkpoint holds. One file a watch; each says what it measures, in which units, after whom, and where it ends.
 
 mod cells;
+mod classes;
 mod course;
 pub mod kernel;
 pub(crate) mod means;
@@ -133,7 +134,7 @@ impl Inside {
     pub fn holds_but(&self, p: DVec3, not: &[usize]) -> bool {
         let Some(region) = &self.region else { return true };
         let mut looked_at = self.axes.iter().filter(|a| !not.contains(a));
-        looked_at.all(|&a| p[a] >= region.low[a] && p[a] < region.high[a])
+        looked_at.all(|&a| p[a] >= region.low[a] && p[a] < region.high[a]) && region.rounds(p.to_array(), 0.0)
     }
 }
 

@@ -20,6 +20,7 @@ of layers (`coupled`, `water.flow.column`)
 discharge         of water per width of a stream; of a column per plan area              [m^2/s] or [m/s]
 mean velocity     discharge over the depth of water, sum of shares times thickness       [m/s]
 level             height z where a stream ends: its lid, or its free surface              [m]
+depth above the bed  of a stream, from the top of its bed to its level                   [m]
 and for every layer
 velocity          of the water, along x in a stream, upwards in a column                 [m/s]
 share of water    what the grains leave of the layer                                     [-]
@@ -62,14 +63,11 @@ impl Watched {
     /// Shear velocity and stress at the bed, and the numbers of the mean grain.
     fn bed(&self, water: &Water) -> Vec<f64> {
         let shear = water.stream.shear_velocity().unwrap_or(f64::NAN);
-        let stress = match &water.stream {
-            Stream::Coupled(coupled) => coupled.bed_stress(),
-            _ => water.density * shear * shear,
-        };
-        let numbers = self.grain.map(|(density, d)| {
+        let stress = water.bed_stress().unwrap_or(f64::NAN);
+        let numbers = self.grain.map(|grain @ (density, d)| {
             let terminal = water.terminal(0.5 * d, density * sphere::volume(0.5 * d), self.gravity);
             let rouse = terminal.map_or(0.0, |speed| speed / (KARMAN * (stress / water.density).sqrt()));
-            [stress / ((density - water.density) * self.gravity * d), rouse]
+            [water.shields(stress, grain, self.gravity), rouse]
         });
         [shear, stress].into_iter().chain(numbers.into_iter().flatten()).collect()
     }
@@ -112,7 +110,7 @@ impl Watch for Watched {
             names.extend([if self.along { "discharge [m^2/s]" } else { "discharge [m/s]" }, "mean velocity [m/s]"]);
         }
         if self.along && self.layered {
-            names.push("level [m]");
+            names.extend(["level [m]", "depth above the bed [m]"]);
         }
         if self.along {
             names.extend(["shear velocity [m/s]", "bed stress [Pa]"]);
@@ -141,8 +139,8 @@ impl Watch for Watched {
                 _ => through,
             };
             sample.scalars = vec![discharge, through / depth];
-            if self.along {
-                sample.scalars.push(layers.top());
+            if let Stream::Coupled(coupled) = &water.stream {
+                sample.scalars.extend([layers.top(), layers.top() - coupled.bed_top()]);
             }
         }
         if self.along {

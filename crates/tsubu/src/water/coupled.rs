@@ -235,6 +235,11 @@ impl Coupled {
         self.above(BED)
     }
 
+    /// Height z at which the bed ends [m].
+    pub fn bed_top(&self) -> f64 {
+        self.layers.top() - (self.layers.len() - self.bed()) as f64 * self.layers.thickness
+    }
+
     /// Volume of water over the bed over the plan area [m].
     pub fn over_bed(&self) -> f64 {
         (self.bed()..self.layers.len()).map(|k| self.layers.water(k)).sum()

@@ -17,6 +17,7 @@ mod magnus;
 mod parcel;
 mod part;
 mod saffman;
+mod shields;
 mod stream;
 mod torque;
 
@@ -27,6 +28,7 @@ pub use layers::Layers;
 pub(crate) use parcel::LayerReaction;
 pub use parcel::{Parcel, WaterPowers};
 pub use part::{Part, WorkKind};
+pub use shields::{FORMULAS, Formula};
 pub use stream::Stream;
 
 use crate::about::About;

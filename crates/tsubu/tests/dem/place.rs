@@ -152,3 +152,40 @@ fn the_smallest_grain_of_a_file_sets_the_time_step() {
     // The time of a contact goes with the diameter.
     assert!((step("0.002", "0.01") * 3.0 / step("0.006", "0.006") - 1.0).abs() < 1e-9);
 }
+
+/// Grains of every kind of start lie wholly in a cylinder or a sphere that is their region; its box alone would not keep them there.
+#[test]
+fn grains_begin_wholly_in_a_round_region() {
+    let bar = "region.cylinder = { point = [0, 0, -0.04], axis = \"z\", radius = 0.04, length = 0.08 }";
+    let ball = "region.sphere.radius = 0.04";
+    let boxed = "region = { low = [-0.04, -0.04, -0.04], high = [0.04, 0.04, 0.04] }";
+    let in_bar = |p: &[f64; 3]| p[0].hypot(p[1]) <= 0.037 + 1e-12 && p[2].abs() <= 0.037 + 1e-12;
+    let in_ball = |p: &[f64; 3]| p.iter().map(|x| x * x).sum::<f64>().sqrt() <= 0.037 + 1e-12;
+    for start in ["rows", "random"] {
+        let scene = |region: &str| {
+            format!(
+                "{MATERIAL}[particles.beads]\nmaterial = \"glass\"\ncount = 250\ndiameter = \"6 mm\"\nstart.{start} = {{ {region} }}\n"
+            )
+        };
+        let places = |region: &str| positions(&*open_text(&scene(region), &[]).0);
+        assert!(places(bar).iter().all(in_bar), "{start}");
+        assert!(places(ball).iter().all(in_ball), "{start}");
+        // The control.
+        assert!(!places(boxed).iter().all(in_bar), "{start}");
+    }
+}
+
+/// Too many for the sphere, though its box would hold them: refused with the number that fits.
+#[test]
+fn a_round_region_that_is_too_small_says_how_many_fit() {
+    let text = format!(
+        "{MATERIAL}[particles.beads]\nmaterial = \"glass\"\ncount = 500\ndiameter = \"6 mm\"\nstart.rows = {{ region.sphere.radius = 0.03 }}\n"
+    );
+    let scene =
+        tsubu_scene::Scene::parse("test", &text, std::path::Path::new("."), &[]).unwrap_or_else(|c| panic!("{c}"));
+    let wrong = tsubu::methods::open(scene.plan(), &tsubu::partner::Hosts::default())
+        .err()
+        .map(|wrong| wrong.to_string())
+        .unwrap();
+    assert!(wrong.contains("room for") && wrong.contains("of 500 grains only"), "{wrong}");
+}

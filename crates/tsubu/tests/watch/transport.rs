@@ -50,6 +50,27 @@ fn a_block_on_its_way_carries_its_height() {
     assert!(near(scalar(&*load, &sample, "transport rate"), 0.75 * exact, 1e-12));
 }
 
+/// Half of the grains are twice as large and move twice as fast; masses are told where there is a width to tell them over.
+#[test]
+fn transport_is_parted_by_size_and_weighed() {
+    let mut balls = block(0.3);
+    for ball in &mut balls[20..] {
+        (ball.radius, ball.velocity.x, ball.mass) = (0.1, 0.6, 8.0);
+    }
+    let text = format!("bedload = {{ width = 0.2, sizes = [0.15], {REGION} }}");
+    let mut load = watch(2, &text);
+    let sample = once(&mut *load, &at(&balls, 0.0));
+    let volume = |r: f64| 4.0 / 3.0 * PI * r.powi(3) / 0.2;
+    let (fine, coarse) = (20.0 * volume(0.05) * 0.3, 20.0 * volume(0.1) * 0.6);
+    assert!(near(scalar(&*load, &sample, "transport rate below 150 mm"), fine, 1e-12));
+    assert!(near(scalar(&*load, &sample, "transport rate from 150 mm"), coarse, 1e-12));
+    assert!(near(scalar(&*load, &sample, "transport rate"), fine + coarse, 1e-12));
+    assert!(near(scalar(&*load, &sample, "mass rate"), (20.0 * 0.3 + 160.0 * 0.6) / 0.2, 1e-12));
+    // Discs without a width have no mass per width.
+    let load = watch(2, &format!("bedload = {{ {REGION} }}"));
+    assert!(!load.scalars().iter().any(|name| name.starts_with("mass rate")));
+}
+
 #[test]
 fn the_fluctuation_is_that_of_the_looks() {
     let mut load = watch(2, &format!("bedload = {{ {REGION} }}"));

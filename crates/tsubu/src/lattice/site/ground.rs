@@ -226,7 +226,7 @@ mod tests {
     /// The outermost sites lie half a spacing from the ends, and the nearest site of a site's centre is the site.
     #[test]
     fn sites_fit_the_region_and_are_found() {
-        let region = Region { low: [-5.0, 0.0, 1.0], high: [5.0, 0.0, 11.0] };
+        let region = Region::of_box([-5.0, 0.0, 1.0], [5.0, 0.0, 11.0]);
         for sites in [Sites::Level(Layout::Triangular), Sites::Level(Layout::Square), Sites::Upright] {
             let ground = Ground::new(sites, &region, 1.0).expect("a region of ten sites");
             let inner: Vec<usize> = (0..ground.len())
