@@ -136,8 +136,10 @@ pub struct Figure {
     pub marks: Vec<Mark>,
     /// Bars, instead of curves.
     pub bars: Option<Bars>,
-    /// Height of the drawing area in pixels, at a width of 860; 0 for the default.
+    /// Height of the drawing area in pixels; 0 for the default.
     pub height: u32,
+    /// Its width; 0 for that of the page.
+    pub width: u32,
 }
 
 impl Figure {
@@ -196,6 +198,11 @@ pub(crate) fn on_white(svg: &str) -> String {
 /// The factor and prefix with which values up to `largest` read as short numbers. Only units that take prefixes in
 /// practice get one; angles are read in degrees.
 pub fn prefix(unit: &str, largest: f64) -> (f64, String) {
+    let (factor, found) = prefixed(unit, largest);
+    (factor, crate::text::unit(&found))
+}
+
+fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     let (angle, degrees) = tsubu_frame::unit::for_people(unit);
     if degrees != unit {
         return (angle, degrees.to_owned());

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use base64::Engine as _;
 
-use crate::text::{escape, marked, plain};
+use crate::text::{self, escape, marked, plain};
 
 /// How good or bad something is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -297,7 +297,7 @@ fn write_grid(out: &mut String, grid: &Grid) {
 fn header_html(cell: &str) -> String {
     match tsubu_frame::csv::split_unit(cell) {
         (name, Some("-" | "text" | "SI") | None) => escape(name),
-        (name, Some(unit)) => format!("{} <span class=\"unit\">{}</span>", escape(name), escape(unit)),
+        (name, Some(unit)) => format!("{} <span class=\"unit\">{}</span>", escape(name), escape(&text::unit(unit))),
     }
 }
 

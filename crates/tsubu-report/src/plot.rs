@@ -9,7 +9,7 @@ use kuva::render::plots::Plot;
 use kuva::render::theme::Theme;
 
 use crate::figure::{Axis, Bars, Figure, Series, Style, on_white, prefix};
-use crate::text::superscript;
+use crate::text::{short, superscript};
 
 /// Okabe and Ito's colours, told apart by colour-blind readers too; the order puts dark ones first.
 pub(crate) const PALETTE: [&str; 8] =
@@ -19,7 +19,9 @@ pub(crate) const INK: &str = "#24292f";
 pub(crate) const FAINT: &str = "#e3e6ea";
 pub(crate) const AXIS: &str = "#6e7781";
 
-const WIDTH: f64 = 860.0;
+const WIDTH: u32 = 860;
+/// Points of a figure that tell their values under the mouse.
+const TELLING: usize = 120;
 const FONT: &str = "system-ui, -apple-system, Segoe UI, Roboto, Helvetica, Arial, sans-serif";
 /// Width of a letter of a label, and what the height of a figure has beside its vertical axis [pixels].
 const LETTER: f64 = 7.0;
@@ -45,8 +47,9 @@ fn svg(figure: &Figure) -> String {
         None => draw_series(figure),
     };
     let height = if figure.height == 0 { 340.0 } else { f64::from(figure.height) };
+    let width = if figure.width == 0 { WIDTH } else { figure.width };
     let layout = layout
-        .with_width(WIDTH)
+        .with_width(f64::from(width))
         .with_height(height)
         .with_theme(theme())
         .with_font_family(FONT)
@@ -64,7 +67,12 @@ fn svg(figure: &Figure) -> String {
     } else {
         layout
     };
-    tidied(&kuva::render_to_svg(plots, layout))
+    let drawn = tidied(&kuva::render_to_svg(plots, layout));
+    if width == WIDTH {
+        drawn
+    } else {
+        drawn.replacen("<svg ", &format!("<svg style=\"max-width:{width}px;min-width:0\" "), 1)
+    }
 }
 
 /// Lets the drawing scale with the page, and gives its clip path an id made from the drawing itself: kuva counts ids
@@ -140,7 +148,7 @@ fn draw_series(figure: &Figure) -> (Vec<Plot>, Layout) {
     let (fy, y_unit) = scale(&figure.y, tallest);
     let keep =
         |x: f64, y: f64| x.is_finite() && y.is_finite() && (!figure.x.log || x > 0.0) && (!figure.y.log || y > 0.0);
-    let mut plots = Vec::new();
+    let (mut plots, mut telling) = (Vec::new(), Vec::new());
     for (i, series) in figure.series.iter().enumerate() {
         let colour = PALETTE[series.colour.unwrap_or(i) % PALETTE.len()];
         if let Some(band) = &series.band {
@@ -159,8 +167,17 @@ fn draw_series(figure: &Figure) -> (Vec<Plot>, Layout) {
         let kept: Vec<_> = series.points.iter().filter(|(x, y)| keep(*x, *y)).map(|(x, y)| (x * fx, y * fy)).collect();
         if !kept.is_empty() {
             draw_one(series, &thinned(&kept), colour, &mut plots);
+            let tells = |x: f64, y: f64| {
+                let name = if series.name.is_empty() { String::new() } else { format!("{}\n", series.name) };
+                let value = |axis: &Axis, unit: &str, x: f64| {
+                    format!("{} {} {}", axis.label, short(x), if unit == "-" { "" } else { unit }).trim_end().to_owned()
+                };
+                format!("{name}{}\n{}", value(&figure.x, &x_unit, x), value(&figure.y, &y_unit, y))
+            };
+            telling.push(told(&kept, TELLING / figure.series.len().max(1), tells));
         }
     }
+    plots.extend(telling);
     let mut layout = Layout::auto_from_plots(&plots)
         .with_x_label(axis_label(&figure.x, &x_unit))
         .with_y_label(axis_label(&figure.y, &y_unit));
@@ -177,6 +194,12 @@ fn draw_series(figure: &Figure) -> (Vec<Plot>, Layout) {
     if !figure.x.log && high > low {
         layout = layout.with_x_axis_min(low).with_x_axis_max(high + 0.003 * (high - low));
     }
+    // A curve that comes near to nothing is seen against nothing.
+    let heights = || points().map(|p| p.1 * fy).filter(|y| y.is_finite());
+    let (least, most) = heights().fold((f64::INFINITY, f64::NEG_INFINITY), ends);
+    if !figure.y.log && least >= 0.0 && least < 0.5 * most {
+        layout = layout.with_y_axis_min(0.0);
+    }
     for mark in &figure.marks {
         let line = if mark.horizontal {
             ReferenceLine::horizontal(mark.at * fy)
@@ -188,6 +211,16 @@ fn draw_series(figure: &Figure) -> (Vec<Plot>, Layout) {
         layout = layout.with_reference_line(if mark.label.is_empty() { line } else { line.with_label(&mark.label) });
     }
     (plots, layout)
+}
+
+/// Some of the points once more, unseen, with their values for the mouse.
+fn told(points: &[(f64, f64)], most: usize, tells: impl Fn(f64, f64) -> String) -> Plot {
+    let each = points.len().div_ceil(most.max(2));
+    let some: Vec<(f64, f64)> = points.iter().copied().step_by(each).collect();
+    let texts: Vec<String> = some.iter().map(|(x, y)| tells(*x, *y)).collect();
+    Plot::Scatter(
+        ScatterPlot::new().with_data(some).with_color("transparent").with_size(7.0).with_tooltip_labels(texts),
+    )
 }
 
 fn draw_one(series: &Series, points: &[(f64, f64)], colour: &str, plots: &mut Vec<Plot>) {
@@ -243,11 +276,17 @@ fn draw_bars(figure: &Figure, bars: &Bars) -> (Vec<Plot>, Layout) {
     } else {
         (0..bars.categories.len()).collect()
     };
+    let mut told = Vec::new();
     for i in order {
         let category = &bars.categories[i];
         let value = |values: &[f64]| values.get(i).copied().filter(|v| v.is_finite()).unwrap_or(0.0);
         let group = bars.parts.iter().zip(PALETTE.iter().cycle()).map(|((_, v), c)| (value(v) * factor, *c));
         plot = plot.with_group(category.as_str(), group);
+        told.extend(bars.parts.iter().map(|(part, v)| {
+            let part = if bars.parts.len() > 1 { format!(", {part}") } else { String::new() };
+            let unit = if unit == "-" { "" } else { unit.as_str() };
+            format!("{category}{part}: {} {unit}", short(value(v) * factor)).trim_end().to_owned()
+        }));
     }
     if bars.parts.len() > 1 {
         plot = plot.with_legend(bars.parts.iter().map(|(name, _)| name.as_str()).collect());
@@ -255,7 +294,7 @@ fn draw_bars(figure: &Figure, bars: &Bars) -> (Vec<Plot>, Layout) {
     if bars.stacked {
         plot = plot.with_stacked();
     }
-    let plots = vec![Plot::Bar(plot)];
+    let plots = vec![Plot::Bar(plot.with_tooltip_labels(told))];
     let label = axis_label(&figure.y, &unit);
     let layout = Layout::auto_from_plots(&plots).with_tick_format(TickFormat::Auto);
     let layout = if bars.horizontal { layout.with_x_label(label) } else { layout.with_y_label(label) };

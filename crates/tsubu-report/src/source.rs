@@ -252,7 +252,8 @@ pub(crate) fn results_table(summary: &Summary) -> Option<Block> {
             }
             ResultValue::List(list) => format!("{} values, see figure", list.len()),
         };
-        grid.push(Tone::Plain, [name, value.as_str(), if unit == "-" { "" } else { unit }]);
+        let unit = if unit == "-" { String::new() } else { crate::text::unit(unit) };
+        grid.push(Tone::Plain, [name, value.as_str(), unit.as_str()]);
     }
     Some(Block::Table(grid))
 }

@@ -65,6 +65,19 @@ fn grouped(digits: &str) -> String {
     out
 }
 
+/// A unit as people write it: `m^2/s` with a raised 2, `N.s` with a dot in the middle.
+pub(crate) fn unit(unit: &str) -> String {
+    let mut out = String::new();
+    let mut rest = unit;
+    while let Some((before, after)) = rest.split_once('^') {
+        let power = after.len() - after.trim_start_matches(|c: char| c.is_ascii_digit() || c == '-').len();
+        out += &before.replace('.', "·");
+        out += &superscript(&after[..power]);
+        rest = &after[power..];
+    }
+    out + &rest.replace('.', "·")
+}
+
 /// Digits and sign raised.
 pub(crate) fn superscript(power: &str) -> String {
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];

@@ -70,7 +70,11 @@ impl Watches {
                 blocks.push(folded(&what, vec![Block::Typed(entry.about.clone())]));
             }
         }
-        blocks.extend(history.and_then(|history| self.steady(history)));
+        if let Some(table) = history.and_then(|history| self.steady(history)) {
+            let text = "Means of the steady part, with half of their 95 % interval: the start is cut off by MSER-5 (White 1997), the interval is by the \
+                        means of 16 batches. What drifts to the end or stands still is left out.";
+            blocks.extend([Block::Text(text.to_owned()), table]);
+        }
         blocks
     }
 
@@ -81,7 +85,9 @@ impl Watches {
         for scalar in self.0.iter().flat_map(|entry| &entry.scalars) {
             let Some(column) = history.header.iter().position(|header| header == scalar) else { continue };
             let values = numbers(history, column);
-            let Some(found) = Steady::of(&values).filter(|found| found.error > 0.0) else { continue };
+            let Some(found) = Steady::of(&values).filter(|found| found.error > 1e-9 * found.mean.abs()) else {
+                continue;
+            };
             let (name, unit) = split_unit(scalar);
             let (factor, unit) = prefix(unit.unwrap_or("-"), found.mean.abs());
             let unit = if unit == "-" { String::new() } else { unit };
@@ -192,7 +198,8 @@ impl Entry {
                 let points = points.into_iter().enumerate().map(|(k, mean)| point((number(&looks[0][k], 1), mean)));
                 figure = figure.with(Series::line("mean over time", points.collect()).styled(Style::Dashed));
             }
-            figure.height = 320;
+            // Against the height a profile stands upright.
+            (figure.width, figure.height) = if upright { (520, 460) } else { (0, 320) };
             blocks.extend(source.figure(&self.file(&format!("{label} profile")), &figure, &self.caption(&label)));
         }
         blocks

@@ -134,7 +134,7 @@ fn what_watches_saw_is_drawn() {
     assert!(from_svg(&map, 1.0).is_some());
     // Sixty points, one of them blank; the ground, the frame and the colour bar.
     assert_eq!(map.matches("<rect").count(), 59 + 3);
-    assert!(map.contains("density [kg/m^2]"));
+    assert!(map.contains("density [kg/m²]"));
 }
 
 #[test]
