@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use tsubu_frame::{Status, Summary, Table, csv::split_unit};
+use tsubu_frame::{ResultValue, Status, Summary, Table, csv::split_unit};
 
 use crate::claims::claims_table;
 use crate::figure::{Axis, Figure, Series};
@@ -125,8 +125,8 @@ fn headline(summary: Option<&Summary>, history: Option<&Table>) -> String {
         Status::Failed => "simulated before it failed",
     };
     let mut text = format!(
-        "{} grains by {}: {} s {did}, computed in {}.",
-        count(s.particles),
+        "{} by {}: {} s {did}, computed in {}.",
+        grains(s),
         method_name(&s.method),
         short(s.simulated_seconds),
         duration(s.wall_seconds)
@@ -139,6 +139,17 @@ fn headline(summary: Option<&Summary>, history: Option<&Table>) -> String {
         let _ = write!(text, " The energy residual is {}.", short(residual.abs()));
     }
     text
+}
+
+/// How many grains there are at the end, and how many have gone.
+fn grains(s: &Summary) -> String {
+    let gone = s.results.iter().filter(|(name, _)| name.starts_with("removal ") && name.ends_with(" grains"));
+    let gone: f64 = gone.map(|(_, value)| if let ResultValue::Number(gone) = value { *gone } else { 0.0 }).sum();
+    match (s.particles, gone as u64) {
+        (left, 0) => format!("{} grains", count(left)),
+        (0, gone) => format!("{} grains, which all have left,", count(gone)),
+        (left, gone) => format!("{} grains, after {} have left,", count(left), count(gone)),
+    }
 }
 
 fn host_peak(history: &Table) -> Option<(String, f64)> {

@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn the_interval_holds_the_mean_as_often_as_it_says() {
         let series = |k: usize| (0..1600).map(|i| 3.0 + noise(1600 * k + i)).collect::<Vec<_>>();
-        let found: Vec<Steady> = (0..100).map(|k| Steady::of(&series(k)).unwrap()).collect();
+        let found: Vec<Steady> = (0..100).map(|k| Steady::of(&series(k)).expect("it is steady")).collect();
         let holds = found.iter().filter(|s| (s.mean - 3.0).abs() <= s.error).count();
         assert!((85..=99).contains(&holds), "{holds}");
         let wanted = 2.131 * (1.0_f64 / 12.0 / 1600.0).sqrt();
@@ -82,7 +82,7 @@ mod tests {
     fn a_start_is_cut_off_and_a_drift_is_told() {
         let start = |i: usize| 5.0 * (-(i as f64) / 100.0).exp();
         let settles: Vec<f64> = (0..2000).map(|i| 1.0 + start(i) + 0.2 * noise(i)).collect();
-        let found = Steady::of(&settles).unwrap();
+        let found = Steady::of(&settles).expect("it is steady");
         assert!((200..800).contains(&found.first), "{found:?}");
         assert!((found.mean - 1.0).abs() < 0.02, "{found:?}");
         // The control: the mean of all is far off.

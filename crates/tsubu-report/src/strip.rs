@@ -4,10 +4,11 @@ use std::fmt::Write as _;
 
 use crate::balls::{Balls, Look, common};
 use crate::colour;
+use crate::figure::prefix;
 use crate::legend::{colour_bar, time_label};
 use crate::plot::{AXIS, FAINT, INK};
 use crate::raster;
-use crate::text::escape;
+use crate::text::{escape, short};
 
 /// Above this many grains a picture is drawn in pixels inside the SVG: shapes would make it too heavy to open.
 const MOST_SHAPES: usize = 1500;
@@ -80,8 +81,30 @@ pub fn strip(panels: &[Panel], look: &Look, columns: usize) -> String {
         let above = all.iter().any(|balls| balls.range().1 > range.1);
         colour_bar(&mut out, &first.balls.quantity, range, above, [width / 2.0, height - 30.0], &gradient);
     }
+    scale_bar(&mut out, cell, scale, height - 22.0);
     out.push_str("</svg>");
     out
+}
+
+/// A bar of a round length, about a quarter of a picture wide, at the left below the pictures.
+fn scale_bar(out: &mut String, cell: f64, scale: f64, y: f64) {
+    let longest = 0.3 * cell / scale;
+    let power = 10f64.powf(longest.log10().floor());
+    let Some(length) = [5.0, 2.0, 1.0].map(|digit| digit * power).into_iter().find(|length| *length <= longest) else {
+        return;
+    };
+    let (factor, unit) = prefix("m", length);
+    let end = length * scale;
+    let _ = write!(
+        out,
+        "<path d=\"M1 {:.1}v8M1 {y:.1}H{end:.1}M{end:.1} {:.1}v8\" stroke=\"{INK}\" stroke-width=\"1.5\" fill=\"none\"/>\
+         <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"12\">{} {unit}</text>",
+        y - 4.0,
+        y - 4.0,
+        end + 8.0,
+        y + 4.0,
+        short(length * factor)
+    );
 }
 
 /// One picture.

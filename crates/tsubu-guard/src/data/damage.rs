@@ -41,8 +41,8 @@ fn cut(draw: &mut Draw, file: &File) -> Damaged {
     let told = match file.format {
         // Nothing in these tells where they end, and a number cut short is a number.
         Format::Csv | Format::Obj => false,
-        // Every line of a dump has an end.
-        Format::BinaryStl | Format::Dump => true,
+        // Every line of a dump has an end, and every tag.
+        Format::BinaryStl | Format::Dump | Format::Vtp => true,
         Format::Stl => text.find("endsolid").is_some_and(|end| at < end + "endsolid".len()),
         // So is the last number of the last row, and velocities need not be there.
         Format::Xyz | Format::Data => {
@@ -67,7 +67,9 @@ fn word(draw: &mut Draw, file: &File) -> Damaged {
     let words: Vec<&Range<usize>> = words.iter().filter(|word| !said_beside(word)).collect();
     let word = words.get(draw.below(words.len().max(1)))?;
     let slip = nasty::misspelt(draw, &text[word.start..word.end]);
-    Some((replaced(text, word, &slip), Expect::SameOrRefuse))
+    // Columns that nobody knows are none of the grains'.
+    let ignored = file.format == Format::Vtp;
+    Some((replaced(text, word, &slip), if ignored { Expect::Survive } else { Expect::SameOrRefuse }))
 }
 
 /// What is no number where a number stands.
@@ -89,7 +91,7 @@ fn row(draw: &mut Draw, file: &File) -> Damaged {
     let mut lines: Vec<&str> = text.split_inclusive('\n').collect();
     let rows: Vec<usize> = (0..lines.len()).filter(|at| is_row(lines[*at], file.format)).collect();
     let at = *rows.get(draw.below(rows.len().max(1)))?;
-    let counted = matches!(file.format, Format::Xyz | Format::Data | Format::Dump | Format::Stl);
+    let counted = matches!(file.format, Format::Xyz | Format::Data | Format::Dump | Format::Vtp | Format::Stl);
     // One that is there twice is no other one.
     let expect = if counted { Expect::Refuse } else { Expect::Other };
     if draw.one_in(2) {
@@ -126,6 +128,9 @@ fn cell(draw: &mut Draw, file: &File) -> Damaged {
     Some((replaced(text, number, &with), expect))
 }
 
+/// What stands before the number of grains of a VTK file.
+const POINTS: &str = "NumberOfPoints=\"";
+
 /// A count that does not hold.
 fn count(draw: &mut Draw, file: &File) -> Damaged {
     if file.format == Format::BinaryStl {
@@ -134,6 +139,11 @@ fn count(draw: &mut Draw, file: &File) -> Damaged {
         return Some((bytes, Expect::Refuse));
     }
     let text = std::str::from_utf8(&file.bytes).ok()?;
+    if file.format == Format::Vtp {
+        let from = text.find(POINTS)? + POINTS.len();
+        let end = from + text[from..].find('"')?;
+        return Some((replaced(text, &(from..end), "99"), Expect::Refuse));
+    }
     let end = match file.format {
         Format::Xyz => text.find(['\r', '\n'])?,
         Format::Data => text.find(" atoms")?,
@@ -163,7 +173,7 @@ fn is_row(line: &str, format: Format) -> bool {
     let line = line.trim();
     let numbers = line.starts_with(|c: char| c.is_ascii_digit() || c == '-');
     match format {
-        Format::Csv => numbers,
+        Format::Csv | Format::Vtp => numbers,
         Format::Xyz => line.starts_with("G "),
         // Not the counts and ends of the head.
         Format::Data => numbers && !line.ends_with(|c: char| c.is_alphabetic()),

@@ -1,4 +1,4 @@
-//! Grains in CSV, extended XYZ, LAMMPS data and LAMMPS dumps.
+//! Grains in CSV, extended XYZ, LAMMPS data, LAMMPS dumps and VTK PolyData.
 
 use super::{File, Format, header, lines, number};
 use crate::draw::Draw;
@@ -32,7 +32,7 @@ struct Columns {
 
 /// A file of grains.
 pub fn draw(draw: &mut Draw) -> File {
-    let format = *draw.pick(&[Format::Csv, Format::Xyz, Format::Data, Format::Dump]);
+    let format = *draw.pick(&[Format::Csv, Format::Xyz, Format::Data, Format::Dump, Format::Vtp]);
     let data = format == Format::Data;
     let moves = draw.one_in(2);
     let columns = Columns {
@@ -46,6 +46,7 @@ pub fn draw(draw: &mut Draw) -> File {
         Format::Csv => csv(draw, &grains, columns),
         Format::Xyz => xyz(draw, &grains, columns),
         Format::Dump => dump(draw, &grains, columns),
+        Format::Vtp => vtp(draw, &grains, columns),
         _ => data_file(draw, &grains, columns),
     };
     let comment = match format {
@@ -207,6 +208,35 @@ fn dump(draw: &mut Draw, grains: &[Grain], columns: Columns) -> Written {
         rows.push(format!("{} 1 {}", index + 1, cells.collect::<Vec<_>>().join(" ")));
     }
     ("grains.lammpstrj", rows, Expect::Same)
+}
+
+/// As ParaView writes it as text.
+fn vtp(draw: &mut Draw, grains: &[Grain], columns: Columns) -> Written {
+    let radius = draw.one_in(2);
+    let mut rows = vec![
+        "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">".to_owned(),
+        format!("<PolyData><Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\">", grains.len()),
+        "<Points>".to_owned(),
+    ];
+    let size = if radius { "radius" } else { "diameter" };
+    let arrays = [(true, "Points", 0..3), (columns.diameter, size, 3..4)];
+    let after = if columns.diameter { 4 } else { 3 };
+    let spins = if columns.velocity { after + 3 } else { after };
+    let vectors = [(columns.velocity, "velocity", after..after + 3), (columns.spin, "spin", spins..spins + 3)];
+    for (_, name, cells_of_it) in arrays.into_iter().chain(vectors).filter(|(there, ..)| *there) {
+        let form = format!("type=\"Float64\" Name=\"{name}\" NumberOfComponents=\"{}\"", cells_of_it.len());
+        rows.push(format!("<DataArray {form} format=\"ascii\">"));
+        rows.extend(grains.iter().map(|grain| {
+            let all = cells(grain, columns).map(|(name, _, millionths)| {
+                number(millionths, if name == "diameter" && radius { 2 * METRE } else { METRE })
+            });
+            all.skip(cells_of_it.start).take(cells_of_it.len()).collect::<Vec<_>>().join(" ")
+        }));
+        rows.push("</DataArray>".to_owned());
+        rows.extend((name == "Points").then(|| "</Points><PointData>".to_owned()));
+    }
+    rows.push("</PointData></Piece></PolyData></VTKFile>".to_owned());
+    ("grains.vtp", rows, Expect::Same)
 }
 
 fn data_file(draw: &mut Draw, grains: &[Grain], columns: Columns) -> Written {

@@ -23,6 +23,8 @@ enum Format {
     Data,
     /// LAMMPS dump.
     Dump,
+    /// VTK PolyData as text.
+    Vtp,
     Obj,
     /// STL as text.
     Stl,

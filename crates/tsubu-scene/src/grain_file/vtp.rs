@@ -45,11 +45,19 @@ pub(super) fn as_dump(name: &str, bytes: &[u8]) -> Result<String, Complaint> {
         return Err(wrong("its bytes are big-endian"));
     }
     let data = Data { raw, wide: root.attribute("header_type") == Some("UInt64") };
+    let mut pieces = root.descendants().filter(|node| node.has_tag_name("Piece"));
+    let told = pieces.next().and_then(|piece| piece.attribute("NumberOfPoints")?.parse::<usize>().ok());
+    if pieces.next().is_some() {
+        return Err(wrong("it has several pieces"));
+    }
     let find = |tag: &str| root.descendants().find(|node| node.has_tag_name(tag));
     let places = find("Points").and_then(|points| arrays(points).next()).ok_or_else(|| wrong("it has no points"))?;
     let read = |array, width| data.numbers(array, width).map_err(|why| wrong(&why));
     let places = read(places, 3)?;
     let count = places.len() / 3;
+    if told.is_some_and(|told| told != count) {
+        return Err(wrong("it has another number of points than it says"));
+    }
     let (mut names, mut columns) = (String::from("x y z"), vec![(places, 3)]);
     let arrays: Vec<Node<'_, '_>> = find("PointData").into_iter().flat_map(arrays).collect();
     let named = |wanted: &[&str]| {

@@ -50,7 +50,7 @@ pub(super) fn place(plan: &Plan, stage: &Stage, grains: &[Vec<Grain>], bed: &mut
             (Start::At { position, .. }, _) => at(&key, position, own, stage, bed, remarks),
             (Start::File { grains, .. }, _) => at(&key, &grains.position, own, stage, bed, remarks),
             (Start::Stream { region, .. }, _) if region.is_round() => {
-                remarks.refuse(format!("{key}.stream.region"), BOXES)
+                remarks.refuse(format!("{key}.stream.region"), BOXES);
             }
             (Start::Stream { .. }, _) => {}
             (_, Some(region)) if region.is_round() => remarks.refuse(key, BOXES),

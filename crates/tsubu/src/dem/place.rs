@@ -37,13 +37,13 @@ pub(super) fn grains(plan: &Plan, table: &Table, walls: &[Wall]) -> Result<(Grai
                 let room = placing.inside(region.as_ref()).ok_or_else(|| no_room(key("rows")))?;
                 let first = placing.grains.len();
                 placing
-                    .rows(group, number, room, *spacing, *jitter, region.is_none())
+                    .rows(group, number, &room, *spacing, *jitter, region.is_none())
                     .map_err(|text| (key("rows"), text))?;
                 placing.stir(first, DVec3::ZERO, *speed);
             }
             Start::Settled { time } => {
                 let room = placing.inside(None).ok_or_else(|| no_room(key("settled")))?;
-                placing.rows(group, number, room, 1.1, 0.9, true).map_err(|text| (key("settled"), text))?;
+                placing.rows(group, number, &room, 1.1, 0.9, true).map_err(|text| (key("settled"), text))?;
                 if group.count > 0 {
                     settle = settle.max(*time);
                 }
@@ -51,7 +51,7 @@ pub(super) fn grains(plan: &Plan, table: &Table, walls: &[Wall]) -> Result<(Grai
             Start::Random { region, velocity, speed } => {
                 let room = placing.inside(region.as_ref()).ok_or_else(|| no_room(key("random")))?;
                 let first = placing.grains.len();
-                placing.random(group, number, room).map_err(|text| (key("random"), text))?;
+                placing.random(group, number, &room).map_err(|text| (key("random"), text))?;
                 placing.stir(first, DVec3::from_array(*velocity), *speed);
             }
             Start::Stream { .. } => {}
@@ -170,7 +170,7 @@ impl Placing<'_> {
         &mut self,
         group: &Particles,
         number: usize,
-        room: Room,
+        room: &Room,
         spacing: f64,
         jitter: f64,
         stack: bool,
@@ -203,8 +203,7 @@ impl Placing<'_> {
         let layers = up(size.z - floor, pitch);
         // What nothing moves may lie in a wall, as a rough floor does.
         let free_to_move = matches!(group.motion, GrainMotion::Free {});
-        let mut clearance =
-            Clearance::new(self.walls, &room, self.plan.dimension, DVec3::from_array(self.plan.gravity));
+        let mut clearance = Clearance::new(self.walls, room, self.plan.dimension, DVec3::from_array(self.plan.gravity));
         let mut top = floor;
         let mut place = 0;
         for count in 0..group.count {
@@ -242,7 +241,7 @@ impl Placing<'_> {
     }
 
     /// Anywhere in the room without overlap, the largest first: they find room while there is most.
-    fn random(&mut self, group: &Particles, number: usize, room: Room) -> Result<(), String> {
+    fn random(&mut self, group: &Particles, number: usize, room: &Room) -> Result<(), String> {
         let first = self.grains.len();
         let mut ids: Vec<(u32, f64)> = (first..first + group.count)
             .map(|id| (id as u32, sizes::diameter(group, self.plan.seed, id as u32)))
@@ -253,8 +252,7 @@ impl Placing<'_> {
             occupied.put(self.grains.position[i], self.grains.radius[i]);
         }
         let ends = periodic_bounds(self.plan);
-        let mut clearance =
-            Clearance::new(self.walls, &room, self.plan.dimension, DVec3::from_array(self.plan.gravity));
+        let mut clearance = Clearance::new(self.walls, room, self.plan.dimension, DVec3::from_array(self.plan.gravity));
         ids.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
         let mut places = vec![(DVec3::ZERO, 0.0); group.count];
         for (count, (id, diameter)) in ids.into_iter().enumerate() {
