@@ -94,13 +94,11 @@ fn scale_bar(out: &mut String, cell: f64, scale: f64, y: f64) {
         return;
     };
     let (factor, unit) = prefix("m", length);
-    let end = length * scale;
+    let (end, low, high) = (length * scale, y - 4.0, y + 4.0);
     let _ = write!(
         out,
-        "<path d=\"M1 {:.1}v8M1 {y:.1}H{end:.1}M{end:.1} {:.1}v8\" stroke=\"{INK}\" stroke-width=\"1.5\" fill=\"none\"/>\
-         <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"12\">{} {unit}</text>",
-        y - 4.0,
-        y - 4.0,
+        "<polyline points=\"1,{low:.1} 1,{high:.1} 1,{y:.1} {end:.1},{y:.1} {end:.1},{high:.1} {end:.1},{low:.1}\" stroke=\"{INK}\" \
+         stroke-width=\"1.5\" fill=\"none\"/><text x=\"{:.1}\" y=\"{:.1}\" font-size=\"12\">{} {unit}</text>",
         end + 8.0,
         y + 4.0,
         short(length * factor)

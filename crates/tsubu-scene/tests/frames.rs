@@ -88,6 +88,8 @@ fn frames_that_cannot_be_read() {
         changed("header_type", "compressor=\"vtkZLibDataCompressor\" header_type"),
         changed("LittleEndian", "BigEndian"),
         changed("<Points>", "<Point>").replace("</Points>", "</Point>"),
+        changed("NumberOfPoints=\"2\"", "NumberOfPoints=\"3\""),
+        changed("<PolyData><Piece", "<PolyData><Piece NumberOfPoints=\"0\"/><Piece"),
         changed("0.002 0.001", "0.002"),
         changed("0.002 0.001", "0.002 0,001"),
         changed("0.002 0.001", "0.002 -0.001"),
