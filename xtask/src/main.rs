@@ -29,7 +29,7 @@ const HELP: &str = "\
 cargo xtask CHORE
 
   check [--no-test]   what must pass before a change goes in: format, spelling, lints, documentation, generated pages, all
-                      tests, every scene in ten ways for a moment, a minute of the guards
+                      tests, every scene in ten ways for a moment, some of the guards
   fmt [--check]       lay all code out, or only say what is not: cargo fmt, and the watches, which it does not come to
   test                the tests; with Python 3, also those that read written frames back with VTK
   patient             the tests that take from five seconds to a minute each: every scene checked, run and reported, large beds,

@@ -8,11 +8,8 @@ use std::fmt::Write;
 use tsubu_frame::Claim;
 use tsubu_verify::{CASES, Case, recorded};
 
-/// Cases up to this budget [s] run a second time, with a law that is wrong, unless they try something wrong of their own; the others do so
-/// when they are asked to.
-const CHEAP: u32 = 5;
-
-/// Quick cases above this budget [s] wait for whoever has patience: they would take most of the time of all tests.
+/// Quick cases above this budget [s] wait for whoever has patience: they would take most of the time of all tests. Those up to it run a
+/// second time, with a law that is wrong, unless they try something wrong of their own; the others do so when they are asked to.
 const PROMPT: u32 = 5;
 
 /// So do these: whole numbers that are checked for overflow make them several times as slow as in a release.
@@ -65,7 +62,7 @@ fn main() {
         let kind = if patient { "patient::" } else { "" };
         let passes = Trial::test(format!("{kind}{}::passes", case.name), || passes(case));
         trials.push(passes.with_ignored_flag(!case.is_quick() || patient));
-        let asked = !case.is_quick() || case.budget > CHEAP || tries_something_wrong(case);
+        let asked = !case.is_quick() || case.budget > PROMPT || tries_something_wrong(case);
         let kind = if asked { "" } else { kind };
         let can_fail = Trial::test(format!("{kind}{}::can_fail", case.name), || can_fail(case));
         trials.push(can_fail.with_ignored_flag(asked || patient));

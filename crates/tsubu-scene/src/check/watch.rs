@@ -224,7 +224,6 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
     }
 }
 
-/// Speeds in their order, and a fluid that grains sink in.
 /// Diameters that part classes must rise.
 fn classes(sizes: Option<&[f64]>, place: &Place) -> Option<Complaint> {
     let sizes = sizes.filter(|sizes| sizes.is_empty() || sizes.windows(2).any(|pair| pair[0] >= pair[1]))?;
@@ -232,6 +231,7 @@ fn classes(sizes: Option<&[f64]>, place: &Place) -> Option<Complaint> {
     Some(wrong.hint("sizes = [\"1 mm\", \"2 mm\"] parts grains below 1 mm, up to 2 mm, and from there on"))
 }
 
+/// Speeds in their order, and a fluid that grains sink in.
 fn bedload(parts: &Parts<'_>, name: &str, asked: &Bedload, complaints: &mut Vec<Complaint>) {
     let Bedload { group, width, moving_speed, resting_speed, fluid_density, sizes, .. } = asked;
     let at = |key: &str| parts.root.locate(&["watch", name, "bedload", key]);

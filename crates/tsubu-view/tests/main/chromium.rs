@@ -58,7 +58,12 @@ impl Page {
         };
         let unwanted = std::env::var("TSUBU_BROWSER").is_ok_and(|name| name == "none");
         let Some(mut browser) = NAMES.iter().filter(|_| !unwanted).find_map(start) else {
-            eprintln!("\nSKIPPED: the page is not tested, for want of {}", NAMES.join(" or "));
+            let why = if unwanted {
+                "as TSUBU_BROWSER is none".into()
+            } else {
+                format!("for want of {}", NAMES.join(" or "))
+            };
+            eprintln!("\nSKIPPED: the page is not tested, {why}");
             return None;
         };
         let mut lines = BufReader::new(browser.stderr.take().expect("piped")).lines().map_while(Result::ok);
