@@ -5,7 +5,7 @@
 
 use crate::engine::Engine;
 use crate::view::{View, Wants};
-use crate::wall::Wall;
+use crate::wall::{Wall, meets_box};
 use glam::DVec3;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
@@ -41,19 +41,7 @@ impl Extent {
 
     /// Whether a way from a point leads through it.
     fn is_met(&self, from: DVec3, way: DVec3) -> bool {
-        let (mut begin, mut end) = (0.0_f64, f64::INFINITY);
-        for axis in 0..3 {
-            let ends = [self.low[axis] - from[axis], self.high[axis] - from[axis]];
-            if way[axis].abs() < 1e-12 {
-                if ends[0] > 0.0 || ends[1] < 0.0 {
-                    return false;
-                }
-                continue;
-            }
-            let [a, b] = ends.map(|end| end / way[axis]);
-            (begin, end) = (begin.max(a.min(b)), end.min(a.max(b)));
-        }
-        begin <= end
+        self.low.cmple(self.high).all() && meets_box(from, way, self.low, self.high)
     }
 }
 
@@ -172,6 +160,8 @@ mod tests {
         assert!(!extent.is_met(DVec3::new(0.5, 1.5, 3.0), down));
         assert!(!extent.is_met(DVec3::new(0.5, 0.5, -3.0), down), "it lies behind");
         assert!(extent.is_met(DVec3::new(-1.0, 0.5, 1.5), DVec3::new(0.8, 0.0, -0.6)));
-        assert!(!Extent::NOTHING.is_met(DVec3::ZERO, down));
+        for way in [down, DVec3::new(0.48, 0.36, -0.8)] {
+            assert!(!Extent::NOTHING.is_met(DVec3::ZERO, way), "{way}");
+        }
     }
 }

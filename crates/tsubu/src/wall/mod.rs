@@ -38,6 +38,7 @@ pub use pose::Pose;
 pub use servo::Servo;
 pub use steered::{Steered, Velocity};
 pub use surface::Surface;
+pub(crate) use tree::meets_box;
 
 use crate::about::About;
 use crate::partner::Hosts;

@@ -33,6 +33,23 @@ enum Content {
     Fork { second: u32 },
 }
 
+/// Whether a way from a point leads through a box between two corners.
+pub(crate) fn meets_box(point: DVec3, way: DVec3, low: DVec3, high: DVec3) -> bool {
+    let (a, b) = ((low - point) / way, (high - point) / way);
+    let (mut from, mut to) = (0.0, f64::INFINITY);
+    for axis in 0..3 {
+        if way[axis] == 0.0 {
+            if point[axis] < low[axis] || point[axis] > high[axis] {
+                return false;
+            }
+            continue;
+        }
+        from = a[axis].min(b[axis]).max(from);
+        to = a[axis].max(b[axis]).min(to);
+    }
+    from <= to * (1.0 + 1e-9)
+}
+
 impl Tree {
     pub fn new(triangles: &[Triangle]) -> Self {
         let mut tree = Self { nodes: Vec::new(), order: (0..triangles.len() as u32).collect() };
@@ -67,25 +84,10 @@ impl Tree {
 
     /// Calls `meet` with every triangle whose box lies on the way from a point.
     pub fn along(&self, point: DVec3, way: DVec3, mut meet: impl FnMut(u32)) {
-        let passes = |node: &Node| {
-            let (a, b) = ((node.low - point) / way, (node.high - point) / way);
-            let (mut from, mut to) = (0.0, f64::INFINITY);
-            for axis in 0..3 {
-                if way[axis] == 0.0 {
-                    if point[axis] < node.low[axis] || point[axis] > node.high[axis] {
-                        return false;
-                    }
-                    continue;
-                }
-                from = a[axis].min(b[axis]).max(from);
-                to = a[axis].max(b[axis]).min(to);
-            }
-            from <= to * (1.0 + 1e-9)
-        };
         let mut waiting: Vec<u32> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
         while let Some(index) = waiting.pop() {
             let node = &self.nodes[index as usize];
-            if !passes(node) {
+            if !meets_box(point, way, node.low, node.high) {
                 continue;
             }
             match node.content {
