@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use tsubu_frame::{Frame, Kind, Values};
 
+use crate::compass::Compass;
+
 /// What the colour of a grain tells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum ColourBy {
@@ -71,6 +73,10 @@ pub struct Balls {
     pub endless: Vec<bool>,
     /// Triangles of the walls.
     pub faces: Vec<[[f64; 3]; 3]>,
+    /// Outlines of the water's surface, endless as those of planes are.
+    pub water: Vec<Vec<[f64; 3]>>,
+    /// Which way is which.
+    pub compass: Compass,
     /// Whether one looks slantwise into space, not onto a plane.
     pub space: bool,
 }
@@ -87,7 +93,7 @@ impl Balls {
             _ => vec![fallback_radius(position); count],
         };
         let velocity = frame.vectors(Kind::Grain, "velocity");
-        let (outlines, endless, faces) = walls(frame, &turn);
+        let Walls { outlines, endless, faces, water } = walls(frame, &turn);
         let (quantity, values) = match &look.colour {
             ColourBy::Speed => (
                 ("speed".to_owned(), "m/s".to_owned()),
@@ -113,6 +119,8 @@ impl Balls {
             outlines,
             endless,
             faces,
+            water,
+            compass: Compass::of(frame, &turn),
             space: view == View::Slant,
         }
     }
@@ -150,6 +158,10 @@ impl Balls {
                 e = [e[0].min(c[0] - r), e[1].min(c[1] - r), e[2].max(c[0] + r), e[3].max(c[1] + r)];
             }
         }
+        // Water that is deep does not make the grains small.
+        let level = self.water.iter().flatten().filter(|_| !self.space).map(|corner| corner[1]);
+        let highest = e[3] + (e[2] - e[0]).max(e[3] - e[1]);
+        e[3] = level.filter(|level| *level <= highest).fold(e[3], f64::max);
         // A lone level wall has a width and no height, and is something to see.
         let (width, height) = (e[2] - e[0], e[3] - e[1]);
         if width.min(height) >= 0.0 && width.max(height) > 0.0 { e } else { [0.0, 0.0, 1.0, 1.0] }
@@ -248,26 +260,37 @@ fn shapes(frame: &Frame, turn: impl Fn([f64; 3]) -> [f64; 3]) -> BTreeMap<i64, P
     shapes
 }
 
-/// Outlines of the walls, which of them are endless, and triangles.
-fn walls(frame: &Frame, turn: impl Fn([f64; 3]) -> [f64; 3]) -> (Vec<Points>, Vec<bool>, Vec<[[f64; 3]; 3]>) {
+/// What is round the grains.
+#[derive(Default)]
+struct Walls {
+    outlines: Vec<Points>,
+    endless: Vec<bool>,
+    faces: Vec<[[f64; 3]; 3]>,
+    water: Vec<Points>,
+}
+
+fn walls(frame: &Frame, turn: impl Fn([f64; 3]) -> [f64; 3]) -> Walls {
     let points = frame.vectors(Kind::Surface, "position");
     let zeros = vec![0; points.len()];
     let column = |name| Some(frame.integers(Kind::Surface, name)).filter(|v| v.len() == points.len()).unwrap_or(&zeros);
-    let (face, endless) = (column("face"), column("endless"));
-    let (mut outlines, mut unbounded, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+    let (face, endless, wall) = (column("face"), column("endless"), column("wall"));
+    let mut walls = Walls::default();
     let mut start = 0;
     for group in column("outline").chunk_by(|a, b| a == b) {
         let corners: Vec<_> = points[start..start + group.len()].iter().map(|p| turn(*p)).collect();
         match corners[..] {
-            [a, b, c] if face[start] != 0 => faces.push([a, b, c]),
+            // The surface of the water has the number -1; its outline tells all of it.
+            [_, _, _] if face[start] != 0 && wall[start] < 0 => {}
+            [a, b, c] if face[start] != 0 => walls.faces.push([a, b, c]),
+            _ if wall[start] < 0 => walls.water.push(corners),
             _ => {
-                outlines.push(corners);
-                unbounded.push(endless[start] != 0);
+                walls.outlines.push(corners);
+                walls.endless.push(endless[start] != 0);
             }
         }
         start += group.len();
     }
-    (outlines, unbounded, faces)
+    walls
 }
 
 /// The view, where it is left to the frame: onto the plane in which everything lies.

@@ -13,6 +13,7 @@ mod canvas;
 mod claims;
 pub mod colour;
 mod compare;
+pub mod compass;
 mod ensemble;
 mod field;
 pub mod figure;

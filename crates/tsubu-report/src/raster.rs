@@ -9,6 +9,7 @@ use resvg::usvg::{Options, Tree, fontdb};
 use crate::balls::{Balls, Look, common};
 use crate::canvas::Canvas;
 use crate::colour;
+use crate::compass::WATER;
 use crate::legend::{colour_bar, time_label};
 use crate::plot::{AXIS, INK};
 use crate::text::escape;
@@ -16,6 +17,9 @@ use crate::veil::Veil;
 
 /// Each pixel is the mean of this many squared.
 const FINE: usize = 3;
+
+/// From this width on a picture has room for the compass in its footer [pixels].
+const ROOMY: f64 = 560.0;
 
 /// A picture in pixels.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -86,6 +90,14 @@ pub fn picture(balls: &Balls, look: &Look, width: u32) -> Image {
         inner + footer
     );
     let _ = write!(svg, "<svg x=\"0\" y=\"0\" width=\"{width}\" height=\"{inner}\">");
+    for surface in balls.water.iter().filter(|_| !balls.space) {
+        let level = (f64::from(inner) - (surface[0][1] - w[1] + margin) * scale).max(0.0);
+        let _ = write!(
+            svg,
+            "<rect x=\"0\" y=\"{level:.1}\" width=\"{width}\" height=\"{:.1}\" fill=\"{WATER}\" fill-opacity=\".09\"/>",
+            (f64::from(inner) - level).max(0.0)
+        );
+    }
     for outline in balls.outlines.iter().filter(|_| !balls.space) {
         let points: Vec<String> = outline
             .iter()
@@ -102,6 +114,9 @@ pub fn picture(balls: &Balls, look: &Look, width: u32) -> Image {
         );
     }
     svg.push_str("</svg>");
+    if f64::from(width) >= ROOMY {
+        balls.compass.draw(&mut svg, [0.22 * f64::from(width), f64::from(inner) + 36.0]);
+    }
     let _ = write!(
         svg,
         "<text x=\"10\" y=\"{}\" font-size=\"13\">{}</text>",

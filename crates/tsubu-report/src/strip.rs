@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use crate::balls::{Balls, Look, common};
 use crate::colour;
+use crate::compass::{self, WATER};
 use crate::figure::prefix;
 use crate::legend::{colour_bar, time_label};
 use crate::plot::{AXIS, FAINT, INK};
@@ -14,6 +15,8 @@ use crate::text::{escape, short};
 const MOST_SHAPES: usize = 1500;
 const GAP: f64 = 12.0;
 const WIDTH: f64 = 1000.0;
+/// Below this width not all that a legend says stands in a row.
+const NARROW: f64 = 700.0;
 
 /// One picture of a strip.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -40,7 +43,8 @@ pub fn strip(panels: &[Panel], look: &Look, columns: usize) -> String {
     let scale = cell / w;
     let (picture, label) = (h * scale, 40.0);
     let width = columns as f64 * (cell + GAP) - GAP;
-    let bar = 46.0;
+    // Narrow strips have the scale of lengths and the compass below the scale of colours.
+    let bar = if width < NARROW { 92.0 } else { 52.0 };
     let height = rows as f64 * (picture + label) + bar;
     let longest = panels.iter().filter_map(|p| p.arrow).map(|a| a[0].hypot(a[1])).fold(0.0, f64::max);
     let mut out = format!(
@@ -79,7 +83,8 @@ pub fn strip(panels: &[Panel], look: &Look, columns: usize) -> String {
     if let Some(first) = panels.first() {
         let gradient = format!("scale-{}-{}", panels.len(), (range.1.to_bits() ^ window[2].to_bits()) % 1_000_003);
         let above = all.iter().any(|balls| balls.range().1 > range.1);
-        colour_bar(&mut out, &first.balls.quantity, range, above, [width / 2.0, height - 30.0], &gradient);
+        colour_bar(&mut out, &first.balls.quantity, range, above, [width / 2.0, height - bar + 16.0], &gradient);
+        first.balls.compass.draw(&mut out, [width - compass::WIDE, height - 16.0]);
     }
     scale_bar(&mut out, cell, scale, height - 22.0);
     out.push_str("</svg>");
@@ -125,6 +130,16 @@ impl Place {
 
 fn draw(out: &mut String, balls: &Balls, look: &Look, range: (f64, f64), place: &Place, frame: [f64; 4]) {
     let [x, y, w, h] = frame;
+    for surface in balls.water.iter().filter(|_| !balls.space) {
+        let level = place.of(&surface[0]).1.max(y);
+        let _ = write!(
+            out,
+            "<rect x=\"{x:.1}\" y=\"{level:.1}\" width=\"{w:.1}\" height=\"{:.1}\" fill=\"{WATER}\" fill-opacity=\".09\"/>\
+             <line x1=\"{x:.1}\" y1=\"{level:.1}\" x2=\"{:.1}\" y2=\"{level:.1}\" stroke=\"{WATER}\" stroke-opacity=\".6\"/>",
+            (y + h - level).max(0.0),
+            x + w
+        );
+    }
     for outline in balls.outlines.iter().filter(|_| !balls.space) {
         let points: String = outline.iter().map(|p| place.of(p)).fold(String::new(), |mut s, (u, v)| {
             let _ = write!(s, "{u:.2},{v:.2} ");

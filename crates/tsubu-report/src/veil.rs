@@ -7,20 +7,26 @@ use crate::canvas::Canvas;
 
 /// Share of what is behind a face that it hides.
 const FACE: f32 = 0.13;
+/// The same for the last face before the ground, on which the shape of a terrain is seen.
+const LAST: f32 = 0.42;
 /// The same for a line.
 const LINE: f32 = 0.8;
 /// Cosine of the angle between neighbouring faces below which their edge is drawn.
 const BEND: f64 = 0.85;
 /// More faces than this are drawn without their lines: they would be a tangle.
 const MOST_LINED: usize = 400_000;
-/// Colour of walls in full light, and where light comes from.
+/// Colours of walls and of the water's surface in full light, and where light comes from.
 const TINT: [f32; 3] = [150.0, 172.0, 196.0];
+const WATER: [f32; 3] = [86.0, 180.0, 233.0];
 const LIGHT: [f64; 3] = [-0.43, 0.56, 0.708];
 
-/// What lies before the grains, a pixel each: the share of light that passes, and the light added.
+/// What lies before the grains, a pixel each: the share of light that passes, and the light added; and the light on the last
+/// face before the ground of the picture, which hides nothing.
 pub struct Veil {
     passes: Vec<f32>,
-    adds: Vec<f32>,
+    adds: Vec<[f32; 3]>,
+    /// Depth and light.
+    last: Vec<(f32, [f32; 3])>,
 }
 
 type Point = [f64; 3];
@@ -29,11 +35,21 @@ impl Veil {
     /// Draws the walls before a canvas that has its grains.
     pub fn of(balls: &Balls, canvas: &Canvas) -> Self {
         let pixels = canvas.depth.len();
-        let mut veil = Self { passes: vec![1.0; pixels], adds: vec![0.0; pixels] };
+        let mut veil = Self {
+            passes: vec![1.0; pixels],
+            adds: vec![[0.0; 3]; pixels],
+            last: vec![(f32::INFINITY, [0.0; 3]); pixels],
+        };
         for face in &balls.faces {
-            veil.face(canvas, face);
+            veil.face(canvas, face, TINT);
         }
-        for outline in &balls.outlines {
+        for surface in &balls.water {
+            if let [a, b, c, d] = surface[..] {
+                veil.face(canvas, &[a, b, c], WATER);
+                veil.face(canvas, &[c, d, a], WATER);
+            }
+        }
+        for outline in balls.outlines.iter().chain(&balls.water) {
             let closed = outline.iter().cycle().skip(1).take(if outline.len() > 2 { outline.len() } else { 1 });
             for (a, b) in outline.iter().zip(closed) {
                 veil.line(canvas, a, b);
@@ -50,16 +66,20 @@ impl Veil {
     /// A pixel with its veil: colour times alpha, and alpha.
     pub fn over(&self, at: usize, colour: [f32; 3], alpha: f32) -> ([f32; 3], f32) {
         let (passes, adds) = (self.passes[at], self.adds[at]);
-        let seen = std::array::from_fn(|k| TINT[k] * adds + colour[k] * passes);
+        let (depth, light) = self.last[at];
+        let lit = alpha == 0.0 && depth.is_finite();
+        let (colour, alpha) = if lit { (light.map(|c| c * LAST), LAST) } else { (colour, alpha) };
+        let seen = std::array::from_fn(|k| adds[k] + colour[k] * passes);
         (seen, 1.0 - (1.0 - alpha) * passes)
     }
 
-    fn lay(&mut self, at: usize, light: f32, hides: f32) {
-        self.adds[at] = self.adds[at] * (1.0 - hides) + light * hides;
+    fn lay(&mut self, at: usize, light: [f32; 3], hides: f32) {
+        let adds = self.adds[at];
+        self.adds[at] = std::array::from_fn(|k| adds[k] * (1.0 - hides) + light[k] * hides);
         self.passes[at] *= 1.0 - hides;
     }
 
-    fn face(&mut self, canvas: &Canvas, corners: &[Point; 3]) {
+    fn face(&mut self, canvas: &Canvas, corners: &[Point; 3], tint: [f32; 3]) {
         let [a, b, c] = corners.map(|p| canvas.place(&p));
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         let normal = normal(corners);
@@ -67,7 +87,7 @@ impl Veil {
             return;
         }
         let facing = normal.iter().zip(LIGHT).map(|(n, l)| n * l).sum::<f64>().abs();
-        let light = (0.55 + 0.45 * facing) as f32;
+        let light = tint.map(|c| c * (0.3 + 0.7 * facing * facing) as f32);
         let span = |k: usize, end: usize| {
             let (low, high) = (a[k].min(b[k]).min(c[k]), a[k].max(b[k]).max(c[k]));
             (low - 0.5).ceil().clamp(0.0, end as f64) as usize..(high + 0.5).floor().clamp(0.0, end as f64) as usize
@@ -81,8 +101,12 @@ impl Veil {
                     continue;
                 }
                 let at = row * canvas.width + column;
-                if (u * a[2] + v * b[2] + w * c[2]) as f32 > canvas.depth[at] {
+                let depth = (u * a[2] + v * b[2] + w * c[2]) as f32;
+                if depth > canvas.depth[at] {
                     self.lay(at, light, FACE);
+                }
+                if tint != WATER && depth < self.last[at].0 {
+                    self.last[at] = (depth, light);
                 }
             }
         }
@@ -108,7 +132,7 @@ impl Veil {
                 let at = y as usize * canvas.width + x as usize;
                 // Steps overlap: a line is as dark as it gets, not darker where it is slow.
                 if p[2] as f32 > canvas.depth[at] && self.passes[at] > 1.0 - LINE {
-                    self.lay(at, 0.45, LINE);
+                    self.lay(at, TINT.map(|c| 0.45 * c), LINE);
                 }
             }
         }

@@ -1,13 +1,19 @@
-//! Walls, and the cell where the world repeats, as they are drawn in frames.
+//! What is round the grains, as it is drawn in frames: walls, the surface of the water, the cell where the world repeats, and
+//! which way gravity and the water go.
 
 use super::engine::DemEngine;
 use crate::wall::Outline;
+use crate::water::Water;
 use glam::DVec3;
 use tsubu_frame::{Frame, Kind};
 
+/// The number of the water's surface among the walls.
+const WATER: i64 = -1;
+
 impl DemEngine {
-    /// Adds lines and faces of all walls to a frame, and the cell of periodic axes.
-    pub(super) fn draw_walls(&self, frame: &mut Frame) {
+    /// Adds lines and faces of all walls and of the water's surface to a frame, the cell of periodic axes, gravity [m/s^2], and the
+    /// way of the water as a unit vector.
+    pub(super) fn draw_surroundings(&self, frame: &mut Frame) {
         let bounded = self.walls.iter().enumerate().filter(|(_, wall)| wall.lone_plane().is_none());
         let outlines: Vec<(usize, Outline)> = bounded.map(|(number, wall)| (number, wall.outline())).collect();
         // Endless planes are drawn as far as there is something else to see.
@@ -20,23 +26,32 @@ impl DemEngine {
             lines.chain(outline.triangles.iter().flatten().copied()).collect::<Vec<_>>()
         };
         outlines.iter().flat_map(|(_, outline)| corners(outline)).for_each(|p| seen.add(p, 0.0));
-        let planes = self.walls.iter().enumerate().filter_map(|(number, wall)| {
-            let (point, normal) = wall.lone_plane()?;
-            let (middle, half) = seen.round()?;
-            Some((number, Outline::of_plane(point, normal, middle, half, self.limits.in_space)))
-        });
+        let water = self.immersion.as_ref().map(|immersion| &immersion.water);
+        let surface = water.and_then(Water::level).map(|level| (WATER, (level * DVec3::Z, DVec3::Z)));
+        let planes =
+            self.walls.iter().enumerate().filter_map(|(number, wall)| Some((number as i64, wall.lone_plane()?)));
         let mut drawn = Drawn::default();
         for (number, outline) in &outlines {
-            drawn.add(*number, outline, false);
+            drawn.add(*number as i64, outline, false);
         }
-        for (number, outline) in planes {
-            drawn.add(number, &outline, true);
+        if let Some((middle, half)) = seen.round() {
+            for (number, (point, normal)) in planes.chain(surface) {
+                drawn.add(number, &Outline::of_plane(point, normal, middle, half, self.limits.in_space), true);
+            }
         }
         frame.vector(Kind::Surface, "position", "m", drawn.corners);
         frame.integer(Kind::Surface, "outline", "-", drawn.outline);
         frame.integer(Kind::Surface, "face", "-", drawn.face);
         frame.integer(Kind::Surface, "wall", "-", drawn.wall);
         frame.integer(Kind::Surface, "endless", "-", drawn.endless);
+        let gravity = self.integration.gravity;
+        let flow = water.and_then(Water::direction);
+        if gravity != DVec3::ZERO {
+            frame.vector(Kind::Global, "gravity", "m/s^2", vec![gravity.to_array()]);
+        }
+        if let Some(flow) = flow {
+            frame.vector(Kind::Global, "flow", "-", vec![flow.to_array()]);
+        }
         let ends = self.neighbours.search.periodic;
         if ends.iter().any(Option::is_some) {
             let each = |f: fn([f64; 2]) -> f64| ends.map(|end| end.map_or(0.0, f));
@@ -59,14 +74,14 @@ struct Drawn {
 }
 
 impl Drawn {
-    fn add(&mut self, wall: usize, outline: &Outline, endless: bool) {
+    fn add(&mut self, wall: i64, outline: &Outline, endless: bool) {
         let lines = outline.lines.iter().map(|line| (&line[..], 0));
         for (corners, face) in lines.chain(outline.triangles.iter().map(|triangle| (&triangle[..], 1))) {
             for corner in corners {
                 self.corners.push(corner.to_array());
                 self.outline.push(self.count);
                 self.face.push(face);
-                self.wall.push(wall as i64);
+                self.wall.push(wall);
                 self.endless.push(i64::from(endless));
             }
             self.count += 1;

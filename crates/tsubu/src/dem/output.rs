@@ -39,7 +39,7 @@ impl DemEngine {
         if told {
             self.list_contacts(&contacts, &mut frame);
         }
-        self.draw_walls(&mut frame);
+        self.draw_surroundings(&mut frame);
         frame
     }
 

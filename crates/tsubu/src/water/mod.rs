@@ -159,6 +159,19 @@ impl Water {
         }
     }
 
+    /// Height at which a picture shows it to end [m]: its surface, or the lid of a coupled stream.
+    pub fn level(&self) -> Option<f64> {
+        match &self.stream {
+            Stream::Coupled(coupled) => Some(coupled.layers.top()),
+            _ => Some(self.surface).filter(|surface| surface.is_finite()),
+        }
+    }
+
+    /// The way it goes, as a unit vector; none where it stands still.
+    pub fn direction(&self) -> Option<DVec3> {
+        self.stream.direction()
+    }
+
     /// Mass of water that moves along with a grain of this radius [m] when it is at `height` z [m]: C rho V, V what is under
     /// water [kg].
     pub fn added_mass(&self, radius: f64, height: f64) -> f64 {

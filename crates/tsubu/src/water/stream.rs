@@ -4,6 +4,7 @@ use super::coupled::{Coupled, Setting, Top};
 use super::logarithm::ln;
 use super::{Layers, Parcel};
 use crate::about::About;
+use glam::DVec3;
 use multiversion::multiversion;
 use std::f64::consts::LN_10;
 use tsubu_frame::State;
@@ -194,6 +195,20 @@ impl Stream {
             Self::Coupled(coupled) => coupled.most_turbulent(),
             Self::Still | Self::Table { .. } | Self::Column { .. } => 0.0,
         }
+    }
+
+    /// The way it goes, as a unit vector; none where it stands still.
+    pub(super) fn direction(&self) -> Option<DVec3> {
+        let strongest =
+            |velocity: &[f64]| velocity.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0);
+        let (axis, velocity) = match self {
+            Self::Still => (DVec3::X, 0.0),
+            Self::LogLaw { shear_velocity, .. } => (DVec3::X, *shear_velocity),
+            Self::Table { velocity, .. } => (DVec3::X, strongest(velocity)),
+            Self::Coupled(coupled) => (DVec3::X, strongest(&coupled.velocity)),
+            Self::Column { velocity, .. } => (DVec3::Z, *velocity),
+        };
+        (velocity != 0.0).then(|| velocity.signum() * axis)
     }
 
     /// Fastest water below a surface, or near the bed where there is none: ten grains of this diameter [m] above it [m/s].

@@ -3,6 +3,7 @@
 use super::{GRAIN, after, grain};
 use crate::dem::{self, open_text};
 use tsubu::ledger::Account;
+use tsubu_frame::{Frame, Kind};
 
 /// A grain as heavy as water goes along with the log law, U = U* (8.5 + 5.75 log10(Z/k)), wherever it is; with natural
 /// logarithms instead the same gate fails.
@@ -86,4 +87,30 @@ fn a_leaping_grain_keeps_its_books_and_bits() {
         hash
     };
     assert_eq!(end(false), end(true));
+}
+
+/// A frame tells what a picture shows of the water: its surface as an endless plane with the number -1, the way it goes, and
+/// gravity. Water without a surface that stands still has neither; nothing is pulled where gravity is 0.
+#[test]
+fn a_frame_tells_surface_flow_and_gravity() {
+    let frame = |changes: &[&str]| {
+        let (engine, hosts, _) = open_text(GRAIN, changes);
+        engine.frame(&hosts)
+    };
+    let told = |frame: &Frame, name: &str| frame.vectors(Kind::Global, name).first().copied();
+    let heights = |frame: &Frame| -> Vec<f64> {
+        let corners = frame.vectors(Kind::Surface, "position").iter().zip(frame.integers(Kind::Surface, "wall"));
+        corners.filter(|(_, wall)| **wall == -1).map(|(corner, _)| corner[2]).collect()
+    };
+    let stream =
+        frame(&["slope=0.05", "water.surface=0.02", "water.flow.log-law={shear-velocity=0.1,roughness=2e-3}"]);
+    let heights_of_stream = heights(&stream);
+    assert!(!heights_of_stream.is_empty() && heights_of_stream.iter().all(|z| *z == 0.02), "{heights_of_stream:?}");
+    assert_eq!(told(&stream, "flow"), Some([1.0, 0.0, 0.0]));
+    let [x, y, z] = told(&stream, "gravity").unwrap();
+    assert!(x > 0.0 && y == 0.0 && (x / -z - 0.05f64.tan()).abs() < 1e-12, "{x} {y} {z}");
+    let still = frame(&["gravity=0"]);
+    assert_eq!((told(&still, "flow"), told(&still, "gravity"), heights(&still).len()), (None, None, 0));
+    let upwards = frame(&["water.flow.column={bottom=-0.01,top=0.01,area=1e-4,velocity=0.1}", "water.added-mass=0"]);
+    assert_eq!(told(&upwards, "flow"), Some([0.0, 0.0, 1.0]));
 }
