@@ -1,17 +1,18 @@
 //! The report of a frequency response.
 
-use std::fmt::Write as _;
-
-use tsubu_frame::{Summary, Table, csv::split_unit};
+use tsubu_frame::{Table, csv::split_unit};
 
 use crate::claims::claims_table;
 use crate::figure::{Axis, Bars, Figure, Mark, Series, Style};
 use crate::moments;
-use crate::page::{Block, Card, Grid, Report, Tone};
+use crate::page::{Block, Card, Report, Tone};
 use crate::source::{
     Source, card, method_name, quantity, result_cards, results_table, shown, spoken, summary_cards, versions,
 };
-use crate::text::{count, duration, short};
+use crate::text::short;
+
+mod cost;
+mod watched;
 
 /// The points of one case by one method.
 struct Curve {
@@ -62,6 +63,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
         });
     }
     let charts = charts(source, &curves, cases.as_ref(), by_ratio);
+    let watches = response.map(|table| watched::blocks(source, &table, by_ratio)).unwrap_or_default();
     let energy = causes.map(|t| cause_blocks(source, &t)).unwrap_or_default();
     let pictures = picture_blocks(source, &listed);
     let mut remarks = source.note_blocks();
@@ -70,6 +72,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     }
     report.section("To be noted", remarks);
     report.section("Response", charts);
+    report.section("Watches", watches);
     report.section("Cases", cases.as_ref().map(|c| shown(&told_once(c))).into_iter().collect());
     report.section("Energy by cause", energy);
     report.section("Grains", pictures);
@@ -80,28 +83,42 @@ pub(crate) fn build(source: &mut Source) -> Report {
         // The table of cases shows them already, in better order.
         let results = results_table(s).map(|table| crate::source::folded("All results", vec![table]));
         report.section("Results", results.into_iter().collect());
-        report.section("Cost", cost_blocks(&listed, &curves, s));
+        report.section("Cost", cost::blocks(&listed, &curves, s));
     }
     source.scene_and_verdict(&mut report);
     report
 }
 
+/// The curve that each row belongs to: its case, its method where there are several.
+fn curve_names(table: &Table) -> Vec<String> {
+    let texts = |name: &str| table.texts(name).unwrap_or_else(|| vec![String::new(); table.rows.len()]);
+    let (case, method) = (texts("case"), texts("method"));
+    let several = method.iter().any(|m| *m != method[0]);
+    let named = |(case, method): (&String, &String)| match (case.as_str(), several) {
+        ("", _) => method_name(method).to_owned(),
+        (case, true) => format!("{case}, {}", method_name(method)),
+        (case, false) => case.to_owned(),
+    };
+    case.iter().zip(&method).map(named).collect()
+}
+
+/// The axis that curves are drawn along, and its column.
+fn abscissa(by_ratio: bool) -> (Axis, &'static str) {
+    if by_ratio {
+        (Axis::new("frequency / natural frequency", "-"), "frequency ratio")
+    } else {
+        (Axis::new("frequency", "Hz"), "frequency")
+    }
+}
+
 fn curves(table: &Table, by_ratio: bool) -> Vec<Curve> {
     let rows = table.rows.len();
     let numbers = |name: &str| table.numbers(name).unwrap_or_else(|| vec![f64::NAN; rows]);
-    let texts = |name: &str| table.texts(name).unwrap_or_else(|| vec![String::new(); rows]);
-    let (case, method) = (texts("case"), texts("method"));
-    let several = method.iter().any(|m| *m != method[0]);
-    let x = numbers(if by_ratio { "frequency ratio" } else { "frequency" });
+    let x = numbers(abscissa(by_ratio).1);
     let (rms, peak) = (numbers("rms displacement"), numbers("peak displacement"));
     let (low, high) = (numbers("rms spread low"), numbers("rms spread high"));
     let mut curves: Vec<Curve> = Vec::new();
-    for i in 0..rows {
-        let name = match (case[i].as_str(), several) {
-            ("", _) => method_name(&method[i]).to_owned(),
-            (case, true) => format!("{case}, {}", method_name(&method[i])),
-            (case, false) => case.to_owned(),
-        };
+    for (i, name) in curve_names(table).into_iter().enumerate() {
         let point = [x[i], rms[i], peak[i], low[i], high[i]];
         match curves.iter_mut().find(|c| c.name == name) {
             Some(curve) => curve.points.push(point),
@@ -243,43 +260,8 @@ fn told_once(table: &Table) -> Table {
     narrow
 }
 
-/// What each case took, and all of them side by side.
-fn cost_blocks(cases: &[Case], curves: &[Curve], summary: &Summary) -> Vec<Block> {
-    let mut grid = Grid::new(["case", "grains", "frequencies", "computing time [s]", "per frequency [s]"]);
-    for case in cases.iter().filter(|c| c.wall.is_finite()) {
-        let points = curves.iter().find(|c| c.name == case.name).map_or(0, |c| c.points.len());
-        grid.push(
-            Tone::Plain,
-            [
-                case.name.clone(),
-                count(case.grains as u64),
-                points.to_string(),
-                short(case.wall),
-                short(case.wall / points as f64),
-            ],
-        );
-    }
-    let spent: f64 = cases.iter().map(|c| c.wall).filter(|w| w.is_finite()).sum();
-    let mut text = format!(
-        "{} of computing on {} threads, done in {}.",
-        duration(spent),
-        summary.threads,
-        duration(summary.wall_seconds)
-    );
-    if summary.time_step > 0.0 {
-        let _ =
-            write!(text, " The time step is {} ({}).", spoken(summary.time_step, "s"), method_name(&summary.method));
-    }
-    let mut blocks = Vec::new();
-    if !grid.rows.is_empty() {
-        blocks.push(Block::Table(grid));
-    }
-    blocks.push(Block::Text(text));
-    blocks
-}
-
 fn charts(source: &mut Source, curves: &[Curve], cases: Option<&Table>, by_ratio: bool) -> Vec<Block> {
-    let x = if by_ratio { Axis::new("frequency / natural frequency", "-") } else { Axis::new("frequency", "Hz") };
+    let x = abscissa(by_ratio).0;
     let mut rms = Figure::new("", x.clone(), Axis::new("rms displacement", "m"));
     let mut peak = Figure::new("", x, Axis::new("peak displacement", "m"));
     let mut spread = false;

@@ -29,6 +29,33 @@ fn the_number_of_threads_does_not_change_a_response() {
     }
 }
 
+/// Watches look on while a response measures, and change nothing of it; a case without grains tells of none.
+#[test]
+fn a_response_tells_what_watches_see() {
+    let desk = Desk::new();
+    desk.done("response balls.toml -q -o plain");
+    std::fs::write(desk.path("watched.toml"), format!("{SCENE}\n[watch.bed]\nevery = \"5 ms\"\ncoordination = {{}}\n")).unwrap();
+    desk.done("response watched.toml -q -o watched");
+    let (plain, watched) = (desk.read("plain/response.csv"), desk.read("watched/response.csv"));
+    let header = watched.lines().next().unwrap();
+    let columns: Vec<&str> = header.split(',').collect();
+    let at = columns.iter().position(|column| *column == "bed mean [-]").unwrap_or_else(|| panic!("{header}"));
+    assert_eq!(columns[at + 1..at + 3], ["bed mean spread low [-]", "bed mean spread high [-]"]);
+    let mut seen = 0;
+    for (before, now) in plain.lines().zip(watched.lines()).skip(1) {
+        assert!(now.starts_with(before), "{before}\n{now}");
+        let cells: Vec<&str> = now.split(',').collect();
+        let grains: f64 = cells[9].parse().unwrap();
+        let [mean, low, high] = [0, 1, 2].map(|k| cells[at + k].parse::<f64>().unwrap());
+        assert_eq!(grains == 0.0, mean.is_nan(), "{now}");
+        assert!(grains == 0.0 || (low <= mean && mean <= high && mean > 0.0 && mean < 12.0), "{now}");
+        seen += usize::from(grains > 0.0);
+    }
+    assert!(seen > 3, "{watched}");
+    assert!(desk.path("watched/figures/response_bed_mean.svg").exists());
+    assert!(desk.read("watched/report.html").contains("in the mean over the measured periods"));
+}
+
 #[test]
 fn a_response_without_a_word_about_it() {
     let scene = crate::support::SCENE;

@@ -203,11 +203,11 @@ impl Task {
                 let point = match measure(plan, &self.wanted, key.seed, bed, frequency, watcher.interrupt) {
                     Ok(Some(point)) => point,
                     Ok(None) => return Ok(None),
-                    Err(error @ OpenError::Running(_)) => {
-                        keep(&failures, *key, error.into());
+                    Err(error @ RunError::Fault(_)) => {
+                        keep(&failures, *key, error);
                         return Ok(None);
                     }
-                    Err(error) => return Err(self.fail(key.case, error.into())),
+                    Err(error) => return Err(self.fail(key.case, error)),
                 };
                 record(key, &point)?;
                 let finished = counter.fetch_add(1, Ordering::Relaxed) + 1;

@@ -203,8 +203,17 @@ impl Watches {
         let walls = self.walls.iter().flat_map(|(_, name)| {
             wall_load::names(self.axes).into_iter().map(move |what| format!("wall {name} {what}"))
         });
-        let own = self.list.iter().flat_map(|w| w.watch.scalars().into_iter().map(|what| w.column(&what)));
-        walls.chain(own).collect()
+        walls.chain(self.scalars()).collect()
+    }
+
+    /// Columns of what every watch measures.
+    pub fn scalars(&self) -> impl Iterator<Item = String> {
+        self.list.iter().flat_map(|w| w.watch.scalars().into_iter().map(|what| w.column(&what)))
+    }
+
+    /// What every watch has measured, in the mean over its looks; not a number where it saw nothing.
+    pub fn means(&self) -> impl Iterator<Item = f64> {
+        self.list.iter().flat_map(|w| w.means[0].get())
     }
 
     /// Their values in a row of the history: of walls now, of watches at their last look.

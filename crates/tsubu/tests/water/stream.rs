@@ -102,8 +102,7 @@ fn a_frame_tells_surface_flow_and_gravity() {
         let corners = frame.vectors(Kind::Surface, "position").iter().zip(frame.integers(Kind::Surface, "wall"));
         corners.filter(|(_, wall)| **wall == -1).map(|(corner, _)| corner[2]).collect()
     };
-    let stream =
-        frame(&["slope=0.05", "water.surface=0.02", "water.flow.log-law={shear-velocity=0.1,roughness=2e-3}"]);
+    let stream = frame(&["slope=0.05", "water.surface=0.02", "water.flow.log-law={shear-velocity=0.1,roughness=2e-3}"]);
     let heights_of_stream = heights(&stream);
     assert!(!heights_of_stream.is_empty() && heights_of_stream.iter().all(|z| *z == 0.02), "{heights_of_stream:?}");
     assert_eq!(told(&stream, "flow"), Some([1.0, 0.0, 0.0]));

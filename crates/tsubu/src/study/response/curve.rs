@@ -3,6 +3,7 @@
 use super::tasks::Point;
 use crate::ledger::Account;
 use crate::partner::Hosts;
+use std::collections::{BTreeMap, BTreeSet};
 use tsubu_scene::plan::Plan;
 
 /// One frequency of a case, over all seeds.
@@ -24,6 +25,8 @@ pub struct Row {
     pub flows: Vec<f64>,
     /// Largest drift over the seeds [-].
     pub drift: f64,
+    /// What watches told, by its column: mean, lowest, highest over the seeds.
+    pub watched: BTreeMap<String, [f64; 3]>,
 }
 
 /// Top of a curve.
@@ -116,7 +119,20 @@ fn row(ratio: f64, points: &[&Point]) -> Option<Row> {
         loss: mean(&|p| p.loss),
         flows: (0..first.flows.len()).map(|i| mean(&|p| p.flows[i])).collect(),
         drift: points.iter().map(|p| p.drift.abs()).fold(0.0, f64::max),
+        watched: watched(points),
     })
+}
+
+/// What watches told in the points of a row; of seeds that saw nothing the others tell.
+fn watched(points: &[&Point]) -> BTreeMap<String, [f64; 3]> {
+    let columns: BTreeSet<&String> = points.iter().flat_map(|p| p.watched.keys()).collect();
+    let over_seeds = |column: &String| {
+        let told: Vec<f64> = points.iter().filter_map(|p| p.watched.get(column).copied()).collect();
+        let mean = told.iter().sum::<f64>() / told.len() as f64;
+        let lowest = told.iter().copied().fold(f64::INFINITY, f64::min);
+        [mean, lowest, told.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
+    };
+    columns.into_iter().map(|column| (column.clone(), over_seeds(column))).collect()
 }
 
 /// Top of a curve of (place, height), by the parabola through the highest point and its neighbours, and the half-power

@@ -7,7 +7,9 @@ use crate::methods;
 use crate::partner::Hosts;
 use crate::run::RunError;
 use crate::trial::unsettled;
+use crate::watch::Watches;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::time::Instant;
 use tsubu_frame::{FrameWriter, RunFolder, State};
@@ -34,6 +36,8 @@ pub struct Point {
     pub flows: Vec<f64>,
     /// Change of the root mean square from the first to the second half of the measured time, relative.
     pub drift: f64,
+    /// What watches told in the mean over the measured periods, by its column; without those that saw nothing.
+    pub watched: BTreeMap<String, f64>,
     /// Energy residual over turned-over energy.
     pub residual: f64,
     /// Computing time [s].
@@ -89,7 +93,7 @@ pub fn measure(
     bed: &State,
     frequency: f64,
     interrupt: &Interrupt,
-) -> Result<Option<Point>, OpenError> {
+) -> Result<Option<Point>, RunError> {
     let begun = Instant::now();
     let (mut engine, mut hosts, mut ledger) = open(plan, wanted, seed, bed, frequency)?;
     let host = hosts.index(&wanted.host).unwrap_or_default();
@@ -106,6 +110,8 @@ pub fn measure(
     }
     let before = Account::ALL.map(|a| ledger.flow(a));
     let mut window = Window::default();
+    let mut watches = Watches::new(&seeded(plan, seed), &*engine);
+    watches.begin(engine.steps());
     let count = steps(wanted.measure_periods);
     for step in 0..count {
         if interrupt.asked() {
@@ -114,13 +120,15 @@ pub fn measure(
         engine.advance(1, &mut hosts, &mut ledger)?;
         let phase = TAU * frequency * engine.time();
         window.take(hosts.list[host].displacement(), hosts.list[host].grain_force(), phase, 2 * step >= count);
+        watches.look(&*engine)?;
     }
     let periods = f64::from(wanted.measure_periods);
     let flows: Vec<f64> = Account::ALL.iter().zip(before).map(|(&a, b)| (ledger.flow(a) - b) / periods).collect();
     let loss = Account::ALL.iter().zip(&flows).filter(|(a, _)| !a.is_work()).map(|(_, f)| f).sum();
     let residual = ledger.residual_relative(&engine::energies(&*engine, &hosts));
+    let watched = watches.scalars().zip(watches.means()).filter(|(_, mean)| mean.is_finite()).collect();
     let wall = begun.elapsed().as_secs_f64();
-    Ok(Some(Point { frequency, loss, flows, residual, wall, ..window.point(frequency) }))
+    Ok(Some(Point { frequency, loss, flows, watched, residual, wall, ..window.point(frequency) }))
 }
 
 /// Everything at time 0 with the bed in place and the host shaken at this frequency [Hz].
@@ -204,6 +212,7 @@ impl Window {
             apparent_mass: if size > 0.0 { (f[0] * z[0] + f[1] * z[1]) / (size * w * w) } else { 0.0 },
             loss: 0.0,
             flows: Vec::new(),
+            watched: BTreeMap::new(),
             drift: if all > 0.0 { (rms(b) - rms(a)) / all } else { 0.0 },
             residual: 0.0,
             wall: 0.0,

@@ -6,6 +6,8 @@ use crate::methods;
 use crate::partner::Hosts;
 use crate::trial::unsettled;
 use crate::{check, run};
+use std::collections::BTreeSet;
+use tsubu_frame::csv::split_unit;
 use tsubu_frame::{Cell, FileError, RunFolder, Status, Summary, Table};
 use tsubu_scene::{Plan, Scene};
 
@@ -29,7 +31,9 @@ pub(super) fn write(
     wall_seconds: f64,
 ) -> Result<Summary, FileError> {
     let plan = scene.plan();
-    let mut curves = Table::new([
+    let rows = || results.iter().flat_map(|case| &case.rows);
+    let watched: BTreeSet<&String> = rows().flat_map(|row| row.watched.keys()).collect();
+    let fixed = [
         "frequency [Hz]",
         "frequency ratio [-]",
         "rms displacement [m]",
@@ -42,7 +46,13 @@ pub(super) fn write(
         "particles [-]",
         "case [text]",
         "method [text]",
-    ]);
+    ];
+    let watched_columns = watched.iter().flat_map(|column| {
+        let (what, unit) = split_unit(column);
+        let unit = unit.unwrap_or("-");
+        ["", " spread low", " spread high"].map(|which| format!("{what}{which} [{unit}]"))
+    });
+    let mut curves = Table::new(fixed.map(str::to_owned).into_iter().chain(watched_columns));
     let mut cases = Table::new([
         "case [text]",
         "method [text]",
@@ -73,7 +83,7 @@ pub(super) fn write(
         let method = case_plan.method.name();
         let name = if case.name.is_empty() { "scene" } else { &case.name };
         for row in &case.rows {
-            curves.push([
+            let fixed = [
                 number(row.frequency),
                 number(row.ratio),
                 number(row.rms[0]),
@@ -86,7 +96,9 @@ pub(super) fn write(
                 number(case.particles as f64),
                 text(name),
                 text(method),
-            ]);
+            ];
+            let told = watched.iter().flat_map(|&column| row.watched.get(column).copied().unwrap_or([f64::NAN; 3]));
+            curves.push(fixed.into_iter().chain(told.map(number)));
         }
         let Some(peak) = case.peak else { continue };
         let values = [
@@ -125,9 +137,6 @@ pub(super) fn write(
             "the energy residual of some run is {:.2e} of the energy turned over, more than `dem.energy-tolerance` = {tolerance:e}: shorten the time step",
             summary.energy.residual_relative
         ));
-    }
-    if !plan.watch.is_empty() {
-        summary.warnings.push("watches do not look on at a response; `tsubu run` has them".to_owned());
     }
     let hosts = Hosts::new(&plan.hosts);
     // Nothing of this depends on where grains lie.
