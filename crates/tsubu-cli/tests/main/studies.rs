@@ -34,7 +34,8 @@ fn the_number_of_threads_does_not_change_a_response() {
 fn a_response_tells_what_watches_see() {
     let desk = Desk::new();
     desk.done("response balls.toml -q -o plain");
-    std::fs::write(desk.path("watched.toml"), format!("{SCENE}\n[watch.bed]\nevery = \"5 ms\"\ncoordination = {{}}\n")).unwrap();
+    std::fs::write(desk.path("watched.toml"), format!("{SCENE}\n[watch.bed]\nevery = \"5 ms\"\ncoordination = {{}}\n"))
+        .unwrap();
     desk.done("response watched.toml -q -o watched");
     let (plain, watched) = (desk.read("plain/response.csv"), desk.read("watched/response.csv"));
     let header = watched.lines().next().unwrap();

@@ -41,6 +41,10 @@ impl Break {
         changes.push(format!("seed={seed}"));
         changes.push(format!("contact.rotation={}", self.rotation));
         changes.push(format!("materials.gravel.rolling-friction={}", self.rolling));
+        if self.way.integrator == FORWARD {
+            // Forward differences give contacts energy: now and then a grain is thrown deeper than a tenth into another.
+            changes.push("dem.largest-overlap=0.2".to_owned());
+        }
         let mut rig = rig(SCENE, &changes, perturbation)?;
         rig.until(END)?;
         Ok(slope(&rig))
