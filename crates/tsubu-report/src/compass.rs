@@ -15,7 +15,7 @@ const SHORTEST: f64 = 0.2;
 /// Width of all of it, with the names [pixels].
 pub(crate) const WIDE: f64 = 160.0;
 /// Colour of the water: its surface, its body, its flow.
-pub(crate) const WATER: &str = "#0072b2";
+const WATER: &str = "#0072b2";
 
 /// Unit vectors of the world as a picture shows them: to the right, up.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -67,6 +67,18 @@ impl Compass {
             );
         }
     }
+}
+
+/// Water below a level, in a rectangle: left, top, width, height [pixels].
+pub(crate) fn draw_water(out: &mut String, level: f64, [x, y, w, h]: [f64; 4]) {
+    let level = level.max(y);
+    let _ = write!(
+        out,
+        "<rect x=\"{x:.1}\" y=\"{level:.1}\" width=\"{w:.1}\" height=\"{:.1}\" fill=\"{WATER}\" fill-opacity=\".09\"/>\
+         <line x1=\"{x:.1}\" y1=\"{level:.1}\" x2=\"{:.1}\" y2=\"{level:.1}\" stroke=\"{WATER}\" stroke-opacity=\".6\"/>",
+        (y + h - level).max(0.0),
+        x + w
+    );
 }
 
 /// An arrow from its tail, with its name beyond its tip.

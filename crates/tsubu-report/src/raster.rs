@@ -9,7 +9,7 @@ use resvg::usvg::{Options, Tree, fontdb};
 use crate::balls::{Balls, Look, common};
 use crate::canvas::Canvas;
 use crate::colour;
-use crate::compass::WATER;
+use crate::compass;
 use crate::legend::{colour_bar, time_label};
 use crate::plot::{AXIS, INK};
 use crate::text::escape;
@@ -91,12 +91,8 @@ pub fn picture(balls: &Balls, look: &Look, width: u32) -> Image {
     );
     let _ = write!(svg, "<svg x=\"0\" y=\"0\" width=\"{width}\" height=\"{inner}\">");
     for surface in balls.water.iter().filter(|_| !balls.space) {
-        let level = (f64::from(inner) - (surface[0][1] - w[1] + margin) * scale).max(0.0);
-        let _ = write!(
-            svg,
-            "<rect x=\"0\" y=\"{level:.1}\" width=\"{width}\" height=\"{:.1}\" fill=\"{WATER}\" fill-opacity=\".09\"/>",
-            (f64::from(inner) - level).max(0.0)
-        );
+        let level = f64::from(inner) - (surface[0][1] - w[1] + margin) * scale;
+        compass::draw_water(&mut svg, level, [0.0, 0.0, f64::from(width), f64::from(inner)]);
     }
     for outline in balls.outlines.iter().filter(|_| !balls.space) {
         let points: Vec<String> = outline

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::balls::{Balls, Look, common};
 use crate::colour;
-use crate::compass::{self, WATER};
+use crate::compass;
 use crate::figure::prefix;
 use crate::legend::{colour_bar, time_label};
 use crate::plot::{AXIS, FAINT, INK};
@@ -131,14 +131,7 @@ impl Place {
 fn draw(out: &mut String, balls: &Balls, look: &Look, range: (f64, f64), place: &Place, frame: [f64; 4]) {
     let [x, y, w, h] = frame;
     for surface in balls.water.iter().filter(|_| !balls.space) {
-        let level = place.of(&surface[0]).1.max(y);
-        let _ = write!(
-            out,
-            "<rect x=\"{x:.1}\" y=\"{level:.1}\" width=\"{w:.1}\" height=\"{:.1}\" fill=\"{WATER}\" fill-opacity=\".09\"/>\
-             <line x1=\"{x:.1}\" y1=\"{level:.1}\" x2=\"{:.1}\" y2=\"{level:.1}\" stroke=\"{WATER}\" stroke-opacity=\".6\"/>",
-            (y + h - level).max(0.0),
-            x + w
-        );
+        compass::draw_water(out, place.of(&surface[0]).1, frame);
     }
     for outline in balls.outlines.iter().filter(|_| !balls.space) {
         let points: String = outline.iter().map(|p| place.of(p)).fold(String::new(), |mut s, (u, v)| {

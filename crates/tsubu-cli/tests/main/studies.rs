@@ -34,7 +34,7 @@ fn the_number_of_threads_does_not_change_a_response() {
 fn a_response_tells_what_watches_see() {
     let desk = Desk::new();
     desk.done("response balls.toml -q -o plain");
-    std::fs::write(desk.path("watched.toml"), format!("{SCENE}\n[watch.bed]\nevery = \"5 ms\"\ncoordination = {{}}\n"))
+    std::fs::write(desk.path("watched.toml"), format!("{SCENE}\n[watch.bed]\nevery = \"5 ms\"\ncoordination = {{}}\n[watch.late]\nfrom = \"100 s\"\ncoordination = {{}}\n"))
         .unwrap();
     desk.done("response watched.toml -q -o watched");
     let (plain, watched) = (desk.read("plain/response.csv"), desk.read("watched/response.csv"));
@@ -54,6 +54,8 @@ fn a_response_tells_what_watches_see() {
     }
     assert!(seen > 3, "{watched}");
     assert!(desk.path("watched/figures/response_bed_mean.svg").exists());
+    let warnings = desk.summary("watched")["warnings"].to_string();
+    assert!(warnings.contains("`late` has seen nothing") && !warnings.contains("`bed`"), "{warnings}");
     assert!(desk.read("watched/report.html").contains("in the mean over the measured periods"));
 }
 

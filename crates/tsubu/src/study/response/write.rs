@@ -138,6 +138,13 @@ pub(super) fn write(
             summary.energy.residual_relative
         ));
     }
+    for name in plan.watch.keys().filter(|_| status == Status::Finished) {
+        if !watched.iter().any(|column| column.strip_prefix(name.as_str()).is_some_and(|rest| rest.starts_with(' '))) {
+            summary.warnings.push(format!(
+                "the watch `{name}` has seen nothing in the measured periods, from whose begin its times count"
+            ));
+        }
+    }
     let hosts = Hosts::new(&plan.hosts);
     // Nothing of this depends on where grains lie.
     if let Ok(engine) = methods::open(&unsettled(plan), &hosts) {
