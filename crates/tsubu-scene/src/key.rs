@@ -62,7 +62,7 @@ pub enum Kind {
     Cohesion,
     /// A square matrix of quantities, row by row.
     Matrix(&'static Dimension),
-    /// A rising list of positive numbers, or `{ from, to, step }`.
+    /// A rising list of positive numbers, or `{ from, to }` with or without a `step`.
     Ratios,
     /// The name of something defined elsewhere in the scene.
     Name(Family),

@@ -154,7 +154,7 @@ pub(crate) fn value(key: &Key) -> String {
         Kind::Ends(dimension) => format!("two ends [{}]", dimension.si),
         Kind::Cohesion => "force [N] or energy density [J/m^3]".to_string(),
         Kind::Matrix(dimension) => format!("square matrix [{}]", dimension.si),
-        Kind::Ratios => "list, or `{ from, to, step }`".to_string(),
+        Kind::Ratios => "list, or `{ from, to }`, or `{ from, to, step }`".to_string(),
         Kind::Name(family) => format!("name of a {}", family.noun()),
         Kind::NamePair => "two material names".to_string(),
         Kind::Table(_) => "table".to_string(),

@@ -99,7 +99,7 @@ fn kind(key: &'static Key) -> Value {
                 {
                     "type": "object",
                     "additionalProperties": false,
-                    "required": ["from", "to", "step"],
+                    "required": ["from", "to"],
                     "properties": { "from": number(), "to": number(), "step": number() },
                 },
             ] })

@@ -17,7 +17,7 @@ pub(crate) fn leave_open(resolved: &mut Table, plan: &Plan, typed: &Node) {
     let sweep = plan.sweep.iter().flat_map(|sweep| sweep.vary.keys());
     let leads = |path: &String| path.split('.').next().is_some_and(|first| LEADING.contains(&first));
     if response.chain(sweep).any(leads) {
-        for key in keys::SCENE.iter().filter(|key| key.name != "output") {
+        for key in keys::SCENE.iter().filter(|key| !["output", "response"].contains(&key.name)) {
             of_key(key, resolved, Some(typed));
         }
     }

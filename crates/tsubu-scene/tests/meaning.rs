@@ -105,7 +105,7 @@ fn frequency_ratios_are_the_numbers_one_means() {
     assert_eq!(response.host, "spring");
     assert_eq!(response.frequency_ratio.len(), 31);
     assert_eq!(response.frequency_ratio[7], 0.92);
-    assert_eq!(response.frequency_ratio[30], 1.15);
+    assert_eq!((response.frequency_ratio[30], response.peak_within), (1.15, None));
 }
 
 #[test]

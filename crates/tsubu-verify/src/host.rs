@@ -21,7 +21,7 @@ fn frequency() -> f64 {
 }
 
 fn measured(plan: &Plan, wanted: &Response, bed: &State, frequency: f64) -> Result<Point, String> {
-    let point = measure(plan, wanted, 0, bed, frequency, &Interrupt::new()).map_err(|e| e.to_string())?;
+    let point = measure(plan, wanted, 0, bed, frequency, &[], &Interrupt::new()).map_err(|e| e.to_string())?;
     point.ok_or_else(|| "interrupted".to_owned())
 }
 
@@ -39,11 +39,11 @@ pub(super) fn loss_factor(perturbation: f64) -> Result<Vec<Claim>, String> {
     let mut bed = State::default();
     let hosts = tsubu::partner::Hosts::new(&plan.hosts);
     tsubu::methods::open(&plan, &hosts).map_err(|e| e.to_string())?.save(&mut bed);
-    for (i, ratio) in ratios.iter().enumerate() {
-        points.push((i, measured(&plan, &wanted, &bed, ratio * frequency())?));
+    for ratio in ratios {
+        points.push((ratio, measured(&plan, &wanted, &bed, ratio * frequency())?));
     }
-    let points: Vec<(usize, &_)> = points.iter().map(|(i, p)| (*i, p)).collect();
-    let case = CaseResult::new("empty", &plan, frequency(), &ratios, &points);
+    let points: Vec<(f64, &_)> = points.iter().map(|(ratio, p)| (*ratio, p)).collect();
+    let case = CaseResult::new("empty", &plan, frequency(), &points);
     let half_power = case.peak.map_or(f64::NAN, |p| 2.0 * p.half_power_damping);
     let host = structure(&mut plan)?;
     host.base = None;

@@ -234,6 +234,11 @@ pub trait Engine: Send {
     /// Moves the system by `steps` steps, together with its hosts; posts every flow to the ledger.
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault>;
 
+    /// Gives all grains that forces move this velocity [m/s] on top of their own, before the first step. Says whether it can.
+    fn set_in_motion(&mut self, _velocity: [f64; 3]) -> bool {
+        false
+    }
+
     /// Energy of the grains now (the hosts' rows are zero here; [`energies`] adds them).
     fn grain_energies(&self) -> Energies;
 

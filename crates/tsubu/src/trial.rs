@@ -107,12 +107,12 @@ fn times(
     }
     let Some(response) = &plan.response else { return };
     let cases: usize = response.vary.values().map(Vec::len).product();
-    let runs = cases * response.frequency_ratio.len() * response.seeds as usize;
+    let runs = cases * response.runs_of_case();
     let f0 = hosts.index(&response.host).and_then(|i| hosts.list[i].natural_frequencies().first().copied());
     // A period is that of the drive: at a tenth of the natural frequency ten times as long.
-    let periods = f64::from(response.discard_periods + response.measure_periods);
-    let seconds: f64 = response.frequency_ratio.iter().map(|ratio| periods / (ratio * f0.unwrap_or(1.0))).sum();
-    let steps = seconds / engine.time_step() * (cases * response.seeds as usize) as f64;
+    let inverse: f64 = response.frequency_ratio.iter().map(|ratio| 1.0 / ratio).sum();
+    let seconds = response.periods() * inverse / (response.frequency_ratio.len() as f64 * f0.unwrap_or(1.0));
+    let steps = seconds / engine.time_step() * runs as f64;
     let [low, high] = cost.map(|cost| cost * steps * grains_of_cases(plan) / rayon::current_num_threads() as f64);
     verdict.judge(
         high <= LONGEST,

@@ -10,6 +10,7 @@ mod grouping;
 mod host;
 mod lattice;
 mod outside;
+mod response;
 mod stages;
 mod triaxial;
 mod wall;

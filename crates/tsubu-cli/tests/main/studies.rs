@@ -42,11 +42,12 @@ fn a_response_tells_what_watches_see() {
     let columns: Vec<&str> = header.split(',').collect();
     let at = columns.iter().position(|column| *column == "bed mean [-]").unwrap_or_else(|| panic!("{header}"));
     assert_eq!(columns[at + 1..at + 3], ["bed mean spread low [-]", "bed mean spread high [-]"]);
+    let particles = columns.iter().position(|column| *column == "particles [-]").unwrap();
     let mut seen = 0;
     for (before, now) in plain.lines().zip(watched.lines()).skip(1) {
         assert!(now.starts_with(before), "{before}\n{now}");
         let cells: Vec<&str> = now.split(',').collect();
-        let grains: f64 = cells[9].parse().unwrap();
+        let grains: f64 = cells[particles].parse().unwrap();
         let [mean, low, high] = [0, 1, 2].map(|k| cells[at + k].parse::<f64>().unwrap());
         assert_eq!(grains == 0.0, mean.is_nan(), "{now}");
         assert!(grains == 0.0 || (low <= mean && mean <= high && mean > 0.0 && mean < 12.0), "{now}");

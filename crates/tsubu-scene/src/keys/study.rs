@@ -10,15 +10,23 @@ pub(super) static RESPONSE: &[Key] = &[
         "The host whose displacement is measured; its base or force must be a sine",
     )
     .derived("the only host"),
-    Key::new("frequency-ratio", Kind::Ratios, "Frequencies over the host's first undamped natural frequency"),
-    Key::new("discard-periods", Kind::Whole, "Periods thrown away before measuring, with grains")
-        .default("40")
+    Key::new(
+        "frequency-ratio",
+        Kind::Ratios,
+        "Frequencies over the host's first undamped natural frequency; without `step` a few, and more where the curve bends",
+    ),
+    Key::new(
+        "peak-within",
+        Kind::Quantity(&NUMBER),
+        "More frequencies are measured until those beside the highest are as near to it as this, as frequency ratios",
+    )
+    .at_least(1e-5)
+    .derived("0.01 where `frequency-ratio` has no `step`; otherwise no more are measured"),
+    Key::new("discard-periods", Kind::Whole, "Periods thrown away before measuring, with grains, which begin at rest; `steady`: they begin in the motion expected, until two blocks of three periods agree")
         .at_least(0.0)
-        .at_most(1e6),
-    Key::new("discard-periods-empty", Kind::Whole, "Periods thrown away for the empty host")
-        .default("60")
-        .at_least(0.0)
-        .at_most(1e6),
+        .at_most(1e6)
+        .word("steady"),
+    Key::new("discard-periods-empty", Kind::Whole, "The same for the empty host").at_least(0.0).at_most(1e6).word("steady"),
     Key::new("measure-periods", Kind::Whole, "Periods measured").default("10").at_least(1.0).at_most(1e6),
     Key::new("seeds", Kind::Whole, "Number of random seeds, from the scene's seed upwards")
         .default("1")

@@ -24,6 +24,9 @@ struct Derive<'a> {
     complaints: Vec<Complaint>,
 }
 
+/// How near frequencies beside the highest come to it where none say how near.
+const PEAK_WITHIN: f64 = 0.01;
+
 /// Fills what the registry calls derived. Wrong values are already complained about and absent here; the typed tree
 /// tells what is absent because nobody gave it.
 pub(crate) fn derive(
@@ -110,6 +113,10 @@ impl Derive<'_> {
         let hosts: Vec<String> =
             table_at(resolved, "hosts").map(|hosts| hosts.keys().cloned().collect()).unwrap_or_default();
         let Some(response) = resolved.get_mut("response").and_then(Value::as_table_mut) else { return };
+        let ratios = |end| self.typed(&["response", "frequency-ratio", end]);
+        if ratios("from") && !ratios("step") && !self.typed(&["response", "peak-within"]) {
+            response.insert("peak-within".into(), Value::Float(PEAK_WITHIN));
+        }
         if response.contains_key("host") || self.typed(&["response", "host"]) {
             return;
         }

@@ -11,6 +11,9 @@ use crate::units::{self, ACCELERATION, ANGLE, Dimension, ENERGY_DENSITY, FORCE, 
 
 /// Enough for any curve; guards against `step = 1e-12`.
 const MOST_RATIOS: f64 = 10_000.0;
+/// Where no step is given: steps are at most this long, and there are at least so many.
+const COARSE: f64 = 0.04;
+const FEW: f64 = 8.0;
 
 impl Resolver<'_> {
     pub(super) fn leaf(&mut self, key: &'static Key, node: &Node) -> Option<toml::Value> {
@@ -250,7 +253,7 @@ impl Resolver<'_> {
     }
 
     fn ratios(&mut self, key: &Key, node: &Node) -> Option<toml::Value> {
-        const FORM: &str = "a list of numbers, or { from = 0.85, to = 1.15, step = 0.01 }";
+        const FORM: &str = "a list of numbers, or { from = 0.85, to = 1.15 }, or with a `step`";
         let (values, place) = match &node.value {
             Value::List(_) => {
                 let list = self.quantities(key, node, &NUMBER)?;
@@ -259,7 +262,11 @@ impl Resolver<'_> {
             Value::Table(table) => {
                 let mut ends = [0.0; 3];
                 for (end, name) in ends.iter_mut().zip(["from", "to", "step"]) {
-                    let Some(entry) = table.get(name) else {
+                    let entry = table.get(name);
+                    if entry.is_none() && name == "step" {
+                        continue;
+                    }
+                    let Some(entry) = entry else {
                         self.complain(
                             Complaint::new(format!("`{}` has no `{name}`", key.name))
                                 .at(&node.place, format!("needs `{name}`"))
@@ -279,7 +286,10 @@ impl Resolver<'_> {
                     );
                     return None;
                 }
-                let [from, to, step] = ends;
+                let [from, to, mut step] = ends;
+                if table.get("step").is_none() && to > from {
+                    step = (to - from) / ((to - from) / COARSE).ceil().max(FEW);
+                }
                 let steps = ((to - from) / step).round();
                 if !(step > 0.0 && to >= from && steps < MOST_RATIOS) {
                     self.complain(

@@ -264,6 +264,14 @@ impl Engine for DemEngine {
         self.sources.traffic()
     }
 
+    fn set_in_motion(&mut self, velocity: [f64; 3]) -> bool {
+        let Grains { velocity: of, inverse_mass, .. } = &mut self.grains;
+        for (own, _) in of.iter_mut().zip(inverse_mass).filter(|(_, inverse)| **inverse != 0.0) {
+            *own += DVec3::from_array(velocity);
+        }
+        true
+    }
+
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
         let grains = self.grains.len();
         let mut go = || {

@@ -10,8 +10,11 @@
 //! With DEM the structure moves by velocity Verlet in step with the grains (damping implicit, exact for any C); with the
 //! automaton by Runge-Kutta 4 under the force of the step.
 
+mod in_motion;
 mod matrices;
 mod runge_kutta;
+
+pub use in_motion::Ballast;
 
 use crate::ledger::{Account, Ledger};
 use crate::motion::value_and_rate;

@@ -2,7 +2,7 @@
 
 pub mod host;
 
-pub use host::Host;
+pub use host::{Ballast, Host};
 
 use crate::ledger::Ledger;
 use std::collections::BTreeMap;

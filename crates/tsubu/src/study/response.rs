@@ -2,10 +2,14 @@
 //!
 //! Each case settles its grains once a seed; all its frequencies start from that bed. Periods in which the transient dies
 //! away are thrown away, then whole periods are measured, mean removed (Komatsuzaki 2003: root mean square over ten
-//! periods). A run that fails is said, and missing in its curve. A response that was stopped goes on where it was: every finished run is a line in `progress.jsonl`.
+//! periods). Frequencies are measured in rounds: those that were asked for, then more where the curves bend. A run that fails is said,
+//! and missing in its curve. A response that was stopped goes on where it was.
 
 mod curve;
+mod journal;
+mod refine;
 mod tasks;
+mod transient;
 mod write;
 
 pub use curve::{CaseResult, Peak, peak};
@@ -14,42 +18,33 @@ pub use tasks::{Point, measure};
 use super::cases::{Case, CasesError, cases};
 use crate::engine::OpenError;
 use crate::interrupt::{Interrupt, Watcher};
-use crate::run::{RunError, scene_hash};
-use crate::scene_files;
+use crate::run::RunError;
+use journal::{Done, Key, Ratio};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::{File, OpenOptions};
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
-use tsubu_frame::{Existing, FileError, RunFolder, State, Status, Summary};
+use tsubu_frame::{FileError, RunFolder, State, Status, Summary};
 use tsubu_scene::{Plan, Scene, plan};
-
-/// One run of the response.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-struct Key {
-    case: usize,
-    seed: u32,
-    frequency: usize,
-}
 
 /// Computes the frequency response of a scene into `folder`. An existing folder of the same scene is gone on with.
 pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Summary, CasesError> {
     let begun = Instant::now();
     let task = Task::new(scene)?;
     let resolved = scene.resolved_toml();
-    let earlier = earlier(folder, &resolved, overwrite)?;
+    let earlier = journal::earlier(folder, &resolved, overwrite)?;
     // An interrupted response has told how long it took until then.
     let before = earlier.as_ref().and_then(|_| Summary::read(&folder.join("summary.json")).ok());
     let before = before.map_or(0.0, |summary| summary.wall_seconds);
-    let keys = task.missing(earlier.as_ref());
-    let (beds, mut failures) = task.settle(&keys)?;
+    let mut rounds = Rounds::new(&task, earlier.as_ref());
+    let (mut beds, mut failures) = (Beds::new(), Vec::new());
+    task.settle(&rounds.missing, &mut beds, &mut failures)?;
     // Only now, so that a scene that a method refuses leaves nothing behind.
-    let (folder, mut points) = open_folder(folder, earlier, scene, overwrite)?;
-    let journal = Mutex::new(journal(&folder)?);
+    let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite)?;
+    let journal = Mutex::new(journal::append(&folder)?);
     let record = |key: &Key, point: &Point| -> Result<(), CasesError> {
         if let Ok(mut file) = journal.lock() {
             let line = serde_json::to_string(&(key, point)).unwrap_or_default();
@@ -57,11 +52,10 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
         }
         Ok(())
     };
-    let (measured, failed) = task.measure(&keys, &beds, &record, watcher)?;
-    points.extend(measured);
-    failures.extend(failed);
+    let complete = task.measure(&mut rounds, &mut beds, &mut failures, &record, watcher)?;
+    let points = rounds.points;
     let status = match points.len() {
-        done if done == task.total() => Status::Finished,
+        done if complete && done == rounds.asked.len() => Status::Finished,
         _ if watcher.interrupt.asked() => Status::Interrupted,
         0 => return Err(task.first(failures)),
         _ => Status::Failed,
@@ -69,7 +63,7 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
     let results = task.results(&points);
     let _held = watcher.interrupt.hold();
     if status == Status::Finished {
-        task.film(&results, &folder)?;
+        task.film(&results, &points, &mut beds, &folder)?;
     }
     let failures = failures.iter().map(|failure| task.told(failure)).collect();
     let took = before + begun.elapsed().as_secs_f64();
@@ -79,18 +73,19 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
 /// The curves of a scene's response, without any file.
 pub fn curves(scene: &Scene) -> Result<Vec<CaseResult>, CasesError> {
     let task = Task::new(scene)?;
-    let keys = task.missing(None);
-    let (beds, mut failures) = task.settle(&keys)?;
+    let mut rounds = Rounds::new(&task, None);
+    let (mut beds, mut failures) = (Beds::new(), Vec::new());
+    task.settle(&rounds.missing, &mut beds, &mut failures)?;
     let watcher = Watcher { interrupt: &Interrupt::new(), progress: &|_| {} };
-    let (points, failed) = task.measure(&keys, &beds, &|_, _| Ok(()), &watcher)?;
-    failures.extend(failed);
-    if failures.is_empty() { Ok(task.results(&points)) } else { Err(task.first(failures)) }
+    task.measure(&mut rounds, &mut beds, &mut failures, &|_, _| Ok(()), &watcher)?;
+    if failures.is_empty() { Ok(task.results(&rounds.points)) } else { Err(task.first(failures)) }
 }
 
-type Done = BTreeMap<Key, Point>;
+/// Hears of every finished run.
+type Record<'a> = &'a (dyn Fn(&Key, &Point) -> Result<(), CasesError> + Sync);
 
-/// Settled beds by case and seed.
-type Beds = BTreeMap<(usize, u32), State>;
+/// Settled beds by case and seed; nothing where one did not settle.
+type Beds = BTreeMap<(usize, u32), Option<State>>;
 
 /// A run that broke off: the first of those of a bed where it did not settle. The others go on.
 struct Failed {
@@ -123,32 +118,13 @@ impl Task {
         Ok(Self { wanted, reference, cases, plans })
     }
 
-    fn total(&self) -> usize {
-        self.plans.len() * self.wanted.seeds as usize * self.wanted.frequency_ratio.len()
-    }
-
-    /// The runs that are not done, long ones first, so that no core is left with one at the end.
-    fn missing(&self, done: Option<&Done>) -> Vec<Key> {
-        let mut keys: Vec<Key> = Vec::new();
-        for case in 0..self.plans.len() {
-            for seed in 0..self.wanted.seeds {
-                for frequency in 0..self.wanted.frequency_ratio.len() {
-                    keys.push(Key { case, seed, frequency });
-                }
-            }
-        }
-        keys.retain(|key| done.is_none_or(|done| !done.contains_key(key)));
-        keys.sort_by_key(|k| std::cmp::Reverse(tasks::weight(&self.plans[k.case])));
-        keys
-    }
-
     fn fail(&self, case: usize, error: RunError) -> CasesError {
         CasesError::Run { case: self.cases[case].name.clone(), error }
     }
 
     /// A failure in a sentence.
     fn told(&self, Failed { key, error }: &Failed) -> String {
-        let (case, ratio) = (&self.cases[key.case].name, self.wanted.frequency_ratio[key.frequency]);
+        let (case, ratio) = (&self.cases[key.case].name, key.ratio.0);
         let case = if case.is_empty() { String::new() } else { format!("case `{case}`, ") };
         format!("{case}frequency ratio {ratio}, seed {}: the run failed and is not in the curve: {error}", key.seed)
     }
@@ -162,49 +138,74 @@ impl Task {
         self.fail(key.case, error)
     }
 
-    /// Settles the bed of every case and seed among the keys.
-    fn settle(&self, keys: &[Key]) -> Result<(Beds, Vec<Failed>), CasesError> {
-        let needed: BTreeSet<(usize, u32)> = keys.iter().map(|k| (k.case, k.seed)).collect();
-        let failures = Mutex::new(Vec::new());
+    /// Settles the bed of every case and seed among the keys that has none yet.
+    fn settle(&self, keys: &[Key], beds: &mut Beds, failures: &mut Vec<Failed>) -> Result<(), CasesError> {
+        let needed: BTreeSet<(usize, u32)> =
+            keys.iter().map(|k| (k.case, k.seed)).filter(|bed| !beds.contains_key(bed)).collect();
         let settled: Result<Vec<_>, CasesError> = needed
-            .par_iter()
-            .map(|&(case, seed)| match tasks::bed(&self.plans[case], seed) {
-                Ok(bed) => Ok(Some(((case, seed), bed))),
-                Err(error @ OpenError::Settling(_)) => {
-                    keep(&failures, Key { case, seed, frequency: 0 }, error.into());
-                    Ok(None)
-                }
+            .into_par_iter()
+            .map(|(case, seed)| match tasks::bed(&self.plans[case], seed) {
+                Ok(bed) => Ok(((case, seed), Ok(bed))),
+                Err(error @ OpenError::Settling(_)) => Ok(((case, seed), Err(error))),
                 Err(error) => Err(self.fail(case, error.into())),
             })
             .collect();
-        Ok((settled?.into_iter().flatten().collect(), failures.into_inner().unwrap_or_default()))
+        for ((case, seed), bed) in settled? {
+            beds.insert((case, seed), bed.map_err(|error| failures.push(failed(case, seed, error.into()))).ok());
+        }
+        Ok(())
     }
 
-    /// Runs the keys side by side; `record` hears of every finished one.
+    /// Runs all rounds, the frequencies of each side by side. Says whether it came to the end.
     fn measure(
         &self,
-        keys: &[Key],
+        rounds: &mut Rounds<'_>,
+        beds: &mut Beds,
+        failures: &mut Vec<Failed>,
+        record: Record<'_>,
+        watcher: &Watcher,
+    ) -> Result<bool, CasesError> {
+        while !rounds.missing.is_empty() {
+            self.settle(&rounds.missing, beds, failures)?;
+            let (points, failed) = self.measure_round(rounds, beds, record, watcher)?;
+            failures.extend(failed);
+            if watcher.interrupt.asked() {
+                rounds.end(points);
+                return Ok(false);
+            }
+            rounds.next(self, points);
+        }
+        Ok(true)
+    }
+
+    fn measure_round(
+        &self,
+        rounds: &Rounds<'_>,
         beds: &Beds,
-        record: &(dyn Fn(&Key, &Point) -> Result<(), CasesError> + Sync),
+        record: Record<'_>,
         watcher: &Watcher,
     ) -> Result<(Done, Vec<Failed>), CasesError> {
         let failures = Mutex::new(Vec::new());
-        let total = self.total();
-        let counter = AtomicUsize::new(total - keys.len());
-        let done: Result<Done, CasesError> = keys
+        let total = self.expected().max(rounds.asked.len());
+        let counter = AtomicUsize::new(rounds.asked.len() - rounds.missing.len());
+        let done: Result<Done, CasesError> = rounds
+            .missing
             .par_iter()
             .map(|key| {
                 if watcher.interrupt.asked() {
                     return Ok(None);
                 }
-                let frequency = self.reference * self.wanted.frequency_ratio[key.frequency];
-                let Some(bed) = beds.get(&(key.case, key.seed)) else { return Ok(None) };
+                let frequency = self.reference * key.ratio.0;
+                let Some(Some(bed)) = beds.get(&(key.case, key.seed)) else { return Ok(None) };
+                let known = of_case(&rounds.points, key.case);
                 let plan = &self.plans[key.case];
-                let point = match measure(plan, &self.wanted, key.seed, bed, frequency, watcher.interrupt) {
+                let point = match measure(plan, &self.wanted, key.seed, bed, frequency, &known, watcher.interrupt) {
                     Ok(Some(point)) => point,
                     Ok(None) => return Ok(None),
                     Err(error @ RunError::Fault(_)) => {
-                        keep(&failures, *key, error);
+                        if let Ok(mut failures) = failures.lock() {
+                            failures.push(Failed { key: *key, error });
+                        }
                         return Ok(None);
                     }
                     Err(error) => return Err(self.fail(key.case, error)),
@@ -219,92 +220,123 @@ impl Task {
         Ok((done?, failures.into_inner().unwrap_or_default()))
     }
 
+    /// About how many runs there will be.
+    fn expected(&self) -> usize {
+        self.wanted.runs_of_case() * self.plans.len()
+    }
+
     /// Eight pictures of one period of the best case at its peak: of those with grains, the one with the lowest peak.
-    fn film(&self, results: &[CaseResult], folder: &RunFolder) -> Result<(), CasesError> {
+    fn film(
+        &self,
+        results: &[CaseResult],
+        points: &Done,
+        beds: &mut Beds,
+        folder: &RunFolder,
+    ) -> Result<(), CasesError> {
         let peaks = results.iter().enumerate().filter(|(_, case)| case.particles > 0);
         let peaks = peaks.filter_map(|(i, case)| Some((i, case.peak?)));
         let best = peaks.min_by(|(_, a), (_, b)| a.rms.total_cmp(&b.rms));
-        let Some((index, peak)) = best else { return Ok(()) };
-        let bed = tasks::bed(&self.plans[index], 0).map_err(|e| self.fail(index, e.into()))?;
-        tasks::film(&self.plans[index], &self.wanted, &bed, self.reference * peak.ratio, folder)
-            .map_err(|e| self.fail(index, e))
+        let Some((case, peak)) = best else { return Ok(()) };
+        // After an interruption it may not be there.
+        let key = Key { case, seed: 0, ratio: Ratio(peak.ratio) };
+        self.settle(&[key], beds, &mut Vec::new())?;
+        let Some(Some(bed)) = beds.get(&(case, 0)) else { return Ok(()) };
+        let known = of_case(points, case);
+        tasks::film(&self.plans[case], &self.wanted, bed, self.reference * peak.ratio, &known, folder)
+            .map_err(|e| self.fail(case, e))
     }
 
     fn results(&self, points: &Done) -> Vec<CaseResult> {
-        let of_case = |index: usize| -> Vec<(usize, &Point)> {
-            points.iter().filter(|(k, _)| k.case == index).map(|(k, p)| (k.frequency, p)).collect()
+        let of_case = |index: usize| -> Vec<(f64, &Point)> {
+            points.iter().filter(|(k, _)| k.case == index).map(|(k, p)| (k.ratio.0, p)).collect()
         };
-        self.cases
-            .iter()
-            .zip(&self.plans)
-            .enumerate()
-            .map(|(index, (case, plan))| {
-                CaseResult::new(&case.name, plan, self.reference, &self.wanted.frequency_ratio, &of_case(index))
-            })
-            .collect()
+        let cases = self.cases.iter().zip(&self.plans).enumerate();
+        cases.map(|(index, (case, plan))| CaseResult::new(&case.name, plan, self.reference, &of_case(index))).collect()
     }
 }
 
-fn keep(failures: &Mutex<Vec<Failed>>, key: Key, error: RunError) {
-    if let Ok(mut failures) = failures.lock() {
-        failures.push(Failed { key, error });
+/// The frequencies of all cases, round by round. What is asked for in a round follows from the points of those before, never from how
+/// far a round that was interrupted had come.
+struct Rounds<'a> {
+    /// Points of an earlier, interrupted response.
+    earlier: Option<&'a Done>,
+    /// All that was asked for.
+    asked: BTreeSet<Key>,
+    /// What is still to be measured of the last round, long runs first, so that no core is left with one at the end.
+    missing: Vec<Key>,
+    /// What has been measured in the rounds before, and after the end in all.
+    points: Done,
+    /// What an earlier response has measured of the last round.
+    fresh: Done,
+}
+
+impl<'a> Rounds<'a> {
+    fn new(task: &Task, earlier: Option<&'a Done>) -> Self {
+        let mut rounds =
+            Self { earlier, asked: BTreeSet::new(), missing: Vec::new(), points: Done::new(), fresh: Done::new() };
+        let cases = 0..task.plans.len();
+        let first = cases.flat_map(|case| task.wanted.frequency_ratio.iter().map(move |ratio| (case, *ratio)));
+        rounds.ask(task, first.collect());
+        rounds.go_on(task);
+        rounds
     }
+
+    /// Ends a round with its points; runs that failed are not tried again.
+    fn next(&mut self, task: &Task, points: Done) {
+        self.end(points);
+        self.missing.clear();
+        self.go_on(task);
+    }
+
+    fn end(&mut self, points: Done) {
+        self.points.extend(points);
+        self.points.append(&mut self.fresh);
+    }
+
+    /// Goes on to the next round that has something to measure; none has when nothing is missing.
+    fn go_on(&mut self, task: &Task) {
+        while self.missing.is_empty() {
+            self.end(Done::new());
+            let Some(within) = task.wanted.peak_within else { return };
+            let curve =
+                |case: &CaseResult| -> Vec<(f64, f64)> { case.rows.iter().map(|r| (r.ratio, r.rms[0])).collect() };
+            let cases = task.results(&self.points).into_iter().enumerate();
+            let more = cases.flat_map(|(i, case)| refine::next(&curve(&case), within).into_iter().map(move |x| (i, x)));
+            if !self.ask(task, more.collect()) {
+                return;
+            }
+        }
+    }
+
+    /// Asks for more; says whether any of it is new.
+    fn ask(&mut self, task: &Task, wanted: Vec<(usize, f64)>) -> bool {
+        let seeds = 0..task.wanted.seeds;
+        let keys =
+            wanted.into_iter().flat_map(|(case, x)| seeds.clone().map(move |seed| Key { case, seed, ratio: Ratio(x) }));
+        let new: Vec<Key> = keys.filter(|key| self.asked.insert(*key)).collect();
+        for key in &new {
+            match self.earlier.and_then(|earlier| earlier.get(key)) {
+                Some(point) => {
+                    self.fresh.insert(*key, point.clone());
+                }
+                None => self.missing.push(*key),
+            }
+        }
+        self.missing.sort_by_key(|k| std::cmp::Reverse(tasks::weight(&task.plans[k.case])));
+        !new.is_empty()
+    }
+}
+
+fn of_case(points: &Done, case: usize) -> Vec<&Point> {
+    points.iter().filter(|(key, _)| key.case == case).map(|(_, point)| point).collect()
+}
+
+fn failed(case: usize, seed: u32, error: RunError) -> Failed {
+    Failed { key: Key { case, seed, ratio: Ratio(0.0) }, error }
 }
 
 fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, CasesError> {
     list.iter().map(|case| Ok(case.scene(scene).map_err(CasesError::Complaints)?.plan().clone())).collect()
-}
-
-/// First line of the journal: which scene it belongs to.
-fn mark(resolved: &str) -> String {
-    serde_json::json!({ "scene": scene_hash(resolved), "version": crate::VERSION }).to_string()
-}
-
-/// What an interrupted response of the same scene has done in the folder; `None` where a new one is to begin.
-fn earlier(path: &Path, resolved: &str, overwrite: bool) -> Result<Option<Done>, FileError> {
-    if overwrite {
-        return Ok(None);
-    }
-    let text = std::fs::read_to_string(path.join("progress.jsonl")).unwrap_or_default();
-    if text.lines().next() == Some(mark(resolved).as_str()) {
-        // The last line may be cut in half; it is computed again.
-        return Ok(Some(text.lines().skip(1).filter_map(|l| serde_json::from_str::<(Key, Point)>(l).ok()).collect()));
-    }
-    let occupied = std::fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_some());
-    if occupied { Err(FileError::NotEmpty { path: path.to_owned() }) } else { Ok(None) }
-}
-
-/// Makes the folder, or takes the one that an earlier response has begun.
-fn open_folder(
-    path: &Path,
-    earlier: Option<Done>,
-    scene: &Scene,
-    overwrite: bool,
-) -> Result<(RunFolder, Done), FileError> {
-    if let Some(done) = earlier {
-        return Ok((RunFolder::create(path, Existing::Resume, names(scene))?, done));
-    }
-    let existing = if overwrite { Existing::Overwrite } else { Existing::Refuse };
-    let folder = RunFolder::create(path, existing, names(scene))?;
-    scene_files::write(&folder, scene)?;
-    folder.claim(names(scene))?;
-    folder.write("progress.jsonl", format!("{}\n", mark(&scene.resolved_toml())).as_bytes())?;
-    Ok((folder, Done::new()))
-}
-
-/// The files of a response; those of its page come later.
-fn names(scene: &Scene) -> Vec<String> {
-    let tables = ["response.csv", "cases.csv", "energy_by_cause.csv"];
-    let own = tables.into_iter().chain(["check.txt", "summary.json", "progress.jsonl", "frames/"]);
-    scene_files::names(scene).into_iter().chain(own.map(str::to_owned)).collect()
-}
-
-fn journal(folder: &RunFolder) -> Result<File, FileError> {
-    let path: PathBuf = folder.file("progress.jsonl");
-    let mut file = OpenOptions::new().append(true).open(&path).map_err(FileError::write(&path))?;
-    // A line cut short by a kill must not swallow the next one.
-    writeln!(file).map_err(FileError::write(&path))?;
-    Ok(file)
 }
 
 impl From<OpenError> for CasesError {

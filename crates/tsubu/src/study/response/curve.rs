@@ -25,6 +25,8 @@ pub struct Row {
     pub flows: Vec<f64>,
     /// Largest drift over the seeds [-].
     pub drift: f64,
+    /// Most periods that were thrown away, over the seeds.
+    pub discarded: u32,
     /// What watches told, by its column: mean, lowest, highest over the seeds.
     pub watched: BTreeMap<String, [f64; 3]>,
 }
@@ -36,6 +38,8 @@ pub struct Peak {
     pub ratio: f64,
     /// How high [m].
     pub rms: f64,
+    /// How far the neighbours of the highest point are from it, at most [-].
+    pub within: f64,
     /// Half the width at 1/sqrt(2) of the height over the peak's place: the half-power damping ratio; not-a-number where
     /// the curve does not fall that far on both sides.
     pub half_power_damping: f64,
@@ -67,16 +71,13 @@ pub struct CaseResult {
 }
 
 impl CaseResult {
-    /// Gathers the points (frequency index, point) of a case.
-    pub fn new(name: &str, plan: &Plan, reference: f64, ratios: &[f64], points: &[(usize, &Point)]) -> Self {
-        let rows: Vec<Row> = ratios
-            .iter()
-            .enumerate()
-            .filter_map(|(i, &ratio)| {
-                let at: Vec<&Point> = points.iter().filter(|(k, _)| *k == i).map(|(_, p)| *p).collect();
-                row(ratio, &at)
-            })
-            .collect();
+    /// Gathers the points (frequency over `reference`, point) of a case.
+    pub fn new(name: &str, plan: &Plan, reference: f64, points: &[(f64, &Point)]) -> Self {
+        let mut ratios: Vec<f64> = points.iter().map(|(ratio, _)| *ratio).collect();
+        ratios.sort_by(f64::total_cmp);
+        ratios.dedup();
+        let at = |ratio: f64| points.iter().filter(move |(own, _)| *own == ratio).map(|(_, point)| *point);
+        let rows: Vec<Row> = ratios.iter().filter_map(|&ratio| row(ratio, &at(ratio).collect::<Vec<_>>())).collect();
         let host = Hosts::new(&plan.hosts);
         let wanted = plan.response.as_ref().and_then(|r| host.index(&r.host)).unwrap_or_default();
         let mass = host.list.get(wanted).map_or(f64::NAN, crate::partner::Host::effective_mass);
@@ -119,6 +120,7 @@ fn row(ratio: f64, points: &[&Point]) -> Option<Row> {
         loss: mean(&|p| p.loss),
         flows: (0..first.flows.len()).map(|i| mean(&|p| p.flows[i])).collect(),
         drift: points.iter().map(|p| p.drift.abs()).fold(0.0, f64::max),
+        discarded: points.iter().map(|p| p.discarded).max().unwrap_or_default(),
         watched: watched(points),
     })
 }
@@ -158,7 +160,9 @@ pub fn peak(curve: &[(f64, f64)]) -> Option<Peak> {
         (Some(left), Some(right)) => (right - left) / (2.0 * ratio),
         _ => f64::NAN,
     };
-    Some(Peak { ratio, rms, half_power_damping })
+    let neighbours = [i.checked_sub(1), Some(i + 1)].into_iter().flatten().filter_map(|k| curve.get(k));
+    let within = neighbours.map(|near| (near.0 - x).abs()).fold(0.0, f64::max);
+    Some(Peak { ratio, rms, within, half_power_damping })
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! One run of a response: a bed, a frequency, a measurement.
 
+use super::transient;
 use crate::engine::{self, Engine, OpenError};
 use crate::interrupt::Interrupt;
 use crate::ledger::{Account, Ledger};
@@ -40,6 +41,8 @@ pub struct Point {
     pub watched: BTreeMap<String, f64>,
     /// Energy residual over turned-over energy.
     pub residual: f64,
+    /// Periods before the measured ones.
+    pub discarded: u32,
     /// Computing time [s].
     pub wall: f64,
 }
@@ -73,6 +76,11 @@ fn seeded(plan: &Plan, seed: u32) -> Plan {
     plan
 }
 
+/// Periods thrown away before measuring; `None`: until the motion is steady.
+fn discard(plan: &Plan, wanted: &Response) -> Option<u32> {
+    if weight(plan) == 0 { wanted.discard_periods_empty } else { wanted.discard_periods }
+}
+
 /// The state at time 0 of a case and seed, settled.
 pub(super) fn bed(plan: &Plan, seed: u32) -> Result<State, OpenError> {
     let plan = seeded(plan, seed);
@@ -85,29 +93,38 @@ pub(super) fn bed(plan: &Plan, seed: u32) -> Result<State, OpenError> {
 /// Steps between two questions whether to stop.
 const UNASKED: u64 = 8;
 
-/// Runs one frequency [Hz] from a settled bed and measures; `None` where it was interrupted.
+/// Runs one frequency [Hz] from a settled bed and measures; `None` where it was interrupted. `known` are points of the same case, which
+/// tell how a run begins that is to be steady soon.
 pub fn measure(
     plan: &Plan,
     wanted: &Response,
     seed: u32,
     bed: &State,
     frequency: f64,
+    known: &[&Point],
     interrupt: &Interrupt,
 ) -> Result<Option<Point>, RunError> {
     let begun = Instant::now();
-    let (mut engine, mut hosts, mut ledger) = open(plan, wanted, seed, bed, frequency)?;
+    let (mut engine, mut hosts, mut ledger) = open(plan, wanted, seed, bed, frequency, known)?;
     let host = hosts.index(&wanted.host).unwrap_or_default();
     let dt = engine.time_step();
     let steps = |periods: u32| (f64::from(periods) / (frequency * dt)).round() as u64;
-    let empty = weight(plan) == 0;
-    let discard = if empty { wanted.discard_periods_empty } else { wanted.discard_periods };
-    let discard = steps(discard);
-    while engine.steps() < discard {
-        if interrupt.asked() {
-            return Ok(None);
+    let discarded = match discard(plan, wanted) {
+        Some(periods) => {
+            let discard = steps(periods);
+            while engine.steps() < discard {
+                if interrupt.asked() {
+                    return Ok(None);
+                }
+                engine.advance(UNASKED.min(discard - engine.steps()), &mut hosts, &mut ledger)?;
+            }
+            periods
         }
-        engine.advance(UNASKED.min(discard - engine.steps()), &mut hosts, &mut ledger)?;
-    }
+        None => match transient::die_away(frequency, &mut *engine, &mut hosts, host, &mut ledger, interrupt)? {
+            Some(periods) => periods,
+            None => return Ok(None),
+        },
+    };
     let before = Account::ALL.map(|a| ledger.flow(a));
     let mut window = Window::default();
     let mut watches = Watches::new(&seeded(plan, seed), &*engine);
@@ -128,7 +145,7 @@ pub fn measure(
     let residual = ledger.residual_relative(&engine::energies(&*engine, &hosts));
     let watched = watches.scalars().zip(watches.means()).filter(|(_, mean)| mean.is_finite()).collect();
     let wall = begun.elapsed().as_secs_f64();
-    Ok(Some(Point { frequency, loss, flows, watched, residual, wall, ..window.point(frequency) }))
+    Ok(Some(Point { frequency, loss, flows, watched, residual, discarded, wall, ..window.point(frequency) }))
 }
 
 /// Everything at time 0 with the bed in place and the host shaken at this frequency [Hz].
@@ -138,6 +155,7 @@ fn open(
     seed: u32,
     bed: &State,
     frequency: f64,
+    known: &[&Point],
 ) -> Result<(Box<dyn Engine>, Hosts, Ledger), OpenError> {
     let plan = unsettled(&seeded(plan, seed));
     let mut hosts = Hosts::new(&plan.hosts);
@@ -145,21 +163,26 @@ fn open(
     hosts.list[host].set_frequency(frequency);
     let mut engine = methods::open(&plan, &hosts)?;
     engine.load(bed).map_err(|e| OpenError::Bed(e.to_string()))?;
+    if discard(&plan, wanted).is_none() {
+        transient::begin(&plan, known, frequency, &mut *engine, &mut hosts, host);
+    }
     let ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     Ok((engine, hosts, ledger))
 }
 
-/// Writes nine frames of one period, first and last of equal phase, after the transient has died away.
+/// Writes nine frames of one period at the frequency [Hz] of a peak, first and last of equal phase, after the transient has died away.
 pub(super) fn film(
     plan: &Plan,
     wanted: &Response,
     bed: &State,
     frequency: f64,
+    known: &[&Point],
     folder: &RunFolder,
 ) -> Result<(), RunError> {
-    let (mut engine, mut hosts, mut ledger) = open(plan, wanted, 0, bed, frequency)?;
+    let (mut engine, mut hosts, mut ledger) = open(plan, wanted, 0, bed, frequency, known)?;
     let step = |periods: f64| (periods / (frequency * engine.time_step())).round() as u64;
-    let begin = f64::from(wanted.discard_periods);
+    let longest = known.iter().map(|point| point.discarded).max();
+    let begin = f64::from(discard(plan, wanted).or(longest).unwrap_or(transient::LONGEST));
     let moments: Vec<u64> = (0..=8).map(|k| step(begin + f64::from(k) / 8.0)).collect();
     let mut frames = FrameWriter::create(folder.path(), crate::run::formats(plan));
     for moment in moments {
@@ -215,6 +238,7 @@ impl Window {
             watched: BTreeMap::new(),
             drift: if all > 0.0 { (rms(b) - rms(a)) / all } else { 0.0 },
             residual: 0.0,
+            discarded: 0,
             wall: 0.0,
         }
     }

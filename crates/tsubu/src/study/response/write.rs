@@ -43,6 +43,7 @@ pub(super) fn write(
         "apparent mass [kg]",
         "loss per cycle [J]",
         "drift [-]",
+        "periods discarded [-]",
         "particles [-]",
         "case [text]",
         "method [text]",
@@ -58,6 +59,7 @@ pub(super) fn write(
         "method [text]",
         "particles [-]",
         "peak frequency ratio [-]",
+        "peak within [-]",
         "peak rms [m]",
         "half-power damping [-]",
         "loss factor [-]",
@@ -93,6 +95,7 @@ pub(super) fn write(
                 number(row.apparent_mass),
                 number(row.loss),
                 number(row.drift),
+                number(f64::from(row.discarded)),
                 number(case.particles as f64),
                 text(name),
                 text(method),
@@ -103,6 +106,7 @@ pub(super) fn write(
         let Some(peak) = case.peak else { continue };
         let values = [
             ("peak frequency ratio", "-", peak.ratio),
+            ("peak within", "-", peak.within),
             ("peak rms", "m", peak.rms),
             ("half-power damping", "-", peak.half_power_damping),
             ("loss factor", "-", case.loss_factor),

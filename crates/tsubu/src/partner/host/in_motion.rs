@@ -1,0 +1,133 @@
+//! A structure that begins in the steady motion that its drive is expected to keep up.
+
+use super::Host;
+use nalgebra::{Complex, DMatrix, DVector};
+use std::f64::consts::TAU;
+use tsubu_scene::plan::Signal;
+
+/// What grains are taken for by a structure that they ride on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ballast {
+    /// Part of their force in phase with the acceleration, over it [kg].
+    pub mass: f64,
+    /// Part in phase with the velocity, over velocity and angular frequency [kg].
+    pub lossy_mass: f64,
+    /// Their weight along the direction of motion [N].
+    pub weight: f64,
+}
+
+impl Host {
+    /// Puts the structure into the steady motion at `frequency` [Hz] with the grains as ballast, at the moment when the walls are
+    /// where they were drawn: base and force begin with the phase of that moment. Returns the velocity of the walls [m/s].
+    ///
+    /// (K - w^2 (M + m s s^T) + i w (C + w m' s s^T)) Q = (K + i w C) r Y + s F for the amplitudes, with s what the walls see of each
+    /// coordinate, m and m' mass and lossy mass; about the displacement K q = s W under the weight W.
+    pub fn begin_in_motion(&mut self, frequency: f64, ballast: Ballast) -> f64 {
+        let (n, w) = (self.n, TAU * frequency);
+        self.set_frequency(frequency);
+        let entry = |matrix: &[f64], i: usize, j: usize| matrix[i * n + j];
+        let spring = |i, j| Complex::new(entry(&self.stiffness, i, j), w * entry(&self.damping, i, j));
+        let impedance = DMatrix::from_fn(n, n, |i, j| {
+            let both = self.seen[i] * self.seen[j];
+            let mass = Complex::new(entry(&self.mass, i, j) + ballast.mass * both, -ballast.lossy_mass * both);
+            spring(i, j) - mass * (w * w)
+        });
+        let phasor = |signal: &Option<Signal>| match signal {
+            Some(Signal::Sine { amplitude, phase, .. }) => Complex::from_polar(*amplitude, *phase),
+            _ => Complex::default(),
+        };
+        let (base, force) = (phasor(&self.base), phasor(&self.force));
+        let load = DVector::from_fn(n, |i, _| {
+            let driven: Complex<f64> = (0..n).map(|j| spring(i, j) * self.driven[j]).sum();
+            driven * base + force * self.seen[i]
+        });
+        let stiffness = DMatrix::from_row_slice(n, n, &self.stiffness);
+        let weight = DVector::from_fn(n, |i, _| self.seen[i] * ballast.weight);
+        let (Some(amplitude), Some(sag)) = (impedance.lu().solve(&load), stiffness.lu().solve(&weight)) else {
+            return 0.0;
+        };
+        let seen = |values: &mut dyn Iterator<Item = f64>| -> f64 { values.zip(&self.seen).map(|(q, s)| q * s).sum() };
+        let whole = Complex::new(seen(&mut amplitude.iter().map(|q| q.re)), seen(&mut amplitude.iter().map(|q| q.im)));
+        // On the way up, where sag and vibration cancel; at the turning point where the sag is the larger.
+        let risen = (-seen(&mut sag.iter().copied()) / whole.norm().max(f64::MIN_POSITIVE)).clamp(-1.0, 1.0);
+        let turn = risen.asin() - whole.arg();
+        for signal in [&mut self.base, &mut self.force].into_iter().flatten() {
+            if let Signal::Sine { phase, .. } = signal {
+                *phase += turn;
+            }
+        }
+        for (i, (amplitude, sag)) in amplitude.iter().zip(&sag).enumerate() {
+            let now = amplitude * Complex::from_polar(1.0, turn);
+            (self.q[i], self.v[i]) = (sag + now.im, w * now.re);
+        }
+        // What is left of the displacement would tear the walls from the grains.
+        let (left, square) = (self.displacement(), self.seen.iter().map(|s| s * s).sum::<f64>());
+        for (q, s) in self.q.iter_mut().zip(&self.seen) {
+            *q -= s * left / square;
+        }
+        self.settle_acceleration(0.0);
+        self.power = self.powers(self.drive(0.0));
+        self.velocity()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Ballast;
+    use crate::ledger::Ledger;
+    use crate::partner::Host;
+    use std::f64::consts::TAU;
+    use tsubu_scene::plan::{self, Signal, Structure};
+
+    fn host() -> Host {
+        let mass = vec![vec![2.0, 0.0], vec![0.0, 1.0]];
+        let damping = vec![vec![0.6, -0.2], vec![-0.2, 0.3]];
+        let stiffness = vec![vec![900.0, -300.0], vec![-300.0, 300.0]];
+        Host::new(&plan::Host {
+            structure: Structure::Matrices { mass, damping, stiffness, coordinate: 1 },
+            direction: [0.0, 0.0, 1.0],
+            base: Some(Signal::Sine { amplitude: 1e-3, frequency: 1.0, phase: 0.4 }),
+            force: None,
+            displacement: 0.0,
+            velocity: 0.0,
+        })
+    }
+
+    /// Largest displacement in the second and in the twentieth period of an empty structure; without a transient they are the same.
+    fn drift(begin: impl Fn(&mut Host, f64)) -> f64 {
+        let (frequency, steps) = (2.1, 4000);
+        let mut host = host();
+        begin(&mut host, frequency);
+        let dt = 1.0 / (frequency * f64::from(steps));
+        let mut highest = [0.0_f64; 20];
+        for step in 0..20 * steps {
+            host.before(dt);
+            host.after(f64::from(step + 1) * dt, dt, 0.0, &mut Ledger::default());
+            let period = &mut highest[(step / steps) as usize];
+            *period = period.max(host.displacement().abs());
+        }
+        (highest[1] / highest[19] - 1.0).abs()
+    }
+
+    /// Two coordinates, driven by the base between their resonances: begun in motion they are steady from the first, begun at
+    /// rest (the control) they are not.
+    #[test]
+    fn no_transient_is_left() {
+        let ballast = Ballast { mass: 0.0, lossy_mass: 0.0, weight: 0.0 };
+        let begun = drift(|host, frequency| {
+            let velocity = host.begin_in_motion(frequency, ballast);
+            assert!(velocity > 0.0 && host.displacement().abs() < 1e-18);
+        });
+        assert!(begun < 1e-4, "{begun}");
+        assert!(drift(Host::set_frequency) > 1e-2);
+    }
+
+    /// A weight that is too heavy for the vibration: the walls begin where they were drawn all the same.
+    #[test]
+    fn walls_begin_where_they_were_drawn() {
+        let mut host = host();
+        host.begin_in_motion(2.1, Ballast { mass: 0.2, lossy_mass: 0.1, weight: -50.0 });
+        assert!(host.displacement().abs() < 1e-15);
+        assert!(host.energy(0.0).0 < (TAU * 2.1 * 1e-2_f64).powi(2));
+    }
+}
