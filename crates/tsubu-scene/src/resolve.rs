@@ -3,8 +3,11 @@
 //! The tree is walked along the registry. A wrong value is complained about and left out, so that the rest can still
 //! be checked; the result is complete only when there are no complaints.
 
+mod beam;
 mod derive;
 mod limits;
+mod matrix_market;
+mod modal_table;
 mod several;
 mod table;
 mod value;

@@ -44,6 +44,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/impact-damper.toml"),
     },
     Template {
+        name: "beam-damper",
+        about: "a box of balls at the tip of a clamped beam: it moves and tilts with the modes, and damps the first resonance",
+        text: include_str!("../../../scenes/beam-damper.toml"),
+    },
+    Template {
         name: "heap",
         about: "a hopper empties onto a floor and a heap grows: watches count, weigh and measure; the scene claims what comes out",
         text: include_str!("../../../scenes/heap.toml"),

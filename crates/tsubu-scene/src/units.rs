@@ -53,6 +53,9 @@ dimensions! {
     DENSITY "a density" "kg/m^3" [-3, 1, 0, 0] [1e-9, 1e9] ["kg/m^3", "g/cm^3"] ["2650 kg/m^3", "1.18 g/cm^3"] "Densities."
     ANGLE "an angle" "rad" [0, 0, 0, 1] [1e-15, 1e9] ["deg", "rad"] ["40 deg", "0.5 rad"] "Angles."
     SPIN "an angular speed" "rad/s" [0, 0, -1, 1] [1e-15, 1e12] ["rad/s", "deg/s", "rpm"] ["10 rad/s", "95 rpm"] "Angular speeds."
+    TURN_PER_LENGTH "a rotation per length" "rad/m" [-1, 0, 0, 1] [1e-15, 1e15] ["rad/m", "deg/mm"] ["2 rad/m"] "Rotations for a unit of a coordinate."
+    TURN_DAMPING "a torque over a spin" "N m s" [2, 1, -1, 0] [1e-30, 1e20] ["N m s", "N mm s"] ["2 mN m s"]
+        "Coefficients of viscous damping of a turning body."
     AREA "an area" "m^2" [2, 0, 0, 0] [1e-24, 1e18] ["m^2", "cm^2", "mm^2"] ["4 cm^2", "1e-4 m^2"] "Areas."
     INERTIA "a moment of inertia" "kg m^2" [2, 1, 0, 0] [1e-50, 1e30] ["kg m^2", "g cm^2", "g mm^2"] ["2 g cm^2"] "Moments of inertia."
     AREA_RATE "an area per time" "m^2/s" [2, 0, -1, 0] [1e-20, 1e12] ["m^2/s", "cm^2/s", "mm^2/s"] ["1e-6 m^2/s", "1 mm^2/s"]

@@ -55,6 +55,8 @@ base.sine = { amplitude = 0.001, frequency = 3, phase = "40 deg" }
 [hosts.two]
 structure.matrices = { mass = [[2, 0], [0, 1]], damping = [[0.1, 0], [0, 0.1]], stiffness = [[3, -1], [-1, 2]], coordinate = 1 }
 force.impact = { peak = "3 N", duration = "2 ms" }
+at = "tip"
+interface.tip = { point = [0, 0, "3 cm"], translation = [[0, 0, 1], [1, 0, 0]], rotation = [[0, "2 rad/m", 0], [0, 0, 0]] }
 [hosts.three]
 structure.modes.mode = [{ frequency = 3, damping-ratio = 0.01, mass = 0.2 }, { frequency = 7, damping-ratio = 0.02, mass = 0.1, shape = -0.3 }]
 base.table = { time = [0, "10 ms", 0.3], value = [0, "1 mm", 0] }

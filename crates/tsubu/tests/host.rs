@@ -8,6 +8,8 @@ fn host(structure: plan::Structure, displacement: f64) -> Host {
     Host::new(&plan::Host {
         structure,
         direction: [0.0, 0.0, 1.0],
+        interface: std::collections::BTreeMap::new(),
+        at: None,
         base: None,
         force: None,
         displacement,
@@ -52,7 +54,7 @@ fn one_mode_is_the_oscillator() {
         let time = dt * f64::from(step);
         for (host, ledger) in [(&mut a, &mut ledger), (&mut b, &mut ledger_b)] {
             host.before(dt);
-            host.after(time, dt, 0.0, ledger);
+            host.after(time, dt, ledger);
         }
         rk.runge_kutta(time - dt, dt, 0.0, &mut ledger_rk);
     }
@@ -93,7 +95,7 @@ fn books_of_two_masses_close_by_both_integrators() {
             let time = dt * f64::from(step);
             if verlet {
                 host.before(dt);
-                host.after(time, dt, 0.0, &mut ledger);
+                host.after(time, dt, &mut ledger);
             } else {
                 host.runge_kutta(time - dt, dt, 0.0, &mut ledger);
             }

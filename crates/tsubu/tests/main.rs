@@ -8,6 +8,7 @@ mod contact;
 mod dem;
 mod grouping;
 mod host;
+mod interface;
 mod lattice;
 mod outside;
 mod response;

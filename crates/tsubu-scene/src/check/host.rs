@@ -2,23 +2,31 @@
 
 use super::Parts;
 use crate::complaint::Complaint;
-use crate::plan::Structure;
+use crate::plan::{Host, Structure};
 
 pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
+    for (wall, _) in parts.walls.iter().filter(|(_, wall)| wall.interface.is_some() && wall.host.is_none()) {
+        complaints.push(
+            Complaint::new(format!("the wall `{wall}` hangs on an interface of no host"))
+                .at(&parts.root.locate(&["walls", wall, "interface"]), "of which host?")
+                .hint("add `host = \"NAME\"`"),
+        );
+    }
     for (name, host) in &parts.hosts {
         let at = |keys: &[&str]| {
             let path: Vec<&str> = ["hosts", name.as_str(), "structure"].iter().chain(keys).copied().collect();
             parts.root.locate(&path)
         };
+        interfaces(parts, name, host, complaints);
         match &host.structure {
-            Structure::Oscillator { .. } => {}
+            Structure::Oscillator { .. } | Structure::Pendulum { .. } => {}
             Structure::Modes { mode } => {
                 if mode.is_empty() {
                     complaints.push(
                         Complaint::new(format!("the host `{name}` has no modes"))
                             .at(&at(&["modes"]), "the list is empty"),
                     );
-                } else if mode.iter().all(|mode| mode.shape == 0.0) {
+                } else if host.at.is_none() && mode.iter().all(|mode| mode.shape == 0.0) {
                     complaints.push(
                         Complaint::new(format!("no mode of the host `{name}` moves the walls"))
                             .at(&at(&["modes"]), "every `shape` is 0"),
@@ -65,6 +73,78 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
                     ));
                 }
             }
+        }
+    }
+}
+
+/// Mass that nobody means, too little and too much [kg].
+const ABSURD: [f64; 2] = [1e-9, 1e12];
+
+/// The shapes of interfaces have as many entries as the structure has coordinates, and walls hang on interfaces that are there.
+fn interfaces(parts: &Parts<'_>, name: &str, host: &Host, complaints: &mut Vec<Complaint>) {
+    let coordinates = match &host.structure {
+        Structure::Oscillator { .. } | Structure::Pendulum { .. } => 1,
+        Structure::Matrices { mass, .. } => mass.len(),
+        Structure::Modes { mode } => mode.len(),
+    };
+    let plane = parts.resolved.get("dimension").and_then(toml::Value::as_integer) == Some(2);
+    for (interface, shapes) in &host.interface {
+        let path = ["hosts", name, "interface", interface];
+        for (key, list, may_be_empty) in
+            [("translation", &shapes.translation, false), ("rotation", &shapes.rotation, true)]
+        {
+            if list.len() != coordinates && !(may_be_empty && list.is_empty()) {
+                complaints.push(
+                    Complaint::new(format!("`{key}` of the interface `{interface}` has another number of vectors than the host `{name}` has coordinates"))
+                        .at(&parts.root.locate(&[&path[..], &[key]].concat()), format!("{} vectors, {coordinates} coordinates", list.len())),
+                );
+            }
+        }
+        let leaves = |list: &[[f64; 3]], axes: &[usize]| list.iter().any(|v| axes.iter().any(|axis| v[*axis] != 0.0));
+        if plane && (leaves(&shapes.translation, &[1]) || leaves(&shapes.rotation, &[0, 2])) {
+            complaints.push(
+                Complaint::new(format!("the interface `{interface}` of the host `{name}` leaves the plane"))
+                    .at(&parts.root.locate(&path), "moves along y, or turns about x or z")
+                    .hint("the scene is in the plane of x and z; `dimension = 3` is space"),
+            );
+        }
+        if let Structure::Modes { mode } = &host.structure {
+            let mobility =
+                mode.iter().zip(&shapes.translation).map(|(mode, t)| t.iter().map(|x| x * x).sum::<f64>() / mode.mass);
+            let mass = 1.0 / mobility.sum::<f64>();
+            if mass.is_finite() && !(ABSURD[0]..=ABSURD[1]).contains(&mass) {
+                complaints.push(
+                    Complaint::new(format!("the host `{name}` would show a mass of {mass:.1e} kg at its interface `{interface}`"))
+                        .at(&parts.root.locate(&path), "nobody means that")
+                        .hint("vectors of modal mass one have units: in a table of modes write `NAME x [1/sqrt(t)]` where the mass was in tonnes"),
+                );
+            }
+        }
+    }
+    if matches!(host.structure, Structure::Pendulum { .. }) {
+        for (key, there) in [("base", host.base.is_some()), ("interface", !host.interface.is_empty())] {
+            if there {
+                complaints.push(
+                    Complaint::new(format!("the pendulum `{name}` has no `{key}`"))
+                        .at(&parts.root.locate(&["hosts", name, key]), "not of a pendulum")
+                        .hint("its walls turn about its axis without an interface; `force` drives it"),
+                );
+            }
+        }
+    }
+    let hanging = parts.walls.iter().filter(|(_, wall)| wall.host.as_deref() == Some(name));
+    for (wall, interface) in hanging.filter_map(|(wall, plan)| Some((wall, plan.interface.as_ref()?))) {
+        if !host.interface.contains_key(interface) {
+            let names: Vec<String> = host.interface.keys().map(|name| format!("`{name}`")).collect();
+            complaints.push(
+                Complaint::new(format!("the host `{name}` has no interface `{interface}`"))
+                    .at(&parts.root.locate(&["walls", wall, "interface"]), "not an interface")
+                    .hint(if names.is_empty() {
+                        "it has none".to_owned()
+                    } else {
+                        format!("interfaces here: {}", names.join(", "))
+                    }),
+            );
         }
     }
 }

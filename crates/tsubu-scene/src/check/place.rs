@@ -127,7 +127,13 @@ fn room<'a>(parts: &Parts<'_>, name: &'a str, wall: &Wall) -> Option<Room<'a>> {
     let (direction, displacement) = if let Some(motion) = &wall.motion {
         (motion.direction, signal_at_start(&motion.signal))
     } else if let Some(host) = wall.host.as_ref().and_then(|host| parts.hosts.get(host)) {
-        (host.direction, host_at_start(host))
+        match wall.interface.as_ref().and_then(|interface| host.interface.get(interface)) {
+            Some(interface) => {
+                let sum = |axis: usize| interface.translation.iter().map(|t| t[axis] * host.displacement).sum();
+                ([0, 1, 2].map(sum), 1.0)
+            }
+            None => (host.direction, host_at_start(host)),
+        }
     } else {
         ([0.0; 3], 0.0)
     };
@@ -148,6 +154,7 @@ fn signal_at_start(signal: &Signal) -> f64 {
 fn host_at_start(host: &Host) -> f64 {
     match &host.structure {
         Structure::Oscillator { .. } | Structure::Matrices { .. } => host.displacement,
+        Structure::Pendulum { .. } => 0.0,
         Structure::Modes { mode } => mode.iter().map(|mode| mode.shape * host.displacement).sum(),
     }
 }

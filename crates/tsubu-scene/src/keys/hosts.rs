@@ -2,16 +2,42 @@
 
 use super::{Key, Kind, Variant};
 use crate::units::{
-    ACCELERATION, ANGLE, DAMPING, FORCE, FREQUENCY, LENGTH, LOAD_RATE, MASS, NUMBER, SPEED, SPIN, STIFFNESS, TIME,
+    ACCELERATION, ANGLE, DAMPING, DENSITY, FORCE, FREQUENCY, INERTIA, LENGTH, LOAD_RATE, MASS, NUMBER, PRESSURE, SPEED,
+    SPIN, STIFFNESS, TIME, TURN_DAMPING, TURN_PER_LENGTH,
 };
 
 pub(super) static HOST: &[Key] = &[
     Key::new("structure", Kind::Choice(STRUCTURE), "Its matrices"),
     Key::new("direction", Kind::Direction, "Direction of its motion").default("'z'"),
+    Key::new(
+        "interface",
+        Kind::Named(INTERFACE, "A point of the structure that walls hang on, with its motion in six directions"),
+        "Points of the structure that walls hang on",
+    )
+    .default("{}"),
+    Key::new("at", Kind::Text, "The interface whose displacement along `direction` is told, and where `force` acts")
+        .derived("the only interface"),
     Key::new("base", Kind::Choice(&DISPLACEMENT), "Displacement of the base against time").optional().may_change(),
     Key::new("force", Kind::Choice(&LOAD), "Applied force against time").optional().may_change(),
     Key::new("displacement", Kind::Quantity(&LENGTH), "Displacement of every coordinate at time 0").default("0"),
     Key::new("velocity", Kind::Quantity(&SPEED), "Velocity of every coordinate at time 0").default("0"),
+];
+
+static INTERFACE: &[Key] = &[
+    Key::new("point", Kind::Vector(&LENGTH), "Where it is as drawn").derived("from `along` on a beam"),
+    Key::new("along", Kind::Quantity(&LENGTH), "Distance from the root of a beam").at_least(0.0).optional(),
+    Key::new(
+        "translation",
+        Kind::Vectors(&NUMBER),
+        "Its displacement [x, y, z] for a unit of each coordinate: mode shapes, or rows of ones and zeros",
+    )
+    .derived("from the beam, or from the table of modes"),
+    Key::new(
+        "rotation",
+        Kind::Vectors(&TURN_PER_LENGTH),
+        "Its rotation vector [x, y, z] for a unit of each coordinate",
+    )
+    .derived("from the beam, or from the table of modes; otherwise it does not turn"),
 ];
 
 static STRUCTURE: &[Variant] = &[
@@ -52,6 +78,81 @@ static STRUCTURE: &[Variant] = &[
         name: "modes",
         about: "n degrees of freedom by a list of modes",
         keys: &[Key::new("mode", Kind::Many(MODE), "The modes")],
+    },
+    Variant {
+        name: "modal-table",
+        about: "n degrees of freedom by a table of modes, as programs for finite elements give them",
+        keys: &[Key::new(
+            "file",
+            Kind::Text,
+            "CSV file beside the scene with a line for each mode: `frequency [Hz]`, `damping ratio`, `mass [kg]` (1 without that column), \
+`participation` (0), and for each interface NAME the columns `NAME x`, `NAME y`, `NAME z`, `NAME rx`, `NAME ry`, `NAME rz`",
+        )],
+    },
+    Variant {
+        name: "matrix-market",
+        about: "n degrees of freedom by matrices in files of the Matrix Market, in SI units",
+        keys: &[
+            Key::new("mass", Kind::Text, "File of M beside the scene, symmetric and positive definite"),
+            Key::new("damping", Kind::Text, "File of C, symmetric"),
+            Key::new("stiffness", Kind::Text, "File of K, symmetric and positive definite"),
+            Key::new("coordinate", Kind::Whole, "Index (from 0) of the coordinate that is told and takes the force")
+                .default("0")
+                .at_least(0.0)
+                .at_most(1e4),
+        ],
+    },
+    Variant {
+        name: "beam",
+        about: "A beam clamped at its root, which bends along the host's direction (Euler and Bernoulli)",
+        keys: &[
+            Key::new("length", Kind::Quantity(&LENGTH), "Free length").above(0.0),
+            Key::new("section", Kind::Choice(SECTION), "Its cross section"),
+            Key::new("young-modulus", Kind::Quantity(&PRESSURE), "Young's modulus").above(0.0),
+            Key::new("density", Kind::Quantity(&DENSITY), "Density").above(0.0),
+            Key::new("damping-ratio", Kind::Quantity(&NUMBER), "Damping of each mode over critical damping")
+                .at_least(0.0),
+            Key::new("modes", Kind::Whole, "Number of its modes, lowest first").default("3").at_least(1.0).at_most(8.0),
+            Key::new("root", Kind::Vector(&LENGTH), "Where it is clamped").default("'origin'"),
+            Key::new("axis", Kind::Direction, "Direction from the root to the tip, across the host's direction")
+                .default("'x'"),
+        ],
+    },
+    Variant {
+        name: "pendulum",
+        about: "A rigid body that swings about an axis, at any angle; its walls are drawn where it begins",
+        keys: &[
+            Key::new("pivot", Kind::Vector(&LENGTH), "A point on the axis").default("'origin'"),
+            Key::new("axis", Kind::Axis, "Direction of the axis").default("'y'"),
+            Key::new("mass", Kind::Quantity(&MASS), "Mass of the body, without the grains").above(0.0),
+            Key::new("centre", Kind::Quantity(&LENGTH), "Distance of its centre of mass from the axis").at_least(0.0),
+            Key::new("inertia", Kind::Quantity(&INERTIA), "Moment of inertia about the axis").above(0.0),
+            Key::new("damping", Kind::Quantity(&TURN_DAMPING), "Torque over spin").at_least(0.0).default("0"),
+            Key::new(
+                "arm",
+                Kind::Quantity(&LENGTH),
+                "Distance from the axis whose displacement along the arc is told, and where `force` acts",
+            )
+            .above(0.0),
+            Key::new("angle", Kind::Quantity(&ANGLE), "Angle at time 0 from gravity to the line to its centre of mass")
+                .default("0"),
+        ],
+    },
+];
+
+static SECTION: &[Variant] = &[
+    Variant {
+        name: "rectangle",
+        about: "A rectangle",
+        keys: &[
+            Key::new("width", Kind::Quantity(&LENGTH), "Across the host's direction").above(0.0),
+            Key::new("height", Kind::Quantity(&LENGTH), "Along the host's direction").above(0.0),
+        ],
+    },
+    Variant {
+        name: "round",
+        about: "A full circle",
+        keys: &[Key::new("diameter", Kind::Quantity(&LENGTH), "Diameter").above(0.0)],
     },
 ];
 

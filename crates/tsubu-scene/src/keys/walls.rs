@@ -10,6 +10,12 @@ pub(super) static WALL: &[Key] = &[
     Key::new("host", Kind::Name(Family::Host), "The host that carries it")
         .optional()
         .rivals(&["motion", "rotation", "servo", "body", "until"]),
+    Key::new(
+        "interface",
+        Kind::Text,
+        "The interface of the host that it hangs on and turns with; none: it moves along the host's direction",
+    )
+    .optional(),
     Key::new("motion", Kind::Table(MOTION), "Prescribed motion, for example a shaker")
         .may_change()
         .optional()

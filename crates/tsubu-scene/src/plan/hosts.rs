@@ -2,6 +2,7 @@
 
 use super::Vector;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A quantity given against time: displacement [m] or force [N], as the place says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -59,6 +60,12 @@ pub struct Host {
     pub structure: Structure,
     /// Unit direction of its motion.
     pub direction: Vector,
+    /// Points of the structure that walls can hang on, each with its motion in six directions; where there are none, walls move along
+    /// `direction`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub interface: BTreeMap<String, Interface>,
+    /// The interface whose displacement along `direction` is told, and where the force acts; `None` where there are none.
+    pub at: Option<String>,
     /// Base displacement y(t) [m].
     pub base: Option<Signal>,
     /// Applied force F(t) [N].
@@ -67,6 +74,19 @@ pub struct Host {
     pub displacement: f64,
     /// Velocity at time 0 of every coordinate [m/s].
     pub velocity: f64,
+}
+
+/// A point of a structure that moves and turns with it: displacement u = sum of translation times coordinate, rotation vector
+/// sum of rotation times coordinate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Interface {
+    /// Where it is as drawn [m].
+    pub point: Vector,
+    /// Displacement a unit of each coordinate [-].
+    pub translation: Vec<Vector>,
+    /// Rotation vector a unit of each coordinate [rad/m]; empty where it does not turn.
+    pub rotation: Vec<Vector>,
 }
 
 /// The matrices of a host.
@@ -98,6 +118,24 @@ pub enum Structure {
         /// The modes.
         mode: Vec<Mode>,
     },
+    /// A rigid body that swings about an axis, at any angle: I a'' + c a' + m g b sin(a) = torque of the grains, with the angle a
+    /// between gravity and the line from the axis to its centre of mass. It is drawn where it begins.
+    Pendulum {
+        /// A point on the axis [m].
+        pivot: Vector,
+        /// Unit direction of the axis.
+        axis: Vector,
+        /// I about the axis [kg.m^2].
+        inertia: f64,
+        /// c [N.m.s].
+        damping: f64,
+        /// m g b [N.m]: mass, gravity across the axis, distance of the centre of mass from the axis.
+        moment: f64,
+        /// Distance from the axis whose displacement along the arc is told, and where the force acts [m].
+        arm: f64,
+        /// Angle at time 0 [rad].
+        angle: f64,
+    },
 }
 
 /// One vibration mode.
@@ -117,6 +155,11 @@ pub struct Mode {
 }
 
 impl Host {
+    /// Whether walls without an interface turn with it.
+    pub fn turns(&self) -> bool {
+        matches!(self.structure, Structure::Pendulum { .. })
+    }
+
     /// The shortest period of the sines that drive it [s].
     pub fn period(&self) -> Option<f64> {
         let periods = [&self.base, &self.force].into_iter().flatten().filter_map(|signal| match signal {

@@ -14,6 +14,8 @@ pub struct Wall {
     pub shape: Shape,
     /// The host that carries it.
     pub host: Option<String>,
+    /// The interface of the host that it hangs on; `None`: it moves along the host's direction.
+    pub interface: Option<String>,
     /// Prescribed motion; not together with `host`, `servo` or `body`.
     pub motion: Option<Motion>,
     /// Prescribed turning, alone or together with `motion`.

@@ -2,6 +2,7 @@
 
 mod films;
 mod grains;
+mod hosts;
 mod regions;
 mod signals;
 mod walls;
@@ -40,7 +41,7 @@ pub(crate) fn derive(
     derive.particles(resolved);
     derive.water(resolved);
     derive.walls(resolved);
-    derive.oscillators(resolved);
+    derive.hosts(resolved);
     derive.signals(resolved);
     derive.films(resolved);
     settings(resolved, root);
@@ -82,31 +83,6 @@ impl Derive<'_> {
             Some(_) => complaint.also(&asked, "read from here"),
             None => complaint.at(&asked, "named here"),
         }));
-    }
-
-    fn oscillators(&mut self, resolved: &mut toml::Table) {
-        for (name, host) in tables_in(resolved, "hosts") {
-            let path = ["hosts", &name, "structure", "oscillator"];
-            let Some(oscillator) =
-                host.get_mut("structure").and_then(|s| s.get_mut("oscillator")).and_then(Value::as_table_mut)
-            else {
-                continue;
-            };
-            let ratio = oscillator.remove("damping-ratio").and_then(|ratio| ratio.as_float());
-            let number = |key: &str| oscillator.get(key).and_then(Value::as_float);
-            if let (Some(ratio), Some(mass), Some(stiffness)) = (ratio, number("mass"), number("stiffness")) {
-                oscillator.insert("damping".into(), Value::Float(2.0 * ratio * (stiffness * mass).sqrt()));
-            }
-            let typed = |key| self.typed(&[path[0], path[1], path[2], path[3], key]);
-            if !typed("damping") && !typed("damping-ratio") {
-                self.complain(
-                    Complaint::new(format!("missing key `damping` in [hosts.{name}.structure.oscillator]"))
-                        .at(&self.root.locate(&path), "needs `damping` or `damping-ratio`")
-                        .hint("`damping`: C, for example \"0.08 N s/m\"")
-                        .hint("or `damping-ratio`: C over its critical value, for example 0.01"),
-                );
-            }
-        }
     }
 
     fn response(&mut self, resolved: &mut toml::Table) {

@@ -65,8 +65,6 @@ pub(super) struct Books {
 pub(super) struct Reactions {
     /// Of each wall.
     pub wall_loads: Vec<WallLoad>,
-    /// On each host, along its direction [N].
-    pub on_hosts: Vec<f64>,
     /// Contact force on grains that forces do not move [N].
     pub on_fixed: DVec3,
     /// Power that driven grains give [W].

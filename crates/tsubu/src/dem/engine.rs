@@ -217,7 +217,7 @@ fn walls(plan: &Plan, table: &Table, hosts: &Hosts, dimension: u8, gravity: DVec
         built.material = table.material(&wall.material);
         // A wall on a light structure gives way in an impact: its mass is the one the structure shows.
         built.inverse_mass = match (&built.mover, &wall.servo, &wall.body) {
-            (Mover::Host(index, _), ..) => 1.0 / hosts.list[*index].effective_mass(),
+            (Mover::Host { host, interface }, ..) => 1.0 / hosts.list[*host].shown_mass(*interface),
             (_, Some(servo), _) => 1.0 / servo.mass,
             (_, _, Some(body)) => 1.0 / body.mass,
             _ => 0.0,

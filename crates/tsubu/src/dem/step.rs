@@ -40,7 +40,7 @@ impl DemEngine {
         self.advance_stream(ledger);
         self.second_half_step(dt, go_on);
         self.apply_reactions(hosts, ledger);
-        hosts.after(time, dt, &self.reactions.on_hosts, ledger);
+        hosts.after(time, dt, ledger);
         self.post_powers(ledger);
         if insertion_due {
             self.insert_and_remove(ledger);
@@ -162,18 +162,18 @@ impl DemEngine {
     }
 
     /// What grains did to the walls goes to those who move them.
-    fn apply_reactions(&mut self, hosts: &Hosts, ledger: &mut Ledger) {
+    fn apply_reactions(&mut self, hosts: &mut Hosts, ledger: &mut Ledger) {
         let Self { walls, faces, contacts, reactions, clock, .. } = self;
         reactions.sum_wall_loads(contacts);
-        reactions.on_hosts.clear();
-        reactions.on_hosts.resize(hosts.list.len(), 0.0);
         if clock.settling {
             return;
         }
         faces.measure(walls);
         for (wall, load) in walls.iter_mut().zip(&reactions.wall_loads) {
-            if let Some((index, direction)) = wall.host() {
-                reactions.on_hosts[index] += load.force.dot(direction);
+            if let Some((host, interface)) = wall.host() {
+                let host = &mut hosts.list[host];
+                let arm = wall.pose.origin() - host.placed(interface).origin();
+                host.hear(interface, load.force, load.torque + arm.cross(load.force));
             }
             let exchange = wall.after(load.force, load.torque, clock.dt);
             ledger.post(Account::ForceWork, exchange.work);

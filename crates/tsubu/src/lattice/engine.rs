@@ -132,16 +132,17 @@ impl LatticeEngine {
     /// Every host moves by one step; the one that carries the box feels the balls.
     fn push_hosts(&mut self, time: f64, impulse: f64, wall_speed: f64, hosts: &mut Hosts, ledger: &mut Ledger) {
         let mut before = 0.0;
-        if let Mover::Host(index, direction) = &self.mover {
-            before = direction.z * hosts.list[*index].displacement();
-            self.forces[*index] = -impulse / self.dt * direction.z;
+        if let Mover::Host { host, .. } = &self.mover {
+            let [_, _, along] = hosts.list[*host].direction;
+            before = along * hosts.list[*host].displacement();
+            self.forces[*host] = -impulse / self.dt * along;
         }
         for (host, force) in hosts.list.iter_mut().zip(&self.forces) {
             host.runge_kutta(time, self.dt, *force, ledger);
         }
-        if let Mover::Host(index, direction) = &self.mover {
+        if let Mover::Host { host, .. } = &self.mover {
             // The balls were pushed at the speed the box had before it felt them.
-            let moved = direction.z * hosts.list[*index].displacement() - before;
+            let moved = hosts.list[*host].direction[2] * hosts.list[*host].displacement() - before;
             ledger.post(Account::HeavyBox, impulse * (moved / self.dt - wall_speed));
         }
     }

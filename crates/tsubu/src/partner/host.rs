@@ -1,20 +1,22 @@
 //! A vibrating structure that carries walls.
 //!
-//! M q'' + C (q' - r y') + K (q - r y) = w (F(t) + F_grains)
+//! M q'' + C (q' - r y') + K (q - r y) = w F(t) + F_grains
 //!
 //! q: generalised displacements [m], measured from the equilibrium without grains and with the structure's own weight
 //! carried; y: base displacement [m]; r: how the base drives each coordinate (ones for matrices, participation for modes);
-//! w: how much of each coordinate the walls see (one at `coordinate`, mode shapes for modes). Komatsuzaki 2003, eq. (1), is
-//! the case of one coordinate.
+//! w: how much of each coordinate is told and takes the force (one at `coordinate`, mode shapes for modes); F_grains: what grains do to
+//! each coordinate, by the interfaces that their walls hang on. Komatsuzaki 2003, eq. (1), is the case of one coordinate.
 //!
 //! With DEM the structure moves by velocity Verlet in step with the grains (damping implicit, exact for any C); with the
 //! automaton by Runge-Kutta 4 under the force of the step.
 
 mod in_motion;
+mod interface;
 mod matrices;
 mod runge_kutta;
 
 pub use in_motion::Ballast;
+pub use interface::{Interface, Placed};
 
 use crate::ledger::{Account, Ledger};
 use crate::motion::value_and_rate;
@@ -35,6 +37,10 @@ pub struct Host {
     implicit_inverse: (f64, Vec<f64>),
     seen: Vec<f64>,
     driven: Vec<f64>,
+    /// Where walls hang: first what moves along `direction`, then those with names.
+    interfaces: Vec<Interface>,
+    /// Moment of its own weight [N.m] and angle at time 0 [rad] of a pendulum.
+    weight: Option<(f64, f64)>,
     /// Unit direction of the motion.
     pub direction: [f64; 3],
     base: Option<Signal>,
@@ -47,16 +53,24 @@ pub struct Host {
     v_half: Vec<f64>,
     /// Powers at the last time level: base work, force work, damper loss [W].
     power: [f64; 3],
-    /// Force of the grains at the last time level [N].
+    /// Force of the grains along `direction` at the last time level [N], and what they do to each coordinate.
     grain_force: f64,
+    felt: Vec<f64>,
+    /// The same of the step that is being made.
+    heard: (f64, Vec<f64>),
     work: Vec<f64>,
 }
 
 impl Host {
     /// Builds a host at time 0, without grain forces.
     pub fn new(plan: &plan::Host) -> Self {
-        let (mass, damping, stiffness, seen, driven) = matrices(&plan.structure);
+        let (mass, damping, stiffness, mut seen, driven) = matrices(&plan.structure);
         let n = seen.len();
+        let interfaces = Interface::all(plan, &mut seen);
+        let weight = match plan.structure {
+            plan::Structure::Pendulum { moment, angle, .. } => Some((moment, angle)),
+            _ => None,
+        };
         let mut host = Self {
             n,
             mass_inverse: inverse(&mass, n),
@@ -74,9 +88,13 @@ impl Host {
             v_half: vec![plan.velocity; n],
             power: [0.0; 3],
             grain_force: 0.0,
+            felt: vec![0.0; n],
+            heard: (0.0, vec![0.0; n]),
             work: vec![0.0; 4 * n],
             seen,
             driven,
+            interfaces,
+            weight,
         };
         host.settle_acceleration(0.0);
         host.power = host.powers(host.drive(0.0));
@@ -100,16 +118,30 @@ impl Host {
 
     /// Undamped natural frequencies [Hz], lowest first, of the structure without grains.
     pub fn natural_frequencies(&self) -> Vec<f64> {
+        self.undamped().into_iter().map(|(frequency, _)| frequency).collect()
+    }
+
+    /// Mass of the lowest mode, where its displacement is told [kg]: the structure near that resonance is an oscillator of this mass.
+    pub fn modal_mass(&self) -> f64 {
+        self.undamped().first().map_or(f64::NAN, |(_, seen)| 1.0 / (seen * seen))
+    }
+
+    /// Natural frequencies [Hz] of the undamped modes, lowest first, and what is seen of each when its modal mass is one [1/sqrt(kg)].
+    fn undamped(&self) -> Vec<(f64, f64)> {
         let n = self.n;
         let m = nalgebra::DMatrix::from_row_slice(n, n, &self.mass);
         let k = nalgebra::DMatrix::from_row_slice(n, n, &self.stiffness);
         // K x = w^2 M x becomes symmetric with the Cholesky factor of M.
         let Some(cholesky) = m.cholesky() else { return Vec::new() };
         let Some(l_inverse) = cholesky.l().try_inverse() else { return Vec::new() };
-        let symmetric = &l_inverse * k * l_inverse.transpose();
-        let mut w2: Vec<f64> = symmetric.symmetric_eigenvalues().iter().copied().collect();
-        w2.sort_by(f64::total_cmp);
-        w2.iter().map(|w2| w2.max(0.0).sqrt() / std::f64::consts::TAU).collect()
+        let hanging = nalgebra::DMatrix::from_element(n, n, self.weight.map_or(0.0, |(moment, _)| moment));
+        let modes = (&l_inverse * (k + hanging) * l_inverse.transpose()).symmetric_eigen();
+        let vectors = l_inverse.transpose() * modes.eigenvectors;
+        let seen = vectors.column_iter().map(|x| x.iter().zip(&self.seen).map(|(x, w)| x * w).sum());
+        let frequency = |w2: &f64| w2.max(0.0).sqrt() / std::f64::consts::TAU;
+        let mut found: Vec<(f64, f64)> = modes.eigenvalues.iter().map(frequency).zip(seen).collect();
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found
     }
 
     /// Damping ratio of the lowest mode, from the damping seen along it [-].
@@ -123,11 +155,16 @@ impl Host {
         (0..n).map(ratio).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |r| r.1)
     }
 
-    /// Mass that walls feel when they are pushed: 1 / (w . M^-1 w) [kg].
+    /// Mass that the structure shows to a push along its direction: 1 / (w . M^-1 w) [kg].
     pub fn effective_mass(&self) -> f64 {
+        1.0 / self.mobility(&self.seen)
+    }
+
+    /// w . M^-1 w: the acceleration of a point that sees `w` of each coordinate, over the force on it [1/kg].
+    fn mobility(&self, w: &[f64]) -> f64 {
         let mut x = vec![0.0; self.n];
-        multiply(&self.mass_inverse, &self.seen, &mut x);
-        1.0 / dot(&self.seen, &x)
+        multiply(&self.mass_inverse, w, &mut x);
+        dot(w, &x)
     }
 
     /// Replaces the excitation frequency of base and force sines [Hz].
@@ -161,7 +198,10 @@ impl Host {
     pub fn energy(&self, time: f64) -> (f64, f64) {
         let y = self.base(time).0;
         let stretch: Vec<f64> = self.q.iter().zip(&self.driven).map(|(q, r)| q - r * y).collect();
-        (0.5 * quadratic(&self.mass, &self.v), 0.5 * quadratic(&self.stiffness, &stretch))
+        // 1 - cos(a) would lose what small angles store.
+        let raised = |(moment, angle): (f64, f64)| 2.0 * moment * (0.5 * (self.q[0] + angle)).sin().powi(2);
+        let stored = 0.5 * quadratic(&self.stiffness, &stretch) + self.weight.map_or(0.0, raised);
+        (0.5 * quadratic(&self.mass, &self.v), stored)
     }
 
     /// First half of a velocity-Verlet step: half kick and drift; the velocity becomes a prediction.
@@ -173,14 +213,18 @@ impl Host {
         }
     }
 
-    /// Second half: the grains' force [N] along `direction` is known at `time`, the end of the step.
-    pub fn after(&mut self, time: f64, dt: f64, grain_force: f64, ledger: &mut Ledger) {
+    /// Second half: what the grains do has been [heard](Host::hear) for `time`, the end of the step.
+    pub fn after(&mut self, time: f64, dt: f64, ledger: &mut Ledger) {
         if self.implicit_inverse.0 != dt {
             let matrix: Vec<f64> = self.mass.iter().zip(&self.damping).map(|(m, c)| m + 0.5 * dt * c).collect();
             self.implicit_inverse = (dt, inverse(&matrix, self.n));
         }
         let drive = self.drive(time);
-        self.net_force(drive, grain_force, true);
+        let grain_force = self.heard.0;
+        std::mem::swap(&mut self.felt, &mut self.heard.1);
+        self.heard.0 = 0.0;
+        self.heard.1.fill(0.0);
+        self.net_force(drive, true);
         multiply(&self.implicit_inverse.1, &self.work[..self.n], &mut self.a);
         for i in 0..self.n {
             self.v[i] = self.v_half[i] + 0.5 * dt * self.a[i];
@@ -199,6 +243,9 @@ impl Host {
         values.extend(self.power);
         values.push(self.grain_force);
         state.put_real(name, values);
+        if self.interfaces.len() > 1 {
+            state.put_real(&format!("{name}.felt"), self.felt.clone());
+        }
         if self.driven_since != 0.0 {
             state.put_real(&format!("{name}.driven-since"), vec![self.driven_since]);
         }
@@ -216,6 +263,16 @@ impl Host {
         self.a.copy_from_slice(&values[2 * n..3 * n]);
         self.power.copy_from_slice(&values[3 * n..3 * n + 3]);
         self.grain_force = values[3 * n + 3];
+        for (felt, seen) in self.felt.iter_mut().zip(&self.seen) {
+            *felt = seen * self.grain_force;
+        }
+        if self.interfaces.len() > 1 {
+            let felt = state.real(&format!("{name}.felt"))?;
+            if felt.len() != n {
+                return Err(MissingSection { name: name.to_owned(), kind: "real" });
+            }
+            self.felt.copy_from_slice(felt);
+        }
         if let Ok(&[since]) = state.real(&format!("{name}.driven-since")) {
             self.driven_since = since;
         }
@@ -237,10 +294,9 @@ impl Host {
 
     /// Puts all forces on the coordinates into the first n entries of `work`; the dampers see the half-step velocities or
     /// the present ones.
-    fn net_force(&mut self, drive: Drive, grain_force: f64, half: bool) {
+    fn net_force(&mut self, drive: Drive, half: bool) {
         let n = self.n;
         let Drive { y, y_rate, applied } = drive;
-        let applied = applied + grain_force;
         let velocity = if half { &self.v_half } else { &self.v };
         let (force, rest) = self.work.split_at_mut(n);
         let (rates, stretches) = rest.split_at_mut(n);
@@ -250,16 +306,19 @@ impl Host {
         }
         for (i, force) in force.iter_mut().enumerate() {
             let row = i * n..(i + 1) * n;
-            *force = self.seen[i] * applied
+            *force = (self.seen[i] * applied + self.felt[i])
                 - dot(&self.damping[row.clone()], rates)
                 - dot(&self.stiffness[row], &stretches[..n]);
+        }
+        if let Some((moment, angle)) = self.weight {
+            force[0] -= moment * (self.q[0] + angle).sin();
         }
     }
 
     /// Acceleration from the present q, v and grain force.
     fn settle_acceleration(&mut self, time: f64) {
         let drive = self.drive(time);
-        self.net_force(drive, self.grain_force, false);
+        self.net_force(drive, false);
         multiply(&self.mass_inverse, &self.work[..self.n], &mut self.a);
     }
 

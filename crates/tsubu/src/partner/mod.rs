@@ -2,7 +2,7 @@
 
 pub mod host;
 
-pub use host::{Ballast, Host};
+pub use host::{Ballast, Host, Interface, Placed};
 
 use crate::ledger::Ledger;
 use std::collections::BTreeMap;
@@ -60,10 +60,10 @@ impl Hosts {
         }
     }
 
-    /// Second half: every host hears the force of the grains [N], one entry a host, at `time` (the end of the step).
-    pub fn after(&mut self, time: f64, dt: f64, forces: &[f64], ledger: &mut Ledger) {
-        for (host, force) in self.list.iter_mut().zip(forces) {
-            host.after(time, dt, *force, ledger);
+    /// Second half: what the grains do to every host has been heard for `time` (the end of the step).
+    pub fn after(&mut self, time: f64, dt: f64, ledger: &mut Ledger) {
+        for host in &mut self.list {
+            host.after(time, dt, ledger);
         }
     }
 

@@ -226,10 +226,10 @@ impl Wall {
         self.surface.travel(&self.pose, reference, extent)
     }
 
-    /// The host that carries it and the direction it is carried along.
-    pub fn host(&self) -> Option<(usize, DVec3)> {
+    /// The host that carries it and the interface that it hangs on, by number.
+    pub fn host(&self) -> Option<(usize, usize)> {
         match self.mover {
-            Mover::Host(index, direction) => Some((index, direction)),
+            Mover::Host { host, interface } => Some((host, interface)),
             _ => None,
         }
     }

@@ -3,7 +3,7 @@
 use super::{Body, Pose, Servo, Steered};
 use crate::about::About;
 use crate::motion::value_and_rate;
-use crate::partner::Hosts;
+use crate::partner::{Hosts, Placed};
 use glam::{DQuat, DVec3};
 use tsubu_scene::plan::{self, Signal};
 
@@ -25,12 +25,15 @@ pub(crate) const ROTATION: About = About {
 
 pub(crate) const HOST: About = About {
     key: "walls.NAME.host",
-    formula: "x = x0 + direction z(t), v = direction dz/dt, z = w . q\nM q'' + C (q' - r y') + K (q - r y) = w (F + F_grains)",
-    symbols: "direction unit vector of the host [-], q displacements [m] of a structure with matrices M [kg], C [N.s/m], K [N/m], \
-y(t) displacement of its base [m], F(t) applied force [N], F_grains force of the grains on its walls along the direction [N], w what \
-the walls see of each coordinate, r how the base drives it [-]",
-    limits: "One direction: the wall does not tilt. In an impact it shows the mass of the structure. The host itself, \
-`[hosts.NAME]`, may carry several walls; its energy and what base and force do to it are in the ledger.",
+    formula: "x = p + u + R (x0 - p), u = sum of t q, R = exp(sum of r q)\nM q'' + C (q' - g y') + K (q - g y) = w F + F_grains, \
+F_grains = t . F + r . J^T T",
+    symbols: "p drawn point of the interface [m], u its displacement [m], R its rotation, t and r translation and rotation a unit of each \
+coordinate, q coordinates of a structure with matrices M, C, K, y(t) displacement of its base [m], g how the base drives each coordinate, \
+F(t) applied force [N], w what the point at which it acts sees of each coordinate, F and T force [N] and torque about the interface [N.m] \
+of the grains, J left Jacobian of the rotation vector. Without `interface`: t = w direction, and no rotation",
+    limits: "Displacements are linear in the coordinates; rotations hold at any angle. In an impact the wall shows the mass of the \
+structure at the interface, without its rotation. A host may carry several walls; its energy and what base and force do to it are in the \
+ledger.",
     reference: "Komatsuzaki, Sato, Iwata and Morishita 2003, eq. (1), for one coordinate",
 };
 
@@ -41,8 +44,13 @@ pub enum Mover {
     Still,
     /// A displacement along a direction, given in advance.
     Motion(DVec3, Signal),
-    /// A host (index into [`Hosts::list`]), along the host's direction.
-    Host(usize, DVec3),
+    /// An interface of a host, both by number (see [`Hosts::list`]).
+    Host {
+        /// The host.
+        host: usize,
+        /// Its interface.
+        interface: usize,
+    },
     /// A constant force against the grains.
     Servo(Servo),
     /// The grains and gravity alone: a free body, which turns too.
@@ -72,8 +80,10 @@ pub struct Exchange {
 impl Mover {
     /// The mover of a wall; `gravity` [m/s^2] pulls a body.
     pub fn new(wall: &plan::Wall, hosts: &Hosts, gravity: DVec3) -> Self {
-        if let Some(index) = wall.host.as_deref().and_then(|name| hosts.index(name)) {
-            return Self::Host(index, DVec3::from_array(hosts.list[index].direction));
+        if let Some(host) = wall.host.as_deref().and_then(|name| hosts.index(name))
+            && let Some(interface) = hosts.list[host].interface(wall.interface.as_deref())
+        {
+            return Self::Host { host, interface };
         }
         if let Some(servo) = &wall.servo {
             return Self::Servo(Servo::new(servo));
@@ -92,9 +102,9 @@ impl Mover {
         let (direction, (value, rate)) = match self {
             Self::Still => return (DVec3::ZERO, DVec3::ZERO),
             Self::Motion(direction, signal) => (*direction, value_and_rate(signal, time)),
-            Self::Host(index, direction) => {
-                let host = &hosts.list[*index];
-                (*direction, (host.displacement(), host.velocity()))
+            Self::Host { host, interface } => {
+                let placed = hosts.list[*host].placed(*interface);
+                return (placed.offset, placed.velocity);
             }
             Self::Servo(servo) => (servo.direction, (servo.displacement(), servo.velocity())),
             Self::Body(body) => return (body.centre() - body.drawn_centre(), body.velocity()),
@@ -105,6 +115,9 @@ impl Mover {
 
     /// Puts displacement and velocity (of a body also rotation and spin) into a pose.
     pub(super) fn place(&self, time: f64, hosts: &Hosts, pose: &mut Pose) {
+        if let Self::Host { host, interface } = self {
+            return hang(pose, &hosts.list[*host].placed(*interface));
+        }
         (pose.offset, pose.velocity) = self.displacement(time, hosts);
         if let Self::Body(body) = self {
             (pose.rotation, pose.spin) = (body.rotation(), body.spin());
@@ -112,6 +125,18 @@ impl Mover {
         if let Self::Steered(steered) = self {
             (pose.rotation, pose.spin) = steered.rotation(time);
         }
+    }
+}
+
+/// Puts a wall where the interface that it hangs on has taken it.
+fn hang(pose: &mut Pose, placed: &Placed) {
+    (pose.offset, pose.velocity) = (placed.offset, placed.velocity);
+    if let Some(rotation) = placed.rotation {
+        let drawn = pose.centre - placed.point;
+        let turned = rotation * drawn;
+        pose.offset += turned - drawn;
+        pose.velocity += placed.spin.cross(turned);
+        (pose.rotation, pose.spin) = (rotation, placed.spin);
     }
 }
 

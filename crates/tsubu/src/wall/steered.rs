@@ -53,7 +53,7 @@ impl Wall {
     /// what lies in it counts. Says why not where forces move it.
     pub fn steer(&mut self, time: f64, mut velocity: Velocity) -> Result<(), String> {
         let forced = match self.mover {
-            Mover::Host(..) => "a host",
+            Mover::Host { .. } => "a host",
             Mover::Servo(_) => "a servo",
             Mover::Body(_) => "the grains",
             Mover::Still | Mover::Motion(..) | Mover::Steered(_) => "",

@@ -124,7 +124,17 @@ impl Watches {
             }
         });
         let moves = |wall: &tsubu_scene::plan::Wall| {
-            let tsubu_scene::plan::Wall { material: _, shape: _, host, motion, rotation, servo, body, until: _ } = wall;
+            let tsubu_scene::plan::Wall {
+                material: _,
+                shape: _,
+                host,
+                interface: _,
+                motion,
+                rotation,
+                servo,
+                body,
+                until: _,
+            } = wall;
             host.is_some() || motion.is_some() || rotation.is_some() || servo.is_some() || body.is_some()
         };
         let walls = plan.walls.iter().enumerate().filter(|(_, (_, wall))| engine.offers().walls && moves(wall));

@@ -57,6 +57,8 @@ pub fn coupled(mut plan: Plan, base: f64, ratio: f64) -> Plan {
     let host = Host {
         structure: Structure::Oscillator { mass: 0.086, stiffness: 123.4, damping: 0.08 },
         direction: [0.0, 0.0, 1.0],
+        interface: std::collections::BTreeMap::new(),
+        at: None,
         base: Some(Signal::Sine { amplitude: base, frequency: ratio * natural, phase: 0.0 }),
         force: None,
         displacement: 0.0,

@@ -60,6 +60,7 @@ pub fn plan_wall(shape: Shape) -> plan::Wall {
     plan::Wall {
         material: "any".to_owned(),
         shape,
+        interface: None,
         host: None,
         motion: None,
         rotation: None,

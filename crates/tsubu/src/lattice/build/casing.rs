@@ -32,18 +32,25 @@ pub(super) fn casing<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Option<Casing
         return None;
     }
     let (name, wall) = plan.walls.iter().next()?;
-    let plan::Wall { material, shape, host, motion, rotation, servo, body, until } = wall;
+    let plan::Wall { material, shape, host, interface, motion, rotation, servo, body, until } = wall;
     if until.is_some() {
         remarks.refuse(
             format!("walls.{name}.until"),
             "the automaton's balls live in a closed box; use `method = \"dem\"`",
         );
     }
-    for (key, there) in [("rotation", rotation.is_some()), ("servo", servo.is_some()), ("body", body.is_some())] {
+    let swings = host.as_ref().and_then(|host| plan.hosts.get(host)).is_some_and(plan::Host::turns);
+    for (key, there) in [
+        ("host", swings),
+        ("interface", interface.is_some()),
+        ("rotation", rotation.is_some()),
+        ("servo", servo.is_some()),
+        ("body", body.is_some()),
+    ] {
         if there {
             remarks.refuse(
                 format!("walls.{name}.{key}"),
-                "the automaton's box is moved up and down by `motion` or by a host; use `method = \"dem\"`",
+                "the automaton's box is moved up and down by `motion` or along the direction of a host; use `method = \"dem\"`",
             );
         }
     }

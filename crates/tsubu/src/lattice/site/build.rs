@@ -232,7 +232,7 @@ fn law(rule: SiteRule) -> &'static str {
 }
 
 fn refuse_motion(name: &str, wall: &plan::Wall, remarks: &mut Remarks) {
-    let plan::Wall { material: _, shape: _, host, motion, rotation, servo, body, until: _ } = wall;
+    let plan::Wall { material: _, shape: _, host, interface: _, motion, rotation, servo, body, until: _ } = wall;
     for (key, there) in [
         ("host", host.is_some()),
         ("motion", motion.is_some()),

@@ -86,6 +86,8 @@ mod tests {
         Host::new(&plan::Host {
             structure: Structure::Matrices { mass, damping, stiffness, coordinate: 1 },
             direction: [0.0, 0.0, 1.0],
+            interface: std::collections::BTreeMap::new(),
+            at: None,
             base: Some(Signal::Sine { amplitude: 1e-3, frequency: 1.0, phase: 0.4 }),
             force: None,
             displacement: 0.0,
@@ -102,7 +104,7 @@ mod tests {
         let mut highest = [0.0_f64; 20];
         for step in 0..20 * steps {
             host.before(dt);
-            host.after(f64::from(step + 1) * dt, dt, 0.0, &mut Ledger::default());
+            host.after(f64::from(step + 1) * dt, dt, &mut Ledger::default());
             let period = &mut highest[(step / steps) as usize];
             *period = period.max(host.displacement().abs());
         }

@@ -28,6 +28,9 @@ pub(super) fn matrices(structure: &Structure) -> Matrices {
             }
             (m, c, k, mode.iter().map(|m| m.shape).collect(), mode.iter().map(|m| m.participation).collect())
         }
+        Structure::Pendulum { inertia, damping, arm, .. } => {
+            (vec![*inertia], vec![*damping], vec![0.0], vec![*arm], vec![0.0])
+        }
     }
 }
 

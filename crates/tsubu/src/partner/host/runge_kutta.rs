@@ -9,6 +9,9 @@ impl Host {
     /// One Runge-Kutta 4 step from `time` under a constant force of the grains [N].
     pub fn runge_kutta(&mut self, time: f64, dt: f64, grain_force: f64, ledger: &mut Ledger) {
         ledger.host_impulse += dt * grain_force;
+        for (felt, seen) in self.felt.iter_mut().zip(&self.seen) {
+            *felt = seen * grain_force;
+        }
         if self.n == 1 {
             self.runge_kutta_one(time, dt, grain_force, ledger);
             return;
