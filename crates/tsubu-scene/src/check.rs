@@ -163,6 +163,14 @@ fn is_typed(parts: &Parts<'_>, index: &str, key: &str) -> bool {
 
 /// The response varies the frequency of the host's sine; without one it would have nothing to turn.
 fn response(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
+    let told = |key: &str| parts.resolved.get("response").and_then(|response| response.get(key));
+    if told("path").and_then(toml::Value::as_str).is_some_and(|path| path != "apart") && told("peak-within").is_some() {
+        complaints.push(
+            Complaint::new("a response that goes from one frequency to the next adds none between them")
+                .at(&parts.root.locate(&["response", "peak-within"]), "only with `path = \"apart\"`")
+                .hint("leave it out, and give a `step` that is short enough"),
+        );
+    }
     let Some(name) =
         parts.resolved.get("response").and_then(|response| response.get("host")).and_then(toml::Value::as_str)
     else {

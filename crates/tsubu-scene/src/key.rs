@@ -44,8 +44,8 @@ pub enum Kind {
     Vectors(&'static Dimension),
     /// Something that belongs to turning: in the plane a number (about y), in space a vector.
     Turning(&'static Dimension),
-    /// A list of spins: in the plane numbers (about y), in space vectors.
-    Spins,
+    /// A list of the same.
+    Turnings(&'static Dimension),
     /// A unit vector: "x", "-z", or a vector of any length but zero.
     Direction,
     /// A direction that may be y in the plane too: an axis of turning, or of a cylinder seen from its end.
@@ -96,10 +96,10 @@ impl Kind {
             | Self::Quantities(dimension)
             | Self::Ends(dimension)
             | Self::Turning(dimension)
+            | Self::Turnings(dimension)
             | Self::Matrix(dimension) => dimension,
             Self::Slope => &units::ANGLE,
             Self::Gravity => &units::ACCELERATION,
-            Self::Spins => &units::SPIN,
             _ => return None,
         })
     }

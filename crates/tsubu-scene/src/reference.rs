@@ -144,7 +144,7 @@ pub(crate) fn value(key: &Key) -> String {
         Kind::Vector(dimension) => format!("vector [{}], or `\"origin\"`", dimension.si),
         Kind::Vectors(dimension) => format!("list of vectors [{}]", dimension.si),
         Kind::Turning(dimension) => format!("number or vector [{}]", dimension.si),
-        Kind::Spins => "list of spins [rad/s]".to_string(),
+        Kind::Turnings(dimension) => format!("list of numbers or vectors [{}]", dimension.si),
         Kind::Axis => "direction, y allowed in the plane".to_string(),
         Kind::Direction => "direction".to_string(),
         Kind::Slope => "angle [rad], or percent".to_string(),

@@ -68,7 +68,7 @@ fn kind(key: &'static Key) -> Value {
         Kind::Vector(dimension) => json!({ "anyOf": [{ "const": "origin" }, vector(dimension)] }),
         Kind::Vectors(dimension) => json!({ "type": "array", "items": vector(dimension) }),
         Kind::Turning(dimension) => turning(dimension),
-        Kind::Spins => json!({ "type": "array", "items": turning(&crate::units::SPIN) }),
+        Kind::Turnings(dimension) => json!({ "type": "array", "items": turning(dimension) }),
         Kind::Direction | Kind::Axis => {
             let axes = json!({ "enum": ["x", "-x", "y", "-y", "z", "-z"] });
             json!({ "anyOf": [axes, vector(&crate::units::NUMBER)] })

@@ -46,6 +46,7 @@ dimensions! {
         "Accelerations; g is standard gravity, 9.80665 m/s^2."
     FORCE "a force" "N" [1, 1, -2, 0] [1e-30, 1e18] ["N", "mN", "kN"] ["61.7 mN", "2 N"] "Forces."
     STIFFNESS "a stiffness" "N/m" [0, 1, -2, 0] [1e-20, 1e20] ["N/m", "N/mm", "kN/m", "N/cm"] ["123.4 N/m"] "Stiffnesses."
+    CUBIC_STIFFNESS "a cubic stiffness" "N/m^3" [-2, 1, -2, 0] [1e-20, 1e30] ["N/m^3", "N/mm^3"] ["2e6 N/m^3"] "Stiffnesses that grow with the square of the stretch."
     DAMPING "a damping coefficient" "N s/m" [0, 1, -1, 0] [1e-25, 1e20] ["N s/m", "N.s/m", "N s/mm", "kg/s"] ["0.08 N s/m"]
         "Coefficients of viscous damping."
     PRESSURE "a pressure or modulus" "Pa" [-1, 1, -2, 0] [1e-15, 1e25] ["Pa", "kPa", "MPa", "GPa", "N/mm^2"] ["0.5 GPa", "3 MPa"]

@@ -40,7 +40,7 @@ fn one_mode_is_the_oscillator() {
     let frequency = (k / m).sqrt() / std::f64::consts::TAU;
     let mode =
         plan::Mode { frequency, damping_ratio: c / (2.0 * (k * m).sqrt()), mass: m, shape: 1.0, participation: 1.0 };
-    let oscillator = plan::Structure::Oscillator { mass: m, stiffness: k, damping: c };
+    let oscillator = plan::Structure::Oscillator { mass: m, stiffness: k, damping: c, cubic_stiffness: 0.0 };
     let (mut a, mut b) = (host(oscillator.clone(), 0.01), host(plan::Structure::Modes { mode: vec![mode] }, 0.01));
     let mut rk = host(oscillator, 0.01);
     let mut ledger = Ledger::default();

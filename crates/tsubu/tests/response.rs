@@ -71,3 +71,81 @@ fn rounds_go_on_where_they_were() {
     assert_eq!(gone_on, whole);
     assert!(whole.lines().count() > 1 + 4, "{whole}");
 }
+
+/// Duffing's oscillator: a spring that hardens leans the peak over, so that between two frequencies a large and a small motion are both
+/// steady. Coming from below the large one is found, from above the small one; their amplitudes are the largest and the smallest root
+/// of ((K - M w^2 + 3/4 k3 A^2)^2 + (C w)^2) A^2 = F^2 (harmonic balance, without the third harmonic), within the 2 % by which a motion is called steady. Control: the
+/// linear spring has one curve.
+#[test]
+fn a_hardening_spring_jumps_both_ways() {
+    let (m, c, k, k3, force) = (0.086_f64, 0.24_f64, 123.4_f64, 2.5e5_f64, 0.15_f64);
+    let at = |cubic: f64| {
+        let text = DAMPER.replace(
+            "base.sine = { amplitude = \"0.5 mm\", frequency = \"5.7 Hz\" }",
+            "force.sine = { amplitude = \"150 mN\", frequency = \"5.7 Hz\" }",
+        );
+        let cubic = format!("hosts.leaf-spring.structure.oscillator.cubic-stiffness={cubic}");
+        let changes = [
+            &cubic,
+            "response.vary={}",
+            "particles.balls.count=0",
+            "dem.time-step=4e-4",
+            "hosts.leaf-spring.structure.oscillator.damping=0.24",
+            "response.frequency-ratio={ from = 0.95, to = 1.3, step = 0.005 }",
+            "response.path=up-and-down",
+        ];
+        let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+        let scene =
+            Scene::parse("damper.toml", &text, std::path::Path::new("."), &changes).unwrap_or_else(|e| panic!("{e}"));
+        curves(&scene).unwrap()
+    };
+    let found = at(k3);
+    let [up, down] = &found[..] else { panic!("{} curves", found.len()) };
+    assert_eq!([up.name.as_str(), down.name.as_str()], ["up", "down"]);
+    // Signs of the cubic in A^2 on a fine grid give its roots.
+    let roots = |w: f64| -> Vec<f64> {
+        let excess = |a: f64| ((k - m * w * w + 0.75 * k3 * a * a).powi(2) + (c * w).powi(2)) * a * a - force * force;
+        let grid = (1..40_000).map(|i| 1e-6 * f64::from(i));
+        grid.filter(|&a| (excess(a) > 0.0) != (excess(a + 1e-6) > 0.0)).map(|a| a + 5e-7).collect()
+    };
+    let all: Vec<Vec<f64>> = up.rows.iter().map(|row| roots(TAU * row.frequency)).collect();
+    let both: Vec<f64> =
+        up.rows.iter().zip(&all).filter(|(_, roots)| roots.len() == 3).map(|(row, _)| row.ratio).collect();
+    for (i, (up, down)) in up.rows.iter().zip(&down.rows).enumerate() {
+        // Beside a fold, which the third harmonic shifts, a motion that is no longer there goes so slowly that it seems to be.
+        let near = i.saturating_sub(3)..(i + 4).min(all.len());
+        if all[near].iter().any(|roots| roots.len() != all[i].len()) {
+            continue;
+        }
+        for (row, root) in [(up, all[i].last()), (down, all[i].first())] {
+            let (amplitude, root) = (row.rms[0] * 2.0_f64.sqrt(), root.unwrap());
+            assert!((amplitude / root - 1.0).abs() < 0.02, "{}: {amplitude} {root}", row.ratio);
+        }
+    }
+    let hysteresis = up.hysteresis.unwrap();
+    assert!(both.len() > 5, "{both:?}");
+    assert!(
+        (hysteresis.ratios[0] - both[0]).abs() < 0.016 && (hysteresis.ratios[1] - both[both.len() - 1]).abs() < 0.016
+    );
+    assert_eq!(at(0.0)[0].hysteresis, None);
+}
+
+/// A shaker that keeps its acceleration moves the base by 1 / w^2 of what it does at the frequency of the scene, 5.7 Hz; one that keeps
+/// its velocity by 1 / w. The empty structure is linear: its curve is that of a constant amplitude, scaled.
+#[test]
+fn a_shaker_may_keep_its_acceleration() {
+    let rows = |keep: &str| {
+        let empty = ["response.vary={}", "particles.balls.count=0", "dem.time-step=2e-4", keep];
+        let cases = curves(&scene(&[&empty[..], &["response.frequency-ratio=[0.8, 1.2]"]].concat())).unwrap();
+        let (frequency, rms): (Vec<f64>, Vec<f64>) =
+            cases[0].rows.iter().map(|row| (row.frequency, row.rms[0])).unzip();
+        (frequency, rms)
+    };
+    let (frequency, plain) = rows("response.keep=displacement");
+    for (keep, power) in [("response.keep=velocity", 1), ("response.keep=acceleration", 2)] {
+        for ((f, plain), kept) in frequency.iter().zip(&plain).zip(rows(keep).1) {
+            let expected = (5.7 / f).powi(power);
+            assert!((kept / plain / expected - 1.0).abs() < 1e-9, "{keep} at {f}");
+        }
+    }
+}

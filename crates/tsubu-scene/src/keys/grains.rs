@@ -2,7 +2,7 @@
 
 use super::{Family, Key, Kind, Variant, hosts};
 use crate::plan::Region;
-use crate::units::{LENGTH, MASS, NUMBER, RATE, SPEED, TIME};
+use crate::units::{LENGTH, MASS, NUMBER, RATE, SPEED, SPIN, TIME};
 
 pub(crate) static PARTICLES: &[Key] = &[
     Key::new("material", Kind::Name(Family::Material), "Name of the material"),
@@ -163,8 +163,12 @@ static START: &[Variant] = &[
             Key::new("position", Kind::Vectors(&LENGTH), "Centres"),
             Key::new("velocity", Kind::Vectors(&SPEED), "Velocities, one for each position; empty: at rest")
                 .default("[]"),
-            Key::new("spin", Kind::Spins, "Spins, one for each position (in the plane a number, about y); empty: none")
-                .default("[]"),
+            Key::new(
+                "spin",
+                Kind::Turnings(&SPIN),
+                "Spins, one for each position (in the plane a number, about y); empty: none",
+            )
+            .default("[]"),
         ],
     },
 ];

@@ -2,8 +2,8 @@
 
 use super::{Key, Kind, Variant};
 use crate::units::{
-    ACCELERATION, ANGLE, DAMPING, DENSITY, FORCE, FREQUENCY, INERTIA, LENGTH, LOAD_RATE, MASS, NUMBER, PRESSURE, SPEED,
-    SPIN, STIFFNESS, TIME, TURN_DAMPING, TURN_PER_LENGTH,
+    ACCELERATION, ANGLE, CUBIC_STIFFNESS, DAMPING, DENSITY, FORCE, FREQUENCY, INERTIA, LENGTH, LOAD_RATE, MASS, NUMBER,
+    PRESSURE, SPEED, SPIN, STIFFNESS, TIME, TURN_DAMPING, TURN_PER_LENGTH,
 };
 
 pub(super) static HOST: &[Key] = &[
@@ -34,8 +34,8 @@ static INTERFACE: &[Key] = &[
     .derived("from the beam, or from the table of modes"),
     Key::new(
         "rotation",
-        Kind::Vectors(&TURN_PER_LENGTH),
-        "Its rotation vector [x, y, z] for a unit of each coordinate",
+        Kind::Turnings(&TURN_PER_LENGTH),
+        "Its rotation for a unit of each coordinate: in the plane a number (about y), in space a vector",
     )
     .derived("from the beam, or from the table of modes; otherwise it does not turn"),
 ];
@@ -47,6 +47,13 @@ static STRUCTURE: &[Variant] = &[
         keys: &[
             Key::new("mass", Kind::Quantity(&MASS), "M, without the grains").above(0.0),
             Key::new("stiffness", Kind::Quantity(&STIFFNESS), "K").above(0.0),
+            Key::new(
+                "cubic-stiffness",
+                Kind::Quantity(&CUBIC_STIFFNESS),
+                "k3 of the spring force K s + k3 s^3: a spring that hardens (Duffing 1918)",
+            )
+            .at_least(0.0)
+            .default("0"),
             Key::new("damping", Kind::Quantity(&DAMPING), "C")
                 .at_least(0.0)
                 .derived("from `damping-ratio`; one of the two is required")
@@ -178,8 +185,12 @@ macro_rules! sine {
 static SHAKEN: &[Key] = &[
     Key::new("amplitude", Kind::Quantity(&LENGTH), "Amplitude")
         .at_least(0.0)
-        .derived("from `acceleration`; one of the two is required")
-        .rivals(&["acceleration"]),
+        .derived("from `velocity` or `acceleration`; one of the three is required")
+        .rivals(&["velocity", "acceleration"]),
+    Key::new("velocity", Kind::Quantity(&SPEED), "Amplitude of the velocity: amplitude 2 pi frequency")
+        .at_least(0.0)
+        .optional()
+        .rivals(&["amplitude", "acceleration"]),
     Key::new(
         "acceleration",
         Kind::Quantity(&ACCELERATION),
@@ -187,7 +198,7 @@ static SHAKEN: &[Key] = &[
     )
     .at_least(0.0)
     .optional()
-    .rivals(&["amplitude"]),
+    .rivals(&["amplitude", "velocity"]),
     FREQUENCY_OF_A_SINE,
     PHASE,
 ];

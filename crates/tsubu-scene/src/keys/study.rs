@@ -1,7 +1,26 @@
 //! Studies, output and claims.
 
-use super::{Family, Key, Kind};
+use super::{Family, Key, Kind, Word};
 use crate::units::{NUMBER, TIME};
+
+static KEEP: &[Word] = &[
+    Word { name: "displacement", about: "The amplitude of the displacement" },
+    Word { name: "velocity", about: "The amplitude of the velocity" },
+    Word { name: "acceleration", about: "The amplitude of the acceleration, as on a shaker" },
+];
+
+static PATH: &[Word] = &[
+    Word { name: "apart", about: "Each frequency begins by itself, from the bed" },
+    Word {
+        name: "up",
+        about: "From the lowest to the highest, each in the state that the one before has left (stepped sine)",
+    },
+    Word { name: "down", about: "From the highest to the lowest" },
+    Word {
+        name: "up-and-down",
+        about: "Both ways, a curve each: where they part, two motions are possible (hysteresis)",
+    },
+];
 
 pub(super) static RESPONSE: &[Key] = &[
     Key::new(
@@ -22,7 +41,10 @@ pub(super) static RESPONSE: &[Key] = &[
     )
     .at_least(1e-5)
     .derived("0.01 where `frequency-ratio` has no `step`; otherwise no more are measured"),
-    Key::new("discard-periods", Kind::Whole, "Periods thrown away before measuring, with grains, which begin at rest; `steady`: they begin in the motion expected, until two blocks of three periods agree")
+    Key::new("keep", Kind::OneOf(KEEP), "What of the base motion stays the same at all frequencies")
+        .derived("what its sine is given by: `amplitude`, `velocity` or `acceleration`"),
+    Key::new("path", Kind::OneOf(PATH), "Whether each frequency begins by itself, or where the one before has ended").default("'apart'"),
+    Key::new("discard-periods", Kind::Whole, "Periods thrown away before measuring, with grains, which begin at rest; `steady`: they begin in the motion expected, until three blocks of three periods agree")
         .at_least(0.0)
         .at_most(1e6)
         .word("steady"),

@@ -101,6 +101,8 @@ pub enum Structure {
         stiffness: f64,
         /// C [N.s/m].
         damping: f64,
+        /// k3 [N/m^3] of the spring force K s + k3 s^3.
+        cubic_stiffness: f64,
     },
     /// n degrees of freedom.
     Matrices {

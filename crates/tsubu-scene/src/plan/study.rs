@@ -13,6 +13,10 @@ pub struct Response {
     pub frequency_ratio: Vec<f64>,
     /// How near the frequencies beside the highest must be to it, as ratios: others are added until they are. `None`: no others.
     pub peak_within: Option<f64>,
+    /// What of a base motion stays the same at all frequencies.
+    pub keep: Keep,
+    /// Whether each frequency begins anew, or in the state that the one before has left.
+    pub path: Path,
     /// Periods thrown away before measuring, with grains; `None`: until the motion is steady.
     pub discard_periods: Option<u32>,
     /// Periods thrown away for the empty host; `None`: until the motion is steady.
@@ -25,13 +29,51 @@ pub struct Response {
     pub vary: BTreeMap<String, Vec<toml::Value>>,
 }
 
+/// What of a base motion stays the same while its frequency changes; forces keep their amplitude.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Keep {
+    /// Its amplitude.
+    Displacement,
+    /// Amplitude times angular frequency.
+    Velocity,
+    /// Amplitude times the square of the angular frequency.
+    Acceleration,
+}
+
+impl Keep {
+    /// The power of the frequency over which the amplitude stays the same.
+    pub fn power(self) -> i32 {
+        match self {
+            Self::Displacement => 0,
+            Self::Velocity => 1,
+            Self::Acceleration => 2,
+        }
+    }
+}
+
+/// How a response goes through its frequencies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Path {
+    /// Each from the bed, by itself.
+    Apart,
+    /// From the lowest to the highest, each in the state that the one before has left.
+    Up,
+    /// From the highest to the lowest.
+    Down,
+    /// Both ways, two curves.
+    UpAndDown,
+}
+
 impl Response {
     /// About how many runs a case has, over all seeds.
     pub fn runs_of_case(&self) -> usize {
         /// What is added about a peak, as a rule.
         const MORE: usize = 8;
         let more = self.peak_within.map_or(0, |_| MORE);
-        (self.frequency_ratio.len() + more) * self.seeds as usize
+        let ways = if self.path == Path::UpAndDown { 2 } else { 1 };
+        (self.frequency_ratio.len() + more) * self.seeds as usize * ways
     }
 
     /// About how many periods a run with grains has.

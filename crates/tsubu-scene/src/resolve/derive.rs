@@ -90,8 +90,16 @@ impl Derive<'_> {
             table_at(resolved, "hosts").map(|hosts| hosts.keys().cloned().collect()).unwrap_or_default();
         let Some(response) = resolved.get_mut("response").and_then(Value::as_table_mut) else { return };
         let ratios = |end| self.typed(&["response", "frequency-ratio", end]);
-        if ratios("from") && !ratios("step") && !self.typed(&["response", "peak-within"]) {
+        let apart = response.get("path").and_then(Value::as_str) == Some("apart");
+        if apart && ratios("from") && !ratios("step") && !self.typed(&["response", "peak-within"]) {
             response.insert("peak-within".into(), Value::Float(PEAK_WITHIN));
+        }
+        let all: Vec<&str> = hosts.iter().map(String::as_str).collect();
+        let host = response.get("host").and_then(Value::as_str).or(all.first().copied()).unwrap_or_default().to_owned();
+        if !response.contains_key("keep") && !self.typed(&["response", "keep"]) {
+            let given = |key: &&str| self.typed(&["hosts", &host, "base", "sine", key]);
+            let keep = ["velocity", "acceleration"].into_iter().find(given).unwrap_or("displacement");
+            response.insert("keep".into(), Value::String(keep.into()));
         }
         if response.contains_key("host") || self.typed(&["response", "host"]) {
             return;

@@ -39,8 +39,9 @@ impl Resolver<'_> {
                 self.list(key, node, "a list of vectors", |me, item| me.vector(key, item, dimension).map(vector_value))
             }
             Kind::Turning(dimension) => self.turning(key, node, dimension).map(vector_value),
-            Kind::Spins => {
-                self.list(key, node, "a list of spins", |me, item| me.turning(key, item, &SPIN).map(vector_value))
+            Kind::Turnings(dimension) => {
+                let what = if *dimension == SPIN { "a list of spins" } else { "a list of rotations" };
+                self.list(key, node, what, |me, item| me.turning(key, item, dimension).map(vector_value))
             }
             Kind::Direction => self.direction(key, node, false).map(vector_value),
             Kind::Axis => self.direction(key, node, true).map(vector_value),

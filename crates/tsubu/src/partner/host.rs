@@ -23,7 +23,7 @@ use crate::motion::value_and_rate;
 use matrices::{dot, inverse, matrices, multiply, quadratic};
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
-use tsubu_scene::plan::{self, Signal};
+use tsubu_scene::plan::{self, Keep, Signal};
 
 /// A structure in motion.
 #[derive(Clone, Debug)]
@@ -41,6 +41,8 @@ pub struct Host {
     interfaces: Vec<Interface>,
     /// Moment of its own weight [N.m] and angle at time 0 [rad] of a pendulum.
     weight: Option<(f64, f64)>,
+    /// k3 of an oscillator's spring [N/m^3].
+    cubic: f64,
     /// Unit direction of the motion.
     pub direction: [f64; 3],
     base: Option<Signal>,
@@ -95,6 +97,10 @@ impl Host {
             driven,
             interfaces,
             weight,
+            cubic: match plan.structure {
+                plan::Structure::Oscillator { cubic_stiffness, .. } => cubic_stiffness,
+                _ => 0.0,
+            },
         };
         host.settle_acceleration(0.0);
         host.power = host.powers(host.drive(0.0));
@@ -167,15 +173,30 @@ impl Host {
         dot(w, &x)
     }
 
-    /// Replaces the excitation frequency of base and force sines [Hz].
-    pub fn set_frequency(&mut self, hertz: f64) {
-        for signal in [&mut self.base, &mut self.force].into_iter().flatten() {
-            if let Signal::Sine { frequency, .. } = signal {
+    /// Replaces the frequency [Hz] of base and force sines.
+    pub fn set_frequency(&mut self, hertz: f64, keep: Keep) {
+        for (signal, power) in [(&mut self.base, keep.power()), (&mut self.force, 0)] {
+            if let Some(Signal::Sine { amplitude, frequency, .. }) = signal {
+                *amplitude *= (*frequency / hertz).powi(power);
                 *frequency = hertz;
             }
         }
         self.settle_acceleration(0.0);
         self.power = self.powers(self.drive(0.0));
+    }
+
+    /// The same at `time` [s] of a run; the phase goes on.
+    pub fn go_over_to(&mut self, hertz: f64, keep: Keep, time: f64) {
+        let since = time - self.driven_since;
+        for signal in [&mut self.base, &mut self.force].into_iter().flatten() {
+            if let Signal::Sine { frequency, phase, .. } = signal {
+                let turns = (*frequency - hertz) * since;
+                *phase += std::f64::consts::TAU * (turns - turns.floor());
+            }
+        }
+        self.set_frequency(hertz, keep);
+        self.settle_acceleration(time);
+        self.power = self.powers(self.drive(time));
     }
 
     /// At time 0 of another clock: base and force begin now.
@@ -200,7 +221,9 @@ impl Host {
         let stretch: Vec<f64> = self.q.iter().zip(&self.driven).map(|(q, r)| q - r * y).collect();
         // 1 - cos(a) would lose what small angles store.
         let raised = |(moment, angle): (f64, f64)| 2.0 * moment * (0.5 * (self.q[0] + angle)).sin().powi(2);
-        let stored = 0.5 * quadratic(&self.stiffness, &stretch) + self.weight.map_or(0.0, raised);
+        let stored = 0.5 * quadratic(&self.stiffness, &stretch)
+            + self.weight.map_or(0.0, raised)
+            + 0.25 * self.cubic * stretch[0].powi(4);
         (0.5 * quadratic(&self.mass, &self.v), stored)
     }
 
@@ -310,6 +333,9 @@ impl Host {
                 - dot(&self.damping[row.clone()], rates)
                 - dot(&self.stiffness[row], &stretches[..n]);
         }
+        if self.cubic != 0.0 {
+            force[0] -= self.cubic * stretches[0].powi(3);
+        }
         if let Some((moment, angle)) = self.weight {
             force[0] -= moment * (self.q[0] + angle).sin();
         }
@@ -333,6 +359,9 @@ impl Host {
             for j in 0..self.n {
                 spring_force += self.stiffness[i * self.n + j] * (self.q[j] - self.driven[j] * y);
                 damper_force += self.damping[i * self.n + j] * (self.v[j] - self.driven[j] * y_rate);
+            }
+            if self.cubic != 0.0 {
+                spring_force += self.cubic * (self.q[i] - self.driven[i] * y).powi(3);
             }
             base -= (spring_force + damper_force) * self.driven[i] * y_rate;
             damper += damper_force * (self.v[i] - self.driven[i] * y_rate);

@@ -8,11 +8,12 @@
 mod curve;
 mod journal;
 mod refine;
+mod rounds;
 mod tasks;
 mod transient;
 mod write;
 
-pub use curve::{CaseResult, Peak, peak};
+pub use curve::{CaseResult, Hysteresis, Peak, peak};
 pub use tasks::{Point, measure};
 
 use super::cases::{Case, CasesError, cases};
@@ -21,6 +22,7 @@ use crate::interrupt::{Interrupt, Watcher};
 use crate::run::RunError;
 use journal::{Done, Key, Ratio};
 use rayon::prelude::*;
+use rounds::Rounds;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write as _;
 use std::path::Path;
@@ -97,8 +99,29 @@ struct Failed {
 struct Task {
     wanted: plan::Response,
     reference: f64,
+    /// Each way of going through the frequencies is a case of its own.
     cases: Vec<Case>,
+    ways: Vec<Way>,
     plans: Vec<Plan>,
+}
+
+/// How the frequencies of a case are gone through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Way {
+    Apart,
+    Up,
+    Down,
+}
+
+impl Way {
+    fn all(path: plan::Path) -> &'static [(Self, &'static str)] {
+        match path {
+            plan::Path::Apart => &[(Self::Apart, "")],
+            plan::Path::Up => &[(Self::Up, "up")],
+            plan::Path::Down => &[(Self::Down, "down")],
+            plan::Path::UpAndDown => &[(Self::Up, "up"), (Self::Down, "down")],
+        }
+    }
 }
 
 impl Task {
@@ -113,9 +136,16 @@ impl Task {
             ));
         }
         let reference = tasks::reference_frequency(plan, &wanted.host).map_err(CasesError::Scene)?;
-        let cases = cases(&wanted.vary);
+        let ways = Way::all(wanted.path);
+        let each = cases(&wanted.vary).into_iter().flat_map(|case| {
+            ways.iter().map(move |(way, word)| {
+                let words: Vec<&str> = [case.name.as_str(), word].into_iter().filter(|word| !word.is_empty()).collect();
+                (*way, Case { name: words.join(", "), values: case.values.clone() })
+            })
+        });
+        let (ways, cases): (Vec<Way>, Vec<Case>) = each.unzip();
         let plans = case_plans(scene, &cases)?;
-        Ok(Self { wanted, reference, cases, plans })
+        Ok(Self { wanted, reference, cases, ways, plans })
     }
 
     fn fail(&self, case: usize, error: RunError) -> CasesError {
@@ -188,36 +218,85 @@ impl Task {
         let failures = Mutex::new(Vec::new());
         let total = self.expected().max(rounds.asked.len());
         let counter = AtomicUsize::new(rounds.asked.len() - rounds.missing.len());
-        let done: Result<Done, CasesError> = rounds
-            .missing
+        let finished = |key: &Key, point: &Point| {
+            record(key, point)?;
+            let finished = counter.fetch_add(1, Ordering::Relaxed) + 1;
+            (watcher.progress)(finished as f64 / total as f64);
+            Ok(())
+        };
+        let done: Result<Vec<Done>, CasesError> = self
+            .walks(rounds)
             .par_iter()
-            .map(|key| {
+            .map(|keys| {
+                let mut done = Done::new();
+                let Some(Key { case, seed, .. }) = keys.first().copied() else { return Ok(done) };
+                let Some(Some(bed)) = beds.get(&(case, seed)) else { return Ok(done) };
                 if watcher.interrupt.asked() {
-                    return Ok(None);
+                    return Ok(done);
                 }
-                let frequency = self.reference * key.ratio.0;
-                let Some(Some(bed)) = beds.get(&(key.case, key.seed)) else { return Ok(None) };
-                let known = of_case(&rounds.points, key.case);
-                let plan = &self.plans[key.case];
-                let point = match measure(plan, &self.wanted, key.seed, bed, frequency, &known, watcher.interrupt) {
-                    Ok(Some(point)) => point,
-                    Ok(None) => return Ok(None),
-                    Err(error @ RunError::Fault(_)) => {
-                        if let Ok(mut failures) = failures.lock() {
-                            failures.push(Failed { key: *key, error });
-                        }
-                        return Ok(None);
+                let ended = self.walk(keys, bed, &of_case(&rounds.points, case), &finished, watcher, &mut done)?;
+                if let Err(error) = ended {
+                    let key = keys[done.len()];
+                    match (error, failures.lock()) {
+                        (error @ RunError::Fault(_), Ok(mut failures)) => failures.push(Failed { key, error }),
+                        (error, _) => return Err(self.fail(case, error)),
                     }
-                    Err(error) => return Err(self.fail(key.case, error)),
-                };
-                record(key, &point)?;
-                let finished = counter.fetch_add(1, Ordering::Relaxed) + 1;
-                (watcher.progress)(finished as f64 / total as f64);
-                Ok(Some((*key, point)))
+                }
+                Ok(done)
             })
-            .filter_map(Result::transpose)
             .collect();
-        Ok((done?, failures.into_inner().unwrap_or_default()))
+        Ok((done?.into_iter().flatten().collect(), failures.into_inner().unwrap_or_default()))
+    }
+
+    /// What is to be run of a round: each frequency by itself, or all of a case and seed one after the other, from the first on.
+    fn walks(&self, rounds: &Rounds<'_>) -> Vec<Vec<Key>> {
+        let mut walks: Vec<Vec<Key>> = Vec::new();
+        for key in &rounds.missing {
+            let way = self.ways[key.case];
+            let same = |other: &&Key| (other.case, other.seed) == (key.case, key.seed);
+            if way == Way::Apart {
+                walks.push(vec![*key]);
+            } else if !walks.iter().any(|walk| same(&&walk[0])) {
+                let mut walk: Vec<Key> = rounds.asked.iter().filter(same).copied().collect();
+                if way == Way::Down {
+                    walk.reverse();
+                }
+                walks.push(walk);
+            }
+        }
+        walks
+    }
+
+    /// Runs what belongs together; the inner error is that of a run.
+    fn walk(
+        &self,
+        keys: &[Key],
+        bed: &State,
+        known: &[&Point],
+        finished: Record<'_>,
+        watcher: &Watcher,
+        done: &mut Done,
+    ) -> Result<Result<(), RunError>, CasesError> {
+        let Key { case, seed, .. } = keys[0];
+        let (plan, interrupt) = (&self.plans[case], watcher.interrupt);
+        let frequencies: Vec<f64> = keys.iter().map(|key| self.reference * key.ratio.0).collect();
+        let mut failed = Ok(());
+        let mut take = |index: usize, point: Point| {
+            if failed.is_ok() {
+                failed = finished(&keys[index], &point);
+            }
+            done.insert(keys[index], point);
+        };
+        let ended = if self.ways[case] == Way::Apart {
+            measure(plan, &self.wanted, seed, bed, frequencies[0], known, interrupt).map(|point| {
+                if let Some(point) = point {
+                    take(0, point);
+                }
+            })
+        } else {
+            tasks::walk(plan, &self.wanted, seed, bed, &frequencies, interrupt, &mut take)
+        };
+        failed.map(|()| ended)
     }
 
     /// About how many runs there will be.
@@ -251,79 +330,18 @@ impl Task {
             points.iter().filter(|(k, _)| k.case == index).map(|(k, p)| (k.ratio.0, p)).collect()
         };
         let cases = self.cases.iter().zip(&self.plans).enumerate();
-        cases.map(|(index, (case, plan))| CaseResult::new(&case.name, plan, self.reference, &of_case(index))).collect()
-    }
-}
-
-/// The frequencies of all cases, round by round. What is asked for in a round follows from the points of those before, never from how
-/// far a round that was interrupted had come.
-struct Rounds<'a> {
-    /// Points of an earlier, interrupted response.
-    earlier: Option<&'a Done>,
-    /// All that was asked for.
-    asked: BTreeSet<Key>,
-    /// What is still to be measured of the last round, long runs first, so that no core is left with one at the end.
-    missing: Vec<Key>,
-    /// What has been measured in the rounds before, and after the end in all.
-    points: Done,
-    /// What an earlier response has measured of the last round.
-    fresh: Done,
-}
-
-impl<'a> Rounds<'a> {
-    fn new(task: &Task, earlier: Option<&'a Done>) -> Self {
-        let mut rounds =
-            Self { earlier, asked: BTreeSet::new(), missing: Vec::new(), points: Done::new(), fresh: Done::new() };
-        let cases = 0..task.plans.len();
-        let first = cases.flat_map(|case| task.wanted.frequency_ratio.iter().map(move |ratio| (case, *ratio)));
-        rounds.ask(task, first.collect());
-        rounds.go_on(task);
-        rounds
-    }
-
-    /// Ends a round with its points; runs that failed are not tried again.
-    fn next(&mut self, task: &Task, points: Done) {
-        self.end(points);
-        self.missing.clear();
-        self.go_on(task);
-    }
-
-    fn end(&mut self, points: Done) {
-        self.points.extend(points);
-        self.points.append(&mut self.fresh);
-    }
-
-    /// Goes on to the next round that has something to measure; none has when nothing is missing.
-    fn go_on(&mut self, task: &Task) {
-        while self.missing.is_empty() {
-            self.end(Done::new());
-            let Some(within) = task.wanted.peak_within else { return };
-            let curve =
-                |case: &CaseResult| -> Vec<(f64, f64)> { case.rows.iter().map(|r| (r.ratio, r.rms[0])).collect() };
-            let cases = task.results(&self.points).into_iter().enumerate();
-            let more = cases.flat_map(|(i, case)| refine::next(&curve(&case), within).into_iter().map(move |x| (i, x)));
-            if !self.ask(task, more.collect()) {
-                return;
-            }
-        }
-    }
-
-    /// Asks for more; says whether any of it is new.
-    fn ask(&mut self, task: &Task, wanted: Vec<(usize, f64)>) -> bool {
-        let seeds = 0..task.wanted.seeds;
-        let keys =
-            wanted.into_iter().flat_map(|(case, x)| seeds.clone().map(move |seed| Key { case, seed, ratio: Ratio(x) }));
-        let new: Vec<Key> = keys.filter(|key| self.asked.insert(*key)).collect();
-        for key in &new {
-            match self.earlier.and_then(|earlier| earlier.get(key)) {
-                Some(point) => {
-                    self.fresh.insert(*key, point.clone());
+        let mut results: Vec<CaseResult> = cases
+            .map(|(index, (case, plan))| CaseResult::new(&case.name, plan, self.reference, &of_case(index)))
+            .collect();
+        if self.wanted.path == plan::Path::UpAndDown {
+            for pair in results.chunks_exact_mut(2) {
+                let found = Hysteresis::between(&pair[0].rows, &pair[1].rows);
+                for case in pair {
+                    case.hysteresis = found;
                 }
-                None => self.missing.push(*key),
             }
         }
-        self.missing.sort_by_key(|k| std::cmp::Reverse(tasks::weight(&task.plans[k.case])));
-        !new.is_empty()
+        results
     }
 }
 

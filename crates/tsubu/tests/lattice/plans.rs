@@ -55,7 +55,7 @@ pub fn shaken(mut plan: Plan, amplitude: f64, frequency: f64) -> Plan {
 pub fn coupled(mut plan: Plan, base: f64, ratio: f64) -> Plan {
     let natural = (123.4_f64 / 0.086).sqrt() / std::f64::consts::TAU;
     let host = Host {
-        structure: Structure::Oscillator { mass: 0.086, stiffness: 123.4, damping: 0.08 },
+        structure: Structure::Oscillator { mass: 0.086, stiffness: 123.4, damping: 0.08, cubic_stiffness: 0.0 },
         direction: [0.0, 0.0, 1.0],
         interface: std::collections::BTreeMap::new(),
         at: None,

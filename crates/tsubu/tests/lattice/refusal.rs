@@ -42,7 +42,7 @@ fn bad_plans_are_refused_with_all_reasons() {
     assert!(message(&bad).contains("hosts.spring.direction: "), "{}", message(&bad));
     let mut bad = coupled(good(), 1e-3, 1.0);
     bad.hosts.get_mut("spring").expect("coupled").structure =
-        Structure::Oscillator { mass: 9e-3, stiffness: 12.0, damping: 0.0 };
+        Structure::Oscillator { mass: 9e-3, stiffness: 12.0, damping: 0.0, cubic_stiffness: 0.0 };
     assert!(message(&bad).contains("lattice.resting-impulses: "), "{}", message(&bad));
     let mut bad = good();
     bad.lattice.time_step = 0.1;

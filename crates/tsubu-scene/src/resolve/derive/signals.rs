@@ -44,27 +44,21 @@ impl Derive<'_> {
 
     /// The amplitude of a sine that is given by its acceleration.
     fn shaken(&mut self, sine: &mut toml::Table, path: &[&str]) {
-        let acceleration = sine.remove("acceleration").and_then(|value| value.as_float());
         let frequency = sine.get("frequency").and_then(Value::as_float);
-        if let (Some(acceleration), Some(frequency)) = (acceleration, frequency) {
-            sine.insert("amplitude".into(), Value::Float(acceleration / (TAU * frequency).powi(2)));
+        let mut given = false;
+        for (key, power) in [("velocity", 1), ("acceleration", 2)] {
+            let rate = sine.remove(key).and_then(|value| value.as_float());
+            if let (Some(rate), Some(frequency)) = (rate, frequency) {
+                sine.insert("amplitude".into(), Value::Float(rate / (TAU * frequency).powi(power)));
+            }
+            given |= self.typed(&[path, &[key]].concat());
         }
-        let typed = |key: &str| self.typed(&[path, &[key]].concat());
-        let by_acceleration = typed("acceleration");
-        if !typed("amplitude") && !by_acceleration {
+        if !given && !self.typed(&[path, &["amplitude"]].concat()) {
             self.complain(
                 Complaint::new(format!("missing key `amplitude` in [{}]", path.join(".")))
-                    .at(&self.root.locate(path), "needs `amplitude` or `acceleration`")
+                    .at(&self.root.locate(path), "needs `amplitude`, `velocity` or `acceleration`")
                     .hint("`amplitude`: for example \"0.5 mm\"")
                     .hint("or `acceleration`: its amplitude (2 pi frequency)^2, for example \"2 g\""),
-            );
-        }
-        if by_acceleration && path[0] == "hosts" && self.typed(&["response"]) {
-            self.complain(
-                Complaint::new("a response changes the frequency and keeps the amplitude of the displacement")
-                    .at(&self.root.locate(&[path, &["acceleration"]].concat()), "would hold at one frequency alone")
-                    .also(&self.root.locate(&["response"]), "asked for here")
-                    .hint("give `amplitude` instead"),
             );
         }
     }

@@ -27,14 +27,15 @@ impl Host {
     /// so short that the sines of the excitation would cost as much as fifty balls, so each is taken once a step.
     fn runge_kutta_one(&mut self, time: f64, dt: f64, grain_force: f64, ledger: &mut Ledger) {
         let (m, c, k) = (self.mass[0], self.damping[0], self.stiffness[0]);
-        let (w, r) = (self.seen[0], self.driven[0]);
+        let (w, r, cubic) = (self.seen[0], self.driven[0], self.cubic);
+        let spring = |stretch: f64| if cubic == 0.0 { k * stretch } else { k * stretch + cubic * stretch.powi(3) };
         let inverse = self.mass_inverse[0];
         let times = [time, time + 0.5 * dt, time + dt];
         let base = three(self.base.as_ref(), times);
         let applied = three(self.force.as_ref(), times).map(|(value, _)| value);
         let slope = |at: usize, q: f64, v: f64| {
             let (y, y_rate) = base[at];
-            (w * (applied[at] + grain_force) - c * (v - r * y_rate) - k * (q - r * y)) * inverse
+            (w * (applied[at] + grain_force) - c * (v - r * y_rate) - spring(q - r * y)) * inverse
         };
         let (q0, v0) = (self.q[0], self.v[0]);
         let half = 0.5 * dt;
@@ -53,7 +54,7 @@ impl Host {
         let power = |at: usize, q: f64, v: f64| {
             let (y, y_rate) = base[at];
             let damper = c * (v - r * y_rate);
-            [-(k * (q - r * y) + damper) * r * y_rate, applied[at] * w * v, damper * (v - r * y_rate)]
+            [-(spring(q - r * y) + damper) * r * y_rate, applied[at] * w * v, damper * (v - r * y_rate)]
         };
         let ends = [power(0, q0, v0), power(1, middle.0, middle.1), power(2, q, v)];
         for (i, account) in [Account::BaseWork, Account::ForceWork, Account::HostDamping].into_iter().enumerate() {

@@ -45,6 +45,31 @@ pub struct Peak {
     pub half_power_damping: f64,
 }
 
+/// Frequencies at which two steady motions were found, by coming from below and from above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hysteresis {
+    /// Lowest and highest such frequency, over the natural frequency [-].
+    pub ratios: [f64; 2],
+    /// Largest difference of the root mean squares, over the larger [-].
+    pub gap: f64,
+}
+
+impl Hysteresis {
+    /// How much two curves must differ to be told apart.
+    const APART: f64 = 0.1;
+
+    /// Compares the curve up with the curve down.
+    pub fn between(up: &[Row], down: &[Row]) -> Option<Self> {
+        let gap = |row: &Row| {
+            let other = down.iter().find(|other| other.ratio == row.ratio)?;
+            Some((row.ratio, (row.rms[0] - other.rms[0]).abs() / row.rms[0].max(other.rms[0])))
+        };
+        let apart: Vec<(f64, f64)> = up.iter().filter_map(gap).filter(|(_, gap)| *gap > Self::APART).collect();
+        let (first, last) = (apart.first()?, apart.last()?);
+        Some(Self { ratios: [first.0, last.0], gap: apart.iter().map(|(_, gap)| *gap).fold(0.0, f64::max) })
+    }
+}
+
 /// A case with everything that is reported of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseResult {
@@ -56,6 +81,8 @@ pub struct CaseResult {
     pub rows: Vec<Row>,
     /// Its top; `None` without points.
     pub peak: Option<Peak>,
+    /// Where the curve up and the curve down part; nothing where there is one of them, or where they agree.
+    pub hysteresis: Option<Hysteresis>,
     /// Energy lost per cycle over 2 pi times the spring energy, at the frequency nearest to the peak [-].
     pub loss_factor: f64,
     /// Mass the grains add, there [kg].
@@ -94,6 +121,7 @@ impl CaseResult {
             name: name.to_owned(),
             particles: plan.particles.values().map(|p| p.count).sum(),
             peak: top,
+            hysteresis: None,
             loss_factor,
             apparent_mass: nearest.map_or(f64::NAN, |r| r.apparent_mass),
             added_mass_limit: 1.0 / (1.0 + grains / mass).sqrt(),

@@ -104,48 +104,94 @@ pub fn measure(
     known: &[&Point],
     interrupt: &Interrupt,
 ) -> Result<Option<Point>, RunError> {
-    let begun = Instant::now();
-    let (mut engine, mut hosts, mut ledger) = open(plan, wanted, seed, bed, frequency, known)?;
-    let host = hosts.index(&wanted.host).unwrap_or_default();
-    let dt = engine.time_step();
-    let steps = |periods: u32| (f64::from(periods) / (frequency * dt)).round() as u64;
-    let discarded = match discard(plan, wanted) {
-        Some(periods) => {
-            let discard = steps(periods);
-            while engine.steps() < discard {
-                if interrupt.asked() {
-                    return Ok(None);
-                }
-                engine.advance(UNASKED.min(discard - engine.steps()), &mut hosts, &mut ledger)?;
-            }
-            periods
+    let mut world = open(plan, wanted, seed, bed, frequency, known)?;
+    world.measure(plan, wanted, seed, frequency, interrupt)
+}
+
+/// Runs frequencies [Hz] one after the other from a settled bed, each in the state that the one before has left. `done` hears of each
+/// point as it comes.
+pub(super) fn walk(
+    plan: &Plan,
+    wanted: &Response,
+    seed: u32,
+    bed: &State,
+    frequencies: &[f64],
+    interrupt: &Interrupt,
+    done: &mut dyn FnMut(usize, Point),
+) -> Result<(), RunError> {
+    let Some(first) = frequencies.first() else { return Ok(()) };
+    let mut world = open(plan, wanted, seed, bed, *first, &[])?;
+    for (index, frequency) in frequencies.iter().enumerate() {
+        let time = world.engine.time();
+        world.hosts.list[world.host].go_over_to(*frequency, wanted.keep, time);
+        match world.measure(plan, wanted, seed, *frequency, interrupt)? {
+            Some(point) => done(index, point),
+            None => return Ok(()),
         }
-        None => match transient::die_away(frequency, &mut *engine, &mut hosts, host, &mut ledger, interrupt)? {
-            Some(periods) => periods,
-            None => return Ok(None),
-        },
-    };
-    let before = Account::ALL.map(|a| ledger.flow(a));
-    let mut window = Window::default();
-    let mut watches = Watches::new(&seeded(plan, seed), &*engine);
-    watches.begin(engine.steps());
-    let count = steps(wanted.measure_periods);
-    for step in 0..count {
-        if interrupt.asked() {
-            return Ok(None);
-        }
-        engine.advance(1, &mut hosts, &mut ledger)?;
-        let phase = TAU * frequency * engine.time();
-        window.take(hosts.list[host].displacement(), hosts.list[host].grain_force(), phase, 2 * step >= count);
-        watches.look(&*engine)?;
     }
-    let periods = f64::from(wanted.measure_periods);
-    let flows: Vec<f64> = Account::ALL.iter().zip(before).map(|(&a, b)| (ledger.flow(a) - b) / periods).collect();
-    let loss = Account::ALL.iter().zip(&flows).filter(|(a, _)| !a.is_work()).map(|(_, f)| f).sum();
-    let residual = ledger.residual_relative(&engine::energies(&*engine, &hosts));
-    let watched = watches.scalars().zip(watches.means()).filter(|(_, mean)| mean.is_finite()).collect();
-    let wall = begun.elapsed().as_secs_f64();
-    Ok(Some(Point { frequency, loss, flows, watched, residual, discarded, wall, ..window.point(frequency) }))
+    Ok(())
+}
+
+/// Grains, hosts and their books, with the host that is measured.
+struct World {
+    engine: Box<dyn Engine>,
+    hosts: Hosts,
+    ledger: Ledger,
+    host: usize,
+}
+
+impl World {
+    /// Waits until the motion at this frequency [Hz] is steady, and measures.
+    fn measure(
+        &mut self,
+        plan: &Plan,
+        wanted: &Response,
+        seed: u32,
+        frequency: f64,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Point>, RunError> {
+        let begun = Instant::now();
+        let Self { engine, hosts, ledger, host } = self;
+        let (host, dt) = (*host, engine.time_step());
+        let steps = |periods: u32| (f64::from(periods) / (frequency * dt)).round() as u64;
+        let discarded = match discard(plan, wanted) {
+            Some(periods) => {
+                let discard = engine.steps() + steps(periods);
+                while engine.steps() < discard {
+                    if interrupt.asked() {
+                        return Ok(None);
+                    }
+                    engine.advance(UNASKED.min(discard - engine.steps()), hosts, ledger)?;
+                }
+                periods
+            }
+            None => match transient::die_away(frequency, &mut **engine, hosts, host, ledger, interrupt)? {
+                Some(periods) => periods,
+                None => return Ok(None),
+            },
+        };
+        let before = Account::ALL.map(|a| ledger.flow(a));
+        let mut window = Window::default();
+        let mut watches = Watches::new(&seeded(plan, seed), &**engine);
+        watches.begin(engine.steps());
+        let count = steps(wanted.measure_periods);
+        for step in 0..count {
+            if interrupt.asked() {
+                return Ok(None);
+            }
+            engine.advance(1, hosts, ledger)?;
+            let phase = TAU * frequency * engine.time();
+            window.take(hosts.list[host].displacement(), hosts.list[host].grain_force(), phase, 2 * step >= count);
+            watches.look(&**engine)?;
+        }
+        let periods = f64::from(wanted.measure_periods);
+        let flows: Vec<f64> = Account::ALL.iter().zip(before).map(|(&a, b)| (ledger.flow(a) - b) / periods).collect();
+        let loss = Account::ALL.iter().zip(&flows).filter(|(a, _)| !a.is_work()).map(|(_, f)| f).sum();
+        let residual = ledger.residual_relative(&engine::energies(&**engine, hosts));
+        let watched = watches.scalars().zip(watches.means()).filter(|(_, mean)| mean.is_finite()).collect();
+        let wall = begun.elapsed().as_secs_f64();
+        Ok(Some(Point { frequency, loss, flows, watched, residual, discarded, wall, ..window.point(frequency) }))
+    }
 }
 
 /// Everything at time 0 with the bed in place and the host shaken at this frequency [Hz].
@@ -156,18 +202,18 @@ fn open(
     bed: &State,
     frequency: f64,
     known: &[&Point],
-) -> Result<(Box<dyn Engine>, Hosts, Ledger), OpenError> {
+) -> Result<World, OpenError> {
     let plan = unsettled(&seeded(plan, seed));
     let mut hosts = Hosts::new(&plan.hosts);
     let host = hosts.index(&wanted.host).unwrap_or_default();
-    hosts.list[host].set_frequency(frequency);
+    hosts.list[host].set_frequency(frequency, wanted.keep);
     let mut engine = methods::open(&plan, &hosts)?;
     engine.load(bed).map_err(|e| OpenError::Bed(e.to_string()))?;
     if discard(&plan, wanted).is_none() {
         transient::begin(&plan, known, frequency, &mut *engine, &mut hosts, host);
     }
     let ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
-    Ok((engine, hosts, ledger))
+    Ok(World { engine, hosts, ledger, host })
 }
 
 /// Writes nine frames of one period at the frequency [Hz] of a peak, first and last of equal phase, after the transient has died away.
@@ -179,7 +225,7 @@ pub(super) fn film(
     known: &[&Point],
     folder: &RunFolder,
 ) -> Result<(), RunError> {
-    let (mut engine, mut hosts, mut ledger) = open(plan, wanted, 0, bed, frequency, known)?;
+    let World { mut engine, mut hosts, mut ledger, .. } = open(plan, wanted, 0, bed, frequency, known)?;
     let step = |periods: f64| (periods / (frequency * engine.time_step())).round() as u64;
     let longest = known.iter().map(|point| point.discarded).max();
     let begin = f64::from(discard(plan, wanted).or(longest).unwrap_or(transient::LONGEST));

@@ -9,9 +9,9 @@ use crate::run::RunError;
 use std::f64::consts::PI;
 use tsubu_scene::plan::Plan;
 
-/// Periods of a block whose root mean square is compared with that of the one before.
+/// Periods of a block whose root mean square is compared with those of the two before: of two blocks alone a beat may be alike.
 const BLOCK: u32 = 3;
-/// How little two blocks must differ, over the larger.
+/// How little the three must differ, over the largest.
 const STEADY: f64 = 0.02;
 /// After so many periods the measurement begins, steady or not: its drift says so.
 pub(super) const LONGEST: u32 = 60;
@@ -39,7 +39,12 @@ pub(super) fn begin(
     let mass: f64 = plan.particles.values().map(|group| group.mass * group.count as f64).sum();
     let weight = mass * glam::DVec3::from_array(plan.gravity).dot(direction);
     let near = known.iter().min_by(|a, b| (a.frequency - frequency).abs().total_cmp(&(b.frequency - frequency).abs()));
+    let riding = Ballast { mass, lossy_mass: 0.0, weight };
+    let speed = 2.0 * PI * frequency;
+    let acceleration = structure.steady_amplitude(frequency, riding) * speed * speed;
     let ballast = match near {
+        // Grains ride on the floor as long as it does not fall faster than they do.
+        _ if acceleration * mass < weight.abs() => riding,
         Some(point) if point.amplitude > 0.0 => {
             let lost = |account: &Account| !account.is_work() && *account != Account::HostDamping;
             let flows = Account::ALL.iter().zip(&point.flows).filter(|(account, _)| lost(account));
@@ -47,7 +52,7 @@ pub(super) fn begin(
             let speed = 2.0 * PI * point.frequency * point.amplitude;
             Ballast { mass: point.apparent_mass, lossy_mass: (loss / (PI * speed * speed)).max(0.0), weight }
         }
-        _ => Ballast { mass, lossy_mass: LOSSY_SHARE * mass, weight },
+        _ => Ballast { lossy_mass: LOSSY_SHARE * mass, ..riding },
     };
     let at_rest = structure.clone();
     let velocity = structure.begin_in_motion(frequency, ballast);
@@ -56,7 +61,7 @@ pub(super) fn begin(
     }
 }
 
-/// Advances until two blocks of periods agree; gives how many periods that took. `None` where it was interrupted.
+/// Advances until three blocks of periods agree; gives how many periods that took. `None` where it was interrupted.
 pub(super) fn die_away(
     frequency: f64,
     engine: &mut dyn Engine,
@@ -66,7 +71,7 @@ pub(super) fn die_away(
     interrupt: &Interrupt,
 ) -> Result<Option<u32>, RunError> {
     let begun = engine.steps();
-    let mut before = f64::NAN;
+    let mut before = [f64::NAN; 2];
     for block in 1..=LONGEST / BLOCK {
         let end = begun + (f64::from(BLOCK * block) / (frequency * engine.time_step())).round() as u64;
         let (mut number, mut sum, mut squares) = (0.0, 0.0, 0.0);
@@ -79,10 +84,13 @@ pub(super) fn die_away(
             (number, sum, squares) = (number + 1.0, sum + z, squares + z * z);
         }
         let rms = (squares / number - (sum / number) * (sum / number)).max(0.0).sqrt();
-        if (rms - before).abs() <= STEADY * rms.max(before) {
+        let three = [before[0], before[1], rms];
+        let largest = three.iter().copied().fold(0.0, f64::max);
+        // Not before there are three: a difference to nothing is none.
+        if three.iter().all(|one| largest - one <= STEADY * largest) {
             return Ok(Some(BLOCK * block));
         }
-        before = rms;
+        before = [before[1], rms];
     }
     Ok(Some(LONGEST))
 }

@@ -65,6 +65,9 @@ pub(super) fn write(
         "loss factor [-]",
         "apparent mass [kg]",
         "added-mass limit [-]",
+        "hysteresis [-]",
+        "hysteresis from [-]",
+        "hysteresis to [-]",
         "energy residual [-]",
         "wall seconds [s]",
     ]);
@@ -115,6 +118,12 @@ pub(super) fn write(
         ];
         let mut cells = vec![text(name), text(method), number(case.particles as f64)];
         cells.extend(values.iter().map(|(_, _, v)| number(*v)));
+        let [from, to] = case.hysteresis.map_or([f64::NAN; 2], |hysteresis| hysteresis.ratios);
+        cells.extend([case.hysteresis.map_or(f64::NAN, |hysteresis| hysteresis.gap), from, to].map(number));
+        if let Some(hysteresis) = case.hysteresis {
+            let suffix = if case.name.is_empty() { String::new() } else { format!(" {}", case.name) };
+            summary.give(format!("hysteresis{suffix}"), "-", hysteresis.gap);
+        }
         cells.extend([number(case.residual), number(case.wall)]);
         cases.push(cells);
         causes.push(
