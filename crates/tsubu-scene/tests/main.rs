@@ -5,6 +5,7 @@ mod changes;
 /// Grains from files, and what all files have in common.
 mod files;
 mod frames;
+mod hosts;
 /// What is too long, too large or no file.
 mod limits;
 /// What scenes mean: values, defaults, choices.

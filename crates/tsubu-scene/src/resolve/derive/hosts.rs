@@ -222,6 +222,9 @@ impl Derive<'_> {
 
     /// What is told where nobody says it: the only interface.
     fn interfaces(&mut self, name: &str, host: &mut Table) {
+        // What a file or a beam did not give has been complained about.
+        let read = host.get("structure").and_then(Value::as_table).is_some_and(|structure| !structure.is_empty());
+        let read = read && !self.typed(&["hosts", name, "structure", "beam"]);
         let Some(interfaces) = host.get_mut("interface").and_then(Value::as_table_mut) else { return };
         let names: Vec<String> = interfaces.keys().cloned().collect();
         for (interface, table) in interfaces.iter_mut().filter_map(|(key, value)| Some((key, value.as_table_mut()?))) {
@@ -230,7 +233,7 @@ impl Derive<'_> {
                 ("point", "where it is as drawn, for example [\"0.3 m\", 0, 0]"),
                 ("translation", "a vector for each coordinate, for example [[0, 0, 1]]"),
             ] {
-                if !table.contains_key(key) && !self.typed(&[&path[..], &[key]].concat()) {
+                if read && !table.contains_key(key) && !self.typed(&[&path[..], &[key]].concat()) {
                     self.complaints.push(
                         Complaint::new(format!("missing key `{key}` in [{}]", path.join(".")))
                             .at(&self.root.locate(&path), format!("needs `{key}`"))
