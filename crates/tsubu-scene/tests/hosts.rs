@@ -36,7 +36,7 @@ fn read(folder: &Path, host: &str) -> Result<Scene, String> {
 /// A table of modes in other units is the same structure: kHz, and vectors of a program that counts in tonnes.
 #[test]
 fn a_table_of_modes_is_read_with_its_units() {
-    let desk = tempfile::tempdir().unwrap();
+    let desk = tempfile::tempdir().expect("a folder of its own");
     let host = "structure.modal-table.file = \"modes.csv\"\ninterface.tip.point = [0, 0, 0]";
     let mut plans = Vec::new();
     let root = 1000.0_f64.sqrt();
@@ -48,7 +48,7 @@ fn a_table_of_modes_is_read_with_its_units() {
         -2.0 * root
     );
     for text in [TABLE, &tonnes] {
-        fs::write(desk.path().join("modes.csv"), text).unwrap();
+        fs::write(desk.path().join("modes.csv"), text).expect("a folder of its own");
         plans.push(read(desk.path(), host).unwrap_or_else(|wrong| panic!("{wrong}")).plan().hosts["frame"].clone());
     }
     let Structure::Modes { mode } = &plans[0].structure else { panic!("modes") };
@@ -63,17 +63,17 @@ fn a_table_of_modes_is_read_with_its_units() {
 /// Each wrong structure is refused with its file, line and value.
 #[test]
 fn structures_that_cannot_be() {
-    let desk = tempfile::tempdir().unwrap();
+    let desk = tempfile::tempdir().expect("a folder of its own");
     let tip = "\ninterface.tip.point = [0, 0, 0]";
     let table = |text: &str, rest: &str| {
-        fs::write(desk.path().join("modes.csv"), text).unwrap();
+        fs::write(desk.path().join("modes.csv"), text).expect("a folder of its own");
         read(desk.path(), &format!("structure.modal-table.file = \"modes.csv\"{rest}")).err()
     };
     let matrices = |stiffness: &str| {
         for (name, text) in [("m.mtx", "1 1 2\n2 2 1\n"), ("c.mtx", "1 1 0.1\n2 2 0.1\n"), ("k.mtx", stiffness)] {
             let lines = text.lines().count();
             let text = format!("%%MatrixMarket matrix coordinate real general\n2 2 {lines}\n{text}");
-            fs::write(desk.path().join(name), text).unwrap();
+            fs::write(desk.path().join(name), text).expect("a folder of its own");
         }
         let files = "structure.matrix-market = { mass = \"m.mtx\", damping = \"c.mtx\", stiffness = \"k.mtx\" }";
         read(desk.path(), &format!("{files}{tip}\ninterface.tip.translation = [[0, 0, 1], [0, 0, 0]]")).err()
