@@ -5,6 +5,7 @@ mod bedload;
 mod beds;
 mod bench;
 mod brazil_nut;
+mod carried;
 mod case;
 mod case_run;
 mod chaotic;

@@ -2,10 +2,11 @@
 
 use crate::case::{Case, Judged};
 use crate::{
-    apparent_mass, bedload, brazil_nut, chung_ooi_2011, chute, cl_ca_2001, cohesion, common_test, contact, cooling,
-    damper_2003, drop, drum, drum_regimes, expansion, film, gdr_midi_2004, held, host, impact_damper, lattice_grain,
-    lattice_review, lump, open_dem_benchmark, order, orifice, outlet, pile_stress, pile_twin, plastic, random_loads,
-    rheology, rolling, sediment_2004, shapes, sieving, silo, spin_in_water, stack, triaxial, twisting, voids, water,
+    apparent_mass, bedload, brazil_nut, carried, chung_ooi_2011, chute, cl_ca_2001, cohesion, common_test, contact,
+    cooling, damper_2003, drop, drum, drum_regimes, expansion, film, gdr_midi_2004, held, host, impact_damper,
+    lattice_grain, lattice_review, lump, open_dem_benchmark, order, orifice, outlet, pile_stress, pile_twin, plastic,
+    random_loads, rheology, rolling, sediment_2004, shapes, sieving, silo, spin_in_water, stack, triaxial, twisting,
+    voids, water,
 };
 
 /// All cases, in the order they are listed and run.
@@ -37,6 +38,7 @@ pub static CASES: &[Case] = &[
     case("incline", "rolling", 1, "rolling and sliding down a slope", rolling::incline),
     case("spin-down", "rolling", 1, "torques of rolling resistance", rolling::spin_down),
     case("rolling-models", "rolling", 2, "stops and stays", rolling::models),
+    case("carried", "rolling", 1, "friction holds a grain on a belt", carried::held),
     case("twist-down", "rolling", 2, "a sphere that spins about the normal", twisting::spin_about_normal),
     case("haff", "dem-benchmarks", 10, "a gas of grains cools, in the plane and in space", cooling::haff),
     gap(case("haff-inelastic", "dem-benchmarks", 10, "the same at a restitution of 0.8", cooling::haff_inelastic)),
