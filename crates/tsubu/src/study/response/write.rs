@@ -54,7 +54,9 @@ pub(super) fn write(
         ["", " spread low", " spread high"].map(|which| format!("{what}{which} [{unit}]"))
     });
     let mut curves = Table::new(fixed.map(str::to_owned).into_iter().chain(watched_columns));
-    let mut cases = Table::new([
+    // Only of a response that went both ways.
+    let both = results.iter().any(|case| case.hysteresis.is_some());
+    let fixed = [
         "case [text]",
         "method [text]",
         "particles [-]",
@@ -65,12 +67,11 @@ pub(super) fn write(
         "loss factor [-]",
         "apparent mass [kg]",
         "added-mass limit [-]",
-        "hysteresis [-]",
-        "hysteresis from [-]",
-        "hysteresis to [-]",
         "energy residual [-]",
         "wall seconds [s]",
-    ]);
+    ];
+    let apart = ["hysteresis [-]", "hysteresis from [-]", "hysteresis to [-]"].into_iter().filter(|_| both);
+    let mut cases = Table::new(fixed.into_iter().chain(apart));
     let losses: Vec<Account> = Account::ALL.into_iter().filter(|a| !a.is_work()).collect();
     let header = std::iter::once("case [text]".to_owned()).chain(losses.iter().map(|a| format!("{} [J]", a.name())));
     let mut causes = Table::new(header);
@@ -118,13 +119,11 @@ pub(super) fn write(
         ];
         let mut cells = vec![text(name), text(method), number(case.particles as f64)];
         cells.extend(values.iter().map(|(_, _, v)| number(*v)));
-        let [from, to] = case.hysteresis.map_or([f64::NAN; 2], |hysteresis| hysteresis.ratios);
-        cells.extend([case.hysteresis.map_or(f64::NAN, |hysteresis| hysteresis.gap), from, to].map(number));
-        if let Some(hysteresis) = case.hysteresis {
-            let suffix = if case.name.is_empty() { String::new() } else { format!(" {}", case.name) };
-            summary.give(format!("hysteresis{suffix}"), "-", hysteresis.gap);
-        }
         cells.extend([number(case.residual), number(case.wall)]);
+        if both {
+            let parted = case.hysteresis.map_or([f64::NAN; 3], |found| [found.gap, found.ratios[0], found.ratios[1]]);
+            cells.extend(parted.map(number));
+        }
         cases.push(cells);
         causes.push(
             std::iter::once(text(name))
@@ -133,6 +132,9 @@ pub(super) fn write(
         let suffix = if case.name.is_empty() { String::new() } else { format!(" {}", case.name) };
         for (label, unit, value) in values {
             summary.give(format!("{label}{suffix}"), unit, value);
+        }
+        if let Some(hysteresis) = case.hysteresis {
+            summary.give(format!("hysteresis{suffix}"), "-", hysteresis.gap);
         }
         summary.energy.residual_relative = summary.energy.residual_relative.max(case.residual);
         summary.particles = summary.particles.max(case.particles as u64);
