@@ -156,7 +156,11 @@ impl Task {
     fn told(&self, Failed { key, error }: &Failed) -> String {
         let (case, ratio) = (&self.cases[key.case].name, key.ratio.0);
         let case = if case.is_empty() { String::new() } else { format!("case `{case}`, ") };
-        format!("{case}frequency ratio {ratio}, seed {}: the run failed and is not in the curve: {error}", key.seed)
+        let lost = match self.ways[key.case] {
+            Way::Apart => "the run failed and is not in the curve",
+            Way::Up | Way::Down => "the run failed; neither it nor what comes after it on the way is in the curve",
+        };
+        format!("{case}frequency ratio {ratio}, seed {}: {lost}: {error}", key.seed)
     }
 
     /// The failure that stands for all.
@@ -181,7 +185,9 @@ impl Task {
             })
             .collect();
         for ((case, seed), bed) in settled? {
-            beds.insert((case, seed), bed.map_err(|error| failures.push(failed(case, seed, error.into()))).ok());
+            let ratio = Ratio(self.wanted.frequency_ratio.first().copied().unwrap_or(f64::NAN));
+            let failed = |error: OpenError| Failed { key: Key { case, seed, ratio }, error: error.into() };
+            beds.insert((case, seed), bed.map_err(|error| failures.push(failed(error))).ok());
         }
         Ok(())
     }
@@ -221,7 +227,8 @@ impl Task {
         let finished = |key: &Key, point: &Point| {
             record(key, point)?;
             let finished = counter.fetch_add(1, Ordering::Relaxed) + 1;
-            (watcher.progress)(finished as f64 / total as f64);
+            // A walk that begins anew passes what it had done before.
+            (watcher.progress)((finished as f64 / total as f64).min(1.0));
             Ok(())
         };
         let done: Result<Vec<Done>, CasesError> = self
@@ -301,7 +308,7 @@ impl Task {
 
     /// About how many runs there will be.
     fn expected(&self) -> usize {
-        self.wanted.runs_of_case() * self.plans.len()
+        self.wanted.runs_of_case() * self.plans.len() / Way::all(self.wanted.path).len()
     }
 
     /// Eight pictures of one period of the best case at its peak: of those with grains, the one with the lowest peak.
@@ -347,10 +354,6 @@ impl Task {
 
 fn of_case(points: &Done, case: usize) -> Vec<&Point> {
     points.iter().filter(|(key, _)| key.case == case).map(|(_, point)| point).collect()
-}
-
-fn failed(case: usize, seed: u32, error: RunError) -> Failed {
-    Failed { key: Key { case, seed, ratio: Ratio(0.0) }, error }
 }
 
 fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, CasesError> {

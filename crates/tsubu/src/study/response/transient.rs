@@ -17,6 +17,8 @@ const STEADY: f64 = 0.02;
 pub(super) const LONGEST: u32 = 60;
 /// What grains lose before anything is known of them, as a share of their mass.
 const LOSSY_SHARE: f64 = 0.3;
+/// How far walls may stand from where they were drawn when a run begins, over the smallest diameter, and how much they may tilt.
+const DISPLACED: f64 = 1e-3;
 /// Steps between two looks at the structure, and two questions whether to stop.
 const UNSEEN: u64 = 8;
 
@@ -56,7 +58,15 @@ pub(super) fn begin(
     };
     let at_rest = structure.clone();
     let velocity = structure.begin_in_motion(frequency, ballast);
-    if mass > 0.0 && !engine.set_in_motion((direction * velocity).into()) {
+    // What hangs on a point that moves in other directions too may begin elsewhere, and would tear the walls from the grains.
+    let interfaces = plan.walls.values().filter_map(|wall| structure.interface(wall.interface.as_deref()));
+    let smallest = plan.particles.values().map(|group| group.diameter).fold(f64::INFINITY, f64::min);
+    let placed = interfaces.map(|interface| structure.placed(interface)).collect::<Vec<_>>();
+    let apart = placed.iter().any(|placed| {
+        let angle = placed.rotation.map_or(0.0, |rotation| rotation.to_scaled_axis().length());
+        placed.offset.length() > DISPLACED * smallest || angle > DISPLACED
+    });
+    if mass > 0.0 && (apart || !engine.set_in_motion((direction * velocity).into())) {
         *structure = at_rest;
     }
 }
@@ -71,7 +81,7 @@ pub(super) fn die_away(
     interrupt: &Interrupt,
 ) -> Result<Option<u32>, RunError> {
     let begun = engine.steps();
-    let mut before = [f64::NAN; 2];
+    let mut blocks = Vec::new();
     for block in 1..=LONGEST / BLOCK {
         let end = begun + (f64::from(BLOCK * block) / (frequency * engine.time_step())).round() as u64;
         let (mut number, mut sum, mut squares) = (0.0, 0.0, 0.0);
@@ -84,13 +94,41 @@ pub(super) fn die_away(
             (number, sum, squares) = (number + 1.0, sum + z, squares + z * z);
         }
         let rms = (squares / number - (sum / number) * (sum / number)).max(0.0).sqrt();
-        let three = [before[0], before[1], rms];
-        let largest = three.iter().copied().fold(0.0, f64::max);
-        // Not before there are three: a difference to nothing is none.
-        if three.iter().all(|one| largest - one <= STEADY * largest) {
+        blocks.push(rms);
+        if steady(&blocks) {
             return Ok(Some(BLOCK * block));
         }
-        before = [before[1], rms];
     }
     Ok(Some(LONGEST))
+}
+
+/// Whether the last three blocks agree; or, where the motion is irregular, whether they differ from the three before by no more than
+/// the scatter of either explains.
+fn steady(blocks: &[f64]) -> bool {
+    let Some(last) = blocks.last_chunk::<3>() else { return false };
+    let largest = last.iter().copied().fold(0.0, f64::max);
+    if last.iter().all(|one| largest - one <= STEADY * largest) {
+        return true;
+    }
+    let Some(before) = blocks[..blocks.len() - 3].last_chunk::<3>() else { return false };
+    let mean = |three: &[f64; 3]| three.iter().sum::<f64>() / 3.0;
+    // Square of the standard error of a mean of three.
+    let error = |three: &[f64; 3]| three.iter().map(|one| (one - mean(three)).powi(2)).sum::<f64>() / 6.0;
+    (mean(last) - mean(before)).powi(2) <= error(last) + error(before)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::steady;
+
+    /// A transient that dies away, a beat and a drift are no steady motions; what stays, or scatters about a mean, is one.
+    #[test]
+    fn only_what_stays_is_steady() {
+        assert!(steady(&[5.0, 1.0, 1.005, 0.995]));
+        assert!(steady(&[1.0, 1.1, 0.93, 1.02, 0.95, 1.08]));
+        assert!(!steady(&[1.0, 1.0]));
+        assert!(!steady(&[2.0, 1.6, 1.35, 1.2, 1.12, 1.07]));
+        assert!(!steady(&[1.0, 1.03, 1.06, 1.09, 1.12, 1.15]));
+        assert!(!steady(&[1.2, 1.0, 1.0]));
+    }
 }
