@@ -74,7 +74,7 @@ fn rounds_go_on_where_they_were() {
 
 /// Duffing's oscillator: a spring that hardens leans the peak over, so that between two frequencies a large and a small motion are both
 /// steady. Coming from below the large one is found, from above the small one; their amplitudes are the largest and the smallest root
-/// of ((K - M w^2 + 3/4 k3 A^2)^2 + (C w)^2) A^2 = F^2 (harmonic balance, without the third harmonic), within the 2 % by which a motion is called steady. Control: the
+/// of ((K - M w^2 + 3/4 k3 A^2)^2 + (C w)^2) A^2 = F^2 (harmonic balance, without the third harmonic), within 1 %, after 100 periods at each frequency. Control: the
 /// linear spring has one curve.
 #[test]
 fn a_hardening_spring_jumps_both_ways() {
@@ -93,6 +93,7 @@ fn a_hardening_spring_jumps_both_ways() {
             "hosts.leaf-spring.structure.oscillator.damping=0.24",
             "response.frequency-ratio={ from = 0.95, to = 1.3, step = 0.005 }",
             "response.path=up-and-down",
+            "response.discard-periods-empty=100",
         ];
         let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
         let scene =
@@ -119,7 +120,7 @@ fn a_hardening_spring_jumps_both_ways() {
         }
         for (row, root) in [(up, all[i].last()), (down, all[i].first())] {
             let (amplitude, root) = (row.rms[0] * 2.0_f64.sqrt(), root.unwrap());
-            assert!((amplitude / root - 1.0).abs() < 0.02, "{}: {amplitude} {root}", row.ratio);
+            assert!((amplitude / root - 1.0).abs() < 0.01, "{}: {amplitude} {root}", row.ratio);
         }
     }
     let hysteresis = up.hysteresis.unwrap();

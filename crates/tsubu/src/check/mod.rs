@@ -93,7 +93,10 @@ pub fn bodies(plan: &Plan, table: &Table, hosts: &Hosts) -> Bodies {
     for wall in plan.walls.values() {
         // A wall on a light structure gives way in an impact: its mass is the one the structure shows.
         let host = wall.host.as_deref().and_then(|name| hosts.index(name));
-        let host = host.map(|index| hosts.list[index].effective_mass());
+        let host = host.map(|index| {
+            let host = &hosts.list[index];
+            host.interface(wall.interface.as_deref()).map_or(f64::INFINITY, |interface| host.shown_mass(interface))
+        });
         let own = wall.servo.as_ref().map(|s| s.mass).or(wall.body.as_ref().map(|b| b.mass));
         let kind = Kind {
             name: format!("wall of {}", wall.material),

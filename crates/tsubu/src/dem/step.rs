@@ -171,9 +171,7 @@ impl DemEngine {
         faces.measure(walls);
         for (wall, load) in walls.iter_mut().zip(&reactions.wall_loads) {
             if let Some((host, interface)) = wall.host() {
-                let host = &mut hosts.list[host];
-                let arm = wall.pose.origin() - host.placed(interface).origin();
-                host.hear(interface, load.force, load.torque + arm.cross(load.force));
+                hosts.list[host].hear(interface, load.force, load.torque, wall.pose.origin());
             }
             let exchange = wall.after(load.force, load.torque, clock.dt);
             ledger.post(Account::ForceWork, exchange.work);

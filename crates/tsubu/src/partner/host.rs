@@ -155,7 +155,8 @@ impl Host {
         // Exact for one coordinate and for modal lists; for coupled matrices an estimate from the diagonal.
         let n = self.n;
         let ratio = |i: usize| {
-            let (m, c, k) = (self.mass[i * n + i], self.damping[i * n + i], self.stiffness[i * n + i]);
+            let hanging = self.weight.map_or(0.0, |(moment, _)| moment);
+            let (m, c, k) = (self.mass[i * n + i], self.damping[i * n + i], self.stiffness[i * n + i] + hanging);
             (k / m, c / (2.0 * (k * m).sqrt()))
         };
         (0..n).map(ratio).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |r| r.1)
@@ -210,6 +211,10 @@ impl Host {
     pub fn change(&mut self, plan: &plan::Host, time: f64) {
         if (&self.base, &self.force) != (&plan.base, &plan.force) {
             (self.base, self.force, self.driven_since) = (plan.base.clone(), plan.force.clone(), time);
+        }
+        // Of a pendulum gravity may have changed.
+        if let (Some(weight), plan::Structure::Pendulum { moment, .. }) = (&mut self.weight, &plan.structure) {
+            weight.0 = *moment;
         }
         self.settle_acceleration(time);
         self.power = self.powers(self.drive(time));

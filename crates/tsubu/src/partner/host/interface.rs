@@ -31,13 +31,6 @@ pub struct Placed {
     pub spin: DVec3,
 }
 
-impl Placed {
-    /// Where the point is now [m].
-    pub fn origin(&self) -> DVec3 {
-        self.point + self.offset
-    }
-}
-
 impl Interface {
     /// All of a host: first what moves along its direction, then those with names. Where an interface is what is told, `seen` becomes
     /// its displacement along the direction.
@@ -97,16 +90,17 @@ impl Host {
         Placed { point: *point, offset, rotation: Some(DQuat::from_scaled_axis(turn)), velocity, spin }
     }
 
-    /// Hears what grains do to walls at an interface: a force [N], and its torque [N.m] about where the interface is now.
-    pub fn hear(&mut self, interface: usize, force: DVec3, torque: DVec3) {
+    /// Hears what grains do to walls at an interface: a force [N], and its torque [N.m] about a point [m].
+    pub fn hear(&mut self, interface: usize, force: DVec3, torque: DVec3, about: DVec3) {
         self.heard.0 += force.dot(DVec3::from_array(self.direction));
-        let Interface { translation, rotation, .. } = &self.interfaces[interface];
+        let Interface { point, translation, rotation, .. } = &self.interfaces[interface];
         for (heard, shape) in self.heard.1.iter_mut().zip(translation) {
             *heard += shape.dot(force);
         }
         if !rotation.is_empty() {
             let turn = rotation.iter().zip(&self.q).fold(DVec3::ZERO, |sum, (shape, q)| sum + *shape * *q);
-            let turned = jacobian(turn).transpose() * torque;
+            let origin = translation.iter().zip(&self.q).fold(*point, |sum, (shape, q)| sum + *shape * *q);
+            let turned = jacobian(turn).transpose() * (torque + (about - origin).cross(force));
             for (heard, shape) in self.heard.1.iter_mut().zip(rotation) {
                 *heard += shape.dot(turned);
             }

@@ -61,8 +61,7 @@ pub(super) fn begin(
     // What hangs on a point that moves in other directions too may begin elsewhere, and would tear the walls from the grains.
     let interfaces = plan.walls.values().filter_map(|wall| structure.interface(wall.interface.as_deref()));
     let smallest = plan.particles.values().map(|group| group.diameter).fold(f64::INFINITY, f64::min);
-    let placed = interfaces.map(|interface| structure.placed(interface)).collect::<Vec<_>>();
-    let apart = placed.iter().any(|placed| {
+    let apart = interfaces.map(|interface| structure.placed(interface)).any(|placed| {
         let angle = placed.rotation.map_or(0.0, |rotation| rotation.to_scaled_axis().length());
         placed.offset.length() > DISPLACED * smallest || angle > DISPLACED
     });
