@@ -229,7 +229,7 @@ impl Work {
 
     /// While the scene itself is wrong, only the paths of what is varied can be judged.
     fn check_varied_paths(&mut self) {
-        for family in ["response", "sweep"] {
+        for family in study::STUDIES {
             let Some(varied) = self.root.find(&[family, "vary"]).and_then(Node::table) else { continue };
             for entry in &varied.entries {
                 let change = format!("{}=0", entry.key);
@@ -242,9 +242,7 @@ impl Work {
 
     /// Resolves the scene once with every value that a study will give it, so that no case fails an hour later.
     fn try_varied(&mut self, plan: &Plan, typed: &Typed, files: &Files) {
-        let response = plan.response.iter().map(|response| ("response", &response.vary));
-        let sweep = plan.sweep.iter().map(|sweep| ("sweep", &sweep.vary));
-        for (family, vary) in response.chain(sweep) {
+        for (family, vary) in study::varied(plan) {
             for (path, values) in vary {
                 for (index, value) in values.iter().enumerate() {
                     let mut case = typed.clone();

@@ -123,6 +123,15 @@ fn put(root: &mut Node, (steps, value): Piece, index: usize) -> Result<(), Compl
             .hint(format!("{}; {}", reason(first), "set it at the top of the scene"))
             .hint(format!("a stage may set {}", suggest::list(changing().iter().map(String::as_str)))));
     }
+    let shakes = |host: &str| root.find(&["hosts", host, "structure", "shaker"]).is_some();
+    if let ["hosts", host, "base", ..] = names.as_slice()
+        && index > 0
+        && shakes(host)
+    {
+        return Err(Complaint::new(format!("the shaker `{host}` would jump to where another `base` is"))
+            .at(&place, "set here")
+            .hint("write the whole motion as one `base.table`"));
+    }
     if names.last() == Some(&"file") {
         return Err(Complaint::new("a stage reads no files")
             .at(&place, "named here")

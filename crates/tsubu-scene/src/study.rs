@@ -6,18 +6,30 @@
 use crate::keys::{self, Key, Kind, Need};
 use crate::node::Node;
 use crate::plan::Plan;
+use std::collections::BTreeMap;
 use toml::{Table, Value};
 
 /// Tables whose values others follow from.
 const LEADING: [&str; 2] = ["particles", "materials"];
 
+/// The studies that vary keys of a scene.
+pub(crate) const STUDIES: [&str; 3] = ["response", "atlas", "sweep"];
+
+/// What each study of a plan varies.
+pub(crate) fn varied(plan: &Plan) -> impl Iterator<Item = (&'static str, &BTreeMap<String, Vec<Value>>)> {
+    let studies = [
+        plan.response.as_ref().map(|response| &response.vary),
+        plan.atlas.as_ref().map(|atlas| &atlas.vary),
+        plan.sweep.as_ref().map(|sweep| &sweep.vary),
+    ];
+    STUDIES.into_iter().zip(studies).filter_map(|(study, vary)| Some((study, vary?)))
+}
+
 /// Leaves out what nobody typed and what follows from what a study of the plan varies.
 pub(crate) fn leave_open(resolved: &mut Table, plan: &Plan, typed: &Node) {
-    let response = plan.response.iter().flat_map(|response| response.vary.keys());
-    let sweep = plan.sweep.iter().flat_map(|sweep| sweep.vary.keys());
     let leads = |path: &String| path.split('.').next().is_some_and(|first| LEADING.contains(&first));
-    if response.chain(sweep).any(leads) {
-        for key in keys::SCENE.iter().filter(|key| !["output", "response"].contains(&key.name)) {
+    if varied(plan).flat_map(|(_, vary)| vary.keys()).any(leads) {
+        for key in keys::SCENE.iter().filter(|key| !["output", "response", "atlas"].contains(&key.name)) {
             of_key(key, resolved, Some(typed));
         }
     }

@@ -121,6 +121,10 @@ time-step = "1 ms"
 time-step = "20 us"
 integrator = "forward-euler"
 
+[atlas]
+frequency = ["4 Hz", "8 Hz"]
+acceleration = ["0.1 g", "3 g"]
+
 [response]
 host = "one"
 frequency-ratio = { from = 0.7, to = 1.3, step = 0.05 }

@@ -53,7 +53,7 @@ fn one_mode_is_the_oscillator() {
     for step in 1..=steps {
         let time = dt * f64::from(step);
         for (host, ledger) in [(&mut a, &mut ledger), (&mut b, &mut ledger_b)] {
-            host.before(dt);
+            host.before(time, dt);
             host.after(time, dt, ledger);
         }
         rk.runge_kutta(time - dt, dt, 0.0, &mut ledger_rk);
@@ -94,7 +94,7 @@ fn books_of_two_masses_close_by_both_integrators() {
         for step in 1..=300 {
             let time = dt * f64::from(step);
             if verlet {
-                host.before(dt);
+                host.before(time, dt);
                 host.after(time, dt, &mut ledger);
             } else {
                 host.runge_kutta(time - dt, dt, 0.0, &mut ledger);

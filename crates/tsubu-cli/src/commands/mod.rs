@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+mod atlas;
 mod bench;
 pub mod check;
 mod claims;
@@ -32,6 +33,8 @@ pub enum Command {
     Sweep(sweep::Options),
     /// Frequency response of the vibrating structure, with figures and report.html
     Response(response::Options),
+    /// Effective mass and loss of a cavity of grains, over frequency and acceleration
+    Atlas(atlas::Options),
     /// One scene by several methods: what differs, and what each costs
     Compare(compare::Options),
     /// Check the shipped verification cases and published studies, claim by claim
@@ -59,6 +62,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Check(options) => check::run(&options),
         Command::Sweep(options) => sweep::run(&options),
         Command::Response(options) => response::run(&options),
+        Command::Atlas(options) => atlas::run(&options),
         Command::Compare(options) => compare::run(&options),
         Command::Verify(options) => verify::run(&options),
         Command::Explain(options) => explain::run(&options),

@@ -12,6 +12,7 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
                 .hint("add `host = \"NAME\"`"),
         );
     }
+    atlas(parts, complaints);
     for (name, host) in &parts.hosts {
         let at = |keys: &[&str]| {
             let path: Vec<&str> = ["hosts", name.as_str(), "structure"].iter().chain(keys).copied().collect();
@@ -20,6 +21,7 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
         interfaces(parts, name, host, complaints);
         match &host.structure {
             Structure::Oscillator { .. } | Structure::Pendulum { .. } => {}
+            Structure::Shaker {} => shaker(parts, name, host, complaints),
             Structure::Modes { mode } => {
                 if mode.is_empty() {
                     complaints.push(
@@ -77,13 +79,54 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
     }
 }
 
+/// An atlas shakes walls along a line: there are such walls, and they hang on the host that it names.
+fn atlas(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
+    let name = parts.resolved.get("atlas").and_then(|atlas| atlas.get("host")).and_then(toml::Value::as_str);
+    let Some((name, host)) = name.and_then(|name| Some((name, parts.hosts.get(name)?))) else { return };
+    let place = parts.root.locate(&["atlas"]);
+    if host.turns() {
+        complaints.push(
+            Complaint::new(format!("an atlas shakes walls along a line, and those of the pendulum `{name}` turn"))
+                .at(&place, "asked for here")
+                .hint("take a host that moves along its `direction`"),
+        );
+    } else if !parts.walls.iter().any(|(_, wall)| wall.host.as_deref() == Some(name)) {
+        complaints.push(
+            Complaint::new(format!("no wall hangs on the host `{name}`, so there is no cavity to shake"))
+                .at(&place, "asked for here")
+                .hint(format!("add `host = \"{name}\"` to the walls of the cavity")),
+        );
+    }
+}
+
+/// A shaker is where its base is: it has a base, and no force or beginning of its own.
+fn shaker(parts: &Parts<'_>, name: &str, host: &Host, complaints: &mut Vec<Complaint>) {
+    let path = |key| ["hosts", name, key];
+    if host.base.is_none() {
+        complaints.push(
+            Complaint::new(format!("the shaker `{name}` has no `base`"))
+                .at(&parts.root.locate(&path("structure")), "how does it move?")
+                .hint("base.sine = { acceleration = \"2 g\", frequency = \"30 Hz\" }"),
+        );
+    }
+    for key in ["force", "displacement", "velocity"] {
+        if parts.root.find(&path(key)).is_some() {
+            complaints.push(
+                Complaint::new(format!("the shaker `{name}` moves as its `base` says, whatever `{key}` is"))
+                    .at(&parts.root.locate(&path(key)), "has no effect")
+                    .hint("leave it out; a force that moves a mass is `structure.oscillator`"),
+            );
+        }
+    }
+}
+
 /// Mass that nobody means, too little and too much [kg].
 const ABSURD: [f64; 2] = [1e-9, 1e12];
 
 /// The shapes of interfaces have as many entries as the structure has coordinates, and walls hang on interfaces that are there.
 fn interfaces(parts: &Parts<'_>, name: &str, host: &Host, complaints: &mut Vec<Complaint>) {
     let coordinates = match &host.structure {
-        Structure::Oscillator { .. } | Structure::Pendulum { .. } => 1,
+        Structure::Oscillator { .. } | Structure::Pendulum { .. } | Structure::Shaker {} => 1,
         Structure::Matrices { mass, .. } => mass.len(),
         Structure::Modes { mode } => mode.len(),
     };

@@ -155,6 +155,7 @@ fn host_at_start(host: &Host) -> f64 {
     match &host.structure {
         Structure::Oscillator { .. } | Structure::Matrices { .. } => host.displacement,
         Structure::Pendulum { .. } => 0.0,
+        Structure::Shaker {} => host.base.as_ref().map_or(0.0, signal_at_start),
         Structure::Modes { mode } => mode.iter().map(|mode| mode.shape * host.displacement).sum(),
     }
 }

@@ -301,7 +301,7 @@ fn hops(parts: &Parts<'_>, name: &str, asked: &Hops, complaints: &mut Vec<Compla
 fn counts_vary(parts: &Parts<'_>) -> bool {
     let varied =
         |study: &str| parts.resolved.get(study).and_then(|study| study.get("vary")).and_then(toml::Value::as_table);
-    ["response", "sweep"]
+    crate::study::STUDIES
         .into_iter()
         .filter_map(varied)
         .flat_map(toml::Table::keys)

@@ -42,6 +42,11 @@ static INTERFACE: &[Key] = &[
 
 static STRUCTURE: &[Variant] = &[
     Variant {
+        name: "shaker",
+        about: "No structure: its walls move as `base` says, whatever grains do to them; what it takes to move them is told",
+        keys: &[],
+    },
+    Variant {
         name: "oscillator",
         about: "One degree of freedom",
         keys: &[

@@ -1,7 +1,7 @@
 //! Studies, output and claims.
 
 use super::{Family, Key, Kind, Word};
-use crate::units::{NUMBER, TIME};
+use crate::units::{ACCELERATION, FREQUENCY, NUMBER, TIME};
 
 static KEEP: &[Word] = &[
     Word { name: "displacement", about: "The amplitude of the displacement" },
@@ -55,6 +55,33 @@ pub(super) static RESPONSE: &[Key] = &[
         .at_least(1.0)
         .at_most(1e4),
     Key::new("vary", Kind::Vary, "Scene keys and the values they take; every combination is a curve").default("{}"),
+];
+
+pub(super) static ATLAS: &[Key] = &[
+    Key::new("host", Kind::Name(Family::Host), "The host whose walls are shaken along its direction, in its stead")
+        .derived("the only host"),
+    Key::new("frequency", Kind::Ends(&FREQUENCY), "Lowest and highest frequency").above(0.0),
+    Key::new(
+        "acceleration",
+        Kind::Ends(&ACCELERATION),
+        "Lowest and highest amplitude of the acceleration; `g` is a unit",
+    )
+    .above(0.0),
+    Key::new(
+        "within",
+        Kind::Quantity(&NUMBER),
+        "Points are added until none lies farther off the line between its neighbours than this share of the grains' mass",
+    )
+    .default("0.05")
+    .at_least(1e-4)
+    .at_most(1.0),
+    Key::new("at-most", Kind::Whole, "Points of a case, at most").default("100").at_least(12.0).at_most(1e5),
+    Key::new("measure-periods", Kind::Whole, "Periods measured at each point").default("20").at_least(4.0).at_most(1e6),
+    Key::new("seeds", Kind::Whole, "Number of random seeds, from the scene's seed upwards")
+        .default("1")
+        .at_least(1.0)
+        .at_most(1e4),
+    Key::new("vary", Kind::Vary, "Scene keys and the values they take; every combination is a cavity of the atlas").default("{}"),
 ];
 
 pub(super) static SWEEP: &[Key] =

@@ -103,6 +103,8 @@ pub static SCENE: &[Key] = &[
     .default("{}"),
     Key::new("response", Kind::Table(study::RESPONSE), "What `tsubu response` reads: a sweep over frequency")
         .optional(),
+    Key::new("atlas", Kind::Table(study::ATLAS), "What `tsubu atlas` reads: the grains of a host's walls alone, shaken")
+        .optional(),
     Key::new("sweep", Kind::Table(study::SWEEP), "What `tsubu sweep` reads: every combination of values is a run")
         .optional(),
     Key::new(

@@ -93,6 +93,8 @@ pub struct Interface {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Structure {
+    /// What moves as its base does, whatever grains do to it.
+    Shaker {},
     /// One degree of freedom.
     Oscillator {
         /// M [kg], without the grains.
@@ -160,6 +162,11 @@ impl Host {
     /// Whether walls without an interface turn with it.
     pub fn turns(&self) -> bool {
         matches!(self.structure, Structure::Pendulum { .. })
+    }
+
+    /// Whether it moves as its base does, whatever grains do to it.
+    pub fn is_shaker(&self) -> bool {
+        matches!(self.structure, Structure::Shaker {})
     }
 
     /// The shortest period of the sines that drive it [s].

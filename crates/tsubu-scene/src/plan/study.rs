@@ -84,6 +84,28 @@ impl Response {
     }
 }
 
+/// The grains of a host's walls alone, shaken at many frequencies and accelerations.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Atlas {
+    /// The host whose walls are shaken along its direction, in its stead.
+    pub host: String,
+    /// Lowest and highest frequency [Hz].
+    pub frequency: [f64; 2],
+    /// Lowest and highest amplitude of the acceleration [m/s^2].
+    pub acceleration: [f64; 2],
+    /// How far a point may lie off the line between its neighbours, over the mass of the grains [-].
+    pub within: f64,
+    /// Points of a case, at most.
+    pub at_most: u32,
+    /// Periods measured at each point.
+    pub measure_periods: u32,
+    /// Number of random seeds, from the scene's seed upwards.
+    pub seeds: u32,
+    /// Scene keys and the values they take; every combination is a cavity of the atlas.
+    pub vary: BTreeMap<String, Vec<toml::Value>>,
+}
+
 /// A parameter sweep: every combination of the values is a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]

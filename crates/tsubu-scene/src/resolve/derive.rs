@@ -47,6 +47,8 @@ pub(crate) fn derive(
     settings(resolved, root);
     derive.regions(resolved);
     derive.watches(resolved);
+    derive.host_of_study(resolved, "response", "a response needs a host to respond");
+    derive.host_of_study(resolved, "atlas", "an atlas needs a host whose walls are shaken");
     derive.response(resolved);
     derive.complaints
 }
@@ -86,36 +88,40 @@ impl Derive<'_> {
     }
 
     fn response(&mut self, resolved: &mut toml::Table) {
-        let hosts: Vec<String> =
-            table_at(resolved, "hosts").map(|hosts| hosts.keys().cloned().collect()).unwrap_or_default();
         let Some(response) = resolved.get_mut("response").and_then(Value::as_table_mut) else { return };
         let ratios = |end| self.typed(&["response", "frequency-ratio", end]);
         let apart = response.get("path").and_then(Value::as_str) == Some("apart");
         if apart && ratios("from") && !ratios("step") && !self.typed(&["response", "peak-within"]) {
             response.insert("peak-within".into(), Value::Float(PEAK_WITHIN));
         }
-        let all: Vec<&str> = hosts.iter().map(String::as_str).collect();
-        let host = response.get("host").and_then(Value::as_str).or(all.first().copied()).unwrap_or_default().to_owned();
+        let host = response.get("host").and_then(Value::as_str).unwrap_or_default().to_owned();
         if !response.contains_key("keep") && !self.typed(&["response", "keep"]) {
             let given = |key: &&str| self.typed(&["hosts", &host, "base", "sine", key]);
             let keep = ["velocity", "acceleration"].into_iter().find(given).unwrap_or("displacement");
             response.insert("keep".into(), Value::String(keep.into()));
         }
-        if response.contains_key("host") || self.typed(&["response", "host"]) {
+    }
+
+    /// A study of a host is of the only one where it names none.
+    fn host_of_study(&mut self, resolved: &mut toml::Table, study: &str, needs: &str) {
+        let hosts: Vec<String> =
+            table_at(resolved, "hosts").map(|hosts| hosts.keys().cloned().collect()).unwrap_or_default();
+        let Some(table) = resolved.get_mut(study).and_then(Value::as_table_mut) else { return };
+        if table.contains_key("host") || self.typed(&[study, "host"]) {
             return;
         }
-        let place = self.root.locate(&["response"]);
+        let place = self.root.locate(&[study]);
         match hosts.as_slice() {
             [host] => {
-                response.insert("host".into(), Value::String(host.clone()));
+                table.insert("host".into(), Value::String(host.clone()));
             }
             [] => self.complain(
-                Complaint::new("a response needs a host to respond")
+                Complaint::new(needs)
                     .at(&place, "there are no hosts in this scene")
-                    .hint("add [hosts.NAME], or leave [response] out"),
+                    .hint(format!("add [hosts.NAME], or leave [{study}] out")),
             ),
             many => self.complain(
-                Complaint::new("missing key `host` in [response]")
+                Complaint::new(format!("missing key `host` in [{study}]"))
                     .at(&place, "needs `host`")
                     .hint(format!("hosts here: {}", suggest::list(many.iter().map(String::as_str)))),
             ),

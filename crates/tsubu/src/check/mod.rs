@@ -163,6 +163,9 @@ pub fn speed_scale(plan: &Plan, hosts: &Hosts) -> f64 {
     }
     for (host, built) in plan.hosts.values().zip(&hosts.list) {
         let w = built.natural_frequencies().first().map_or(0.0, |f| std::f64::consts::TAU * f);
+        if host.is_shaker() {
+            speed = speed.max(host.base.as_ref().map_or(0.0, fastest));
+        }
         let gain = 0.5 / built.damping_ratio().max(1e-3);
         speed = speed.max(host.velocity.abs()).max(host.displacement.abs() * w);
         let amplitude = host.base.as_ref().map_or(0.0, peak);

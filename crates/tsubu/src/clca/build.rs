@@ -86,6 +86,7 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
         after_baxter_behringer: _,
         after_karolyi_kertesz: _,
         response: _,
+        atlas: _,
         sweep: _,
         watch,
         output: _,

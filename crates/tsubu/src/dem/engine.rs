@@ -135,6 +135,7 @@ impl DemEngine {
             after_baxter_behringer: _,
             after_karolyi_kertesz: _,
             response: _,
+            atlas: _,
             sweep: _,
             watch: _,
             output: _,

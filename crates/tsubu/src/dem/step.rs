@@ -25,7 +25,7 @@ impl DemEngine {
         self.clock.tick(self.grains.len());
         let (time, dt) = (self.clock.time(), self.clock.dt);
         self.rotate();
-        hosts.before(dt);
+        hosts.before(time, dt);
         self.move_walls(time, hosts);
         self.move_driven(time);
         self.update_added_mass(ledger);

@@ -68,6 +68,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         after_baxter_behringer: _,
         after_karolyi_kertesz: _,
         response: _,
+        atlas: _,
         sweep: _,
         watch,
         output: _,

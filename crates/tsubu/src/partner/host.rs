@@ -14,6 +14,7 @@ mod in_motion;
 mod interface;
 mod matrices;
 mod runge_kutta;
+mod shaker;
 
 pub use in_motion::Ballast;
 pub use interface::{Interface, Placed};
@@ -37,6 +38,8 @@ pub struct Host {
     implicit_inverse: (f64, Vec<f64>),
     seen: Vec<f64>,
     driven: Vec<f64>,
+    /// Whether it is where its base is, whatever it feels.
+    shaker: bool,
     /// Where walls hang: first what moves along `direction`, then those with names.
     interfaces: Vec<Interface>,
     /// Moment of its own weight [N.m] and angle at time 0 [rad] of a pendulum.
@@ -80,6 +83,7 @@ impl Host {
             mass,
             damping,
             stiffness,
+            shaker: plan.is_shaker(),
             direction: plan.direction,
             base: plan.base.clone(),
             force: plan.force.clone(),
@@ -134,6 +138,9 @@ impl Host {
 
     /// Natural frequencies [Hz] of the undamped modes, lowest first, and what is seen of each when its modal mass is one [1/sqrt(kg)].
     fn undamped(&self) -> Vec<(f64, f64)> {
+        if self.shaker {
+            return Vec::new();
+        }
         let n = self.n;
         let m = nalgebra::DMatrix::from_row_slice(n, n, &self.mass);
         let k = nalgebra::DMatrix::from_row_slice(n, n, &self.stiffness);
@@ -222,6 +229,9 @@ impl Host {
 
     /// Kinetic energy and spring energy at `time` [J].
     pub fn energy(&self, time: f64) -> (f64, f64) {
+        if self.shaker {
+            return (0.0, 0.0);
+        }
         let y = self.base(time).0;
         let stretch: Vec<f64> = self.q.iter().zip(&self.driven).map(|(q, r)| q - r * y).collect();
         // 1 - cos(a) would lose what small angles store.
@@ -232,8 +242,11 @@ impl Host {
         (0.5 * quadratic(&self.mass, &self.v), stored)
     }
 
-    /// First half of a velocity-Verlet step: half kick and drift; the velocity becomes a prediction.
-    pub fn before(&mut self, dt: f64) {
+    /// First half of a velocity-Verlet step that ends at `time` [s]: half kick and drift; the velocity becomes a prediction.
+    pub fn before(&mut self, time: f64, dt: f64) {
+        if self.shaker {
+            return self.follow_base(time);
+        }
         for i in 0..self.n {
             self.v_half[i] = self.v[i] + 0.5 * dt * self.a[i];
             self.q[i] += dt * self.v_half[i];
@@ -252,10 +265,12 @@ impl Host {
         std::mem::swap(&mut self.felt, &mut self.heard.1);
         self.heard.0 = 0.0;
         self.heard.1.fill(0.0);
-        self.net_force(drive, true);
-        multiply(&self.implicit_inverse.1, &self.work[..self.n], &mut self.a);
-        for i in 0..self.n {
-            self.v[i] = self.v_half[i] + 0.5 * dt * self.a[i];
+        if !self.shaker {
+            self.net_force(drive, true);
+            multiply(&self.implicit_inverse.1, &self.work[..self.n], &mut self.a);
+            for i in 0..self.n {
+                self.v[i] = self.v_half[i] + 0.5 * dt * self.a[i];
+            }
         }
         ledger.host_impulse += 0.5 * dt * (self.grain_force + grain_force);
         self.grain_force = grain_force;
@@ -346,8 +361,11 @@ impl Host {
         }
     }
 
-    /// Acceleration from the present q, v and grain force.
+    /// Acceleration from the present q, v and grain force; a shaker goes to where its base is.
     fn settle_acceleration(&mut self, time: f64) {
+        if self.shaker {
+            return self.follow_base(time);
+        }
         let drive = self.drive(time);
         self.net_force(drive, false);
         multiply(&self.mass_inverse, &self.work[..self.n], &mut self.a);
@@ -356,6 +374,9 @@ impl Host {
     /// Base work, force work and damper loss per time at this time level [W].
     fn powers(&self, drive: Drive) -> [f64; 3] {
         let Drive { y, y_rate, applied } = drive;
+        if self.shaker {
+            return self.power_of_shaker(y_rate);
+        }
         let mut base = 0.0;
         let mut damper = 0.0;
         for i in 0..self.n {

@@ -53,10 +53,10 @@ impl Hosts {
         self.list.iter().map(|h| h.energy(time)).fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1))
     }
 
-    /// First half of a step: every host moves to `time + dt`.
-    pub fn before(&mut self, dt: f64) {
+    /// First half of a step: every host moves to `time`, the end of the step.
+    pub fn before(&mut self, time: f64, dt: f64) {
         for host in &mut self.list {
-            host.before(dt);
+            host.before(time, dt);
         }
     }
 

@@ -1,7 +1,9 @@
 //! Studies: many runs that answer one question.
 
+pub mod atlas;
 pub mod cases;
 pub mod compare;
+mod journal;
 pub mod response;
 pub mod ring_down;
 pub mod sweep;

@@ -6,38 +6,36 @@
 //! and missing in its curve. A response that was stopped goes on where it was.
 
 mod curve;
-mod journal;
 mod refine;
 mod rounds;
-mod tasks;
-mod transient;
+pub(super) mod tasks;
+pub(super) mod transient;
 mod write;
 
 pub use curve::{CaseResult, Hysteresis, Peak, peak};
 pub use tasks::{Point, measure};
 
 use super::cases::{Case, CasesError, cases};
+use super::journal::{self, Exact, Journal};
 use crate::engine::OpenError;
 use crate::interrupt::{Interrupt, Watcher};
 use crate::run::RunError;
-use journal::{Done, Key, Ratio};
 use rayon::prelude::*;
 use rounds::Rounds;
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Write as _;
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
-use tsubu_frame::{FileError, RunFolder, State, Status, Summary};
+use tsubu_frame::{RunFolder, State, Status, Summary};
 use tsubu_scene::{Plan, Scene, plan};
 
 /// Computes the frequency response of a scene into `folder`. An existing folder of the same scene is gone on with.
 pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Summary, CasesError> {
     let begun = Instant::now();
     let task = Task::new(scene)?;
-    let resolved = scene.resolved_toml();
-    let earlier = journal::earlier(folder, &resolved, overwrite)?;
+    let earlier: Option<Done> = journal::earlier(folder, scene, overwrite)?;
     // An interrupted response has told how long it took until then.
     let before = earlier.as_ref().and_then(|_| Summary::read(&folder.join("summary.json")).ok());
     let before = before.map_or(0.0, |summary| summary.wall_seconds);
@@ -45,15 +43,9 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
     let (mut beds, mut failures) = (Beds::new(), Vec::new());
     task.settle(&rounds.missing, &mut beds, &mut failures)?;
     // Only now, so that a scene that a method refuses leaves nothing behind.
-    let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite)?;
-    let journal = Mutex::new(journal::append(&folder)?);
-    let record = |key: &Key, point: &Point| -> Result<(), CasesError> {
-        if let Ok(mut file) = journal.lock() {
-            let line = serde_json::to_string(&(key, point)).unwrap_or_default();
-            writeln!(file, "{line}").map_err(FileError::write(&folder.file("progress.jsonl")))?;
-        }
-        Ok(())
-    };
+    let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite, &FILES)?;
+    let journal = Journal::append(&folder)?;
+    let record = |key: &Key, point: &Point| Ok(journal.record(key, point)?);
     let complete = task.measure(&mut rounds, &mut beds, &mut failures, &record, watcher)?;
     let points = rounds.points;
     let status = match points.len() {
@@ -82,6 +74,21 @@ pub fn curves(scene: &Scene) -> Result<Vec<CaseResult>, CasesError> {
     task.measure(&mut rounds, &mut beds, &mut failures, &|_, _| Ok(()), &watcher)?;
     if failures.is_empty() { Ok(task.results(&rounds.points)) } else { Err(task.first(failures)) }
 }
+
+/// What a response writes beside what every study writes.
+const FILES: [&str; 4] = ["response.csv", "cases.csv", "energy_by_cause.csv", "frames/"];
+
+/// One run of the response.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+struct Key {
+    case: usize,
+    seed: u32,
+    /// Frequency over the natural frequency.
+    ratio: Exact,
+}
+
+/// All that is measured.
+type Done = BTreeMap<Key, Point>;
 
 /// Hears of every finished run.
 type Record<'a> = &'a (dyn Fn(&Key, &Point) -> Result<(), CasesError> + Sync);
@@ -185,7 +192,7 @@ impl Task {
             })
             .collect();
         for ((case, seed), bed) in settled? {
-            let ratio = Ratio(self.wanted.frequency_ratio.first().copied().unwrap_or(f64::NAN));
+            let ratio = Exact(self.wanted.frequency_ratio.first().copied().unwrap_or(f64::NAN));
             let failed = |error: OpenError| Failed { key: Key { case, seed, ratio }, error: error.into() };
             beds.insert((case, seed), bed.map_err(|error| failures.push(failed(error))).ok());
         }
@@ -324,7 +331,7 @@ impl Task {
         let best = peaks.min_by(|(_, a), (_, b)| a.rms.total_cmp(&b.rms));
         let Some((case, peak)) = best else { return Ok(()) };
         // After an interruption it may not be there.
-        let key = Key { case, seed: 0, ratio: Ratio(peak.ratio) };
+        let key = Key { case, seed: 0, ratio: Exact(peak.ratio) };
         self.settle(&[key], beds, &mut Vec::new())?;
         let Some(Some(bed)) = beds.get(&(case, 0)) else { return Ok(()) };
         let known = of_case(points, case);
@@ -356,7 +363,7 @@ fn of_case(points: &Done, case: usize) -> Vec<&Point> {
     points.iter().filter(|(key, _)| key.case == case).map(|(_, point)| point).collect()
 }
 
-fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, CasesError> {
+pub(super) fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, CasesError> {
     list.iter().map(|case| Ok(case.scene(scene).map_err(CasesError::Complaints)?.plan().clone())).collect()
 }
 

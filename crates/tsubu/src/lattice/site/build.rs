@@ -74,6 +74,7 @@ fn scene(plan: &Plan, rule: SiteRule, hosts: &Hosts, remarks: &mut Remarks) -> O
         after_baxter_behringer: _,
         after_karolyi_kertesz: _,
         response: _,
+        atlas: _,
         sweep: _,
         watch: _, // Once the model is there.
         output: _,

@@ -16,10 +16,17 @@ pub struct Ballast {
     pub weight: f64,
 }
 
+impl Ballast {
+    /// m - i m' [kg].
+    fn complex(self) -> Complex<f64> {
+        Complex::new(self.mass, -self.lossy_mass)
+    }
+}
+
 impl Host {
     /// Amplitude [m] of what is told in the steady motion at `frequency` [Hz] with the grains as ballast.
     pub fn steady_amplitude(&self, frequency: f64, ballast: Ballast) -> f64 {
-        self.steady(frequency, ballast).map_or(0.0, |(_, whole)| whole.norm())
+        self.steady(frequency, &self.seen, ballast.complex()).map_or(0.0, |(_, whole)| whole.norm())
     }
 
     /// Puts the structure into the steady motion at `frequency` [Hz], that of its drive, with the grains as ballast, at the moment when the walls are
@@ -28,7 +35,7 @@ impl Host {
         let (n, w) = (self.n, TAU * frequency);
         let stiffness = DMatrix::from_row_slice(n, n, &self.stiffness);
         let weight = DVector::from_fn(n, |i, _| self.seen[i] * ballast.weight);
-        let (Some((amplitude, whole)), Some(sag)) = (self.steady(frequency, ballast), stiffness.lu().solve(&weight))
+        let (Some((amplitude, whole)), Some(sag)) = (self.steady(frequency, &self.seen, ballast.complex()), stiffness.lu().solve(&weight))
         else {
             return 0.0;
         };
@@ -55,17 +62,27 @@ impl Host {
         self.velocity()
     }
 
+    /// The steady motion at `frequency` [Hz] with a complex mass m - i m' [kg] at an interface that moves along the host's direction:
+    /// amplitudes of what is told, and of the interface along that direction [m].
+    pub fn answer(&self, frequency: f64, interface: usize, mass: Complex<f64>) -> Option<[Complex<f64>; 2]> {
+        let hung = self.along(interface);
+        let (amplitude, told) = self.steady(frequency, &hung, mass)?;
+        Some([told, amplitude.iter().zip(&hung).map(|(q, h)| q * *h).sum()])
+    }
+
     /// Amplitudes of all coordinates, and of what is told of them, from the value of the drive at time 0 on:
-    /// (K - w^2 (M + m s s^T) + i w (C + w m' s s^T)) Q = (K + i w C) r Y + s F, with s what is told of each coordinate, m and m' mass and
-    /// lossy mass of the ballast.
-    fn steady(&self, frequency: f64, ballast: Ballast) -> Option<(DVector<Complex<f64>>, Complex<f64>)> {
+    /// (K - w^2 (M + m h h^T) + i w C) Q = (K + i w C) r Y + s F, with s what is told of each coordinate, h what a complex mass m hangs on.
+    fn steady(
+        &self,
+        frequency: f64,
+        hung: &[f64],
+        hanging: Complex<f64>,
+    ) -> Option<(DVector<Complex<f64>>, Complex<f64>)> {
         let (n, w) = (self.n, TAU * frequency);
         let entry = |matrix: &[f64], i: usize, j: usize| matrix[i * n + j];
         let spring = |i, j| Complex::new(entry(&self.stiffness, i, j), w * entry(&self.damping, i, j));
         let impedance = DMatrix::from_fn(n, n, |i, j| {
-            let both = self.seen[i] * self.seen[j];
-            let mass = Complex::new(entry(&self.mass, i, j) + ballast.mass * both, -ballast.lossy_mass * both);
-            spring(i, j) - mass * (w * w)
+            spring(i, j) - (hanging * (hung[i] * hung[j]) + entry(&self.mass, i, j)) * (w * w)
         });
         let phasor = |signal: &Option<Signal>| match signal {
             Some(Signal::Sine { amplitude, phase, .. }) => Complex::from_polar(*amplitude, *phase),
@@ -114,8 +131,9 @@ mod tests {
         let dt = 1.0 / (frequency * f64::from(steps));
         let mut highest = [0.0_f64; 20];
         for step in 0..20 * steps {
-            host.before(dt);
-            host.after(f64::from(step + 1) * dt, dt, &mut Ledger::default());
+            let time = f64::from(step + 1) * dt;
+            host.before(time, dt);
+            host.after(time, dt, &mut Ledger::default());
             let period = &mut highest[(step / steps) as usize];
             *period = period.max(host.displacement().abs());
         }

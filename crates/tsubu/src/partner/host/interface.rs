@@ -75,6 +75,12 @@ impl Host {
         }
     }
 
+    /// Displacement of an interface along the host's direction a unit of each coordinate.
+    pub(super) fn along(&self, interface: usize) -> Vec<f64> {
+        let direction = DVec3::from_array(self.direction);
+        self.interfaces[interface].translation.iter().map(|t| t.dot(direction)).collect()
+    }
+
     /// Where an interface is now.
     pub fn placed(&self, interface: usize) -> Placed {
         let Interface { point, translation, rotation, .. } = &self.interfaces[interface];

@@ -7,6 +7,7 @@ pub(super) type Matrices = (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>);
 /// M, C, K (row by row), w and r of a structure.
 pub(super) fn matrices(structure: &Structure) -> Matrices {
     match structure {
+        Structure::Shaker {} => (vec![f64::INFINITY], vec![0.0], vec![0.0], vec![1.0], vec![1.0]),
         Structure::Oscillator { mass, stiffness, damping, cubic_stiffness: _ } => {
             (vec![*mass], vec![*damping], vec![*stiffness], vec![1.0], vec![1.0])
         }

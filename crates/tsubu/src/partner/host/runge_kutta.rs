@@ -12,6 +12,9 @@ impl Host {
         for (felt, seen) in self.felt.iter_mut().zip(&self.seen) {
             *felt = seen * grain_force;
         }
+        if self.shaker {
+            return self.shaken_step(time, dt, grain_force, ledger);
+        }
         if self.n == 1 {
             self.runge_kutta_one(time, dt, grain_force, ledger);
             return;

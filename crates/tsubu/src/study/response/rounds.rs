@@ -1,8 +1,8 @@
 //! Which frequencies a response measures: those that were asked for, then round by round more.
 
 use super::curve::CaseResult;
-use super::journal::{Done, Key, Ratio};
-use super::{Task, refine, tasks};
+use super::{Done, Key, Task, refine, tasks};
+use crate::study::journal::Exact;
 use std::collections::BTreeSet;
 
 /// The frequencies of all cases, round by round. What is asked for in a round follows from the points of those before, never from how
@@ -63,7 +63,7 @@ impl<'a> Rounds<'a> {
     fn ask(&mut self, task: &Task, wanted: Vec<(usize, f64)>) -> bool {
         let seeds = 0..task.wanted.seeds;
         let keys =
-            wanted.into_iter().flat_map(|(case, x)| seeds.clone().map(move |seed| Key { case, seed, ratio: Ratio(x) }));
+            wanted.into_iter().flat_map(|(case, x)| seeds.clone().map(move |seed| Key { case, seed, ratio: Exact(x) }));
         let new: Vec<Key> = keys.filter(|key| self.asked.insert(*key)).collect();
         for key in &new {
             match self.earlier.and_then(|earlier| earlier.get(key)) {

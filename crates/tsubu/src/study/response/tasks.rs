@@ -70,7 +70,7 @@ pub(super) fn weight(plan: &Plan) -> usize {
     plan.particles.values().map(|p| p.count).sum()
 }
 
-fn seeded(plan: &Plan, seed: u32) -> Plan {
+pub(in crate::study) fn seeded(plan: &Plan, seed: u32) -> Plan {
     let mut plan = plan.clone();
     plan.seed += u64::from(seed);
     plan
@@ -82,7 +82,7 @@ fn discard(plan: &Plan, wanted: &Response) -> Option<u32> {
 }
 
 /// The state at time 0 of a case and seed, settled.
-pub(super) fn bed(plan: &Plan, seed: u32) -> Result<State, OpenError> {
+pub(in crate::study) fn bed(plan: &Plan, seed: u32) -> Result<State, OpenError> {
     let plan = seeded(plan, seed);
     let hosts = Hosts::new(&plan.hosts);
     let mut state = State::default();

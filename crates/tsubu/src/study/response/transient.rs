@@ -4,8 +4,9 @@ use super::tasks::Point;
 use crate::engine::Engine;
 use crate::interrupt::Interrupt;
 use crate::ledger::{Account, Ledger};
-use crate::partner::{Ballast, Hosts};
+use crate::partner::{Ballast, Host, Hosts};
 use crate::run::RunError;
+use nalgebra::Complex;
 use std::f64::consts::PI;
 use tsubu_scene::plan::Plan;
 
@@ -19,8 +20,6 @@ pub(super) const LONGEST: u32 = 60;
 const LOSSY_SHARE: f64 = 0.3;
 /// How far walls may stand from where they were drawn when a run begins, over the smallest diameter, and how much they may tilt.
 const DISPLACED: f64 = 1e-3;
-/// Steps between two looks at the structure, and two questions whether to stop.
-const UNSEEN: u64 = 8;
 
 /// Puts structure and grains into the motion expected at `frequency` [Hz], from what the nearest of the points already known says of
 /// the grains. Where grains cannot be set in motion with it, as some of their walls do not hang on it, everything begins at rest.
@@ -70,8 +69,57 @@ pub(super) fn begin(
     }
 }
 
-/// Advances until three blocks of periods agree; gives how many periods that took. `None` where it was interrupted.
+/// What is measured of a block of periods, to tell whether it is steady.
+pub(in crate::study) trait Block {
+    /// Steps between two looks.
+    const UNSEEN: u64;
+    /// Nothing measured yet, at `frequency` [Hz].
+    fn begin(frequency: f64) -> Self;
+    /// Looks at the host at `time` [s].
+    fn look(&mut self, host: &Host, time: f64);
+    /// What has come of it.
+    fn value(&self) -> Complex<f64>;
+}
+
+/// The root mean square of the displacement [m].
+struct RmsDisplacement {
+    number: f64,
+    sum: f64,
+    squares: f64,
+}
+
+impl Block for RmsDisplacement {
+    const UNSEEN: u64 = 8;
+
+    fn begin(_frequency: f64) -> Self {
+        Self { number: 0.0, sum: 0.0, squares: 0.0 }
+    }
+
+    fn look(&mut self, host: &Host, _time: f64) {
+        let z = host.displacement();
+        (self.number, self.sum, self.squares) = (self.number + 1.0, self.sum + z, self.squares + z * z);
+    }
+
+    fn value(&self) -> Complex<f64> {
+        let Self { number, sum, squares } = self;
+        (squares / number - (sum / number) * (sum / number)).max(0.0).sqrt().into()
+    }
+}
+
+/// Advances until the displacement is steady.
 pub(super) fn die_away(
+    frequency: f64,
+    engine: &mut dyn Engine,
+    hosts: &mut Hosts,
+    host: usize,
+    ledger: &mut Ledger,
+    interrupt: &Interrupt,
+) -> Result<Option<u32>, RunError> {
+    until_steady::<RmsDisplacement>(frequency, engine, hosts, host, ledger, interrupt)
+}
+
+/// Advances until three blocks of periods agree; gives how many periods that took. `None` where it was interrupted.
+pub(in crate::study) fn until_steady<B: Block>(
     frequency: f64,
     engine: &mut dyn Engine,
     hosts: &mut Hosts,
@@ -83,17 +131,15 @@ pub(super) fn die_away(
     let mut blocks = Vec::new();
     for block in 1..=LONGEST / BLOCK {
         let end = begun + (f64::from(BLOCK * block) / (frequency * engine.time_step())).round() as u64;
-        let (mut number, mut sum, mut squares) = (0.0, 0.0, 0.0);
+        let mut measured = B::begin(frequency);
         while engine.steps() < end {
             if interrupt.asked() {
                 return Ok(None);
             }
-            engine.advance(UNSEEN.min(end - engine.steps()), hosts, ledger)?;
-            let z = hosts.list[host].displacement();
-            (number, sum, squares) = (number + 1.0, sum + z, squares + z * z);
+            engine.advance(B::UNSEEN.min(end - engine.steps()), hosts, ledger)?;
+            measured.look(&hosts.list[host], engine.time());
         }
-        let rms = (squares / number - (sum / number) * (sum / number)).max(0.0).sqrt();
-        blocks.push(rms);
+        blocks.push(measured.value());
         if steady(&blocks) {
             return Ok(Some(BLOCK * block));
         }
@@ -103,22 +149,26 @@ pub(super) fn die_away(
 
 /// Whether the last three blocks agree; or, where the motion is irregular, whether they differ from the three before by no more than
 /// the scatter of either explains.
-fn steady(blocks: &[f64]) -> bool {
+fn steady(blocks: &[Complex<f64>]) -> bool {
     let Some(last) = blocks.last_chunk::<3>() else { return false };
-    let largest = last.iter().copied().fold(0.0, f64::max);
-    if last.iter().all(|one| largest - one <= STEADY * largest) {
+    let largest = last.iter().map(|one| one.norm()).fold(0.0, f64::max);
+    let apart = |a: usize, b: usize| (last[a] - last[b]).norm();
+    if apart(0, 1).max(apart(1, 2)).max(apart(0, 2)) <= STEADY * largest {
         return true;
     }
     let Some(before) = blocks[..blocks.len() - 3].last_chunk::<3>() else { return false };
-    let mean = |three: &[f64; 3]| three.iter().sum::<f64>() / 3.0;
+    let mean = |three: &[Complex<f64>; 3]| three.iter().sum::<Complex<f64>>() / 3.0;
     // Square of the standard error of a mean of three.
-    let error = |three: &[f64; 3]| three.iter().map(|one| (one - mean(three)).powi(2)).sum::<f64>() / 6.0;
-    (mean(last) - mean(before)).powi(2) <= error(last) + error(before)
+    let error =
+        |three: &[Complex<f64>; 3]| three.iter().map(|one| (one - mean(three)).norm_sqr()).sum::<f64>() / 6.0;
+    (mean(last) - mean(before)).norm_sqr() <= error(last) + error(before)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::steady;
+    fn steady(blocks: &[f64]) -> bool {
+        super::steady(&blocks.iter().map(|block| (*block).into()).collect::<Vec<_>>())
+    }
 
     /// A transient that dies away, a beat and a drift are no steady motions; what stays, or scatters about a mean, is one.
     #[test]

@@ -1,0 +1,240 @@
+//! An atlas of cavities: each alone on a shaker, at many frequencies and accelerations.
+//!
+//! What grains do to a structure near a resonance follows from the complex mass that they show it there ([`cavity`]). Each case is
+//! a cavity; its grid of points is refined where that mass bends. An atlas that was stopped goes on where it was.
+
+mod cavity;
+mod chart;
+mod refine;
+mod write;
+
+pub use cavity::Point;
+pub use chart::{AtlasError, Cavity, Chart, Shown, read};
+
+use super::cases::{Case, CasesError, cases};
+use super::journal::{self, Exact, Journal};
+use super::response::{case_plans, tasks};
+use crate::interrupt::Watcher;
+use crate::run::RunError;
+use nalgebra::Complex;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+use tsubu_frame::{State, Status, Summary};
+use tsubu_scene::{Plan, Scene, plan};
+
+/// What an atlas writes beside what every study writes.
+const FILES: [&str; 1] = [chart::FILE];
+
+/// One run of an atlas.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+struct Key {
+    case: usize,
+    /// Frequency [Hz].
+    frequency: Exact,
+    /// Amplitude of the acceleration [m/s^2].
+    acceleration: Exact,
+    seed: u32,
+}
+
+/// All that is measured.
+type Done = BTreeMap<Key, Point>;
+
+/// A run that broke off.
+type Failed = (Key, RunError);
+
+/// Computes the atlas of a scene into `folder`. An existing folder of the same scene is gone on with.
+pub fn atlas(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Summary, CasesError> {
+    let begun = Instant::now();
+    let task = Task::new(scene)?;
+    let earlier: Option<Done> = journal::earlier(folder, scene, overwrite)?;
+    let before = earlier.as_ref().and_then(|_| Summary::read(&folder.join("summary.json")).ok());
+    let before = before.map_or(0.0, |summary| summary.wall_seconds);
+    // Only then, so that a scene that a method refuses leaves nothing behind.
+    let beds = task.beds()?;
+    let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite, &FILES)?;
+    let journal = Journal::append(&folder)?;
+    let (mut points, mut failures) = (Done::new(), Vec::new());
+    let known = earlier.unwrap_or_default();
+    loop {
+        let wanted = task.next(&points, &failures);
+        if wanted.is_empty() {
+            break;
+        }
+        let (old, new): (Vec<Key>, Vec<Key>) = wanted.into_iter().partition(|key| known.contains_key(key));
+        points.extend(old.into_iter().map(|key| (key, known[&key].clone())));
+        let (done, failed) = task.measure(&new, &beds, &journal, points.len(), watcher)?;
+        points.extend(done);
+        failures.extend(failed);
+        if watcher.interrupt.asked() {
+            break;
+        }
+    }
+    let status = match points.len() {
+        _ if watcher.interrupt.asked() => Status::Interrupted,
+        0 if !failures.is_empty() => return Err(task.first(failures)),
+        _ if failures.is_empty() => Status::Finished,
+        _ => Status::Failed,
+    };
+    let _held = watcher.interrupt.hold();
+    let told = failures.iter().map(|failed| task.told(failed)).collect();
+    Ok(write::write(&folder, scene, &task, &points, status, told, before + begun.elapsed().as_secs_f64())?)
+}
+
+/// What an atlas has to compute.
+struct Task {
+    wanted: plan::Atlas,
+    cases: Vec<Case>,
+    /// Each with its host as a shaker.
+    plans: Vec<Plan>,
+}
+
+impl Task {
+    fn new(scene: &Scene) -> Result<Self, CasesError> {
+        let wanted = scene.plan().atlas.clone().ok_or_else(|| {
+            CasesError::Scene(
+                "the scene has no `[atlas]`: say how the cavity is shaken, for example `frequency = [\"4 Hz\", \"8 Hz\"]` and `acceleration = [\"0.1 g\", \"3 g\"]`".to_owned(),
+            )
+        })?;
+        if scene.plans().len() > 1 {
+            return Err(CasesError::Scene("an atlas is of a scene of one stage: leave `[[stage]]` out".to_owned()));
+        }
+        let cases = cases(&wanted.vary);
+        let plans = case_plans(scene, &cases)?;
+        if plans.iter().all(|plan| mass(plan) == 0.0) {
+            return Err(CasesError::Scene("no case of this atlas has grains: an empty cavity shows no mass".to_owned()));
+        }
+        let plans = plans.iter().map(|plan| cavity::shaken(plan, &wanted)).collect();
+        Ok(Self { wanted, cases, plans })
+    }
+
+    fn fail(&self, case: usize, error: RunError) -> CasesError {
+        CasesError::Run { case: self.cases[case].name.clone(), error }
+    }
+
+    fn first(&self, failures: Vec<Failed>) -> CasesError {
+        match failures.into_iter().next() {
+            Some((key, error)) => self.fail(key.case, error),
+            None => CasesError::Scene("there is nothing to run".to_owned()),
+        }
+    }
+
+    /// A failure in a sentence.
+    fn told(&self, (key, error): &Failed) -> String {
+        let name = &self.cases[key.case].name;
+        let case = if name.is_empty() { String::new() } else { format!("case `{name}`, ") };
+        format!(
+            "{case}{} Hz, {} m/s^2, seed {}: the run failed and is not in the atlas: {error}",
+            key.frequency.0, key.acceleration.0, key.seed
+        )
+    }
+
+    /// The settled beds of all cases with grains and of all seeds.
+    fn beds(&self) -> Result<BTreeMap<(usize, u32), State>, CasesError> {
+        let full = (0..self.plans.len()).filter(|case| mass(&self.plans[*case]) > 0.0);
+        let all: Vec<(usize, u32)> = full.flat_map(|case| (0..self.wanted.seeds).map(move |s| (case, s))).collect();
+        let settle = |(case, seed): (usize, u32)| {
+            let bed = tasks::bed(&self.plans[case], seed).map_err(|error| self.fail(case, error.into()))?;
+            Ok(((case, seed), bed))
+        };
+        all.into_par_iter().map(settle).collect()
+    }
+
+    /// What is measured next: it follows from what is known, never from how far an interrupted round had come.
+    fn next(&self, points: &Done, failures: &[Failed]) -> Vec<Key> {
+        let mut wanted = Vec::new();
+        for case in (0..self.plans.len()).filter(|case| mass(&self.plans[*case]) > 0.0) {
+            let found = self.found(points, case);
+            // Where every seed has failed nothing is known, and nothing is asked again.
+            let tried: Vec<refine::Place> = failures
+                .iter()
+                .filter(|(key, _)| key.case == case)
+                .map(|(key, _)| (key.frequency, key.acceleration))
+                .collect();
+            let places = if found.is_empty() && tried.is_empty() {
+                refine::first(self.wanted.frequency, self.wanted.acceleration)
+            } else {
+                let left = (self.wanted.at_most as usize).saturating_sub(found.len() + tried.len());
+                let mut next = refine::next(&found, self.wanted.within, left);
+                next.retain(|place| !tried.contains(place));
+                next
+            };
+            let of_place = |(frequency, acceleration): refine::Place| {
+                (0..self.wanted.seeds).map(move |seed| Key { case, frequency, acceleration, seed })
+            };
+            wanted.extend(places.into_iter().flat_map(of_place));
+        }
+        wanted.sort_by_key(|key| std::cmp::Reverse(self.plans[key.case].grains()));
+        wanted
+    }
+
+    /// What is known of a case, in the mean over the seeds, over the mass of its grains.
+    fn found(&self, points: &Done, case: usize) -> refine::Found {
+        let mut seeds: BTreeMap<refine::Place, Vec<&Point>> = BTreeMap::new();
+        for (key, point) in points.iter().filter(|(key, _)| key.case == case) {
+            seeds.entry((key.frequency, key.acceleration)).or_default().push(point);
+        }
+        let mass = mass(&self.plans[case]);
+        let mean = |of: Vec<&Point>| {
+            let n = of.len() as f64;
+            let mean = of.iter().map(|point| point.complex()).sum::<Complex<f64>>() / n;
+            let squares: f64 = of.iter().map(|point| point.error.unwrap_or(0.0).powi(2)).sum();
+            (mean / mass, squares.sqrt() / (n * mass))
+        };
+        seeds.into_iter().map(|(place, of)| (place, mean(of))).collect()
+    }
+
+    /// Runs all of these, side by side; each is written down when it is done.
+    fn measure(
+        &self,
+        keys: &[Key],
+        beds: &BTreeMap<(usize, u32), State>,
+        journal: &Journal,
+        before: usize,
+        watcher: &Watcher,
+    ) -> Result<(Done, Vec<Failed>), CasesError> {
+        let counter = AtomicUsize::new(before);
+        let total = self.expected().max(before + keys.len()) as f64;
+        let run = |key: &Key| -> Result<Option<Result<(Key, Point), Failed>>, CasesError> {
+            let Some(bed) = beds.get(&(key.case, key.seed)).filter(|_| !watcher.interrupt.asked()) else {
+                return Ok(None);
+            };
+            let place = [key.frequency.0, key.acceleration.0];
+            match cavity::measure(&self.plans[key.case], &self.wanted, key.seed, bed, place, watcher.interrupt) {
+                Ok(None) => Ok(None),
+                Ok(Some(point)) => {
+                    journal.record(key, &point)?;
+                    (watcher.progress)((counter.fetch_add(1, Ordering::Relaxed) + 1) as f64 / total);
+                    Ok(Some(Ok((*key, point))))
+                }
+                Err(error @ RunError::Fault(_)) => Ok(Some(Err((*key, error)))),
+                Err(error) => Err(self.fail(key.case, error)),
+            }
+        };
+        let ran: Result<Vec<_>, CasesError> = keys.par_iter().map(run).collect();
+        let (mut done, mut failed) = (Done::new(), Vec::new());
+        for one in ran?.into_iter().flatten() {
+            match one {
+                Ok((key, point)) => drop(done.insert(key, point)),
+                Err(failure) => failed.push(failure),
+            }
+        }
+        Ok((done, failed))
+    }
+
+    /// About how many runs there will be.
+    fn expected(&self) -> usize {
+        /// Points of a case, as a rule.
+        const POINTS: u32 = 45;
+        let full = self.plans.iter().filter(|plan| mass(plan) > 0.0).count();
+        full * (self.wanted.at_most.min(POINTS) * self.wanted.seeds) as usize
+    }
+}
+
+/// Mass of all grains [kg].
+fn mass(plan: &Plan) -> f64 {
+    plan.particles.values().map(|group| group.mass * group.count as f64).sum()
+}

@@ -1,0 +1,160 @@
+//! A cavity alone on a shaker: the mass that its grains show.
+//!
+//! Walls move as x = X sin(w t), X = a / w^2. The part of the grains' force at that frequency, over the acceleration, is a complex mass
+//! m - i m': m in phase with the acceleration, m' with the velocity. A rigid ballast has its mass and m' = 0; the work that m' takes in
+//! a period is pi m' (w X)^2. In terms of Masmoudi et al. 2016, m' over the mass of all grains is the loss factor.
+
+use crate::engine;
+use crate::interrupt::Interrupt;
+use crate::ledger::{Account, Ledger};
+use crate::methods;
+use crate::partner::{Host, Hosts};
+use crate::run::RunError;
+use crate::study::response::tasks::seeded;
+use crate::study::response::transient::{Block, until_steady};
+use crate::trial::unsettled;
+use nalgebra::Complex;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{PI, TAU};
+use std::time::Instant;
+use tsubu_frame::State;
+use tsubu_scene::plan::{Atlas, Plan, Signal, Structure};
+
+/// Periods of a block: one that doubles its period twice is the same in each.
+const BLOCK: u32 = 4;
+
+/// What a cavity shows at one frequency and acceleration.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    /// Mass in phase with the acceleration [kg].
+    pub mass: f64,
+    /// Mass in phase with the velocity [kg].
+    pub lossy_mass: f64,
+    /// Standard error of both together, from blocks of four periods [kg]; not known with one block.
+    pub error: Option<f64>,
+    /// The lossy mass that what grains have lost amounts to: the same where the motion is steady [kg].
+    pub lost_mass: f64,
+    /// Energy residual over what a lossy mass as large as all grains' would have taken.
+    pub residual: f64,
+    /// Periods before the measured ones.
+    pub discarded: u32,
+    /// Computing time [s].
+    pub wall: f64,
+}
+
+impl Point {
+    /// m - i m' [kg].
+    pub fn complex(&self) -> Complex<f64> {
+        Complex::new(self.mass, -self.lossy_mass)
+    }
+}
+
+/// The plan of a cavity: its host gives way to a shaker that is at rest at time 0, for the bed, and gets as fast as the atlas will be.
+pub(super) fn shaken(plan: &Plan, atlas: &Atlas) -> Plan {
+    let mut plan = plan.clone();
+    let ([slow, _], [_, strong]) = (atlas.frequency, atlas.acceleration);
+    if let Some(host) = plan.hosts.get_mut(&atlas.host) {
+        host.structure = Structure::Shaker {};
+        let amplitude = strong / (TAU * slow).powi(2);
+        host.base = Some(Signal::SineSweep { amplitude, from: 0.0, to: slow, duration: 1.0 / slow });
+        (host.force, host.at, host.displacement, host.velocity) = (None, None, 0.0, 0.0);
+        host.interface.clear();
+    }
+    for wall in plan.walls.values_mut().filter(|wall| wall.host.as_ref() == Some(&atlas.host)) {
+        wall.interface = None;
+    }
+    plan
+}
+
+/// A sine by its frequency [Hz] and the amplitude of its acceleration [m/s^2], through its middle at time 0.
+fn sine(frequency: f64, acceleration: f64) -> Signal {
+    let w = TAU * frequency;
+    Signal::Sine { amplitude: acceleration / (w * w), frequency, phase: 0.0 }
+}
+
+/// Shakes a cavity, from its settled bed, until the motion is steady, and measures; `None` where it was interrupted.
+pub(super) fn measure(
+    plan: &Plan,
+    atlas: &Atlas,
+    seed: u32,
+    bed: &State,
+    [frequency, acceleration]: [f64; 2],
+    interrupt: &Interrupt,
+) -> Result<Option<Point>, RunError> {
+    let begun = Instant::now();
+    let plan = unsettled(&seeded(plan, seed));
+    let mut hosts = Hosts::new(&plan.hosts);
+    let host = hosts.index(&atlas.host).unwrap_or_default();
+    let mut engine = methods::open(&plan, &hosts)?;
+    engine.load(bed).map_err(|error| engine::OpenError::Bed(error.to_string()))?;
+    hosts.list[host].shake(sine(frequency, acceleration));
+    let velocity = glam::DVec3::from_array(hosts.list[host].direction) * hosts.list[host].velocity();
+    // At rest where they cannot be set in motion: it takes a little longer until all is steady.
+    engine.set_in_motion(velocity.into());
+    let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
+    let steady =
+        until_steady::<ComplexMass>(frequency, &mut *engine, &mut hosts, host, &mut ledger, interrupt)?;
+    let Some(discarded) = steady else { return Ok(None) };
+    let before = lost(&ledger);
+    let first = engine.steps();
+    let blocks = atlas.measure_periods.div_ceil(BLOCK);
+    let mut found = Vec::new();
+    for block in 1..=blocks {
+        let end = first + (f64::from(BLOCK * block) / (frequency * engine.time_step())).round() as u64;
+        let mut measured = ComplexMass::begin(frequency);
+        while engine.steps() < end {
+            if interrupt.asked() {
+                return Ok(None);
+            }
+            engine.advance(1, &mut hosts, &mut ledger)?;
+            measured.look(&hosts.list[host], engine.time());
+        }
+        found.push(measured.value());
+    }
+    let n = found.len() as f64;
+    let mean = found.iter().sum::<Complex<f64>>() / n;
+    let scatter = found.iter().map(|one| (one - mean).norm_sqr()).sum::<f64>() / (n * (n - 1.0));
+    let speed = acceleration / (TAU * frequency);
+    let of_a_mass = f64::from(BLOCK * blocks) * PI * speed * speed;
+    let whole = f64::from(discarded + BLOCK * blocks) * PI * speed * speed;
+    Ok(Some(Point {
+        mass: mean.re,
+        lossy_mass: -mean.im,
+        error: (n > 1.0).then(|| scatter.sqrt()),
+        lost_mass: (lost(&ledger) - before) / of_a_mass,
+        residual: ledger.residual(&engine::energies(&*engine, &hosts)) / (whole * super::mass(&plan)),
+        discarded,
+        wall: begun.elapsed().as_secs_f64(),
+    }))
+}
+
+/// What has been lost since the ledger was opened [J].
+fn lost(ledger: &Ledger) -> f64 {
+    Account::ALL.iter().filter(|account| !account.is_work()).map(|account| ledger.flow(*account)).sum()
+}
+
+/// The complex mass over a whole number of periods: force over acceleration, both at the frequency of the shaker.
+struct ComplexMass {
+    w: f64,
+    force: Complex<f64>,
+    displacement: Complex<f64>,
+}
+
+impl Block for ComplexMass {
+    /// Forces of contacts are short.
+    const UNSEEN: u64 = 1;
+
+    fn begin(frequency: f64) -> Self {
+        Self { w: TAU * frequency, force: Complex::default(), displacement: Complex::default() }
+    }
+
+    fn look(&mut self, host: &Host, time: f64) {
+        let turn = Complex::from_polar(1.0, -self.w * time);
+        self.force += turn * host.grain_force();
+        self.displacement += turn * host.displacement();
+    }
+
+    fn value(&self) -> Complex<f64> {
+        self.force / (self.displacement * self.w * self.w)
+    }
+}

@@ -1,0 +1,77 @@
+//! The files of an atlas.
+
+use super::{Done, Task, chart};
+use crate::study::cases::Case;
+use crate::trial::unsettled;
+use crate::partner::Hosts;
+use crate::{check, methods, run};
+use tsubu_frame::{FileError, RunFolder, Status, Summary};
+use tsubu_scene::Scene;
+
+/// What the cases are called in tables.
+pub(super) fn names(cases: &[Case]) -> Vec<String> {
+    cases.iter().map(|case| if case.name.is_empty() { "scene".to_owned() } else { case.name.clone() }).collect()
+}
+
+/// Writes `atlas.csv`, `check.txt` and `summary.json`.
+pub(super) fn write(
+    folder: &RunFolder,
+    scene: &Scene,
+    task: &Task,
+    points: &Done,
+    status: Status,
+    failures: Vec<String>,
+    wall_seconds: f64,
+) -> Result<Summary, FileError> {
+    let plan = &task.plans[0];
+    let mut summary = Summary {
+        tsubu_version: crate::VERSION.to_owned(),
+        status,
+        method: plan.method.name().to_owned(),
+        dimension: u32::from(plan.dimension),
+        particles: task.plans.iter().map(|plan| plan.grains() as u64).max().unwrap_or_default(),
+        wall_seconds,
+        threads: rayon::current_num_threads() as u32,
+        warnings: failures,
+        ..Summary::default()
+    };
+    let names = names(&task.cases);
+    for (case, name) in names.iter().enumerate() {
+        let found = task.found(points, case);
+        let Some((place, (best, _))) = found.iter().min_by(|a, b| a.1.0.im.total_cmp(&b.1.0.im)) else { continue };
+        let suffix = if task.cases[case].name.is_empty() { String::new() } else { format!(" {name}") };
+        summary.give(format!("largest loss factor{suffix}"), "-", -best.im);
+        summary.give(format!("its frequency{suffix}"), "Hz", place.0.0);
+        summary.give(format!("its acceleration{suffix}"), "m/s^2", place.1.0);
+        summary.give(format!("points{suffix}"), "-", found.len() as f64);
+        let left = super::refine::next(&found, task.wanted.within, 1);
+        if status == Status::Finished && found.len() >= task.wanted.at_most as usize && !left.is_empty() {
+            summary.warnings.push(format!(
+                "case `{name}`: {} points are not enough to know the mass within {} of the grains' between them; a larger `atlas.at-most` is",
+                found.len(),
+                task.wanted.within
+            ));
+        }
+    }
+    let residual = points.values().map(|point| point.residual.abs()).fold(0.0, f64::max);
+    summary.energy.residual_relative = residual;
+    let tolerance = plan.dem.energy_tolerance;
+    if residual > tolerance {
+        summary.warnings.push(format!(
+            "the energy residual of some run is {residual:.2e} of the energy turned over, more than `dem.energy-tolerance` = {tolerance:e}: shorten the time step"
+        ));
+    }
+    let hosts = Hosts::new(&plan.hosts);
+    if let Ok(engine) = methods::open(&unsettled(plan), &hosts) {
+        summary.time_step = engine.time_step();
+        summary.warnings.extend(engine.notes().iter().map(|note| format!("{}: {}", note.key, note.text)));
+        folder.write("check.txt", check::verdict(plan, &hosts, &*engine).to_string().as_bytes())?;
+    }
+    if status == Status::Finished {
+        run::judge(scene.plan(), &mut summary);
+    }
+    folder.write(chart::FILE, chart::table(&names, &task.plans, points).to_csv().as_bytes())?;
+    folder.write_json("summary.json", &summary)?;
+    folder.sync()?;
+    Ok(summary)
+}
