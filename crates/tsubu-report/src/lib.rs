@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use tsubu_frame::{FileError, RunFolder};
 
 pub mod animation;
+mod atlas;
 pub mod balls;
 mod canvas;
 mod claims;
@@ -23,6 +24,7 @@ mod moments;
 mod moving;
 pub mod page;
 mod plot;
+mod prediction;
 pub mod raster;
 mod response;
 mod run;
@@ -53,7 +55,7 @@ pub enum ReportError {
     },
     /// It holds nothing that tsubu writes.
     #[error(
-        "{} holds no results: none of summary.json, history.csv, response.csv, sweep.csv, compare.json, verify.json or frames/ is in it",
+        "{} holds no results: none of summary.json, history.csv, response.csv, atlas.csv, prediction.csv, sweep.csv, compare.json, verify.json or frames/ is in it",
         path.display()
     )]
     NoResults {
@@ -101,6 +103,10 @@ fn gather(dir: &Path) -> Result<(Report, Source), ReportError> {
         verify::build(&mut source)
     } else if source.has("compare.json") || source.has("compare.csv") {
         compare::build(&mut source)
+    } else if source.has("atlas.csv") {
+        atlas::build(&mut source)
+    } else if source.has("prediction.csv") {
+        prediction::build(&mut source)
     } else if source.has("response.csv") {
         response::build(&mut source)
     } else if source.has("sweep.csv") {

@@ -10,6 +10,7 @@ mod explain;
 mod held_against;
 mod new;
 mod origins;
+mod predict;
 mod report;
 mod response;
 mod run;
@@ -35,6 +36,8 @@ pub enum Command {
     Response(response::Options),
     /// Effective mass and loss of a cavity of grains, over frequency and acceleration
     Atlas(atlas::Options),
+    /// Response of a structure from an atlas of its cavity, in seconds, with spot checks
+    Predict(predict::Options),
     /// One scene by several methods: what differs, and what each costs
     Compare(compare::Options),
     /// Check the shipped verification cases and published studies, claim by claim
@@ -63,6 +66,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Sweep(options) => sweep::run(&options),
         Command::Response(options) => response::run(&options),
         Command::Atlas(options) => atlas::run(&options),
+        Command::Predict(options) => predict::run(&options),
         Command::Compare(options) => compare::run(&options),
         Command::Verify(options) => verify::run(&options),
         Command::Explain(options) => explain::run(&options),

@@ -72,11 +72,18 @@ pub(super) static ATLAS: &[Key] = &[
         Kind::Quantity(&NUMBER),
         "Points are added until none lies farther off the line between its neighbours than this share of the grains' mass",
     )
-    .default("0.05")
+    .default("0.1")
     .at_least(1e-4)
     .at_most(1.0),
     Key::new("at-most", Kind::Whole, "Points of a case, at most").default("100").at_least(12.0).at_most(1e5),
-    Key::new("measure-periods", Kind::Whole, "Periods measured at each point").default("20").at_least(4.0).at_most(1e6),
+    Key::new(
+        "measure-periods",
+        Kind::Whole,
+        "Periods measured at each point, at most: of a regular motion twenty are, of one that scatters as many as it takes",
+    )
+    .default("100")
+    .at_least(4.0)
+    .at_most(1e6),
     Key::new("seeds", Kind::Whole, "Number of random seeds, from the scene's seed upwards")
         .default("1")
         .at_least(1.0)

@@ -98,7 +98,7 @@ pub struct Atlas {
     pub within: f64,
     /// Points of a case, at most.
     pub at_most: u32,
-    /// Periods measured at each point.
+    /// Periods measured at each point, at most.
     pub measure_periods: u32,
     /// Number of random seeds, from the scene's seed upwards.
     pub seeds: u32,

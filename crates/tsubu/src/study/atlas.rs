@@ -6,10 +6,12 @@
 mod cavity;
 mod chart;
 mod refine;
+mod shown;
 mod write;
 
 pub use cavity::Point;
-pub use chart::{AtlasError, Cavity, Chart, Shown, read};
+pub use chart::{AtlasError, Cavity, Chart, read};
+pub use shown::Shown;
 
 use super::cases::{Case, CasesError, cases};
 use super::journal::{self, Exact, Journal};
@@ -182,7 +184,7 @@ impl Task {
             let n = of.len() as f64;
             let mean = of.iter().map(|point| point.complex()).sum::<Complex<f64>>() / n;
             let squares: f64 = of.iter().map(|point| point.error.unwrap_or(0.0).powi(2)).sum();
-            (mean / mass, squares.sqrt() / (n * mass))
+            Shown { mass: mean / mass, error: squares.sqrt() / (n * mass), second: 0.0 }
         };
         seeds.into_iter().map(|(place, of)| (place, mean(of))).collect()
     }

@@ -4,6 +4,7 @@ pub mod atlas;
 pub mod cases;
 pub mod compare;
 mod journal;
+pub mod predict;
 pub mod response;
 pub mod ring_down;
 pub mod sweep;

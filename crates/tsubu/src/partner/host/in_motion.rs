@@ -70,6 +70,15 @@ impl Host {
         Some([told, amplitude.iter().zip(&hung).map(|(q, h)| q * *h).sum()])
     }
 
+    /// Amplitude of the acceleration of an interface along the host's direction, over that of a force there, at `frequency` [Hz] [1/kg].
+    pub fn mobility_at(&self, frequency: f64, interface: usize) -> f64 {
+        let (hung, w) = (self.along(interface), TAU * frequency);
+        let push = DVector::from_iterator(self.n, hung.iter().map(|h| Complex::from(*h)));
+        let amplitude = self.impedance(frequency, &hung, Complex::default()).lu().solve(&push);
+        let moved = |q: DVector<Complex<f64>>| q.iter().zip(&hung).map(|(q, h)| q * *h).sum::<Complex<f64>>();
+        amplitude.map_or(0.0, |q| w * w * moved(q).norm())
+    }
+
     /// Amplitudes of all coordinates, and of what is told of them, from the value of the drive at time 0 on:
     /// (K - w^2 (M + m h h^T) + i w C) Q = (K + i w C) r Y + s F, with s what is told of each coordinate, h what a complex mass m hangs on.
     fn steady(
@@ -78,24 +87,33 @@ impl Host {
         hung: &[f64],
         hanging: Complex<f64>,
     ) -> Option<(DVector<Complex<f64>>, Complex<f64>)> {
-        let (n, w) = (self.n, TAU * frequency);
-        let entry = |matrix: &[f64], i: usize, j: usize| matrix[i * n + j];
-        let spring = |i, j| Complex::new(entry(&self.stiffness, i, j), w * entry(&self.damping, i, j));
-        let impedance = DMatrix::from_fn(n, n, |i, j| {
-            spring(i, j) - (hanging * (hung[i] * hung[j]) + entry(&self.mass, i, j)) * (w * w)
-        });
         let phasor = |signal: &Option<Signal>| match signal {
             Some(Signal::Sine { amplitude, phase, .. }) => Complex::from_polar(*amplitude, *phase),
             _ => Complex::default(),
         };
         let (base, force) = (phasor(&self.base), phasor(&self.force));
+        let n = self.n;
         let load = DVector::from_fn(n, |i, _| {
-            let driven: Complex<f64> = (0..n).map(|j| spring(i, j) * self.driven[j]).sum();
+            let driven: Complex<f64> = (0..n).map(|j| self.spring(frequency, i, j) * self.driven[j]).sum();
             driven * base + force * self.seen[i]
         });
-        let amplitude = impedance.lu().solve(&load)?;
+        let amplitude = self.impedance(frequency, hung, hanging).lu().solve(&load)?;
         let whole = amplitude.iter().zip(&self.seen).map(|(q, s)| q * *s).sum();
         Some((amplitude, whole))
+    }
+
+    /// K + i w C, an entry of it.
+    fn spring(&self, frequency: f64, i: usize, j: usize) -> Complex<f64> {
+        let at = i * self.n + j;
+        Complex::new(self.stiffness[at], TAU * frequency * self.damping[at])
+    }
+
+    /// K - w^2 (M + m h h^T) + i w C.
+    fn impedance(&self, frequency: f64, hung: &[f64], hanging: Complex<f64>) -> DMatrix<Complex<f64>> {
+        let (n, w) = (self.n, TAU * frequency);
+        DMatrix::from_fn(n, n, |i, j| {
+            self.spring(frequency, i, j) - (hanging * (hung[i] * hung[j]) + self.mass[i * n + j]) * (w * w)
+        })
     }
 }
 

@@ -22,6 +22,10 @@ use tsubu_scene::plan::{Atlas, Plan, Signal, Structure};
 
 /// Periods of a block: one that doubles its period twice is the same in each.
 const BLOCK: u32 = 4;
+/// Blocks that are measured at least, to know how they scatter.
+const LEAST: usize = 5;
+/// More are measured until the standard error is so small a share of what points may lie off lines.
+const SURE: f64 = 0.25;
 
 /// What a cavity shows at one frequency and acceleration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,6 +36,10 @@ pub struct Point {
     pub lossy_mass: f64,
     /// Standard error of both together, from blocks of four periods [kg]; not known with one block.
     pub error: Option<f64>,
+    /// Amplitude of the force at twice the frequency, over the amplitude of the acceleration [kg].
+    pub second: f64,
+    /// Periods measured.
+    pub measured: u32,
     /// The lossy mass that what grains have lost amounts to: the same where the motion is steady [kg].
     pub lost_mass: f64,
     /// Energy residual over what a lossy mass as large as all grains' would have taken.
@@ -97,9 +105,11 @@ pub(super) fn measure(
     let Some(discarded) = steady else { return Ok(None) };
     let before = lost(&ledger);
     let first = engine.steps();
-    let blocks = atlas.measure_periods.div_ceil(BLOCK);
-    let mut found = Vec::new();
-    for block in 1..=blocks {
+    let most = atlas.measure_periods.div_ceil(BLOCK) as usize;
+    let enough = SURE * atlas.within * super::mass(&plan);
+    let (mut found, mut second) = (Vec::new(), 0.0);
+    while found.len() < most.min(LEAST) || found.len() < most && standard_error(&found) > enough {
+        let block = found.len() as u32 + 1;
         let end = first + (f64::from(BLOCK * block) / (frequency * engine.time_step())).round() as u64;
         let mut measured = ComplexMass::begin(frequency);
         while engine.steps() < end {
@@ -110,17 +120,20 @@ pub(super) fn measure(
             measured.look(&hosts.list[host], engine.time());
         }
         found.push(measured.value());
+        second += measured.second();
     }
     let n = found.len() as f64;
     let mean = found.iter().sum::<Complex<f64>>() / n;
-    let scatter = found.iter().map(|one| (one - mean).norm_sqr()).sum::<f64>() / (n * (n - 1.0));
     let speed = acceleration / (TAU * frequency);
-    let of_a_mass = f64::from(BLOCK * blocks) * PI * speed * speed;
-    let whole = f64::from(discarded + BLOCK * blocks) * PI * speed * speed;
+    let measured = BLOCK * found.len() as u32;
+    let of_a_mass = f64::from(measured) * PI * speed * speed;
+    let whole = f64::from(discarded + measured) * PI * speed * speed;
     Ok(Some(Point {
         mass: mean.re,
         lossy_mass: -mean.im,
-        error: (n > 1.0).then(|| scatter.sqrt()),
+        error: (n > 1.0).then(|| standard_error(&found)),
+        second: second / n,
+        measured,
         lost_mass: (lost(&ledger) - before) / of_a_mass,
         residual: ledger.residual(&engine::energies(&*engine, &hosts)) / (whole * super::mass(&plan)),
         discarded,
@@ -128,15 +141,30 @@ pub(super) fn measure(
     }))
 }
 
+/// Standard error of the mean of blocks [kg].
+fn standard_error(blocks: &[Complex<f64>]) -> f64 {
+    let n = blocks.len() as f64;
+    let mean = blocks.iter().sum::<Complex<f64>>() / n;
+    (blocks.iter().map(|one| (one - mean).norm_sqr()).sum::<f64>() / (n * (n - 1.0))).sqrt()
+}
+
 /// What has been lost since the ledger was opened [J].
 fn lost(ledger: &Ledger) -> f64 {
     Account::ALL.iter().filter(|account| !account.is_work()).map(|account| ledger.flow(*account)).sum()
+}
+
+impl ComplexMass {
+    /// The force at twice the frequency over the acceleration [kg].
+    fn second(&self) -> f64 {
+        self.second.norm() / (self.displacement.norm() * self.w * self.w)
+    }
 }
 
 /// The complex mass over a whole number of periods: force over acceleration, both at the frequency of the shaker.
 struct ComplexMass {
     w: f64,
     force: Complex<f64>,
+    second: Complex<f64>,
     displacement: Complex<f64>,
 }
 
@@ -145,12 +173,14 @@ impl Block for ComplexMass {
     const UNSEEN: u64 = 1;
 
     fn begin(frequency: f64) -> Self {
-        Self { w: TAU * frequency, force: Complex::default(), displacement: Complex::default() }
+        let none = Complex::default();
+        Self { w: TAU * frequency, force: none, second: none, displacement: none }
     }
 
     fn look(&mut self, host: &Host, time: f64) {
         let turn = Complex::from_polar(1.0, -self.w * time);
         self.force += turn * host.grain_force();
+        self.second += turn * turn * host.grain_force();
         self.displacement += turn * host.displacement();
     }
 

@@ -1,7 +1,9 @@
 //! The file of an atlas: written, read again, and asked for what lies between its points.
 
-use super::{Done, refine};
+use super::Done;
+use super::shown::{Column, Shown, at, between};
 use crate::study::cases::{CasesError, cases};
+use crate::study::journal::Exact;
 use crate::study::response::case_plans;
 use nalgebra::Complex;
 use std::collections::BTreeMap;
@@ -12,7 +14,7 @@ use tsubu_scene::{Plan, Scene};
 /// Its name in the folder.
 pub(super) const FILE: &str = "atlas.csv";
 
-const HEADER: [&str; 13] = [
+const HEADER: [&str; 15] = [
     "case [text]",
     "particles [-]",
     "grain mass [kg]",
@@ -22,10 +24,12 @@ const HEADER: [&str; 13] = [
     "effective mass [kg]",
     "lossy mass [kg]",
     "error [kg]",
+    "second harmonic [kg]",
     "loss factor [-]",
     "lost mass [kg]",
     "energy residual [-]",
     "periods discarded [-]",
+    "periods measured [-]",
 ];
 
 /// Why a folder is no atlas that can be used.
@@ -58,10 +62,12 @@ pub(super) fn table(names: &[String], plans: &[Plan], points: &Done) -> Table {
             point.mass,
             point.lossy_mass,
             point.error.unwrap_or(f64::NAN),
+            point.second,
             point.lossy_mass / mass,
             point.lost_mass,
             point.residual,
             f64::from(point.discarded),
+            f64::from(point.measured),
         ];
         let name = Cell::Text(names[key.case].clone());
         table.push(std::iter::once(name).chain(numbers.map(Cell::Number)));
@@ -86,65 +92,52 @@ pub struct Cavity {
     pub charts: Vec<Chart>,
 }
 
-/// Points at one frequency [Hz]: acceleration [m/s^2], mass and error [kg].
-type Column = (f64, Vec<(f64, Complex<f64>, f64)>);
-
-/// The complex mass of one bed over frequency and acceleration.
+/// What one bed showed over frequency and acceleration.
 #[derive(Clone, Debug, Default)]
 pub struct Chart {
-    /// Columns by frequency: acceleration, mass, error.
-    columns: Vec<Column>,
-}
-
-/// What a cavity shows.
-#[derive(Clone, Copy, Debug)]
-pub struct Shown {
-    /// The mass m - i m' [kg].
-    pub mass: Complex<f64>,
-    /// How far off it may be: twice the standard error of the measurement, and what the straight lines leave out [kg].
-    pub error: f64,
+    /// Columns by frequency [Hz], rising.
+    columns: Vec<(f64, Column)>,
 }
 
 impl Chart {
-    /// What is shown at a frequency [Hz] and acceleration [m/s^2]: on straight lines over their logarithms, and that of the edge
-    /// beyond it.
-    pub fn at(&self, frequency: f64, acceleration: f64) -> Shown {
-        let after = self.columns.partition_point(|(own, _)| *own < frequency);
-        let of = |column: usize| {
-            let (f, points) = self.columns.get(column)?;
-            Some((*f, refine::at(points, acceleration)))
-        };
-        let (mass, error) = match (after.checked_sub(1).and_then(of), of(after)) {
-            (Some((low, below)), Some((high, above))) => {
-                let share = (frequency / low).ln() / (high / low).ln();
-                (below.0 * (1.0 - share) + above.0 * share, below.1.max(above.1))
-            }
-            (Some((_, edge)), None) | (None, Some((_, edge))) => edge,
-            (None, None) => (Complex::default(), 0.0),
-        };
-        Shown { mass, error }
-    }
-
-    /// A chart of columns whose points carry standard errors: each gets what it lies off the lines between its neighbours as well, of
-    /// which about a quarter is left out halfway between points.
-    fn new(mut columns: Vec<Column>) -> Self {
-        let plain = columns.clone();
-        for (index, (frequency, points)) in columns.iter_mut().enumerate() {
-            for (row, (acceleration, mass, error)) in points.iter_mut().enumerate() {
+    /// A chart of points, each [frequency [Hz], acceleration [m/s^2]], with their standard errors [kg]. The error becomes twice that, for
+    /// 95 %, with what the straight lines leave out: about a quarter of what a point lies off the line between its neighbours.
+    pub fn new(points: impl IntoIterator<Item = ([f64; 2], Shown)>) -> Self {
+        let mut columns: BTreeMap<Exact, BTreeMap<Exact, Shown>> = BTreeMap::new();
+        for ([frequency, acceleration], shown) in points {
+            columns.entry(Exact(frequency)).or_default().insert(Exact(acceleration), shown);
+        }
+        let column = |points: BTreeMap<Exact, Shown>| points.into_iter().map(|(a, shown)| (a.0, shown)).collect();
+        let plain: Vec<(f64, Column)> = columns.into_iter().map(|(f, points)| (f.0, column(points))).collect();
+        let mut chart = Self { columns: plain.clone() };
+        for (index, (frequency, points)) in chart.columns.iter_mut().enumerate() {
+            for (row, (acceleration, shown)) in points.iter_mut().enumerate() {
                 let along = row.checked_sub(1).and_then(|before| {
                     let (low, high) = (plain[index].1.get(before)?, plain[index].1.get(row + 1)?);
-                    Some(refine::between([low.0, high.0], [low.1, high.1], *acceleration))
+                    Some(between([low.0, high.0], [low.1, high.1], *acceleration))
                 });
                 let across = index.checked_sub(1).and_then(|before| {
                     let (low, high) = (plain.get(before)?, plain.get(index + 1)?);
-                    let values = [&low.1, &high.1].map(|column| refine::at(column, *acceleration).0);
-                    Some(refine::between([low.0, high.0], values, *frequency))
+                    let values = [&low.1, &high.1].map(|column| at(column, *acceleration));
+                    Some(between([low.0, high.0], values, *frequency))
                 });
-                let off = [along, across].into_iter().flatten().map(|line| (*mass - line).norm());
-                *error = 2.0 * if error.is_finite() { *error } else { 0.0 } + 0.25 * off.sum::<f64>();
+                let off = [along, across].into_iter().flatten().map(|line| (shown.mass - line.mass).norm());
+                shown.error = 2.0 * shown.error + 0.25 * off.sum::<f64>();
             }
         }
-        Self { columns }
+        chart
+    }
+
+    /// What is shown at a frequency [Hz] and acceleration [m/s^2]: on straight lines over their logarithms, and what the edge shows
+    /// beyond it.
+    pub fn at(&self, frequency: f64, acceleration: f64) -> Shown {
+        let after = self.columns.partition_point(|(own, _)| *own < frequency);
+        let of = |column: usize| self.columns.get(column).map(|(own, points)| (*own, at(points, acceleration)));
+        match (after.checked_sub(1).and_then(of), of(after)) {
+            (Some((low, below)), Some((high, above))) => between([low, high], [below, above], frequency),
+            (Some((_, edge)), None) | (None, Some((_, edge))) => edge,
+            (None, None) => Shown::default(),
+        }
     }
 }
 
@@ -165,39 +158,30 @@ pub fn read(folder: &Path) -> Result<Vec<Cavity>, AtlasError> {
     let table = Table::read(&file)?;
     let column = |name: &str| table.numbers(name).ok_or_else(|| unusable(&format!("atlas.csv has no `{name}`")));
     let names = table.texts("case").ok_or_else(|| unusable("atlas.csv has no `case`"))?;
-    let [frequency, acceleration, seed, mass, lossy, error] =
-        ["frequency", "acceleration", "seed", "effective mass", "lossy mass", "error"].map(column);
-    let (frequency, acceleration, seed) = (frequency?, acceleration?, seed?);
-    let (mass, lossy, error) = (mass?, lossy?, error?);
-    let named = super::write::names(&cases);
+    let [frequency, acceleration, seed, mass, lossy, error, second] =
+        ["frequency", "acceleration", "seed", "effective mass", "lossy mass", "error", "second harmonic"].map(column);
+    let (frequency, acceleration, seed, error) = (frequency?, acceleration?, seed?, error?);
+    let (mass, lossy, second) = (mass?, lossy?, second?);
     let mut cavities = Vec::new();
-    for (plan, name) in plans.into_iter().zip(named) {
-        let mut seeds: BTreeMap<u64, BTreeMap<u64, Vec<(f64, Complex<f64>, f64)>>> = BTreeMap::new();
-        let rows = (0..names.len()).filter(|row| names[*row] == name);
-        for row in rows {
-            let values = [frequency[row], acceleration[row], mass[row], lossy[row]];
-            if !values.iter().all(|value| value.is_finite()) || frequency[row] <= 0.0 || acceleration[row] <= 0.0 {
+    for (plan, name) in plans.into_iter().zip(super::write::names(&cases)) {
+        let mut seeds: BTreeMap<Exact, Vec<([f64; 2], Shown)>> = BTreeMap::new();
+        for row in (0..names.len()).filter(|row| names[*row] == name) {
+            let numbers = [frequency[row], acceleration[row], mass[row], lossy[row], second[row]];
+            if !numbers.iter().all(|number| number.is_finite()) || frequency[row] <= 0.0 || acceleration[row] <= 0.0 {
                 return Err(unusable(&format!("line {} of atlas.csv says no numbers that can be", row + 2)));
             }
-            let chart = seeds.entry(seed[row].to_bits()).or_default();
-            let point = (acceleration[row], Complex::new(mass[row], -lossy[row]), error[row]);
-            // Positive numbers are in the order of their bits.
-            chart.entry(frequency[row].to_bits()).or_default().push(point);
+            // Of a single block no error is known.
+            let error = if error[row].is_finite() { error[row] } else { 0.0 };
+            let shown = Shown { mass: Complex::new(mass[row], -lossy[row]), error, second: second[row] };
+            seeds.entry(Exact(seed[row])).or_default().push(([frequency[row], acceleration[row]], shown));
         }
-        let chart = |columns: BTreeMap<u64, Vec<(f64, Complex<f64>, f64)>>| {
-            let column = |(frequency, mut points): (u64, Vec<(f64, Complex<f64>, f64)>)| {
-                points.sort_by(|a, b| a.0.total_cmp(&b.0));
-                (f64::from_bits(frequency), points)
-            };
-            Chart::new(columns.into_iter().map(column).collect())
-        };
         cavities.push(Cavity {
             name,
             plan,
             host: wanted.host.clone(),
             frequency: wanted.frequency,
             acceleration: wanted.acceleration,
-            charts: seeds.into_values().map(chart).collect(),
+            charts: seeds.into_values().map(Chart::new).collect(),
         });
     }
     Ok(cavities)

@@ -1,7 +1,7 @@
 //! Which points of an atlas are measured next: where what a cavity shows bends.
 
+use super::shown::{Column, Shown, at, between};
 use crate::study::journal::Exact;
-use nalgebra::Complex;
 use std::collections::BTreeMap;
 
 /// Frequencies and accelerations that every atlas begins with.
@@ -13,8 +13,8 @@ const NEAREST: f64 = 1.02;
 /// A frequency [Hz] and an acceleration [m/s^2].
 pub(super) type Place = (Exact, Exact);
 
-/// What was found there: the complex mass over the mass of the grains, and its standard error.
-pub(super) type Found = BTreeMap<Place, (Complex<f64>, f64)>;
+/// What was found there, over the mass of the grains.
+pub(super) type Found = BTreeMap<Place, Shown>;
 
 /// The points that every atlas begins with, evenly spaced by ratio.
 pub(super) fn first(frequency: [f64; 2], acceleration: [f64; 2]) -> Vec<Place> {
@@ -26,34 +26,31 @@ pub(super) fn first(frequency: [f64; 2], acceleration: [f64; 2]) -> Vec<Place> {
 /// Points to be measured next, at most so many: at each frequency, accelerations beside those that lie farther than `within` off the
 /// line between their neighbours; once there are none, frequencies beside those that lie off so.
 pub(super) fn next(found: &Found, within: f64, at_most: usize) -> Vec<Place> {
-    let mut columns: BTreeMap<Exact, Vec<(f64, Complex<f64>, f64)>> = BTreeMap::new();
-    for ((frequency, acceleration), (mass, error)) in found {
-        columns.entry(*frequency).or_default().push((acceleration.0, *mass, *error));
+    let mut columns: BTreeMap<Exact, Column> = BTreeMap::new();
+    for ((frequency, acceleration), shown) in found {
+        columns.entry(*frequency).or_default().push((acceleration.0, *shown));
     }
     let mut wanted = Vec::new();
     for (frequency, column) in &columns {
-        wanted.extend(halves(&bent(column, within)).into_iter().map(|a| (*frequency, Exact(a))));
+        // Scatter is no bend.
+        let bent = |line: Shown, (_, own): &(f64, Shown)| (own.mass - line.mass).norm() - 2.0 * own.error > within;
+        let accelerations: Vec<f64> = column.iter().map(|(acceleration, _)| *acceleration).collect();
+        let bends = column.windows(3).map(|three| bent(between([three[0].0, three[2].0], [three[0].1, three[2].1], three[1].0), &three[1]));
+        wanted.extend(halves(&accelerations, bends).into_iter().map(|a| (*frequency, Exact(a))));
     }
     if wanted.is_empty() {
-        let ends = [found.keys().map(|k| k.1).min(), found.keys().map(|k| k.1).max()].map(|a| a.map_or(1.0, |a| a.0));
-        let list: Vec<(Exact, &Vec<_>)> = columns.iter().map(|(f, column)| (*f, column)).collect();
-        let mut intervals: Vec<([f64; 2], bool)> =
-            list.windows(2).map(|two| ([two[0].0.0, two[1].0.0], false)).collect();
-        for (i, three) in list.windows(3).enumerate() {
+        let frequencies: Vec<f64> = columns.keys().map(|frequency| frequency.0).collect();
+        let list: Vec<(f64, &Column)> = columns.iter().map(|(frequency, column)| (frequency.0, column)).collect();
+        let bends = list.windows(3).map(|three| {
             let [(low, below), (middle, column), (high, above)] = [three[0], three[1], three[2]];
-            let share = (middle.0 / low.0).ln() / (high.0 / low.0).ln();
-            let squares: f64 = column
-                .iter()
-                .map(|(a, mass, error)| {
-                    let line = at(below, *a).0 * (1.0 - share) + at(above, *a).0 * share;
-                    ((mass - line).norm() - 2.0 * error).max(0.0).powi(2)
-                })
-                .sum();
-            if (squares / column.len() as f64).sqrt() > within {
-                (intervals[i].1, intervals[i + 1].1) = (true, true);
-            }
-        }
-        let between = halves(&intervals).into_iter().flat_map(|frequency| {
+            let off = |(a, own): &(f64, Shown)| {
+                let line = between([low, high], [at(below, *a), at(above, *a)], middle);
+                ((own.mass - line.mass).norm() - 2.0 * own.error).max(0.0).powi(2)
+            };
+            (column.iter().map(off).sum::<f64>() / column.len() as f64).sqrt() > within
+        });
+        let ends = [found.keys().map(|k| k.1).min(), found.keys().map(|k| k.1).max()].map(|a| a.map_or(1.0, |a| a.0));
+        let between = halves(&frequencies, bends).into_iter().flat_map(|frequency| {
             spaced(ends, ACCELERATIONS).into_iter().map(move |a| (Exact(frequency), Exact(a)))
         });
         wanted.extend(between);
@@ -63,43 +60,16 @@ pub(super) fn next(found: &Found, within: f64, at_most: usize) -> Vec<Place> {
     wanted
 }
 
-/// The intervals of a column, and whether they are to be halved.
-fn bent(column: &[(f64, Complex<f64>, f64)], within: f64) -> Vec<([f64; 2], bool)> {
-    let mut intervals: Vec<([f64; 2], bool)> =
-        column.windows(2).map(|two| ([two[0].0, two[1].0], false)).collect();
-    for (i, three) in column.windows(3).enumerate() {
-        let [(low, below, _), (a, mass, error), (high, above, _)] = [three[0], three[1], three[2]];
-        let off = (mass - between([low, high], [below, above], a)).norm();
-        // Scatter is no bend.
-        if off - 2.0 * error > within {
-            (intervals[i].1, intervals[i + 1].1) = (true, true);
-        }
+/// The middles of the intervals on either side of those inner places that bend.
+fn halves(places: &[f64], bends: impl Iterator<Item = bool>) -> Vec<f64> {
+    let mut wanted = vec![false; places.len().saturating_sub(1)];
+    for (index, bends) in bends.enumerate() {
+        wanted[index] |= bends;
+        wanted[index + 1] |= bends;
     }
-    intervals
-}
-
-/// The middles of the intervals that are to be halved.
-fn halves(intervals: &[([f64; 2], bool)]) -> Vec<f64> {
-    let wide = |[low, high]: &[f64; 2]| high / low > NEAREST * NEAREST;
-    intervals.iter().filter(|(ends, wanted)| *wanted && wide(ends)).map(|([low, high], _)| tidy((low * high).sqrt())).collect()
-}
-
-/// The value at `x` of the straight line, over the logarithm, through two points.
-pub(super) fn between([low, high]: [f64; 2], [below, above]: [Complex<f64>; 2], x: f64) -> Complex<f64> {
-    let share = (x / low).ln() / (high / low).ln();
-    below * (1.0 - share) + above * share
-}
-
-/// Value and error on the straight lines, over the logarithm, of a column; those of its end beyond it.
-pub(super) fn at(column: &[(f64, Complex<f64>, f64)], a: f64) -> (Complex<f64>, f64) {
-    let after = column.partition_point(|(own, ..)| *own < a);
-    match (after.checked_sub(1).and_then(|before| column.get(before)), column.get(after)) {
-        (Some((low, below, first)), Some((high, above, second))) => {
-            (between([*low, *high], [*below, *above], a), first.max(*second))
-        }
-        (Some((_, end, error)), None) | (None, Some((_, end, error))) => (*end, *error),
-        (None, None) => (Complex::default(), 0.0),
-    }
+    let wide = |two: &&[f64]| two[1] / two[0] > NEAREST * NEAREST;
+    let intervals = places.windows(2).zip(wanted).filter_map(|(two, wanted)| wanted.then_some(two));
+    intervals.filter(wide).map(|two| tidy((two[0] * two[1]).sqrt())).collect()
 }
 
 /// So many numbers, evenly spaced by ratio.
@@ -117,12 +87,14 @@ fn tidy(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Complex;
 
     fn refined(shown: impl Fn(f64, f64) -> Complex<f64>, error: f64) -> Found {
         let mut found = Found::new();
         let mut wanted = first([4.0, 9.0], [1.0, 30.0]);
         while !wanted.is_empty() {
-            found.extend(wanted.into_iter().map(|place| (place, (shown(place.0.0, place.1.0), error))));
+            let point = |(f, a): Place| Shown { mass: shown(f.0, a.0), error, second: 0.0 };
+            found.extend(wanted.into_iter().map(|place| (place, point(place))));
             wanted = next(&found, 0.05, 200_usize.saturating_sub(found.len()));
         }
         found

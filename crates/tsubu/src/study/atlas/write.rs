@@ -38,9 +38,9 @@ pub(super) fn write(
     let names = names(&task.cases);
     for (case, name) in names.iter().enumerate() {
         let found = task.found(points, case);
-        let Some((place, (best, _))) = found.iter().min_by(|a, b| a.1.0.im.total_cmp(&b.1.0.im)) else { continue };
+        let Some((place, best)) = found.iter().min_by(|a, b| a.1.mass.im.total_cmp(&b.1.mass.im)) else { continue };
         let suffix = if task.cases[case].name.is_empty() { String::new() } else { format!(" {name}") };
-        summary.give(format!("largest loss factor{suffix}"), "-", -best.im);
+        summary.give(format!("largest loss factor{suffix}"), "-", -best.mass.im);
         summary.give(format!("its frequency{suffix}"), "Hz", place.0.0);
         summary.give(format!("its acceleration{suffix}"), "m/s^2", place.1.0);
         summary.give(format!("points{suffix}"), "-", found.len() as f64);

@@ -48,7 +48,7 @@ pub struct Point {
 }
 
 /// First natural frequency of the host [Hz]; an error text if the host cannot be swept.
-pub(super) fn reference_frequency(plan: &Plan, host: &str) -> Result<f64, String> {
+pub(in crate::study) fn reference_frequency(plan: &Plan, host: &str) -> Result<f64, String> {
     let hosts = Hosts::new(&plan.hosts);
     let index = hosts.index(host).ok_or_else(|| format!("`response.host`: there is no host `{host}`"))?;
     let shaken = &plan.hosts[host];
