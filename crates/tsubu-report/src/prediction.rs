@@ -130,7 +130,7 @@ fn chart(source: &mut Source, curves: &[Curve], cases: &Table) -> Vec<Block> {
     let points = if checked { " Points: the predicted peaks, simulated in full." } else { "" };
     let caption = format!(
         "Predicted steady rms displacement of the host. The bands are 95 %: scatter of the atlas, what lies between its points, and what \
-         grains stir at twice the frequency.{points}"
+         grains stir at higher frequencies.{points}"
     );
     source.figure("prediction_rms", &figure, &caption).into_iter().collect()
 }

@@ -184,7 +184,7 @@ impl Task {
             let n = of.len() as f64;
             let mean = of.iter().map(|point| point.complex()).sum::<Complex<f64>>() / n;
             let squares: f64 = of.iter().map(|point| point.error.unwrap_or(0.0).powi(2)).sum();
-            Shown { mass: mean / mass, error: squares.sqrt() / (n * mass), second: 0.0 }
+            Shown { mass: mean / mass, error: squares.sqrt() / (n * mass), harmonics: 0.0 }
         };
         seeds.into_iter().map(|(place, of)| (place, mean(of))).collect()
     }

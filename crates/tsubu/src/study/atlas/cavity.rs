@@ -36,8 +36,8 @@ pub struct Point {
     pub lossy_mass: f64,
     /// Standard error of both together, from blocks of four periods [kg]; not known with one block.
     pub error: Option<f64>,
-    /// Amplitude of the force at twice the frequency, over the amplitude of the acceleration [kg].
-    pub second: f64,
+    /// Force at two and three times the frequency (root of both squares) over the acceleration [kg].
+    pub harmonics: f64,
     /// Periods measured.
     pub measured: u32,
     /// The lossy mass that what grains have lost amounts to: the same where the motion is steady [kg].
@@ -107,7 +107,7 @@ pub(super) fn measure(
     let first = engine.steps();
     let most = atlas.measure_periods.div_ceil(BLOCK) as usize;
     let enough = SURE * atlas.within * super::mass(&plan);
-    let (mut found, mut second) = (Vec::new(), 0.0);
+    let (mut found, mut harmonics) = (Vec::new(), 0.0);
     while found.len() < most.min(LEAST) || found.len() < most && standard_error(&found) > enough {
         let block = found.len() as u32 + 1;
         let end = first + (f64::from(BLOCK * block) / (frequency * engine.time_step())).round() as u64;
@@ -120,7 +120,7 @@ pub(super) fn measure(
             measured.look(&hosts.list[host], engine.time());
         }
         found.push(measured.value());
-        second += measured.second();
+        harmonics += measured.harmonics();
     }
     let n = found.len() as f64;
     let mean = found.iter().sum::<Complex<f64>>() / n;
@@ -132,7 +132,7 @@ pub(super) fn measure(
         mass: mean.re,
         lossy_mass: -mean.im,
         error: (n > 1.0).then(|| standard_error(&found)),
-        second: second / n,
+        harmonics: harmonics / n,
         measured,
         lost_mass: (lost(&ledger) - before) / of_a_mass,
         residual: ledger.residual(&engine::energies(&*engine, &hosts)) / (whole * super::mass(&plan)),
@@ -154,9 +154,9 @@ fn lost(ledger: &Ledger) -> f64 {
 }
 
 impl ComplexMass {
-    /// The force at twice the frequency over the acceleration [kg].
-    fn second(&self) -> f64 {
-        self.second.norm() / (self.displacement.norm() * self.w * self.w)
+    /// The force at two and three times the frequency over the acceleration [kg].
+    fn harmonics(&self) -> f64 {
+        self.second.norm().hypot(self.third.norm()) / (self.displacement.norm() * self.w * self.w)
     }
 }
 
@@ -165,6 +165,7 @@ struct ComplexMass {
     w: f64,
     force: Complex<f64>,
     second: Complex<f64>,
+    third: Complex<f64>,
     displacement: Complex<f64>,
 }
 
@@ -174,13 +175,14 @@ impl Block for ComplexMass {
 
     fn begin(frequency: f64) -> Self {
         let none = Complex::default();
-        Self { w: TAU * frequency, force: none, second: none, displacement: none }
+        Self { w: TAU * frequency, force: none, second: none, third: none, displacement: none }
     }
 
     fn look(&mut self, host: &Host, time: f64) {
         let turn = Complex::from_polar(1.0, -self.w * time);
         self.force += turn * host.grain_force();
-        self.second += turn * turn * host.grain_force();
+        self.second += turn.powu(2) * host.grain_force();
+        self.third += turn.powu(3) * host.grain_force();
         self.displacement += turn * host.displacement();
     }
 

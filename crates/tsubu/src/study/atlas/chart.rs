@@ -24,7 +24,7 @@ const HEADER: [&str; 15] = [
     "effective mass [kg]",
     "lossy mass [kg]",
     "error [kg]",
-    "second harmonic [kg]",
+    "higher harmonics [kg]",
     "loss factor [-]",
     "lost mass [kg]",
     "energy residual [-]",
@@ -62,7 +62,7 @@ pub(super) fn table(names: &[String], plans: &[Plan], points: &Done) -> Table {
             point.mass,
             point.lossy_mass,
             point.error.unwrap_or(f64::NAN),
-            point.second,
+            point.harmonics,
             point.lossy_mass / mass,
             point.lost_mass,
             point.residual,
@@ -158,21 +158,21 @@ pub fn read(folder: &Path) -> Result<Vec<Cavity>, AtlasError> {
     let table = Table::read(&file)?;
     let column = |name: &str| table.numbers(name).ok_or_else(|| unusable(&format!("atlas.csv has no `{name}`")));
     let names = table.texts("case").ok_or_else(|| unusable("atlas.csv has no `case`"))?;
-    let [frequency, acceleration, seed, mass, lossy, error, second] =
-        ["frequency", "acceleration", "seed", "effective mass", "lossy mass", "error", "second harmonic"].map(column);
+    let [frequency, acceleration, seed, mass, lossy, error, harmonics] =
+        ["frequency", "acceleration", "seed", "effective mass", "lossy mass", "error", "higher harmonics"].map(column);
     let (frequency, acceleration, seed, error) = (frequency?, acceleration?, seed?, error?);
-    let (mass, lossy, second) = (mass?, lossy?, second?);
+    let (mass, lossy, harmonics) = (mass?, lossy?, harmonics?);
     let mut cavities = Vec::new();
     for (plan, name) in plans.into_iter().zip(super::write::names(&cases)) {
         let mut seeds: BTreeMap<Exact, Vec<([f64; 2], Shown)>> = BTreeMap::new();
         for row in (0..names.len()).filter(|row| names[*row] == name) {
-            let numbers = [frequency[row], acceleration[row], mass[row], lossy[row], second[row]];
+            let numbers = [frequency[row], acceleration[row], mass[row], lossy[row], harmonics[row]];
             if !numbers.iter().all(|number| number.is_finite()) || frequency[row] <= 0.0 || acceleration[row] <= 0.0 {
                 return Err(unusable(&format!("line {} of atlas.csv says no numbers that can be", row + 2)));
             }
             // Of a single block no error is known.
             let error = if error[row].is_finite() { error[row] } else { 0.0 };
-            let shown = Shown { mass: Complex::new(mass[row], -lossy[row]), error, second: second[row] };
+            let shown = Shown { mass: Complex::new(mass[row], -lossy[row]), error, harmonics: harmonics[row] };
             seeds.entry(Exact(seed[row])).or_default().push(([frequency[row], acceleration[row]], shown));
         }
         cavities.push(Cavity {

@@ -93,7 +93,7 @@ mod tests {
         let mut found = Found::new();
         let mut wanted = first([4.0, 9.0], [1.0, 30.0]);
         while !wanted.is_empty() {
-            let point = |(f, a): Place| Shown { mass: shown(f.0, a.0), error, second: 0.0 };
+            let point = |(f, a): Place| Shown { mass: shown(f.0, a.0), error, harmonics: 0.0 };
             found.extend(wanted.into_iter().map(|place| (place, point(place))));
             wanted = next(&found, 0.05, 200_usize.saturating_sub(found.len()));
         }

@@ -9,8 +9,8 @@ pub struct Shown {
     pub mass: Complex<f64>,
     /// How far off it may be [kg].
     pub error: f64,
-    /// Amplitude of the force at twice the frequency, over the amplitude of the acceleration [kg].
-    pub second: f64,
+    /// Force at two and three times the frequency (root of both squares) over the acceleration [kg].
+    pub harmonics: f64,
 }
 
 /// Points at one frequency: acceleration [m/s^2], rising, and what is shown there.
@@ -22,7 +22,7 @@ pub(super) fn between([low, high]: [f64; 2], [below, above]: [Shown; 2], x: f64)
     Shown {
         mass: below.mass * (1.0 - share) + above.mass * share,
         error: below.error.max(above.error),
-        second: below.second * (1.0 - share) + above.second * share,
+        harmonics: below.harmonics * (1.0 - share) + above.harmonics * share,
     }
 }
 

@@ -48,12 +48,12 @@ pub struct Balance<'a> {
 }
 
 impl Balance<'_> {
-    /// The mass that the cavity shows. A structure is no shaker: grains stir it at twice the frequency as well, by so much acceleration a
-    /// unit of force (`stirred` [1/kg]), so that what they feel may be stronger or weaker by that share.
+    /// The mass that the cavity shows. A structure is no shaker: grains stir it at two and three times the frequency as well, by so much acceleration
+    /// a unit of force (`stirred` [1/kg]), so that what they feel may be stronger or weaker by that share.
     fn mass(&self, frequency: f64, acceleration: f64, stirred: f64, lossy: Lossy) -> Complex<f64> {
         let Some(chart) = self.chart else { return Complex::default() };
         let shown = chart.at(frequency, acceleration);
-        let more = 1.0 + stirred * shown.second;
+        let more = 1.0 + stirred * shown.harmonics;
         let near = [acceleration / more, acceleration, acceleration * more].map(|a| chart.at(frequency, a).mass.im);
         let imaginary = match lossy {
             Lossy::Measured => shown.mass.im,
