@@ -94,3 +94,70 @@ impl Balance<'_> {
         looks.windows(2).filter_map(root).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::atlas::Shown;
+    use tsubu_scene::plan::{self, Signal, Structure};
+
+    const STRUCTURE: [f64; 3] = [0.086, 0.08, 123.4];
+    const BASE: f64 = 0.5e-3;
+
+    fn host(frequency: f64) -> Host {
+        let [mass, damping, stiffness] = STRUCTURE;
+        Host::new(&plan::Host {
+            structure: Structure::Oscillator { mass, damping, stiffness, cubic_stiffness: 0.0 },
+            direction: [0.0, 0.0, 1.0],
+            interface: std::collections::BTreeMap::new(),
+            at: None,
+            base: Some(Signal::Sine { amplitude: BASE, frequency, phase: 0.0 }),
+            force: None,
+            displacement: 0.0,
+            velocity: 0.0,
+        })
+    }
+
+    /// Amplitude of an oscillator on a shaken base with a mass m - i m' on it: Y |k + i c w| / |k + i c w - w^2 (M + m - i m')|.
+    fn closed(frequency: f64, mass: Complex<f64>) -> f64 {
+        let ([m, c, k], w) = (STRUCTURE, TAU * frequency);
+        let spring = Complex::new(k, c * w);
+        BASE * (spring / (spring - (mass + m) * w * w)).norm()
+    }
+
+    fn motions(shown: impl Fn(f64) -> Complex<f64>, frequency: f64) -> Vec<Motion> {
+        let places = (0..=40).map(|i| 0.5 * 100.0_f64.powf(f64::from(i) / 40.0));
+        let point = |a: f64| ([6.0, a], Shown { mass: shown(a), error: 0.0, harmonics: 0.0 });
+        let chart = Chart::new(places.map(point));
+        let host = host(frequency);
+        let balance = Balance { host: &host, interface: 0, chart: Some(&chart), known: [0.5, 50.0] };
+        let found = balance.motions(frequency, Lossy::Measured);
+        for motion in &found {
+            let expected = closed(frequency, chart.at(frequency, motion.acceleration).mass);
+            assert!((motion.amplitude / expected - 1.0).abs() < 1e-9);
+            assert!((motion.amplitude * (TAU * frequency).powi(2) / motion.acceleration - 1.0).abs() < 1e-9);
+        }
+        found
+    }
+
+    /// Grains that ride in a weak motion and are left behind by a strong one: where the light structure resonates three motions are
+    /// possible, a small one with all grains aboard, a large one without, and one between that is not stable; elsewhere, and with a mass
+    /// that is always the same (the control), one.
+    #[test]
+    fn what_is_left_behind_makes_a_jump() {
+        let left_behind = |a: f64| Complex::new(0.02 / (1.0 + (a / 8.0).powi(6)), -1e-4);
+        let found = motions(left_behind, 6.0);
+        assert_eq!(found.iter().map(|motion| motion.stable).collect::<Vec<_>>(), [true, false, true], "{found:?}");
+        assert!(found[2].amplitude > 2.0 * found[0].amplitude);
+        assert_eq!(motions(left_behind, 5.0).len(), 1);
+        assert_eq!(motions(|_| Complex::new(0.02, -1e-4), 6.0).len(), 1);
+    }
+
+    /// A force of one newton at twice the frequency moves the structure by w^2 / |k - w^2 M + i c w|.
+    #[test]
+    fn higher_forces_meet_the_mass() {
+        let ([m, c, k], w) = (STRUCTURE, TAU * 12.0);
+        let expected = w * w / Complex::new(k - m * w * w, c * w).norm();
+        assert!((host(6.0).mobility_at(12.0, 0) / expected - 1.0).abs() < 1e-12);
+    }
+}
