@@ -16,6 +16,8 @@ const COMMANDS: &[&str] = &[
     "check",
     "sweep",
     "response",
+    "atlas",
+    "predict",
     "compare",
     "verify",
     "report",

@@ -51,6 +51,12 @@ const RUNS: &[Run] = &[
             "response.measure-periods=4",
         ],
     ),
+    (
+        "atlas",
+        "damper",
+        1.0,
+        &["method=\"lattice\"", "atlas.at-most=20", "atlas.vary.\"particles.balls.count\"=[10, 30]"],
+    ),
 ];
 
 /// How many kills, and of which program.

@@ -13,6 +13,9 @@ use crate::text::short;
 /// Figures that are seen without unfolding.
 const OPEN: usize = 3;
 
+/// Points of a curve, or lower and upper ends of a band.
+type Line = Vec<(f64, f64)>;
+
 /// The points of a cavity, in the mean over the seeds.
 struct Cavity {
     name: String,
@@ -32,14 +35,14 @@ impl Cavity {
 
     /// One of the numbers over the acceleration, a series for each frequency.
     fn series(&self, which: usize) -> Vec<Series> {
-        let mut columns: BTreeMap<u64, (Vec<(f64, f64)>, Vec<(f64, f64)>)> = BTreeMap::new();
+        let mut columns: BTreeMap<u64, (Line, Line)> = BTreeMap::new();
         for ((frequency, acceleration), (sums, n)) in &self.points {
             let (line, band) = columns.entry(*frequency).or_default();
             let (value, error) = (sums[which] / n, 2.0 * sums[2] / n);
             line.push((f64::from_bits(*acceleration), value));
             band.push((value - error, value + error));
         }
-        let series = |(frequency, (line, band)): (u64, (Vec<_>, Vec<_>))| {
+        let series = |(frequency, (line, band)): (u64, (Line, Line))| {
             let name = spoken(f64::from_bits(frequency), "Hz");
             Series::line(name, line).styled(Style::LineAndPoints).with_band(band)
         };
@@ -110,7 +113,7 @@ fn cavities(table: &Table) -> Vec<Cavity> {
     let mut cavities: Vec<Cavity> = Vec::new();
     for (row, name) in table.texts("case").unwrap_or_default().into_iter().enumerate() {
         let values = [mass[row] / grains[row], loss[row], error[row] / grains[row]];
-        if !values[..2].iter().all(|value| value.is_finite()) || !(frequency[row] > 0.0 && acceleration[row] > 0.0) {
+        if !(values[..2].iter().all(|value| value.is_finite()) && frequency[row] > 0.0 && acceleration[row] > 0.0) {
             continue;
         }
         let index = cavities.iter().position(|cavity| cavity.name == name).unwrap_or_else(|| {
@@ -129,8 +132,7 @@ fn cavities(table: &Table) -> Vec<Cavity> {
 
 fn headline(cavities: &[Cavity]) -> String {
     let best = cavities.iter().filter_map(|cavity| Some((cavity, cavity.best()?)));
-    let Some((cavity, ([frequency, acceleration], [_, loss, _]))) =
-        best.max_by(|a, b| a.1.1[1].total_cmp(&b.1.1[1]))
+    let Some((cavity, ([frequency, acceleration], [_, loss, _]))) = best.max_by(|a, b| a.1.1[1].total_cmp(&b.1.1[1]))
     else {
         return "No cavity was measured in this folder.".into();
     };

@@ -36,12 +36,8 @@ pub(crate) fn build(source: &mut Source) -> Report {
         ["peak frequency ratio", "peak rms", "peak spread low", "peak spread high", "error of the peak"].map(column);
     for (row, name) in cases.texts("case").unwrap_or_default().into_iter().enumerate() {
         let (value, unit) = quantity(rms[row], "m");
-        let mut note = format!(
-            "{name}, at f/f₀ = {}; {} to {}",
-            short(ratio[row]),
-            spoken(low[row], "m"),
-            spoken(high[row], "m")
-        );
+        let mut note =
+            format!("{name}, at f/f₀ = {}; {} to {}", short(ratio[row]), spoken(low[row], "m"), spoken(high[row], "m"));
         if error[row].is_finite() {
             note += &format!("; {:+.1} % of what is simulated", 100.0 * error[row]).replace('-', "−");
         }

@@ -9,8 +9,17 @@ use toml::{Table, Value};
 
 /// What does not decide the steps of a run: when it ends, what is written down, what is claimed, where it stops as gone wrong,
 /// and what other commands make of the scene.
-const FREE: &[&str] =
-    &["title", "duration", "output", "claim", "response", "atlas", "sweep", "dem.largest-overlap", "dem.energy-tolerance"];
+const FREE: &[&str] = &[
+    "title",
+    "duration",
+    "output",
+    "claim",
+    "response",
+    "atlas",
+    "sweep",
+    "dem.largest-overlap",
+    "dem.energy-tolerance",
+];
 
 /// What another run may have otherwise that this one goes on from, beside what stages may change.
 const OF_THE_RUN: &[&str] = &["stage", "start-from", "start-at-zero", "dem.steps-per-contact"];

@@ -108,3 +108,36 @@ fn structures_that_cannot_be() {
         .collect();
     insta::assert_snapshot!(told.join("\n\n"));
 }
+
+/// A shaker is where its base is, and an atlas shakes walls along a line: what has no effect, or cannot be, is refused.
+#[test]
+fn shakers_and_atlases_that_cannot_be() {
+    let along = GOOD.replace("interface = \"tip\"\n", "");
+    let refused = |host: &str, rest: &str| {
+        let text = format!("{along}{host}\n{rest}");
+        Scene::parse("scene.toml", &text, Path::new("."), &[]).map_err(|complaints| complaints.to_string()).err()
+    };
+    let staged = |host: &str, rest: &str| {
+        let text = format!("{}{host}\n{rest}", along.replace("duration = \"1 s\"\n", ""));
+        Scene::parse("scene.toml", &text, Path::new("."), &[]).map_err(|complaints| complaints.to_string()).err()
+    };
+    let shaker = "structure.shaker = {}\nbase.sine = { acceleration = \"2 g\", frequency = \"30 Hz\" }";
+    let asked = "[atlas]\nfrequency = [\"20 Hz\", \"40 Hz\"]\nacceleration = [\"0.1 g\", \"3 g\"]\n";
+    assert_eq!(refused(shaker, asked), None);
+    let stages = "[[stage]]\nname = \"one\"\nduration = \"1 s\"\n[[stage]]\nname = \"two\"\nduration = \"1 s\"\n\
+                  set = { \"hosts.frame.base.sine.acceleration\" = \"3 g\" }\n";
+    let wrong = [
+        refused("structure.shaker = {}\nforce.sine = { amplitude = 1, frequency = 30 }\nvelocity = 1", ""),
+        staged(shaker, stages),
+        refused(shaker, &asked.replace("[\"20 Hz\", \"40 Hz\"]", "[\"40 Hz\", \"20 Hz\"]").replace("0.1 g", "0 g")),
+        refused("structure.pendulum = { mass = 2, centre = 0.5, inertia = 1, arm = 0.5 }", asked),
+        refused(&format!("{shaker}\n[hosts.other]\n{shaker}"), &asked.replace("[atlas]", "[atlas]\nhost = \"other\"")),
+        refused(&format!("{shaker}\n[hosts.other]\n{shaker}"), asked),
+    ];
+    let told: Vec<String> = wrong
+        .into_iter()
+        .enumerate()
+        .map(|(i, wrong)| wrong.unwrap_or_else(|| panic!("number {i} is not refused")))
+        .collect();
+    insta::assert_snapshot!(told.join("\n\n"));
+}

@@ -47,6 +47,8 @@ shape.box = { width = 1, height = 0.7, floor-centre = [0.05, 0] }
 motion = { direction = [1, 2], signal.sine-sweep = { amplitude = 0.01, from = 1, to = 10, duration = 3 } }
 [walls.below]
 material = "a"
+host = "two"
+interface = "tip"
 shape.plane = { point = [0, -1], normal = [0.1, 1] }
 
 [hosts.one]
@@ -122,6 +124,7 @@ time-step = "20 us"
 integrator = "forward-euler"
 
 [atlas]
+host = "two"
 frequency = ["4 Hz", "8 Hz"]
 acceleration = ["0.1 g", "3 g"]
 

@@ -8,6 +8,7 @@ use crate::engine::{Engine, OpenError};
 use crate::methods;
 use crate::neighbours::lists::WORTH_THREADS;
 use crate::partner::Hosts;
+use std::collections::BTreeMap;
 use tsubu_scene::plan::{Method, Particles, Plan, Start};
 
 /// The same plan with grains left where they are dropped from: for a bed that is settled already, or need not be.
@@ -105,6 +106,15 @@ fn times(
         None if threaded => verdict.say("time with more threads: `tsubu bench` measures this machine".to_owned()),
         _ => {}
     }
+    if let Some(atlas) = &plan.atlas {
+        let cases: usize = atlas.vary.values().map(Vec::len).product();
+        let runs = cases as f64 * f64::from(atlas.points() * atlas.seeds);
+        let seconds = atlas.periods() / (atlas.frequency[0] * atlas.frequency[1]).sqrt();
+        let steps = seconds / engine.time_step() * runs;
+        let [low, high] =
+            cost.map(|cost| cost * steps * grains_of_cases(plan, &atlas.vary) / rayon::current_num_threads() as f64);
+        verdict.say(format!("time: about {} for `tsubu atlas` ({runs} runs side by side)", span(low, high)));
+    }
     let Some(response) = &plan.response else { return };
     let cases: usize = response.vary.values().map(Vec::len).product();
     let runs = cases * response.runs_of_case();
@@ -113,7 +123,8 @@ fn times(
     let inverse: f64 = response.frequency_ratio.iter().map(|ratio| 1.0 / ratio).sum();
     let seconds = response.periods() * inverse / (response.frequency_ratio.len() as f64 * f0.unwrap_or(1.0));
     let steps = seconds / engine.time_step() * runs as f64;
-    let [low, high] = cost.map(|cost| cost * steps * grains_of_cases(plan) / rayon::current_num_threads() as f64);
+    let [low, high] =
+        cost.map(|cost| cost * steps * grains_of_cases(plan, &response.vary) / rayon::current_num_threads() as f64);
     verdict.judge(
         high <= LONGEST,
         format!("time: about {} for `tsubu response` ({runs} runs side by side)", span(low, high)),
@@ -121,12 +132,11 @@ fn times(
     );
 }
 
-/// Grains of the cases of a response over those of the scene, in the mean.
-fn grains_of_cases(plan: &Plan) -> f64 {
+/// Grains of the cases of a study over those of the scene, in the mean.
+fn grains_of_cases(plan: &Plan, vary: &BTreeMap<String, Vec<toml::Value>>) -> f64 {
     let all = plan.grains();
-    let vary = plan.response.iter().flat_map(|response| &response.vary);
     let more = plan.particles.iter().map(|(name, group)| {
-        let values = vary.clone().find(|(key, _)| **key == format!("particles.{name}.count")).map(|(_, values)| values);
+        let values = vary.iter().find(|(key, _)| **key == format!("particles.{name}.count")).map(|(_, values)| values);
         let counts = values.into_iter().flatten().filter_map(toml::Value::as_integer);
         let (sum, number) = counts.fold((0.0, 0.0), |(sum, number), count| (sum + count as f64, number + 1.0));
         if number > 0.0 { sum / number - group.count as f64 } else { 0.0 }

@@ -212,7 +212,10 @@ fn what_rides_moves_the_peak_as_an_added_mass() {
     assert!(value("error of the peak").abs() < 0.01, "{}", value("error of the peak"));
     let heavier = self::scene(LUMP, &[&asked[..], &["particles.ball.mass=\"5 g\""]].concat());
     let refused = curves(&heavier, &known).unwrap_err().to_string();
-    assert_eq!(refused, "the atlas has no such cavity: `particles.ball.mass` is 0.004 there, 0.005 here (cavity `scene`)");
+    assert_eq!(
+        refused,
+        "the atlas has no such cavity: `particles.ball.mass` is 0.004 there, 0.005 here (cavity `scene`)"
+    );
 }
 
 /// Stopped on the way and gone on with, an atlas is the one that was not.

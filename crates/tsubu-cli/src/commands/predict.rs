@@ -42,9 +42,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         options.atlas.iter().map(read).collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
     let Session { scene, folder, .. } = &session;
     let (overwrite, number) = (options.folder.overwrite, usize::from(options.spot_checks));
-    let work = |watcher: &Watcher| {
-        tsubu::study::predict::predict(scene, &cavities, number, folder, overwrite, watcher)
-    };
+    let work = |watcher: &Watcher| tsubu::study::predict::predict(scene, &cavities, number, folder, overwrite, watcher);
     let (done, _) = session.work("interrupted", work);
     let summary = done.map_err(|error| Failure::of_cases(&error, scene, folder))?;
     if summary.status == Status::Interrupted {
@@ -52,7 +50,11 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         return Err(Failure::interrupted(message));
     }
     let page = session.page()?;
-    session.show(&(cases(folder, &summary)? + &warnings(&summary.warnings)), Some(&page))
+    session.show(&(cases(folder, &summary)? + &warnings(&summary.warnings)), Some(&page))?;
+    if summary.status == Status::Failed {
+        return Err(Failure::failed("some of the spot checks failed; the warnings above name them"));
+    }
+    Ok(())
 }
 
 /// A line for each case: what is predicted, and what a simulation of the peak says.
@@ -60,9 +62,15 @@ fn cases(folder: &Path, summary: &Summary) -> Result<String, Failure> {
     let file = folder.join("cases.csv");
     let cases = Table::read(&file).map_err(|error| Failure::of_file(&error, folder))?;
     let column = |name: &str| cases.numbers(name).unwrap_or_else(|| vec![f64::NAN; cases.rows.len()]);
-    let [ratio, rms, low, high, simulated, error] =
-        ["peak frequency ratio", "peak rms", "peak spread low", "peak spread high", "simulated rms", "error of the peak"]
-            .map(column);
+    let [ratio, rms, low, high, simulated, error] = [
+        "peak frequency ratio",
+        "peak rms",
+        "peak spread low",
+        "peak spread high",
+        "simulated rms",
+        "error of the peak",
+    ]
+    .map(column);
     let header = ["case", "peak ratio", "peak rms mm", "within mm", "simulated mm", "error %"];
     let mut rows = vec![header.map(str::to_owned).to_vec()];
     for (row, name) in cases.texts("case").unwrap_or_default().into_iter().enumerate() {

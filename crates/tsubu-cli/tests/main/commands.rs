@@ -31,6 +31,8 @@ fn help_lists_the_commands() {
         "check",
         "sweep",
         "response",
+        "atlas",
+        "predict",
         "compare",
         "verify",
         "explain",

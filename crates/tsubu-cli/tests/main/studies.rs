@@ -67,6 +67,42 @@ fn a_response_without_a_word_about_it() {
     let desk = Desk::with(cut);
     insta::assert_snapshot!(desk.shown("response balls.toml"));
     insta::assert_snapshot!(desk.shown("sweep balls.toml --jobs 2"));
+    insta::assert_snapshot!(desk.shown("atlas balls.toml"));
+}
+
+/// An atlas by the automaton, and a prediction from it, with the same bits for any number of threads; what is no atlas, or has another
+/// cavity, is refused and nothing is written.
+#[test]
+fn an_atlas_tells_the_response_of_a_structure() {
+    let wanted = "[atlas]\nfrequency = [\"5 Hz\", \"7 Hz\"]\nacceleration = [\"2 m/s^2\", \"40 m/s^2\"]\n\
+                  at-most = 30\nvary = { \"particles.balls.count\" = [10, 20] }\n";
+    let steady = SCENE.replace("discard-periods = 1\ndiscard-periods-empty = 1\n", "");
+    let desk = Desk::with(&format!(
+        "{}\n{wanted}",
+        steady.replace("5 mm", "0.5 mm").replace("[0.9, 0.95, 1.0, 1.05]", "{ from = 0.9, to = 1.05 }")
+    ));
+    for threads in [1, 7] {
+        desk.done(&format!("atlas balls.toml -q --set method=lattice -o atlas{threads} --threads {threads}"));
+    }
+    assert_eq!(desk.read("atlas1/atlas.csv"), desk.read("atlas7/atlas.csv"));
+    let page = desk.read("atlas1/report.html");
+    assert!(page.contains("Atlas of cavities") && page.contains("effective mass / mass of the grains"));
+    let shown = desk.done("predict balls.toml atlas1 -q --set method=lattice").stdout;
+    for said in ["peak ratio", "count = 0", "count = 20", "predicted in"] {
+        assert!(shown.contains(said), "{said}: {shown}");
+    }
+    let page = desk.read("out/balls-prediction/report.html");
+    assert!(page.contains("Predicted response") && page.contains("simulated in full"));
+    // Without grains the closed form is all there is.
+    let summary = desk.summary("out/balls-prediction");
+    let error = summary["results"]["error of the peak count = 0"].as_f64().unwrap();
+    assert!(error.abs() < 0.1, "{error}");
+    let before = desk.files().len();
+    for command in ["predict balls.toml atlas1 -o new", "predict balls.toml balls -o new", "predict balls.toml -o new"]
+    {
+        insta::assert_snapshot!(desk.shown(command));
+    }
+    assert_eq!(desk.files().len(), before);
 }
 
 #[test]

@@ -106,6 +106,22 @@ pub struct Atlas {
     pub vary: BTreeMap<String, Vec<toml::Value>>,
 }
 
+impl Atlas {
+    /// About how many points a case has.
+    pub fn points(&self) -> u32 {
+        /// As a rule.
+        const POINTS: u32 = 80;
+        self.at_most.min(POINTS)
+    }
+
+    /// About how many periods a run has: what it takes to be steady, and to be measured, as a rule.
+    pub fn periods(&self) -> f64 {
+        const SETTLING: u32 = 15;
+        const MEASURED: u32 = 30;
+        f64::from(SETTLING + self.measure_periods.min(MEASURED))
+    }
+}
+
 /// A parameter sweep: every combination of the values is a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]

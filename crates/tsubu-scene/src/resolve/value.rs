@@ -215,7 +215,7 @@ impl Resolver<'_> {
         self.complain(
             Complaint::new(format!("`{}` needs two ends, the low one first", key.name))
                 .at(&node.place, label)
-                .hint(format!("for example {} = [\"0 mm\", \"20 mm\"]", key.name)),
+                .hint(format!("for example {} = [\"1 {1}\", \"2 {1}\"]", key.name, dimension.si)),
         );
         None
     }

@@ -45,6 +45,9 @@ struct Key {
 /// All that is measured.
 type Done = BTreeMap<Key, Point>;
 
+/// What came of a run; nothing where it was interrupted.
+type Ran = Option<Result<(Key, Point), Failed>>;
+
 /// A run that broke off.
 type Failed = (Key, RunError);
 
@@ -107,7 +110,9 @@ impl Task {
         let cases = cases(&wanted.vary);
         let plans = case_plans(scene, &cases)?;
         if plans.iter().all(|plan| mass(plan) == 0.0) {
-            return Err(CasesError::Scene("no case of this atlas has grains: an empty cavity shows no mass".to_owned()));
+            return Err(CasesError::Scene(
+                "no case of this atlas has grains: an empty cavity shows no mass".to_owned(),
+            ));
         }
         let plans = plans.iter().map(|plan| cavity::shaken(plan, &wanted)).collect();
         Ok(Self { wanted, cases, plans })
@@ -200,7 +205,7 @@ impl Task {
     ) -> Result<(Done, Vec<Failed>), CasesError> {
         let counter = AtomicUsize::new(before);
         let total = self.expected().max(before + keys.len()) as f64;
-        let run = |key: &Key| -> Result<Option<Result<(Key, Point), Failed>>, CasesError> {
+        let run = |key: &Key| -> Result<Ran, CasesError> {
             let Some(bed) = beds.get(&(key.case, key.seed)).filter(|_| !watcher.interrupt.asked()) else {
                 return Ok(None);
             };
@@ -229,10 +234,8 @@ impl Task {
 
     /// About how many runs there will be.
     fn expected(&self) -> usize {
-        /// Points of a case, as a rule.
-        const POINTS: u32 = 45;
         let full = self.plans.iter().filter(|plan| mass(plan) > 0.0).count();
-        full * (self.wanted.at_most.min(POINTS) * self.wanted.seeds) as usize
+        full * (self.wanted.points() * self.wanted.seeds) as usize
     }
 }
 

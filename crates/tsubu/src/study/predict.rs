@@ -8,10 +8,12 @@ pub use balance::{Balance, Lossy, Motion};
 
 use super::atlas::Cavity;
 use super::cases::{Case, CasesError, cases};
-use super::response::{Point, case_plans, measure, peak, tasks};
 use super::journal;
+use super::response::{Point, case_plans, measure, peak, tasks};
+use crate::engine::OpenError;
 use crate::interrupt::Watcher;
 use crate::partner::Hosts;
+use crate::run::RunError;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -41,7 +43,11 @@ pub fn predict(
     let curves: Vec<Curve> = (0..task.cases.len()).into_par_iter().map(|case| task.curve(case)).collect();
     let predicted_in = begun.elapsed().as_secs_f64();
     let checks = task.check(&curves, spot_checks, watcher)?;
-    let status = if watcher.interrupt.asked() { Status::Interrupted } else { Status::Finished };
+    let status = match checks.failures.is_empty() {
+        _ if watcher.interrupt.asked() => Status::Interrupted,
+        true => Status::Finished,
+        false => Status::Failed,
+    };
     let _held = watcher.interrupt.hold();
     let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite, &FILES)?;
     let took = [predicted_in, begun.elapsed().as_secs_f64()];
@@ -112,6 +118,13 @@ struct Check {
     point: Point,
 }
 
+/// What was simulated in full, and what could not be, each in a sentence.
+#[derive(Default)]
+struct Checks {
+    done: Vec<Check>,
+    failures: Vec<String>,
+}
+
 /// What is to be predicted.
 struct Task<'a> {
     wanted: plan::Response,
@@ -126,7 +139,9 @@ struct Task<'a> {
 impl<'a> Task<'a> {
     fn new(scene: &Scene, atlas: &'a [Cavity]) -> Result<Self, CasesError> {
         let wanted = scene.plan().response.clone().ok_or_else(|| {
-            CasesError::Scene("the scene has no `[response]`: a prediction is of the response that it asks for".to_owned())
+            CasesError::Scene(
+                "the scene has no `[response]`: a prediction is of the response that it asks for".to_owned(),
+            )
         })?;
         if scene.plans().len() > 1 {
             return Err(CasesError::Scene("a prediction is of a scene of one stage: leave `[[stage]]` out".to_owned()));
@@ -179,18 +194,21 @@ impl<'a> Task<'a> {
         };
         let first = motions(charts.first().copied().flatten(), Lossy::Measured);
         let largest = |motions: Vec<Motion>| motions.into_iter().rfind(|motion| motion.stable);
-        let ends = charts.iter().flat_map(|chart| [Lossy::Least, Lossy::Most].map(|lossy| motions(*chart, lossy)));
+        let ends = charts
+            .iter()
+            .flat_map(|chart| [Lossy::Least, Lossy::Measured, Lossy::Most].map(|lossy| motions(*chart, lossy)));
         let amplitudes: Vec<f64> = ends.filter_map(largest).map(|motion| motion.amplitude).collect();
         let least = amplitudes.iter().copied().fold(f64::INFINITY, f64::min);
         Row { frequency, ratio, motions: first, within: [least, amplitudes.iter().copied().fold(0.0, f64::max)] }
     }
 
-    /// Simulates the predicted peaks of all cases in full, and then their flanks.
-    fn check(&self, curves: &[Curve], number: usize, watcher: &Watcher) -> Result<Vec<Check>, CasesError> {
+    /// Simulates the predicted peaks of all cases in full, and then their flanks; what fails is told, and the others go on.
+    fn check(&self, curves: &[Curve], number: usize, watcher: &Watcher) -> Result<Checks, CasesError> {
         let mut wanted = Vec::new();
         for (case, curve) in curves.iter().enumerate() {
             let Some((top, height)) = curve.peak() else { continue };
-            let half = |row: &&Row| row.largest().is_some_and(|m| m.amplitude / std::f64::consts::SQRT_2 < height / 1.5);
+            let half =
+                |row: &&Row| row.largest().is_some_and(|m| m.amplitude / std::f64::consts::SQRT_2 < height / 1.5);
             let below = curve.rows.iter().filter(|row| row.ratio < top).rfind(half);
             let above = curve.rows.iter().filter(|row| row.ratio > top).find(half);
             let flanks = [below, above].into_iter().flatten().map(|row| row.ratio);
@@ -201,17 +219,36 @@ impl<'a> Task<'a> {
         let run = |(case, ratio): (usize, f64)| {
             let plan = &self.plans[case];
             let fail = |error| CasesError::Run { case: self.cases[case].name.clone(), error };
-            let bed = tasks::bed(plan, 0).map_err(|error| fail(error.into()))?;
+            let failed = |error: &dyn std::fmt::Display| {
+                let name = &self.cases[case].name;
+                Err(format!("case `{name}`, frequency ratio {ratio:.4}: the simulation failed: {error}"))
+            };
+            let bed = match tasks::bed(plan, 0) {
+                Ok(bed) => bed,
+                Err(error @ OpenError::Settling(_)) => return Ok(failed(&error)),
+                Err(error) => return Err(fail(error.into())),
+            };
             let frequency = self.reference * ratio;
-            let found = measure(plan, &self.wanted, 0, &bed, frequency, &[], watcher.interrupt).map_err(fail)?;
+            let found = match measure(plan, &self.wanted, 0, &bed, frequency, &[], watcher.interrupt) {
+                Ok(found) => found,
+                Err(error @ RunError::Fault(_)) => return Ok(failed(&error)),
+                Err(error) => return Err(fail(error)),
+            };
             let done = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
             (watcher.progress)(done as f64 / total);
             let predicted = curves[case].nearest(ratio).and_then(Row::largest).map_or(f64::NAN, |m| m.amplitude);
             let predicted = predicted / std::f64::consts::SQRT_2;
-            Ok(found.map(|point| Check { case, ratio, predicted, point }))
+            Ok(Ok(found.map(|point| Check { case, ratio, predicted, point })))
         };
-        let all: Result<Vec<Option<Check>>, CasesError> = wanted.into_par_iter().map(run).collect();
-        Ok(all?.into_iter().flatten().collect())
+        let all: Result<Vec<_>, CasesError> = wanted.into_par_iter().map(run).collect();
+        let mut checks = Checks::default();
+        for one in all? {
+            match one {
+                Ok(check) => checks.done.extend(check),
+                Err(failure) => checks.failures.push(failure),
+            }
+        }
+        Ok(checks)
     }
 }
 
@@ -224,14 +261,18 @@ fn hangs(plan: &Plan, name: &str) -> Result<usize, String> {
     if let plan::Structure::Oscillator { cubic_stiffness, .. } = &host.structure
         && *cubic_stiffness != 0.0
     {
-        return Err(format!("`hosts.{name}` has a `cubic-stiffness`: a prediction knows linear structures; use `tsubu response`"));
+        return Err(format!(
+            "`hosts.{name}` has a `cubic-stiffness`: a prediction knows linear structures; use `tsubu response`"
+        ));
     }
     let mut places = plan.walls.iter().map(|(wall, plan)| (wall, &plan.host, &plan.interface));
     let Some((first, _, interface)) = places.clone().next() else {
         return Err("there are no walls, and so no cavity".to_owned());
     };
     if let Some((wall, ..)) = places.clone().find(|(_, host, _)| host.as_deref() != Some(name)) {
-        return Err(format!("the wall `{wall}` does not hang on `{name}`: a prediction knows cavities that do as a whole"));
+        return Err(format!(
+            "the wall `{wall}` does not hang on `{name}`: a prediction knows cavities that do as a whole"
+        ));
     }
     if let Some((wall, ..)) = places.find(|(_, _, other)| *other != interface) {
         return Err(format!("the walls `{first}` and `{wall}` hang on two interfaces: a prediction knows one cavity"));

@@ -87,11 +87,8 @@ fn scene(plan: &Plan, rule: SiteRule, hosts: &Hosts, remarks: &mut Remarks) -> O
     for (name, wall) in walls {
         refuse_motion(name, wall, remarks);
     }
-    for (name, group) in particles {
-        if !matches!(group.motion, plan::GrainMotion::Free {}) {
-            remarks
-                .refuse(format!("particles.{name}.motion"), "all grains of this lattice are free; draw a wall instead");
-        }
+    for (name, _) in particles.iter().filter(|(_, group)| !matches!(group.motion, plan::GrainMotion::Free {})) {
+        remarks.refuse(format!("particles.{name}.motion"), "all grains of this lattice are free; draw a wall instead");
     }
     if remarks.refusal().is_some() {
         return None;

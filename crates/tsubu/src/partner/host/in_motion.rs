@@ -35,7 +35,8 @@ impl Host {
         let (n, w) = (self.n, TAU * frequency);
         let stiffness = DMatrix::from_row_slice(n, n, &self.stiffness);
         let weight = DVector::from_fn(n, |i, _| self.seen[i] * ballast.weight);
-        let (Some((amplitude, whole)), Some(sag)) = (self.steady(frequency, &self.seen, ballast.complex()), stiffness.lu().solve(&weight))
+        let (Some((amplitude, whole)), Some(sag)) =
+            (self.steady(frequency, &self.seen, ballast.complex()), stiffness.lu().solve(&weight))
         else {
             return 0.0;
         };

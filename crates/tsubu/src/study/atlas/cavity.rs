@@ -100,8 +100,7 @@ pub(super) fn measure(
     // At rest where they cannot be set in motion: it takes a little longer until all is steady.
     engine.set_in_motion(velocity.into());
     let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
-    let steady =
-        until_steady::<ComplexMass>(frequency, &mut *engine, &mut hosts, host, &mut ledger, interrupt)?;
+    let steady = until_steady::<ComplexMass>(frequency, &mut *engine, &mut hosts, host, &mut ledger, interrupt)?;
     let Some(discarded) = steady else { return Ok(None) };
     let before = lost(&ledger);
     let first = engine.steps();

@@ -35,7 +35,9 @@ pub(super) fn next(found: &Found, within: f64, at_most: usize) -> Vec<Place> {
         // Scatter is no bend.
         let bent = |line: Shown, (_, own): &(f64, Shown)| (own.mass - line.mass).norm() - 2.0 * own.error > within;
         let accelerations: Vec<f64> = column.iter().map(|(acceleration, _)| *acceleration).collect();
-        let bends = column.windows(3).map(|three| bent(between([three[0].0, three[2].0], [three[0].1, three[2].1], three[1].0), &three[1]));
+        let bends = column
+            .windows(3)
+            .map(|three| bent(between([three[0].0, three[2].0], [three[0].1, three[2].1], three[1].0), &three[1]));
         wanted.extend(halves(&accelerations, bends).into_iter().map(|a| (*frequency, Exact(a))));
     }
     if wanted.is_empty() {
@@ -50,9 +52,9 @@ pub(super) fn next(found: &Found, within: f64, at_most: usize) -> Vec<Place> {
             (column.iter().map(off).sum::<f64>() / column.len() as f64).sqrt() > within
         });
         let ends = [found.keys().map(|k| k.1).min(), found.keys().map(|k| k.1).max()].map(|a| a.map_or(1.0, |a| a.0));
-        let between = halves(&frequencies, bends).into_iter().flat_map(|frequency| {
-            spaced(ends, ACCELERATIONS).into_iter().map(move |a| (Exact(frequency), Exact(a)))
-        });
+        let between = halves(&frequencies, bends)
+            .into_iter()
+            .flat_map(|frequency| spaced(ends, ACCELERATIONS).into_iter().map(move |a| (Exact(frequency), Exact(a))));
         wanted.extend(between);
     }
     wanted.retain(|place| !found.contains_key(place));

@@ -1,9 +1,9 @@
 //! The files of an atlas.
 
 use super::{Done, Task, chart};
+use crate::partner::Hosts;
 use crate::study::cases::Case;
 use crate::trial::unsettled;
-use crate::partner::Hosts;
 use crate::{check, methods, run};
 use tsubu_frame::{FileError, RunFolder, Status, Summary};
 use tsubu_scene::Scene;

@@ -1,6 +1,6 @@
 //! The files of a prediction.
 
-use super::{Check, Curve, Task};
+use super::{Check, Checks, Curve, Task};
 use std::f64::consts::SQRT_2;
 use tsubu_frame::{Cell, FileError, RunFolder, Status, Summary, Table};
 use tsubu_scene::Scene;
@@ -38,7 +38,7 @@ pub(super) fn write(
     scene: &Scene,
     task: &Task<'_>,
     curves: &[Curve],
-    checks: &[Check],
+    checks: &Checks,
     status: Status,
     took: [f64; 2],
 ) -> Result<Summary, FileError> {
@@ -51,6 +51,7 @@ pub(super) fn write(
         particles: task.plans.iter().map(|plan| plan.grains() as u64).max().unwrap_or_default(),
         wall_seconds: took[1],
         threads: rayon::current_num_threads() as u32,
+        warnings: checks.failures.clone(),
         ..Summary::default()
     };
     summary.give("seconds of the prediction alone".to_owned(), "s", took[0]);
@@ -80,12 +81,15 @@ pub(super) fn write(
             }
         }
         let Some((ratio, rms)) = curve.peak() else { continue };
-        let top = |end: usize| curve.rows.iter().map(|row| row.within[end] / SQRT_2).filter(|x| x.is_finite()).fold(0.0, f64::max);
-        let own: Vec<&Check> = checks.iter().filter(|check| check.case == case).collect();
+        let top = |end: usize| {
+            curve.rows.iter().map(|row| row.within[end] / SQRT_2).filter(|x| x.is_finite()).fold(0.0, f64::max)
+        };
+        let own: Vec<&Check> = checks.done.iter().filter(|check| check.case == case).collect();
         let error = |check: &Check| check.predicted / check.point.rms - 1.0;
         let simulated = own.first().map_or(f64::NAN, |check| check.point.rms);
         let of_peak = own.first().map_or(f64::NAN, |check| error(check));
-        let largest = own.iter().map(|check| error(check)).fold(f64::NAN, |a: f64, b| if a.abs() > b.abs() { a } else { b });
+        let largest =
+            own.iter().map(|check| error(check)).fold(f64::NAN, |a: f64, b| if a.abs() > b.abs() { a } else { b });
         let wall = own.iter().map(|check| check.point.wall).sum::<f64>();
         let numbers = [grains, ratio, rms, top(0), top(1), simulated, of_peak, largest, wall];
         cases.push(std::iter::once(Cell::Text(name.clone())).chain(numbers.map(Cell::Number)));
@@ -97,7 +101,7 @@ pub(super) fn write(
         ] {
             summary.give(format!("{label}{suffix}"), unit, value);
         }
-        if own.first().is_some() {
+        if !own.is_empty() {
             summary.give(format!("simulated rms{suffix}"), "m", simulated);
             summary.give(format!("error of the peak{suffix}"), "-", of_peak);
         }
@@ -117,7 +121,7 @@ pub(super) fn write(
             ));
         }
     }
-    for check in checks {
+    for check in &checks.done {
         let off = check.predicted / check.point.rms - 1.0;
         if off.abs() > 0.1 {
             let name = &task.cases[check.case].name;

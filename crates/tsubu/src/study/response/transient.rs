@@ -159,8 +159,7 @@ fn steady(blocks: &[Complex<f64>]) -> bool {
     let Some(before) = blocks[..blocks.len() - 3].last_chunk::<3>() else { return false };
     let mean = |three: &[Complex<f64>; 3]| three.iter().sum::<Complex<f64>>() / 3.0;
     // Square of the standard error of a mean of three.
-    let error =
-        |three: &[Complex<f64>; 3]| three.iter().map(|one| (one - mean(three)).norm_sqr()).sum::<f64>() / 6.0;
+    let error = |three: &[Complex<f64>; 3]| three.iter().map(|one| (one - mean(three)).norm_sqr()).sum::<f64>() / 6.0;
     (mean(last) - mean(before)).norm_sqr() <= error(last) + error(before)
 }
 
