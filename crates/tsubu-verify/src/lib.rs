@@ -42,6 +42,7 @@ mod outlet;
 mod pile_stress;
 mod pile_twin;
 mod plastic;
+mod prediction;
 mod random_loads;
 mod reasons;
 mod recorded;

@@ -1,6 +1,6 @@
 //! An atlas of cavities: each alone on a shaker, at many frequencies and accelerations.
 //!
-//! What grains do to a structure near a resonance follows from the complex mass that they show it there ([`cavity`]). Each case is
+//! What grains do to a structure near a resonance follows from the complex mass that they show it there ([`Point`]). Each case is
 //! a cavity; its grid of points is refined where that mass bends. An atlas that was stopped goes on where it was.
 
 mod cavity;
@@ -16,7 +16,7 @@ pub use shown::Shown;
 use super::cases::{Case, CasesError, cases};
 use super::journal::{self, Exact, Journal};
 use super::response::{case_plans, tasks};
-use crate::interrupt::Watcher;
+use crate::interrupt::{Interrupt, Watcher};
 use crate::run::RunError;
 use nalgebra::Complex;
 use rayon::prelude::*;
@@ -25,7 +25,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
-use tsubu_frame::{State, Status, Summary};
+use tsubu_frame::{FileError, State, Status, Summary};
 use tsubu_scene::{Plan, Scene, plan};
 
 /// What an atlas writes beside what every study writes.
@@ -62,22 +62,8 @@ pub fn atlas(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -
     let beds = task.beds()?;
     let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite, &FILES)?;
     let journal = Journal::append(&folder)?;
-    let (mut points, mut failures) = (Done::new(), Vec::new());
-    let known = earlier.unwrap_or_default();
-    loop {
-        let wanted = task.next(&points, &failures);
-        if wanted.is_empty() {
-            break;
-        }
-        let (old, new): (Vec<Key>, Vec<Key>) = wanted.into_iter().partition(|key| known.contains_key(key));
-        points.extend(old.into_iter().map(|key| (key, known[&key].clone())));
-        let (done, failed) = task.measure(&new, &beds, &journal, points.len(), watcher)?;
-        points.extend(done);
-        failures.extend(failed);
-        if watcher.interrupt.asked() {
-            break;
-        }
-    }
+    let record = |key: &Key, point: &Point| journal.record(key, point);
+    let (points, failures) = task.run(&beds, &earlier.unwrap_or_default(), &record, watcher)?;
     let status = match points.len() {
         _ if watcher.interrupt.asked() => Status::Interrupted,
         0 if !failures.is_empty() => return Err(task.first(failures)),
@@ -88,6 +74,28 @@ pub fn atlas(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -
     let told = failures.iter().map(|failed| task.told(failed)).collect();
     Ok(write::write(&folder, scene, &task, &points, status, told, before + begun.elapsed().as_secs_f64())?)
 }
+
+/// The cavities of a scene's atlas, without any file.
+pub fn cavities(scene: &Scene) -> Result<Vec<Cavity>, CasesError> {
+    let task = Task::new(scene)?;
+    let watcher = Watcher { interrupt: &Interrupt::new(), progress: &|_| {} };
+    let (points, failures) = task.run(&task.beds()?, &Done::new(), &|_, _| Ok(()), &watcher)?;
+    if !failures.is_empty() {
+        return Err(task.first(failures));
+    }
+    let plans = case_plans(scene, &task.cases)?;
+    let of_case = |case: usize| points.iter().filter(move |(key, _)| key.case == case);
+    let shown = |point: &Point| {
+        let error = point.error.unwrap_or(0.0);
+        Shown { mass: point.complex(), error, harmonics: point.harmonics }
+    };
+    let rows = |case| of_case(case).map(|(key, point)| (key.seed, [key.frequency.0, key.acceleration.0], shown(point)));
+    let all = write::names(&task.cases).into_iter().zip(plans).enumerate();
+    Ok(all.map(|(case, (name, plan))| Cavity::new(name, plan, &task.wanted, rows(case))).collect())
+}
+
+/// Hears of every finished run.
+type Record<'a> = &'a (dyn Fn(&Key, &Point) -> Result<(), FileError> + Sync);
 
 /// What an atlas has to compute.
 struct Task {
@@ -150,6 +158,31 @@ impl Task {
         all.into_par_iter().map(settle).collect()
     }
 
+    /// Measures round by round, but for what is known already, until nothing is wanted or somebody asks to stop.
+    fn run(
+        &self,
+        beds: &BTreeMap<(usize, u32), State>,
+        known: &Done,
+        record: Record<'_>,
+        watcher: &Watcher,
+    ) -> Result<(Done, Vec<Failed>), CasesError> {
+        let (mut points, mut failures) = (Done::new(), Vec::new());
+        loop {
+            let wanted = self.next(&points, &failures);
+            if wanted.is_empty() {
+                return Ok((points, failures));
+            }
+            let (old, new): (Vec<Key>, Vec<Key>) = wanted.into_iter().partition(|key| known.contains_key(key));
+            points.extend(old.into_iter().map(|key| (key, known[&key].clone())));
+            let (done, failed) = self.measure(&new, beds, record, points.len(), watcher)?;
+            points.extend(done);
+            failures.extend(failed);
+            if watcher.interrupt.asked() {
+                return Ok((points, failures));
+            }
+        }
+    }
+
     /// What is measured next: it follows from what is known, never from how far an interrupted round had come.
     fn next(&self, points: &Done, failures: &[Failed]) -> Vec<Key> {
         let mut wanted = Vec::new();
@@ -199,7 +232,7 @@ impl Task {
         &self,
         keys: &[Key],
         beds: &BTreeMap<(usize, u32), State>,
-        journal: &Journal,
+        record: Record<'_>,
         before: usize,
         watcher: &Watcher,
     ) -> Result<(Done, Vec<Failed>), CasesError> {
@@ -213,7 +246,7 @@ impl Task {
             match cavity::measure(&self.plans[key.case], &self.wanted, key.seed, bed, place, watcher.interrupt) {
                 Ok(None) => Ok(None),
                 Ok(Some(point)) => {
-                    journal.record(key, &point)?;
+                    record(key, &point)?;
                     (watcher.progress)((counter.fetch_add(1, Ordering::Relaxed) + 1) as f64 / total);
                     Ok(Some(Ok((*key, point))))
                 }

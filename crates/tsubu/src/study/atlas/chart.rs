@@ -9,7 +9,7 @@ use nalgebra::Complex;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use tsubu_frame::{Cell, FileError, Status, Summary, Table};
-use tsubu_scene::{Plan, Scene};
+use tsubu_scene::{Plan, Scene, plan};
 
 /// Its name in the folder.
 pub(super) const FILE: &str = "atlas.csv";
@@ -92,6 +92,24 @@ pub struct Cavity {
     pub charts: Vec<Chart>,
 }
 
+impl Cavity {
+    /// A cavity from its points: seed, [frequency [Hz], acceleration [m/s^2]], and what was shown there.
+    pub(super) fn new(
+        name: String,
+        plan: Plan,
+        wanted: &plan::Atlas,
+        points: impl IntoIterator<Item = (u32, [f64; 2], Shown)>,
+    ) -> Self {
+        let mut seeds: BTreeMap<u32, Vec<([f64; 2], Shown)>> = BTreeMap::new();
+        for (seed, place, shown) in points {
+            seeds.entry(seed).or_default().push((place, shown));
+        }
+        let charts = seeds.into_values().map(Chart::new).collect();
+        let (host, frequency, acceleration) = (wanted.host.clone(), wanted.frequency, wanted.acceleration);
+        Self { name, plan, host, frequency, acceleration, charts }
+    }
+}
+
 /// What one bed showed over frequency and acceleration.
 #[derive(Clone, Debug, Default)]
 pub struct Chart {
@@ -164,7 +182,7 @@ pub fn read(folder: &Path) -> Result<Vec<Cavity>, AtlasError> {
     let (mass, lossy, harmonics) = (mass?, lossy?, harmonics?);
     let mut cavities = Vec::new();
     for (plan, name) in plans.into_iter().zip(super::write::names(&cases)) {
-        let mut seeds: BTreeMap<Exact, Vec<([f64; 2], Shown)>> = BTreeMap::new();
+        let mut rows = Vec::new();
         for row in (0..names.len()).filter(|row| names[*row] == name) {
             let numbers = [frequency[row], acceleration[row], mass[row], lossy[row], harmonics[row]];
             if !numbers.iter().all(|number| number.is_finite()) || frequency[row] <= 0.0 || acceleration[row] <= 0.0 {
@@ -173,16 +191,9 @@ pub fn read(folder: &Path) -> Result<Vec<Cavity>, AtlasError> {
             // Of a single block no error is known.
             let error = if error[row].is_finite() { error[row] } else { 0.0 };
             let shown = Shown { mass: Complex::new(mass[row], -lossy[row]), error, harmonics: harmonics[row] };
-            seeds.entry(Exact(seed[row])).or_default().push(([frequency[row], acceleration[row]], shown));
+            rows.push((seed[row] as u32, [frequency[row], acceleration[row]], shown));
         }
-        cavities.push(Cavity {
-            name,
-            plan,
-            host: wanted.host.clone(),
-            frequency: wanted.frequency,
-            acceleration: wanted.acceleration,
-            charts: seeds.into_values().map(Chart::new).collect(),
-        });
+        cavities.push(Cavity::new(name, plan, &wanted, rows));
     }
     Ok(cavities)
 }
