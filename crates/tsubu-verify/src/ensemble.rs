@@ -2,6 +2,7 @@
 
 use crate::keep;
 use std::ops::RangeInclusive;
+use tsubu::student::interval_of_mean;
 use tsubu_frame::Ensemble;
 
 /// Runs one member for every seed; they come in the order of the seeds whatever the threads. `of` says what is run, in words that no
@@ -18,49 +19,14 @@ pub(super) fn members<const N: usize>(
 
 /// The members with the 95 % confidence interval of their mean, by Student's t.
 pub(super) fn of(seeds: &[u64], members: Vec<f64>) -> Ensemble {
-    let count = members.len() as f64;
-    let mean = members.iter().sum::<f64>() / count;
-    let variance = members.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0);
-    let half = student(members.len() - 1) * (variance / count).sqrt();
-    Ensemble { seeds: seeds.to_vec(), members, interval: vec![mean - half, mean + half] }
-}
-
-/// What Student's t stays within with a probability of 95 %, by bisection.
-fn student(freedom: usize) -> f64 {
-    let (mut low, mut high) = (0.0, 1e3);
-    while high - low > 1e-12 * high {
-        let middle = 0.5 * (low + high);
-        if within(middle, freedom) < 0.95 { low = middle } else { high = middle }
-    }
-    high
-}
-
-/// Probability that Student's t lies between -t and t: the finite series for whole degrees of freedom (Abramowitz and Stegun
-/// 1964, 26.7.3 and 26.7.4).
-fn within(t: f64, freedom: usize) -> f64 {
-    let angle = (t / (freedom as f64).sqrt()).atan();
-    let (sin, cos) = angle.sin_cos();
-    let odd = freedom % 2;
-    let (mut term, mut sum) = if odd == 1 { (cos, 0.0) } else { (1.0, 0.0) };
-    for k in (odd..freedom.saturating_sub(1)).step_by(2) {
-        sum += term;
-        term *= cos * cos * (k + 1) as f64 / (k + 2) as f64;
-    }
-    if odd == 1 { (angle + sin * sum) / std::f64::consts::FRAC_PI_2 } else { sin * sum }
+    let interval = interval_of_mean(&members).to_vec();
+    Ensemble { seeds: seeds.to_vec(), members, interval }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use tsubu_frame::{Claim, Origin, Source, Verdict};
-
-    /// The table of every textbook.
-    #[test]
-    fn students_t_is_that_of_the_tables() {
-        for (freedom, t) in [(1, 12.706), (2, 4.303), (3, 3.182), (4, 2.776), (9, 2.262), (19, 2.093), (60, 2.000)] {
-            assert!((student(freedom) - t).abs() < 6e-4, "{freedom}: {}", student(freedom));
-        }
-    }
 
     /// A mean that happens to lie in the range is no pass where its interval does not.
     #[test]

@@ -28,6 +28,7 @@ pub(crate) mod scene_files;
 pub mod sections;
 pub(crate) mod sizes;
 pub mod state;
+pub mod student;
 pub mod study;
 pub mod threads;
 pub mod trial;

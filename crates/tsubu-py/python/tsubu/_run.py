@@ -284,7 +284,8 @@ class _Tables(Mapping[str, "pd.DataFrame"]):
 def load(folder: str | os.PathLike[str]) -> Run:
     """Reads a folder of results: a run, a sweep, a response, a comparison or a verification."""
     path = Path(folder)
-    known = ("summary.json", "history.csv", "sweep.csv", "response.csv", "atlas.csv", "prediction.csv", "compare.csv", "verify.json")
+    tables = ("history.csv", "sweep.csv", "response.csv", "atlas.csv", "prediction.csv", "compare.csv")
+    known = ("summary.json", *tables, "verify.json")
     if not any((path / name).is_file() for name in known):
         there = "has no results" if path.is_dir() else "is not a folder"
         raise _tsubu.Error(f"error: {path} {there}\nhint: name the folder that `run`, `sweep`, `response` or `compare` wrote")

@@ -347,6 +347,10 @@ impl Task {
         let mut results: Vec<CaseResult> = cases
             .map(|(index, (case, plan))| CaseResult::new(&case.name, plan, self.reference, &of_case(index)))
             .collect();
+        for (index, case) in results.iter_mut().enumerate() {
+            let own = points.iter().filter(|(key, _)| key.case == index);
+            case.peak_interval = curve::peak_interval(own.map(|(key, point)| (key.seed, key.ratio.0, point.rms)));
+        }
         if self.wanted.path == plan::Path::UpAndDown {
             for pair in results.chunks_exact_mut(2) {
                 let found = Hysteresis::between(&pair[0].rows, &pair[1].rows);

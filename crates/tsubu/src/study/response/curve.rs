@@ -3,6 +3,7 @@
 use super::tasks::Point;
 use crate::ledger::Account;
 use crate::partner::Hosts;
+use crate::student::interval_of_mean;
 use std::collections::{BTreeMap, BTreeSet};
 use tsubu_scene::plan::Plan;
 
@@ -81,6 +82,8 @@ pub struct CaseResult {
     pub rows: Vec<Row>,
     /// Its top; `None` without points.
     pub peak: Option<Peak>,
+    /// 95 % interval of the mean of the tops of each seed's own curve [m]; nothing with one seed.
+    pub peak_interval: Option<[f64; 2]>,
     /// Where the curve up and the curve down part; nothing where there is one of them, or where they agree.
     pub hysteresis: Option<Hysteresis>,
     /// Energy lost per cycle over 2 pi times the spring energy, at the frequency nearest to the peak [-].
@@ -121,6 +124,7 @@ impl CaseResult {
             name: name.to_owned(),
             particles: plan.particles.values().map(|p| p.count).sum(),
             peak: top,
+            peak_interval: None,
             hysteresis: None,
             loss_factor,
             apparent_mass: nearest.map_or(f64::NAN, |r| r.apparent_mass),
@@ -131,6 +135,20 @@ impl CaseResult {
             rows,
         }
     }
+}
+
+/// What the tops of the seeds' own curves are worth together: points of a case as seed, frequency ratio and root mean square [m].
+pub(super) fn peak_interval(points: impl Iterator<Item = (u32, f64, f64)>) -> Option<[f64; 2]> {
+    let mut curves: BTreeMap<u32, Vec<(f64, f64)>> = BTreeMap::new();
+    for (seed, ratio, rms) in points {
+        curves.entry(seed).or_default().push((ratio, rms));
+    }
+    let top = |curve: &mut Vec<(f64, f64)>| {
+        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Some(peak(curve)?.rms)
+    };
+    let tops: Vec<f64> = curves.values_mut().filter_map(top).collect();
+    (tops.len() > 1).then(|| interval_of_mean(&tops))
 }
 
 fn row(ratio: f64, points: &[&Point]) -> Option<Row> {
@@ -195,7 +213,19 @@ pub fn peak(curve: &[(f64, f64)]) -> Option<Peak> {
 
 #[cfg(test)]
 mod tests {
-    use super::peak;
+    use super::{peak, peak_interval};
+
+    /// Three seeds with tops of 1, 2 and 3: Student's interval of their mean, 4.303/sqrt(3) to both sides; one seed has none.
+    #[test]
+    fn seeds_say_what_a_peak_is_worth() {
+        let points = |seeds: u32| {
+            (1..=seeds)
+                .flat_map(|seed| [1.1, 0.9, 1.0].map(|x| (seed, x, f64::from(seed) * (1.0 - (x - 1.0_f64).powi(2)))))
+        };
+        let [low, high] = peak_interval(points(3)).expect("three seeds");
+        assert!((0.5 * (low + high) - 2.0).abs() < 1e-9 && (high - 2.0 - 4.303 / 3.0_f64.sqrt()).abs() < 1e-3);
+        assert_eq!(peak_interval(points(1)), None);
+    }
 
     /// The closed form of a damped oscillator: the peak and the half-power damping come back from its sampled curve.
     #[test]

@@ -71,7 +71,10 @@ pub(super) fn write(
         "wall seconds [s]",
     ];
     let apart = ["hysteresis [-]", "hysteresis from [-]", "hysteresis to [-]"].into_iter().filter(|_| both);
-    let mut cases = Table::new(fixed.into_iter().chain(apart));
+    // Only with several seeds.
+    let several = results.iter().any(|case| case.peak_interval.is_some());
+    let interval = ["peak rms low [m]", "peak rms high [m]"].into_iter().filter(|_| several);
+    let mut cases = Table::new(fixed.into_iter().chain(apart).chain(interval));
     let losses: Vec<Account> = Account::ALL.into_iter().filter(|a| !a.is_work()).collect();
     let header = std::iter::once("case [text]".to_owned()).chain(losses.iter().map(|a| format!("{} [J]", a.name())));
     let mut causes = Table::new(header);
@@ -124,6 +127,9 @@ pub(super) fn write(
             let parted = case.hysteresis.map_or([f64::NAN; 3], |found| [found.gap, found.ratios[0], found.ratios[1]]);
             cells.extend(parted.map(number));
         }
+        if several {
+            cells.extend(case.peak_interval.unwrap_or([f64::NAN; 2]).map(number));
+        }
         cases.push(cells);
         causes.push(
             std::iter::once(text(name))
@@ -132,6 +138,10 @@ pub(super) fn write(
         let suffix = if case.name.is_empty() { String::new() } else { format!(" {}", case.name) };
         for (label, unit, value) in values {
             summary.give(format!("{label}{suffix}"), unit, value);
+        }
+        if let Some([low, high]) = case.peak_interval {
+            summary.give(format!("peak rms low{suffix}"), "m", low);
+            summary.give(format!("peak rms high{suffix}"), "m", high);
         }
         if let Some(hysteresis) = case.hysteresis {
             summary.give(format!("hysteresis{suffix}"), "-", hysteresis.gap);
