@@ -216,6 +216,9 @@ fn what_rides_moves_the_peak_as_an_added_mass() {
         refused,
         "the atlas has no such cavity: `particles.ball.mass` is 0.004 there, 0.005 here (cavity `scene`)"
     );
+    let across = self::scene(LUMP, &[&asked[..], &["hosts.spring.direction=x"]].concat());
+    let refused = curves(&across, &known).unwrap_err().to_string();
+    assert!(refused.contains("`direction of the host` is [0.0,0.0,1.0] there, [1.0,0.0,0.0] here"), "{refused}");
 }
 
 /// Stopped on the way and gone on with, an atlas is the one that was not.

@@ -156,7 +156,7 @@ impl<'a> Task<'a> {
                 CasesError::Scene(format!("{case}{what}"))
             };
             interfaces.push(hangs(plan, &wanted.host).map_err(named)?);
-            let found = if plan.grains() == 0 { None } else { Some(cavity::find(plan, atlas)) };
+            let found = if plan.grains() == 0 { None } else { Some(cavity::find(plan, &wanted.host, atlas)) };
             cavities.push(found.transpose().map_err(|why| named(format!("the atlas has no such cavity: {why}")))?);
         }
         Ok(Self { wanted, reference, cases, plans, cavities, interfaces })

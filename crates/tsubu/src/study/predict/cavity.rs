@@ -5,19 +5,33 @@ use serde_json::Value;
 use tsubu_scene::Plan;
 
 /// What of a plan makes a cavity.
-const PARTS: [&str; 8] =
-    ["method", "dimension", "gravity", "materials", "material-pair", "particles", "walls", "contact"];
-/// Keys of walls that say who moves them, and keys of shapes that say where they are.
+const PARTS: [&str; 13] = [
+    "method",
+    "dimension",
+    "gravity",
+    "materials",
+    "material-pair",
+    "particles",
+    "walls",
+    "periodic",
+    "removal",
+    "water",
+    "contact",
+    "lattice",
+    "cl-ca",
+];
+/// Keys of walls that say who moves them, and keys of shapes that say where they are. A mesh is told by its fingerprint, not by its name.
 const CARRIED: [&str; 2] = ["host", "interface"];
+const NAMED: &str = "path";
 const PLACED: [&str; 4] = ["floor-centre", "point", "centre", "shift"];
 
 /// The cavity of the atlases that a scene's case has; otherwise what is another, in the atlas that comes nearest.
-pub(super) fn find<'a>(plan: &Plan, cavities: &'a [Cavity]) -> Result<&'a Cavity, String> {
-    let own = parts(plan);
+pub(super) fn find<'a>(plan: &Plan, host: &str, cavities: &'a [Cavity]) -> Result<&'a Cavity, String> {
+    let own = parts(plan, host);
     let mut nearest: Option<(usize, String)> = None;
     for cavity in cavities {
         let mut differences = Vec::new();
-        compare("", &own, &parts(&cavity.plan), &mut differences);
+        compare("", &own, &parts(&cavity.plan, &cavity.host), &mut differences);
         if differences.is_empty() {
             return Ok(cavity);
         }
@@ -29,17 +43,24 @@ pub(super) fn find<'a>(plan: &Plan, cavities: &'a [Cavity]) -> Result<&'a Cavity
     Err(nearest.map_or_else(|| "there is none in it".to_owned(), |(_, told)| told))
 }
 
-/// The parts of a plan that make its cavity, as if it were drawn at the origin.
-fn parts(plan: &Plan) -> Value {
+/// The parts of a plan that make its cavity, as if it were drawn at the origin, and the direction in which its host shakes it.
+fn parts(plan: &Plan, host: &str) -> Value {
     let mut all = serde_json::to_value(plan).unwrap_or_default();
     let Some(table) = all.as_object_mut() else { return Value::Null };
     table.retain(|key, _| PARTS.contains(&key.as_str()));
+    if let Some(host) = plan.hosts.get(host) {
+        table.insert("direction of the host".to_owned(), host.direction.to_vec().into());
+    }
+    if let Some(lattice) = table.get_mut("lattice").and_then(Value::as_object_mut) {
+        lattice.remove("head-room");
+    }
     let mut origin: Option<Vec<f64>> = None;
     let walls = table.get_mut("walls").and_then(Value::as_object_mut);
     for wall in walls.into_iter().flatten().filter_map(|(_, wall)| wall.as_object_mut()) {
         wall.retain(|key, _| !CARRIED.contains(&key.as_str()));
         let shape = wall.get_mut("shape").and_then(Value::as_object_mut);
         for measures in shape.into_iter().flatten().filter_map(|(_, measures)| measures.as_object_mut()) {
+            measures.remove(NAMED);
             for place in PLACED {
                 let Some(vector) = measures.get(place).and_then(numbers) else { continue };
                 let from = origin.get_or_insert_with(|| vector.clone());
