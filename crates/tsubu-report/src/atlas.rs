@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use tsubu_frame::Table;
 
 use crate::claims::claims_table;
-use crate::figure::{Axis, Figure, Mark, Series, Style};
+use crate::figure::{Axis, Figure, Series, Style};
 use crate::page::{Block, Report, Tone};
 use crate::source::{Source, card, folded, results_table, shown, spoken, summary_cards, versions};
 use crate::text::short;
@@ -80,7 +80,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
             (status, _) => (Tone::Warning, status.word().into()),
         });
     }
-    let charts = charts(source, &cavities, gravity(&table));
+    let charts = charts(source, &cavities);
     let mut remarks = source.note_blocks();
     remarks.extend(summary.iter().flat_map(|s| &s.warnings).map(|text| Block::Note(Tone::Warning, text.clone())));
     report.section("To be noted", remarks);
@@ -96,14 +96,6 @@ pub(crate) fn build(source: &mut Source) -> Report {
     }
     source.scene_and_verdict(&mut report);
     report
-}
-
-/// Where grains leave a floor that falls away: marked in the charts.
-fn gravity(table: &Table) -> Option<f64> {
-    let numbers = |name: &str| table.numbers(name);
-    let (low, high) = (numbers("acceleration")?, 9.806_65);
-    let reached = low.iter().copied().fold(0.0, f64::max);
-    (reached > high).then_some(high)
 }
 
 fn cavities(table: &Table) -> Vec<Cavity> {
@@ -145,7 +137,7 @@ fn headline(cavities: &[Cavity]) -> String {
     )
 }
 
-fn charts(source: &mut Source, cavities: &[Cavity], gravity: Option<f64>) -> Vec<Block> {
+fn charts(source: &mut Source, cavities: &[Cavity]) -> Vec<Block> {
     let mut blocks = Vec::new();
     for (index, cavity) in cavities.iter().enumerate() {
         let mut pair = Vec::new();
@@ -156,9 +148,6 @@ fn charts(source: &mut Source, cavities: &[Cavity], gravity: Option<f64>) -> Vec
             let mut figure = Figure::new(&cavity.name, x, Axis::new(label, "-"));
             for series in cavity.series(which) {
                 figure = figure.with(series);
-            }
-            if let Some(gravity) = gravity {
-                figure = figure.marked(Mark::vertical(gravity, "g"));
             }
             let caption = if which == 1 {
                 "Energy that grains take out of the motion: lossy mass over their mass, a curve for each frequency. \

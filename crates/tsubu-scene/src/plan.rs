@@ -219,6 +219,11 @@ impl Plan {
         self.particles.values().map(|group| group.count).sum()
     }
 
+    /// Mass of all grains, those that come later included [kg].
+    pub fn grain_mass(&self) -> f64 {
+        self.particles.values().map(|group| group.mass * group.count as f64).sum()
+    }
+
     /// Number of the first grain of a group: groups follow each other in the order of their names, those of streams after the
     /// others.
     pub fn first_of(&self, group: &str) -> usize {

@@ -1,15 +1,12 @@
 //! `tsubu atlas`: the mass and the loss that a cavity shows, over frequency and acceleration.
 
-use super::{claims, run::warnings};
+use super::points;
 use crate::failure::Failure;
-use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
-use crate::session::{Session, judge, resume};
 use crate::table;
 use clap::Args;
 use std::collections::BTreeMap;
 use std::path::Path;
-use tsubu::interrupt::Watcher;
-use tsubu_frame::{Status, Table};
+use tsubu_frame::Table;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -21,39 +18,11 @@ Examples:
 An interrupted atlas goes on where it was when the same command is typed again.")]
 pub struct Options {
     #[command(flatten)]
-    scene: SceneOptions,
-    #[command(flatten)]
-    folder: FolderOptions,
-    /// Go on where an interrupted atlas stopped; this happens anyway
-    #[arg(long, conflicts_with = "overwrite")]
-    resume: bool,
-    #[command(flatten)]
-    work: WorkOptions,
+    points: points::PointsOptions,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
-    let session = Session::begin("atlas", "-atlas", &options.scene, &options.folder, &options.work)?;
-    if options.resume {
-        session.needs_folder()?;
-    }
-    let Session { scene, folder, .. } = &session;
-    let overwrite = options.folder.overwrite;
-    let work = |watcher: &Watcher| tsubu::study::atlas::atlas(scene, folder, overwrite, watcher);
-    let (done, _) = session.work(&format!("interrupted; {}", resume()), work);
-    let summary = done.map_err(|error| Failure::of_cases(&error, scene, folder))?;
-    if summary.status == Status::Interrupted {
-        let message = format!("interrupted; the finished points are in {}", folder.display());
-        return Err(Failure::interrupted(message).hint(resume()));
-    }
-    let page = session.page()?;
-    let claims: String = summary.claims.iter().map(claims::line).collect();
-    session.show(&(cavities(folder)? + &claims + &warnings(&summary.warnings)), Some(&page))?;
-    if summary.status == Status::Failed {
-        let again = command_to_resume();
-        return Err(Failure::failed("some of the runs failed; the warnings above name them")
-            .hint(format!("the others are kept; `{again}` tries those again that failed")));
-    }
-    judge(&summary.claims)
+    points::run("atlas", "points", &options.points, tsubu::study::atlas::atlas, cavities)
 }
 
 /// A line for each cavity: where it takes most energy.

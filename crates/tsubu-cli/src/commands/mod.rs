@@ -10,6 +10,7 @@ mod explain;
 mod held_against;
 mod new;
 mod origins;
+mod points;
 mod predict;
 mod report;
 mod response;

@@ -1,15 +1,12 @@
 //! `tsubu response`: vibration against frequency.
 
-use super::{claims, run::warnings};
+use super::points;
 use crate::failure::Failure;
-use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
-use crate::session::{Session, judge, resume};
 use crate::table;
 use clap::Args;
 use std::path::Path;
 use tsubu::check::human_time;
-use tsubu::interrupt::Watcher;
-use tsubu_frame::{Status, Table};
+use tsubu_frame::Table;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -21,39 +18,11 @@ Examples:
 An interrupted response goes on where it was when the same command is typed again.")]
 pub struct Options {
     #[command(flatten)]
-    scene: SceneOptions,
-    #[command(flatten)]
-    folder: FolderOptions,
-    /// Go on where an interrupted response stopped; this happens anyway
-    #[arg(long, conflicts_with = "overwrite")]
-    resume: bool,
-    #[command(flatten)]
-    work: WorkOptions,
+    points: points::PointsOptions,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
-    let session = Session::begin("response", "-response", &options.scene, &options.folder, &options.work)?;
-    if options.resume {
-        session.needs_folder()?;
-    }
-    let Session { scene, folder, .. } = &session;
-    let overwrite = options.folder.overwrite;
-    let work = |watcher: &Watcher| tsubu::study::response::response(scene, folder, overwrite, watcher);
-    let (done, _) = session.work(&format!("interrupted; {}", resume()), work);
-    let summary = done.map_err(|error| Failure::of_cases(&error, scene, folder))?;
-    if summary.status == Status::Interrupted {
-        let message = format!("interrupted; the finished frequencies are in {}", folder.display());
-        return Err(Failure::interrupted(message).hint(resume()));
-    }
-    let page = session.page()?;
-    let claims: String = summary.claims.iter().map(claims::line).collect();
-    session.show(&(cases(folder)? + &claims + &warnings(&summary.warnings)), Some(&page))?;
-    if summary.status == Status::Failed {
-        let again = command_to_resume();
-        return Err(Failure::failed("some of the runs failed; the warnings above name them")
-            .hint(format!("the others are kept; `{again}` tries those again that failed")));
-    }
-    judge(&summary.claims)
+    points::run("response", "frequencies", &options.points, tsubu::study::response::response, cases)
 }
 
 /// Columns of `cases.csv` that fit on a terminal, with the factor to the unit shown.

@@ -13,9 +13,9 @@ pub use cavity::Point;
 pub use chart::{AtlasError, Cavity, Chart, read};
 pub use shown::Shown;
 
-use super::cases::{Case, CasesError, cases};
+use super::cases::{Case, CasesError, case_plans, cases};
 use super::journal::{self, Exact, Journal};
-use super::response::{case_plans, tasks};
+use super::response::tasks;
 use crate::interrupt::{Interrupt, Watcher};
 use crate::run::RunError;
 use nalgebra::Complex;
@@ -117,7 +117,7 @@ impl Task {
         }
         let cases = cases(&wanted.vary);
         let plans = case_plans(scene, &cases)?;
-        if plans.iter().all(|plan| mass(plan) == 0.0) {
+        if plans.iter().all(|plan| plan.grain_mass() == 0.0) {
             return Err(CasesError::Scene(
                 "no case of this atlas has grains: an empty cavity shows no mass".to_owned(),
             ));
@@ -149,7 +149,7 @@ impl Task {
 
     /// The settled beds of all cases with grains and of all seeds.
     fn beds(&self) -> Result<BTreeMap<(usize, u32), State>, CasesError> {
-        let full = (0..self.plans.len()).filter(|case| mass(&self.plans[*case]) > 0.0);
+        let full = (0..self.plans.len()).filter(|case| self.plans[*case].grain_mass() > 0.0);
         let all: Vec<(usize, u32)> = full.flat_map(|case| (0..self.wanted.seeds).map(move |s| (case, s))).collect();
         let settle = |(case, seed): (usize, u32)| {
             let bed = tasks::bed(&self.plans[case], seed).map_err(|error| self.fail(case, error.into()))?;
@@ -186,7 +186,7 @@ impl Task {
     /// What is measured next: it follows from what is known, never from how far an interrupted round had come.
     fn next(&self, points: &Done, failures: &[Failed]) -> Vec<Key> {
         let mut wanted = Vec::new();
-        for case in (0..self.plans.len()).filter(|case| mass(&self.plans[*case]) > 0.0) {
+        for case in (0..self.plans.len()).filter(|case| self.plans[*case].grain_mass() > 0.0) {
             let found = self.found(points, case);
             // Where every seed has failed nothing is known, and nothing is asked again.
             let tried: Vec<refine::Place> = failures
@@ -217,7 +217,7 @@ impl Task {
         for (key, point) in points.iter().filter(|(key, _)| key.case == case) {
             seeds.entry((key.frequency, key.acceleration)).or_default().push(point);
         }
-        let mass = mass(&self.plans[case]);
+        let mass = self.plans[case].grain_mass();
         let mean = |of: Vec<&Point>| {
             let n = of.len() as f64;
             let mean = of.iter().map(|point| point.complex()).sum::<Complex<f64>>() / n;
@@ -267,12 +267,7 @@ impl Task {
 
     /// About how many runs there will be.
     fn expected(&self) -> usize {
-        let full = self.plans.iter().filter(|plan| mass(plan) > 0.0).count();
+        let full = self.plans.iter().filter(|plan| plan.grain_mass() > 0.0).count();
         full * (self.wanted.points() * self.wanted.seeds) as usize
     }
-}
-
-/// Mass of all grains [kg].
-fn mass(plan: &Plan) -> f64 {
-    plan.particles.values().map(|group| group.mass * group.count as f64).sum()
 }

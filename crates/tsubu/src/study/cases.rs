@@ -5,7 +5,7 @@ use crate::run::RunError;
 use std::collections::BTreeMap;
 use toml::Value;
 use tsubu_frame::FileError;
-use tsubu_scene::{Complaints, Scene};
+use tsubu_scene::{Complaints, Plan, Scene};
 
 /// Why a study of many cases has no result.
 #[derive(Debug, thiserror::Error)]
@@ -65,6 +65,11 @@ pub fn cases(vary: &BTreeMap<String, Vec<Value>>) -> Vec<Case> {
             .collect();
     }
     all.into_iter().map(|values| Case { name: name(&values), values }).collect()
+}
+
+/// What the scene means in each case.
+pub(super) fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, CasesError> {
+    list.iter().map(|case| Ok(case.scene(scene).map_err(CasesError::Complaints)?.plan().clone())).collect()
 }
 
 /// Keys are shortened to their last word as long as that tells them apart.

@@ -7,9 +7,9 @@ mod write;
 pub use balance::{Balance, Lossy, Motion};
 
 use super::atlas::Cavity;
-use super::cases::{Case, CasesError, cases};
+use super::cases::{Case, CasesError, case_plans, cases};
 use super::journal;
-use super::response::{Point, case_plans, measure, peak, tasks};
+use super::response::{Point, measure, peak, tasks};
 use crate::engine::OpenError;
 use crate::interrupt::Watcher;
 use crate::partner::Hosts;

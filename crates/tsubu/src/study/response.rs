@@ -15,7 +15,7 @@ mod write;
 pub use curve::{CaseResult, Hysteresis, Peak, peak};
 pub use tasks::{Point, measure};
 
-use super::cases::{Case, CasesError, cases};
+use super::cases::{Case, CasesError, case_plans, cases};
 use super::journal::{self, Exact, Journal};
 use crate::engine::OpenError;
 use crate::interrupt::{Interrupt, Watcher};
@@ -365,10 +365,6 @@ impl Task {
 
 fn of_case(points: &Done, case: usize) -> Vec<&Point> {
     points.iter().filter(|(key, _)| key.case == case).map(|(_, point)| point).collect()
-}
-
-pub(super) fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, CasesError> {
-    list.iter().map(|case| Ok(case.scene(scene).map_err(CasesError::Complaints)?.plan().clone())).collect()
 }
 
 impl From<OpenError> for CasesError {

@@ -105,7 +105,7 @@ pub(super) fn measure(
     let before = lost(&ledger);
     let first = engine.steps();
     let most = atlas.measure_periods.div_ceil(BLOCK) as usize;
-    let enough = SURE * atlas.within * super::mass(&plan);
+    let enough = SURE * atlas.within * plan.grain_mass();
     let (mut found, mut harmonics) = (Vec::new(), 0.0);
     while found.len() < most.min(LEAST) || found.len() < most && standard_error(&found) > enough {
         let block = found.len() as u32 + 1;
@@ -134,7 +134,7 @@ pub(super) fn measure(
         harmonics: harmonics / n,
         measured,
         lost_mass: (lost(&ledger) - before) / of_a_mass,
-        residual: ledger.residual(&engine::energies(&*engine, &hosts)) / (whole * super::mass(&plan)),
+        residual: ledger.residual(&engine::energies(&*engine, &hosts)) / (whole * plan.grain_mass()),
         discarded,
         wall: begun.elapsed().as_secs_f64(),
     }))

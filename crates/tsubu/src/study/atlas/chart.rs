@@ -2,9 +2,8 @@
 
 use super::Done;
 use super::shown::{Column, Shown, at, between};
-use crate::study::cases::{CasesError, cases};
+use crate::study::cases::{CasesError, case_plans, cases};
 use crate::study::journal::Exact;
-use crate::study::response::case_plans;
 use nalgebra::Complex;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -52,7 +51,7 @@ pub enum AtlasError {
 pub(super) fn table(names: &[String], plans: &[Plan], points: &Done) -> Table {
     let mut table = Table::new(HEADER);
     for (key, point) in points {
-        let mass = super::mass(&plans[key.case]);
+        let mass = plans[key.case].grain_mass();
         let numbers = [
             plans[key.case].grains() as f64,
             mass,

@@ -111,7 +111,7 @@ impl CaseResult {
         let host = Hosts::new(&plan.hosts);
         let wanted = plan.response.as_ref().and_then(|r| host.index(&r.host)).unwrap_or_default();
         let mass = host.list.get(wanted).map_or(f64::NAN, crate::partner::Host::modal_mass);
-        let grains: f64 = plan.particles.values().map(|p| p.mass * p.count as f64).sum();
+        let grains = plan.grain_mass();
         let curve: Vec<(f64, f64)> = rows.iter().map(|r| (r.ratio, r.rms[0])).collect();
         let top = peak(&curve);
         let nearest = top

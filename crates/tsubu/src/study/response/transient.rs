@@ -37,7 +37,7 @@ pub(super) fn begin(
     }
     let structure = &mut hosts.list[host];
     let direction = glam::DVec3::from_array(structure.direction);
-    let mass: f64 = plan.particles.values().map(|group| group.mass * group.count as f64).sum();
+    let mass = plan.grain_mass();
     let weight = mass * glam::DVec3::from_array(plan.gravity).dot(direction);
     let near = known.iter().min_by(|a, b| (a.frequency - frequency).abs().total_cmp(&(b.frequency - frequency).abs()));
     let riding = Ballast { mass, lossy_mass: 0.0, weight };

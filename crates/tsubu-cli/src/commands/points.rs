@@ -1,0 +1,60 @@
+//! What `response` and `atlas` share: a study of many runs, each written down when it is done, which goes on where it was.
+
+use super::{claims, run::warnings};
+use crate::failure::Failure;
+use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
+use crate::session::{Session, judge, resume};
+use clap::Args;
+use std::path::Path;
+use tsubu::interrupt::Watcher;
+use tsubu::study::cases::CasesError;
+use tsubu_frame::{Status, Summary};
+use tsubu_scene::Scene;
+
+#[derive(Args)]
+pub struct PointsOptions {
+    #[command(flatten)]
+    scene: SceneOptions,
+    #[command(flatten)]
+    folder: FolderOptions,
+    /// Go on where it stopped; this happens anyway
+    #[arg(long, conflicts_with = "overwrite")]
+    resume: bool,
+    #[command(flatten)]
+    work: WorkOptions,
+}
+
+/// A study as the library has it: scene, folder, whether to overwrite.
+pub type Study = fn(&Scene, &Path, bool, &Watcher) -> Result<Summary, CasesError>;
+
+/// Does the study `name`, whose runs are called `points`, and tells what `table` reads from its folder.
+pub fn run(
+    name: &'static str,
+    points: &str,
+    options: &PointsOptions,
+    study: Study,
+    table: fn(&Path) -> Result<String, Failure>,
+) -> Result<(), Failure> {
+    let session = Session::begin(name, &format!("-{name}"), &options.scene, &options.folder, &options.work)?;
+    if options.resume {
+        session.needs_folder()?;
+    }
+    let Session { scene, folder, .. } = &session;
+    let overwrite = options.folder.overwrite;
+    let work = |watcher: &Watcher| study(scene, folder, overwrite, watcher);
+    let (done, _) = session.work(&format!("interrupted; {}", resume()), work);
+    let summary = done.map_err(|error| Failure::of_cases(&error, scene, folder))?;
+    if summary.status == Status::Interrupted {
+        let message = format!("interrupted; the finished {points} are in {}", folder.display());
+        return Err(Failure::interrupted(message).hint(resume()));
+    }
+    let page = session.page()?;
+    let claims: String = summary.claims.iter().map(claims::line).collect();
+    session.show(&(table(folder)? + &claims + &warnings(&summary.warnings)), Some(&page))?;
+    if summary.status == Status::Failed {
+        let again = command_to_resume();
+        return Err(Failure::failed("some of the runs failed; the warnings above name them")
+            .hint(format!("the others are kept; `{again}` tries those again that failed")));
+    }
+    judge(&summary.claims)
+}
