@@ -7,5 +7,6 @@ mod journal;
 pub mod predict;
 pub mod response;
 pub mod ring_down;
+pub mod surrogate;
 pub mod sweep;
 pub mod variant;
