@@ -18,6 +18,7 @@ const COMMANDS: &[&str] = &[
     "response",
     "atlas",
     "predict",
+    "design",
     "compare",
     "verify",
     "report",

@@ -57,6 +57,7 @@ const RUNS: &[Run] = &[
         1.0,
         &["method=\"lattice\"", "atlas.at-most=20", "atlas.vary.\"particles.balls.count\"=[10, 30]"],
     ),
+    ("design", "damper", 1.0, &["method=\"lattice\"", "design.runs=40"]),
 ];
 
 /// How many kills, and of which program.

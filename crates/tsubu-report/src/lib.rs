@@ -15,6 +15,7 @@ mod claims;
 pub mod colour;
 mod compare;
 pub mod compass;
+mod design;
 mod ensemble;
 mod field;
 pub mod figure;
@@ -55,7 +56,7 @@ pub enum ReportError {
     },
     /// It holds nothing that tsubu writes.
     #[error(
-        "{} holds no results: none of summary.json, history.csv, response.csv, atlas.csv, prediction.csv, sweep.csv, compare.json, verify.json or frames/ is in it",
+        "{} holds no results: none of summary.json, history.csv, response.csv, atlas.csv, prediction.csv, design.csv, sweep.csv, compare.json, verify.json or frames/ is in it",
         path.display()
     )]
     NoResults {
@@ -105,6 +106,8 @@ fn gather(dir: &Path) -> Result<(Report, Source), ReportError> {
         compare::build(&mut source)
     } else if source.has("atlas.csv") {
         atlas::build(&mut source)
+    } else if source.has("design.csv") {
+        design::build(&mut source)
     } else if source.has("prediction.csv") {
         prediction::build(&mut source)
     } else if source.has("response.csv") {

@@ -16,6 +16,7 @@ const FREE: &[&str] = &[
     "claim",
     "response",
     "atlas",
+    "design",
     "sweep",
     "dem.largest-overlap",
     "dem.energy-tolerance",

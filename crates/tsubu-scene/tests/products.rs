@@ -136,6 +136,16 @@ discard-periods = 30
 discard-periods-empty = 50
 vary = { "particles.second.diameter" = ["3 mm", 0.0031], "contact.attraction" = [true, false] }
 
+[design]
+goal = "band"
+levels = [0.5, 1.0]
+mass-limit = "15 g"
+stroke-limit = "5 mm"
+runs = 300
+within = 0.02
+seeds = 4
+vary = { "contact.attraction" = [false, true] }
+
 [sweep.vary]
 "contact.damping" = [{ quarter = {} }, { linear = { reference-speed = "2 m/s" } }]
 

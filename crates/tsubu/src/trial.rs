@@ -106,30 +106,44 @@ fn times(
         None if threaded => verdict.say("time with more threads: `tsubu bench` measures this machine".to_owned()),
         _ => {}
     }
+    studies(verdict, plan, hosts, engine.time_step(), cost);
+}
+
+/// How long the studies of a scene take, with a time step [s] and the cost of a step [s].
+fn studies(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, cost: [f64; 2]) {
+    // So many runs of so long a simulated time [s], side by side.
+    let time = |runs: f64, seconds: f64, vary| {
+        let steps = runs * seconds / dt * grains_of_cases(plan, vary);
+        cost.map(|cost| cost * steps / rayon::current_num_threads() as f64)
+    };
+    let number = |vary: &BTreeMap<String, Vec<toml::Value>>| vary.values().map(Vec::len).product::<usize>();
     if let Some(atlas) = &plan.atlas {
-        let cases: usize = atlas.vary.values().map(Vec::len).product();
-        let runs = cases as f64 * f64::from(atlas.points() * atlas.seeds);
+        let runs = number(&atlas.vary) as f64 * f64::from(atlas.points() * atlas.seeds);
         let seconds = atlas.periods() / (atlas.frequency[0] * atlas.frequency[1]).sqrt();
-        let steps = seconds / engine.time_step() * runs;
-        let [low, high] =
-            cost.map(|cost| cost * steps * grains_of_cases(plan, &atlas.vary) / rayon::current_num_threads() as f64);
+        let [low, high] = time(runs, seconds, &atlas.vary);
         verdict.say(format!("time: about {} for `tsubu atlas` ({runs} runs side by side)", span(low, high)));
     }
     let Some(response) = &plan.response else { return };
-    let cases: usize = response.vary.values().map(Vec::len).product();
-    let runs = cases * response.runs_of_case();
+    let runs = number(&response.vary) * response.runs_of_case();
     let f0 = hosts.index(&response.host).and_then(|i| hosts.list[i].natural_frequencies().first().copied());
     // A period is that of the drive: at a tenth of the natural frequency ten times as long.
     let inverse: f64 = response.frequency_ratio.iter().map(|ratio| 1.0 / ratio).sum();
     let seconds = response.periods() * inverse / (response.frequency_ratio.len() as f64 * f0.unwrap_or(1.0));
-    let steps = seconds / engine.time_step() * runs as f64;
-    let [low, high] =
-        cost.map(|cost| cost * steps * grains_of_cases(plan, &response.vary) / rayon::current_num_threads() as f64);
+    let [low, high] = time(runs as f64, seconds, &response.vary);
     verdict.judge(
         high <= LONGEST,
         format!("time: about {} for `tsubu response` ({runs} runs side by side)", span(low, high)),
         || "fewer frequencies, cases or periods".to_owned(),
     );
+    if let Some(design) = &plan.design {
+        let [low, high] = time(f64::from(design.runs), seconds, &design.vary);
+        let runs = design.runs;
+        verdict.judge(
+            high <= LONGEST,
+            format!("time: about {} for `tsubu design` ({runs} runs at most, side by side)", span(low, high)),
+            || "a lower `design.runs`, or fewer periods".to_owned(),
+        );
+    }
 }
 
 /// Grains of the cases of a study over those of the scene, in the mean.

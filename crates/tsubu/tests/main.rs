@@ -7,6 +7,7 @@ mod book;
 mod clca;
 mod contact;
 mod dem;
+mod design;
 mod grouping;
 mod host;
 mod interface;

@@ -6,6 +6,7 @@ pub mod check;
 mod claims;
 mod compare;
 mod completions;
+mod design;
 mod explain;
 mod held_against;
 mod new;
@@ -39,6 +40,8 @@ pub enum Command {
     Atlas(atlas::Options),
     /// Response of a structure from an atlas of its cavity, in seconds, with spot checks
     Predict(predict::Options),
+    /// Which of many dampers serves best within its limits, confirmed by simulation
+    Design(design::Options),
     /// One scene by several methods: what differs, and what each costs
     Compare(compare::Options),
     /// Check the shipped verification cases and published studies, claim by claim
@@ -68,6 +71,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Response(options) => response::run(&options),
         Command::Atlas(options) => atlas::run(&options),
         Command::Predict(options) => predict::run(&options),
+        Command::Design(options) => design::run(&options),
         Command::Compare(options) => compare::run(&options),
         Command::Verify(options) => verify::run(&options),
         Command::Explain(options) => explain::run(&options),

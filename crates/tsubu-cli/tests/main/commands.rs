@@ -33,6 +33,7 @@ fn help_lists_the_commands() {
         "response",
         "atlas",
         "predict",
+        "design",
         "compare",
         "verify",
         "explain",

@@ -299,3 +299,36 @@ fn a_response_that_goes_on_tells_the_time_of_all_its_parts() {
     let took = desk.summary("out")["wall_seconds"].as_f64().unwrap();
     assert!((1000.0..1100.0).contains(&took), "{took}");
 }
+
+/// A design by the automaton, with the same bits for any number of threads; the best runs as a scene of its own. What cannot be is refused
+/// and nothing is written.
+#[test]
+fn a_design_finds_the_best() {
+    let asked = "[design]\nruns = 30\nmass-limit = \"6 g\"\nlevels = [0.5, 1.0]\n[design.vary]\n\
+                 \"particles.balls.count\" = [10, 20, 30, 40]\n";
+    let steady = SCENE.replace("discard-periods = 1\ndiscard-periods-empty = 1\n", "");
+    let desk = Desk::with(&format!(
+        "{}\n{asked}",
+        steady.replace("5 mm", "0.5 mm").replace("[0.9, 0.95, 1.0, 1.05]", "{ from = 0.9, to = 1.05 }")
+    ));
+    let mut shown = Vec::new();
+    for threads in [1, 7] {
+        let command = format!("design balls.toml -q --set method=lattice -o design{threads} --threads {threads}");
+        shown.push(desk.done(&command).stdout.replace(&format!("design{threads}"), "design"));
+    }
+    assert_eq!(shown[0], shown[1]);
+    for said in ["best", "as written", "rms mm", "the scene of the best"] {
+        assert!(shown[0].contains(said), "{said}: {}", shown[0]);
+    }
+    for file in ["design.csv", "steps.csv", "curves.csv", "best.toml"] {
+        assert_eq!(desk.read(&format!("design1/{file}")), desk.read(&format!("design7/{file}")));
+    }
+    let page = desk.read("design1/report.html");
+    assert!(page.contains("Before and after") && page.contains("front of mass and response"));
+    desk.done("run design1/best.toml -q --set duration=0.1");
+    let before = desk.files().len();
+    for change in ["design.mass-limit=1e-6", "design.vary={}"] {
+        insta::assert_snapshot!(desk.shown(&format!("design balls.toml -o new --set {change}")));
+    }
+    assert_eq!(desk.files().len(), before);
+}

@@ -1,7 +1,7 @@
 //! Studies, output and claims.
 
 use super::{Family, Key, Kind, Word};
-use crate::units::{ACCELERATION, FREQUENCY, NUMBER, TIME};
+use crate::units::{ACCELERATION, FREQUENCY, LENGTH, MASS, NUMBER, TIME};
 
 static KEEP: &[Word] = &[
     Word { name: "displacement", about: "The amplitude of the displacement" },
@@ -89,6 +89,51 @@ pub(super) static ATLAS: &[Key] = &[
         .at_least(1.0)
         .at_most(1e4),
     Key::new("vary", Kind::Vary, "Scene keys and the values they take; every combination is a cavity of the atlas").default("{}"),
+];
+
+static GOAL: &[Word] = &[
+    Word { name: "peak", about: "The lowest peak" },
+    Word { name: "band", about: "The lowest root mean square over the frequencies of `response.frequency-ratio`" },
+];
+
+pub(super) static DESIGN: &[Key] = &[
+    Key::new(
+        "vary",
+        Kind::Vary,
+        "Scene keys and the values they may take; every combination is a candidate, keys may be many, values listed in their order",
+    ),
+    Key::new("goal", Kind::OneOf(GOAL), "What is to be low: root mean square displacements of `response.host`")
+        .default("'peak'"),
+    Key::new(
+        "levels",
+        Kind::Ratios,
+        "Factors of the drive's amplitude at which a candidate is to serve: the worst counts, over its factor",
+    )
+    .default("[1.0]"),
+    Key::new("mass-limit", Kind::Quantity(&MASS), "Mass of all grains, at most").above(0.0).optional(),
+    Key::new("stroke-limit", Kind::Quantity(&LENGTH), "Displacement of the host from its mean, at most")
+        .above(0.0)
+        .optional(),
+    Key::new(
+        "runs",
+        Kind::Whole,
+        "Runs at one frequency each, at most: half of them to search, the others to confirm with `seeds`",
+    )
+    .default("200")
+    .at_least(20.0)
+    .at_most(1e6),
+    Key::new(
+        "within",
+        Kind::Quantity(&NUMBER),
+        "The search ends when no candidate is expected to be better by this share",
+    )
+    .default("0.01")
+    .at_least(1e-4)
+    .at_most(1.0),
+    Key::new("seeds", Kind::Whole, "Number of random seeds that confirm the best candidate and its neighbours")
+        .default("3")
+        .at_least(2.0)
+        .at_most(1e3),
 ];
 
 pub(super) static SWEEP: &[Key] =

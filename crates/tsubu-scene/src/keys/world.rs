@@ -105,6 +105,8 @@ pub static SCENE: &[Key] = &[
         .optional(),
     Key::new("atlas", Kind::Table(study::ATLAS), "What `tsubu atlas` reads: the grains of a host's walls alone, shaken")
         .optional(),
+    Key::new("design", Kind::Table(study::DESIGN), "What `tsubu design` reads: a search for the damper that serves best")
+        .optional(),
     Key::new("sweep", Kind::Table(study::SWEEP), "What `tsubu sweep` reads: every combination of values is a run")
         .optional(),
     Key::new(

@@ -122,6 +122,38 @@ impl Atlas {
     }
 }
 
+/// A search for the damper that serves best.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Design {
+    /// Scene keys and the values they may take; every combination is a candidate.
+    pub vary: BTreeMap<String, Vec<toml::Value>>,
+    /// What is to be low.
+    pub goal: Goal,
+    /// Factors of the drive's amplitude; the worst answer over its factor counts.
+    pub levels: Vec<f64>,
+    /// Mass of all grains, at most [kg].
+    pub mass_limit: Option<f64>,
+    /// Displacement of the host from its mean, at most [m].
+    pub stroke_limit: Option<f64>,
+    /// Runs at one frequency each, at most.
+    pub runs: u32,
+    /// The search ends when no candidate is expected to be better by this share [-].
+    pub within: f64,
+    /// Random seeds that confirm.
+    pub seeds: u32,
+}
+
+/// What of a response is to be low.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Goal {
+    /// Its peak.
+    Peak,
+    /// Its root mean square over the frequencies that are asked for.
+    Band,
+}
+
 /// A parameter sweep: every combination of the values is a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]

@@ -87,6 +87,7 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
         after_karolyi_kertesz: _,
         response: _,
         atlas: _,
+        design: _,
         sweep: _,
         watch,
         output: _,

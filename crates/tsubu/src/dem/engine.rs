@@ -136,6 +136,7 @@ impl DemEngine {
             after_karolyi_kertesz: _,
             response: _,
             atlas: _,
+            design: _,
             sweep: _,
             watch: _,
             output: _,

@@ -69,6 +69,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         after_karolyi_kertesz: _,
         response: _,
         atlas: _,
+        design: _,
         sweep: _,
         watch,
         output: _,

@@ -3,6 +3,7 @@
 pub mod atlas;
 pub mod cases;
 pub mod compare;
+pub mod design;
 mod journal;
 pub mod predict;
 pub mod response;

@@ -75,6 +75,7 @@ fn scene(plan: &Plan, rule: SiteRule, hosts: &Hosts, remarks: &mut Remarks) -> O
         after_karolyi_kertesz: _,
         response: _,
         atlas: _,
+        design: _,
         sweep: _,
         watch: _, // Once the model is there.
         output: _,

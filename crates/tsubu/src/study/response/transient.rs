@@ -46,14 +46,8 @@ pub(super) fn begin(
     let ballast = match near {
         // Grains ride on the floor as long as it does not fall faster than they do.
         _ if acceleration * mass < weight.abs() => riding,
-        Some(point) if point.amplitude > 0.0 => {
-            let lost = |account: &Account| !account.is_work() && *account != Account::HostDamping;
-            let flows = Account::ALL.iter().zip(&point.flows).filter(|(account, _)| lost(account));
-            let loss: f64 = flows.map(|(_, flow)| flow).sum();
-            let speed = 2.0 * PI * point.frequency * point.amplitude;
-            Ballast { mass: point.apparent_mass, lossy_mass: (loss / (PI * speed * speed)).max(0.0), weight }
-        }
-        _ => Ballast { lossy_mass: LOSSY_SHARE * mass, ..riding },
+        Some(point) if point.amplitude > 0.0 => Ballast { weight, ..shown(point) },
+        _ => Ballast { weight, ..unknown(mass) },
     };
     let at_rest = structure.clone();
     let velocity = structure.begin_in_motion(frequency, ballast);
@@ -67,6 +61,20 @@ pub(super) fn begin(
     if mass > 0.0 && (apart || !engine.set_in_motion((direction * velocity).into())) {
         *structure = at_rest;
     }
+}
+
+/// What grains of this mass [kg] are taken for before anything is known of them.
+pub(in crate::study) fn unknown(mass: f64) -> Ballast {
+    Ballast { mass, lossy_mass: LOSSY_SHARE * mass, weight: 0.0 }
+}
+
+/// What the grains were to the structure in a run.
+pub(in crate::study) fn shown(point: &Point) -> Ballast {
+    let lost = |account: &Account| !account.is_work() && *account != Account::HostDamping;
+    let flows = Account::ALL.iter().zip(&point.flows).filter(|(account, _)| lost(account));
+    let loss: f64 = flows.map(|(_, flow)| flow).sum();
+    let speed = 2.0 * PI * point.frequency * point.amplitude;
+    Ballast { mass: point.apparent_mass, lossy_mass: (loss / (PI * speed * speed)).max(0.0), weight: 0.0 }
 }
 
 /// What is measured of a block of periods, to tell whether it is steady.

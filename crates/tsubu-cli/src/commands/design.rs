@@ -1,0 +1,61 @@
+//! `tsubu design`: which of many dampers serves best.
+
+use super::points;
+use crate::failure::Failure;
+use crate::table;
+use clap::Args;
+use std::path::Path;
+use tsubu_frame::Table;
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  tsubu design damper.toml                              into out/damper-design
+  tsubu design damper.toml --set design.runs=400        search longer
+  tsubu run out/damper-design/best.toml                 the best, as a scene of its own
+
+The scene says what may vary, and within which limits:
+  [design]
+  vary = { \"particles.balls.count\" = [10, 20, 30, 40, 50] }
+  mass-limit = \"8 g\"
+
+An interrupted design goes on where it was when the same command is typed again.")]
+pub struct Options {
+    #[command(flatten)]
+    points: points::PointsOptions,
+}
+
+pub fn run(options: &Options) -> Result<(), Failure> {
+    points::run("design", "runs", &options.points, tsubu::study::design::design, candidates)
+}
+
+/// Candidates that are shown.
+const SHOWN: usize = 8;
+
+/// A line for each of the candidates that are confirmed, the best first, and for the scene as it is written.
+fn candidates(folder: &Path) -> Result<String, Failure> {
+    let file = folder.join("design.csv");
+    let all = Table::read(&file).map_err(|error| Failure::of_file(&error, folder))?;
+    let column = |name: &str| all.numbers(name).unwrap_or_else(|| vec![f64::NAN; all.rows.len()]);
+    let [mass, rms, low, high, stroke, ratio] =
+        ["grain mass", "rms displacement", "rms low", "rms high", "peak displacement", "peak frequency ratio"]
+            .map(column);
+    let names = all.texts("candidate").unwrap_or_default();
+    let standing = all.texts("standing").unwrap_or_default();
+    let told = |row: &usize| ["best", "confirmed", "as written"].contains(&standing[*row].as_str());
+    let mut order: Vec<usize> = (0..names.len().min(standing.len())).filter(told).collect();
+    order.sort_by(|a, b| (standing[*b] == "best").cmp(&(standing[*a] == "best")).then(rms[*a].total_cmp(&rms[*b])));
+    let header = ["", "candidate", "grains g", "rms mm", "95 % from", "to mm", "stroke mm", "peak ratio"];
+    let mut rows = vec![header.map(str::to_owned).to_vec()];
+    for row in order.iter().take(SHOWN) {
+        let numbers = [mass[*row], rms[*row], low[*row], high[*row], stroke[*row]].map(|x| table::number(1e3 * x));
+        let texts = [standing[*row].clone(), names[*row].clone()];
+        rows.push(texts.into_iter().chain(numbers).chain([table::number(ratio[*row])]).collect());
+    }
+    let mut text = table::aligned(&rows);
+    let scene = folder.join("best.toml");
+    if scene.exists() {
+        text += &format!("  the scene of the best: {}\n", scene.display());
+    }
+    Ok(text)
+}

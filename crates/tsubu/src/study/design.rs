@@ -1,0 +1,167 @@
+//! A design: which of many candidates gives the lowest response, within limits.
+//!
+//! Candidates are searched with few runs each ([`Answer`]) where a Gaussian process expects them to be better than the best (Jones,
+//! Schonlau and Welch 1998), then the best and its neighbours are confirmed with several seeds, until the best is none of its
+//! neighbours. A design that was stopped goes on where it was.
+
+mod answer;
+mod candidates;
+mod search;
+mod work;
+mod write;
+
+pub use answer::Answer;
+
+use super::cases::CasesError;
+use super::journal::{self, Exact, Journal};
+use super::response::{Point, tasks};
+use crate::interrupt::{Interrupt, Watcher};
+use candidates::{Candidates, MOST};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Instant;
+use tsubu_frame::{FileError, Status, Summary};
+use tsubu_scene::{Plan, Scene, plan};
+use work::Work;
+
+/// What a design writes beside what every study writes.
+const FILES: [&str; 4] = ["design.csv", "steps.csv", "curves.csv", "best.toml"];
+
+/// What is measured of a candidate: its answer at one level of the drive, or a point of its curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+struct Key {
+    /// Which candidate; one after the last is the scene as it is written.
+    candidate: usize,
+    /// Which level of the drive.
+    level: usize,
+    seed: u32,
+    /// Of a point of a curve, its frequency over the natural frequency.
+    ratio: Option<Exact>,
+}
+
+/// What came of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+enum Measured {
+    Answer(Answer),
+    Point(Box<Point>),
+}
+
+/// All that is measured.
+type Done = BTreeMap<Key, Measured>;
+
+/// Designs within `folder`. An existing folder of the same scene is gone on with.
+pub fn design(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Summary, CasesError> {
+    let begun = Instant::now();
+    let task = Task::new(scene)?;
+    let earlier: Option<Done> = journal::earlier(folder, scene, overwrite)?;
+    let before = earlier.as_ref().and_then(|_| Summary::read(&folder.join("summary.json")).ok());
+    let before = before.map_or(0.0, |summary| summary.wall_seconds);
+    // A scene that its method refuses leaves nothing behind.
+    crate::methods::open(&crate::trial::unsettled(scene.plan()), &crate::partner::Hosts::new(&scene.plan().hosts))?;
+    let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite, &FILES)?;
+    let journal = Journal::append(&folder)?;
+    let record = |key: &Key, measured: &Measured| journal.record(key, measured);
+    let mut work = Work::new(&task, earlier.unwrap_or_default(), &record, watcher);
+    let found = work.design()?;
+    let status = match &found {
+        _ if watcher.interrupt.asked() => Status::Interrupted,
+        Some(_) => Status::Finished,
+        None => Status::Failed,
+    };
+    let _held = watcher.interrupt.hold();
+    let took = before + begun.elapsed().as_secs_f64();
+    Ok(write::write(&folder, scene, &work, found.as_ref(), status, took)?)
+}
+
+/// The best of a scene's candidates with what it does, without any file.
+pub fn best(scene: &Scene) -> Result<Option<(String, Standing)>, CasesError> {
+    let task = Task::new(scene)?;
+    let watcher = Watcher { interrupt: &Interrupt::new(), progress: &|_| {} };
+    let mut work = Work::new(&task, Done::new(), &|_, _| Ok(()), &watcher);
+    let found = work.design()?;
+    Ok(found.and_then(|found| Some((task.name(found.best), work.standing(found.best)?))))
+}
+
+/// Hears of everything that is measured.
+type Record<'a> = &'a (dyn Fn(&Key, &Measured) -> Result<(), FileError> + Sync);
+
+/// What is to be designed.
+struct Task<'a> {
+    wanted: plan::Design,
+    reference: f64,
+    candidates: Candidates,
+    /// As it is written.
+    scene: &'a Scene,
+}
+
+impl<'a> Task<'a> {
+    fn new(scene: &'a Scene) -> Result<Self, CasesError> {
+        let plan = scene.plan();
+        let (Some(wanted), Some(response)) = (plan.design.clone(), &plan.response) else {
+            return Err(CasesError::Scene(
+                "the scene has no `[design]`: say what may vary, for example `vary = { \"particles.balls.count\" = [10, 30, 50] }`"
+                    .to_owned(),
+            ));
+        };
+        if scene.plans().len() > 1 {
+            return Err(CasesError::Scene("a design is of a scene of one stage: leave `[[stage]]` out".to_owned()));
+        }
+        let reference = tasks::reference_frequency(plan, &response.host).map_err(CasesError::Scene)?;
+        let number: usize = wanted.vary.values().map(Vec::len).product();
+        if number < 2 {
+            return Err(CasesError::Scene(
+                "`design.vary` leaves nothing to choose from: list two values of a key, or more".to_owned(),
+            ));
+        }
+        if number > MOST {
+            return Err(CasesError::Scene(format!(
+                "`design.vary` has {number} combinations, more than the {MOST} that are looked through: list fewer values"
+            )));
+        }
+        let candidates = Candidates::new(scene, &wanted);
+        if candidates.list.is_empty() {
+            let why = match (&candidates.first_wrong, wanted.mass_limit) {
+                (Some(wrong), _) if candidates.too_heavy == 0 => format!("each is wrong; the first, {wrong}"),
+                (_, Some(limit)) => format!(
+                    "the grains of the lightest weigh {} kg, more than `design.mass-limit` = {limit} kg",
+                    candidates.lightest
+                ),
+                _ => "there is none".to_owned(),
+            };
+            return Err(CasesError::Scene(format!("none of the {number} combinations of `design.vary` can be: {why}")));
+        }
+        Ok(Self { wanted, reference, candidates, scene })
+    }
+
+    fn plan(&self, candidate: usize) -> &Plan {
+        self.candidates.list.get(candidate).map_or_else(|| self.scene.plan(), |one| &one.plan)
+    }
+
+    fn name(&self, candidate: usize) -> String {
+        self.candidates.list.get(candidate).map_or_else(|| "as written".to_owned(), |one| one.case.name.clone())
+    }
+
+    fn as_written(&self) -> usize {
+        self.candidates.list.len()
+    }
+}
+
+/// What is known of a candidate, over its seeds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Standing {
+    /// What is to be low [m]: the mean over the seeds.
+    pub rms: f64,
+    /// 95 % interval of that mean [m]; nothing with one seed.
+    pub interval: Option<[f64; 2]>,
+    /// Largest displacement over levels and seeds [m].
+    pub stroke: f64,
+    /// Where its peak is, over the natural frequency, in the mean over levels and seeds [-].
+    pub ratio: f64,
+    /// Seeds.
+    pub seeds: usize,
+    /// Runs that it took.
+    pub runs: u32,
+    /// Whether its peak was found in all of them.
+    pub found: bool,
+}

@@ -1,0 +1,259 @@
+//! The work of a design: search, confirm, draw.
+
+use super::answer::{answer, driven};
+use super::{Done, Key, Measured, Record, Standing, Task, search};
+use crate::engine::OpenError;
+use crate::interrupt::{Interrupt, Watcher};
+use crate::run::RunError;
+use crate::student::interval_of_mean;
+use crate::study::cases::CasesError;
+use crate::study::journal::Exact;
+use crate::study::response::{measure, tasks};
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// What came of a design.
+pub(super) struct Found {
+    pub best: usize,
+    /// Whether all neighbours of the best are confirmed, too.
+    pub confirmed: bool,
+    /// Whether the search ended before its runs were spent.
+    pub searched: bool,
+}
+
+/// A design on its way.
+pub(super) struct Work<'a> {
+    pub task: &'a Task<'a>,
+    known: Done,
+    record: Record<'a>,
+    watcher: &'a Watcher<'a>,
+    pub done: Done,
+    pub failures: BTreeMap<usize, RunError>,
+    /// What the surrogate had expected of a candidate before it was measured, in the order of the search: logarithm and deviation.
+    pub expected: Vec<(usize, Option<[f64; 2]>)>,
+}
+
+impl<'a> Work<'a> {
+    pub fn new(task: &'a Task<'a>, known: Done, record: Record<'a>, watcher: &'a Watcher<'a>) -> Self {
+        Self { task, known, record, watcher, done: Done::new(), failures: BTreeMap::new(), expected: Vec::new() }
+    }
+
+    /// Searches, confirms, and draws the curves; nothing where it was interrupted or no candidate can be.
+    pub fn design(&mut self) -> Result<Option<Found>, CasesError> {
+        let Some(searched) = self.search()? else { return Ok(None) };
+        let Some((best, confirmed)) = self.confirm()? else { return Ok(None) };
+        if !self.curves(best)? {
+            return Ok(None);
+        }
+        Ok(Some(Found { best, confirmed, searched }))
+    }
+
+    /// Looks for the best with one seed each, until nothing better is expected or half of the runs are spent. Says which; nothing where it was
+    /// interrupted.
+    fn search(&mut self) -> Result<Option<bool>, CasesError> {
+        let task = self.task;
+        let mut wanted = search::first(&task.candidates);
+        loop {
+            if wanted.is_empty() {
+                return Ok(Some(true));
+            }
+            // As many as the runs that are left allow.
+            let left = f64::from(task.wanted.runs) / 2.0 - f64::from(self.runs());
+            wanted.truncate((left / self.runs_of_one()).floor().max(0.0) as usize);
+            if wanted.is_empty() {
+                return Ok(Some(false));
+            }
+            let surrogate = search::fit(&task.candidates, &self.values());
+            let place = |index: &usize| &task.candidates.list[*index].place;
+            self.expected.extend(wanted.iter().map(|one| (*one, surrogate.as_ref().map(|fit| fit.at(place(one))))));
+            let keys = wanted.iter().flat_map(|index| self.answers(*index, 1)).collect();
+            if !self.measure(keys)? {
+                return Ok(None);
+            }
+            let closed: Vec<usize> = self.expected.iter().map(|(index, _)| *index).collect();
+            wanted = search::next(&task.candidates, &self.values(), &closed, task.wanted.within);
+        }
+    }
+
+    /// Measures the best and its neighbours with all seeds, until it stays the best or the runs are spent; and the scene as it is
+    /// written. Says which is best and whether its neighbours are all confirmed.
+    fn confirm(&mut self) -> Result<Option<(usize, bool)>, CasesError> {
+        let task = self.task;
+        let seeds = task.wanted.seeds;
+        if !self.measure(self.answers(task.as_written(), seeds).collect())? {
+            return Ok(None);
+        }
+        loop {
+            let Some(best) = self.best() else { return Ok(None) };
+            let around = std::iter::once(best).chain(task.candidates.neighbours(best));
+            let open: Vec<Vec<Key>> = around
+                .filter(|index| !self.failures.contains_key(index))
+                .map(|index| self.answers(index, seeds).filter(|key| !self.done.contains_key(key)).collect())
+                .filter(|keys: &Vec<Key>| !keys.is_empty())
+                .collect();
+            if open.is_empty() {
+                return Ok(Some((best, true)));
+            }
+            let mut left = (f64::from(task.wanted.runs) - f64::from(self.runs())) / self.runs_of_one()
+                * task.wanted.levels.len() as f64;
+            // The best itself is always confirmed.
+            let itself = open[0][0].candidate == best;
+            let mut keys = Vec::new();
+            for (index, more) in open.into_iter().enumerate() {
+                left -= more.len() as f64;
+                if left >= 0.0 || itself && index == 0 {
+                    keys.extend(more);
+                }
+            }
+            if keys.is_empty() {
+                return Ok(Some((best, false)));
+            }
+            if !self.measure(keys)? {
+                return Ok(None);
+            }
+        }
+    }
+
+    /// The curves of the scene as it is written and of the best, with the first seed and at the first level.
+    fn curves(&mut self, best: usize) -> Result<bool, CasesError> {
+        let ratios = self.task.plan(best).response.as_ref().map(|response| response.frequency_ratio.clone());
+        let key = |candidate, ratio| Key { candidate, level: 0, seed: 0, ratio: Some(Exact(ratio)) };
+        let mut keys = Vec::new();
+        for candidate in [self.task.as_written(), best] {
+            let peak = self.standing(candidate).map(|standing| standing.ratio);
+            keys.extend(ratios.iter().flatten().copied().chain(peak).map(|ratio| key(candidate, ratio)));
+        }
+        self.measure(keys)
+    }
+
+    fn answers(&self, candidate: usize, seeds: u32) -> impl Iterator<Item = Key> + use<> {
+        let levels = self.task.wanted.levels.len();
+        (0..seeds).flat_map(move |seed| (0..levels).map(move |level| Key { candidate, level, seed, ratio: None }))
+    }
+
+    /// Runs that were spent on answers.
+    pub fn runs(&self) -> u32 {
+        self.done.values().map(|one| if let Measured::Answer(answer) = one { answer.runs } else { 0 }).sum()
+    }
+
+    /// What a candidate takes with one seed, at all levels.
+    fn runs_of_one(&self) -> f64 {
+        /// Before anything is known.
+        const EXPECTED: f64 = 4.0;
+        let answers = self.done.keys().filter(|key| key.ratio.is_none()).count();
+        let one = if answers == 0 { EXPECTED } else { f64::from(self.runs()) / answers as f64 };
+        one * self.task.wanted.levels.len() as f64
+    }
+
+    /// What is known of a candidate.
+    pub fn standing(&self, candidate: usize) -> Option<Standing> {
+        let task = self.task;
+        let mut seeds: BTreeMap<u32, f64> = BTreeMap::new();
+        let (mut stroke, mut ratio, mut runs, mut number, mut found) = (0.0_f64, 0.0, 0, 0.0, true);
+        for (key, measured) in self.done.iter().filter(|(key, _)| key.candidate == candidate) {
+            let Measured::Answer(answer) = measured else { continue };
+            let worst = seeds.entry(key.seed).or_insert(0.0);
+            *worst = worst.max(answer.rms / task.wanted.levels[key.level]);
+            stroke = stroke.max(answer.stroke);
+            (ratio, number) = (ratio + answer.ratio, number + 1.0);
+            (runs, found) = (runs + answer.runs, found && answer.found);
+        }
+        let each: Vec<f64> = seeds.into_values().collect();
+        let rms = each.iter().sum::<f64>() / each.len() as f64;
+        let interval = (each.len() > 1).then(|| interval_of_mean(&each));
+        (!each.is_empty()).then_some(Standing {
+            rms,
+            interval,
+            stroke,
+            ratio: ratio / number,
+            seeds: each.len(),
+            runs,
+            found,
+        })
+    }
+
+    /// All candidates that are measured, with what is to be low.
+    pub fn values(&self) -> Vec<(usize, f64)> {
+        let measured: BTreeSet<usize> = self.done.keys().map(|key| key.candidate).collect();
+        let candidates = measured.into_iter().filter(|index| *index < self.task.as_written());
+        candidates
+            .filter(|index| !self.failures.contains_key(index))
+            .filter_map(|index| Some((index, self.standing(index)?.rms)))
+            .collect()
+    }
+
+    /// Whether a candidate keeps within what its host may move.
+    pub fn fits(&self, standing: &Standing) -> bool {
+        self.task.wanted.stroke_limit.is_none_or(|limit| standing.stroke <= limit)
+    }
+
+    /// The best of those within the limits: by its seeds where it is confirmed, by the surrogate where it is not.
+    fn best(&self) -> Option<usize> {
+        let task = self.task;
+        let values = self.values();
+        let surrogate = search::fit(&task.candidates, &values);
+        let likely = |(index, value): &(usize, f64)| {
+            let standing = self.standing(*index)?;
+            let confirmed = standing.seeds >= task.wanted.seeds as usize;
+            let guess = surrogate.as_ref().map(|fit| fit.at(&task.candidates.list[*index].place)[0].exp());
+            let value = if confirmed { *value } else { guess.unwrap_or(*value) };
+            self.fits(&standing).then_some((*index, value))
+        };
+        values.iter().filter_map(likely).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
+    }
+
+    /// Measures all of these, side by side, but for what is known; says whether it came to the end. A candidate with a run that fails is
+    /// out; the others go on.
+    fn measure(&mut self, keys: Vec<Key>) -> Result<bool, CasesError> {
+        let new: Vec<Key> = keys.iter().filter(|key| !self.known.contains_key(key)).copied().collect();
+        for key in keys {
+            if let Some(measured) = self.known.get(&key) {
+                self.done.insert(key, measured.clone());
+            }
+        }
+        let (task, watcher, record) = (self.task, self.watcher, self.record);
+        let counter = AtomicU32::new(self.runs());
+        let run = |key: &Key| -> Result<Option<(Key, Result<Measured, RunError>)>, CasesError> {
+            if watcher.interrupt.asked() {
+                return Ok(None);
+            }
+            match one(task, key, watcher.interrupt) {
+                Ok(None) => Ok(None),
+                Ok(Some(measured)) => {
+                    record(key, &measured)?;
+                    let runs = if let Measured::Answer(answer) = &measured { answer.runs } else { 0 };
+                    let done = counter.fetch_add(runs, Ordering::Relaxed) + runs;
+                    (watcher.progress)((f64::from(done) / f64::from(task.wanted.runs)).min(1.0));
+                    Ok(Some((*key, Ok(measured))))
+                }
+                Err(error @ (RunError::Fault(_) | RunError::Open(OpenError::Settling(_)))) => {
+                    Ok(Some((*key, Err(error))))
+                }
+                Err(error) => Err(CasesError::Run { case: task.name(key.candidate), error }),
+            }
+        };
+        let ran: Result<Vec<_>, CasesError> = new.par_iter().map(run).collect();
+        for (key, came) in ran?.into_iter().flatten() {
+            match came {
+                Ok(measured) => drop(self.done.insert(key, measured)),
+                Err(error) => drop(self.failures.entry(key.candidate).or_insert(error)),
+            }
+        }
+        Ok(!watcher.interrupt.asked())
+    }
+}
+
+fn one(task: &Task<'_>, key: &Key, interrupt: &Interrupt) -> Result<Option<Measured>, RunError> {
+    let plan = task.plan(key.candidate);
+    let Some(ratio) = key.ratio else {
+        let level = task.wanted.levels[key.level];
+        let found = answer(plan, task.wanted.goal, task.reference, level, key.seed, interrupt)?;
+        return Ok(found.map(Measured::Answer));
+    };
+    let Some(response) = &plan.response else { return Ok(None) };
+    let plan = driven(plan, &response.host, task.wanted.levels[key.level]);
+    let bed = tasks::bed(&plan, key.seed)?;
+    let point = measure(&plan, response, key.seed, &bed, task.reference * ratio.0, &[], interrupt)?;
+    Ok(point.map(|point| Measured::Point(Box::new(point))))
+}

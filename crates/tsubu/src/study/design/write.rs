@@ -1,0 +1,281 @@
+//! The files of a design.
+
+use super::work::{Found, Work};
+use super::{Measured, Standing};
+use crate::partner::Hosts;
+use crate::trial::unsettled;
+use crate::{check, methods, run};
+use tsubu_frame::{Cell, FileError, RunFolder, Status, Summary, Table};
+use tsubu_scene::Scene;
+
+/// Writes `design.csv`, `steps.csv`, `curves.csv`, `best.toml`, `check.txt` and `summary.json`.
+pub(super) fn write(
+    folder: &RunFolder,
+    scene: &Scene,
+    work: &Work<'_>,
+    found: Option<&Found>,
+    status: Status,
+    wall_seconds: f64,
+) -> Result<Summary, FileError> {
+    let task = work.task;
+    folder.write("design.csv", candidates(work, found.map(|found| found.best)).to_csv().as_bytes())?;
+    let mut summary = Summary {
+        tsubu_version: crate::VERSION.to_owned(),
+        status,
+        method: scene.plan().method.name().to_owned(),
+        dimension: u32::from(scene.plan().dimension),
+        wall_seconds,
+        threads: rayon::current_num_threads() as u32,
+        ..Summary::default()
+    };
+    summary.give("runs", "-", f64::from(work.runs()));
+    summary.give("candidates", "-", task.candidates.list.len() as f64);
+    summary.give("candidates measured", "-", work.values().len() as f64);
+    if let Some(found) = found {
+        folder.write("steps.csv", steps(work, found.best).to_csv().as_bytes())?;
+        folder.write("curves.csv", curves(work, found.best).to_csv().as_bytes())?;
+        if let Ok(best) = task.candidates.list[found.best].case.scene(scene) {
+            folder.write_editable("best.toml", best.resolved_toml().as_bytes())?;
+        }
+        summary.particles = task.plan(found.best).grains() as u64;
+        summary.give("mass of the grains", "kg", task.plan(found.best).grain_mass());
+        tell(work, found, &mut summary);
+    }
+    doubts(work, found, status, &mut summary);
+    let answers = work.done.values().map(|one| match one {
+        Measured::Answer(answer) => answer.residual,
+        Measured::Point(point) => point.residual.abs(),
+    });
+    summary.energy.residual_relative = answers.fold(0.0, f64::max);
+    let plan = found.map_or(scene.plan(), |found| task.plan(found.best));
+    let hosts = Hosts::new(&plan.hosts);
+    if let Ok(engine) = methods::open(&unsettled(plan), &hosts) {
+        summary.time_step = engine.time_step();
+        summary.warnings.extend(engine.notes().iter().map(|note| format!("{}: {}", note.key, note.text)));
+        folder.write("check.txt", check::verdict(plan, &hosts, &*engine).to_string().as_bytes())?;
+    }
+    if status == Status::Finished {
+        run::judge(scene.plan(), &mut summary);
+    }
+    folder.write_json("summary.json", &summary)?;
+    folder.sync()?;
+    Ok(summary)
+}
+
+/// The best, and the scene as it is written, in numbers.
+fn tell(work: &Work<'_>, found: &Found, summary: &mut Summary) {
+    for (index, which) in [(found.best, ""), (work.task.as_written(), " as written")] {
+        let Some(standing) = work.standing(index) else { continue };
+        summary.give(format!("rms displacement{which}"), "m", standing.rms);
+        if let Some([low, high]) = standing.interval {
+            summary.give(format!("rms displacement low{which}"), "m", low);
+            summary.give(format!("rms displacement high{which}"), "m", high);
+        }
+        summary.give(format!("peak displacement{which}"), "m", standing.stroke);
+        summary.give(format!("peak frequency ratio{which}"), "-", standing.ratio);
+    }
+}
+
+/// What is to be known before the best is believed.
+fn doubts(work: &Work<'_>, found: Option<&Found>, status: Status, summary: &mut Summary) {
+    let (task, wanted) = (work.task, &work.task.wanted);
+    let candidates = &task.candidates;
+    let mut say = |text: String| summary.warnings.push(text);
+    if candidates.wrong > 0 {
+        let first = candidates.first_wrong.as_deref().unwrap_or_default();
+        say(format!("{} combinations cannot be and are left out; the first: {first}", candidates.wrong));
+    }
+    for (index, error) in &work.failures {
+        say(format!("candidate `{}` is out, for a run of it failed: {error}", task.name(*index)));
+    }
+    if let Some(found) = found {
+        let near = alike(work, found.best);
+        if !near.is_empty() {
+            say(format!("not told apart from the best by their intervals: {}", near.join("; ")));
+        }
+        if !found.searched {
+            say(format!(
+                "half of the {} runs were spent before the search had come to an end: a larger `design.runs` may find a better one",
+                wanted.runs
+            ));
+        }
+        if !found.confirmed {
+            say(format!(
+                "the {} runs were spent before all neighbours of the best were confirmed with {} seeds: a larger `design.runs` does",
+                wanted.runs, wanted.seeds
+            ));
+        }
+        if work.standing(found.best).is_some_and(|standing| !standing.found) {
+            say("the peak of the best wanders from run to run; the highest that was seen stands for it".to_owned());
+        }
+    } else if status == Status::Failed {
+        let strokes = work.values().into_iter().filter_map(|(index, _)| work.standing(index)).map(|one| one.stroke);
+        let least = strokes.fold(f64::INFINITY, f64::min);
+        say(match wanted.stroke_limit.filter(|_| least.is_finite()) {
+            Some(limit) => format!(
+                "no candidate that was measured keeps within `design.stroke-limit` = {limit} m: the least displacement is {least:.4e} m"
+            ),
+            None => "no candidate could be measured".to_owned(),
+        });
+    }
+}
+
+/// Confirmed candidates whose interval reaches below the end of the best's.
+fn alike(work: &Work<'_>, best: usize) -> Vec<String> {
+    let Some([_, high]) = work.standing(best).and_then(|standing| standing.interval) else { return Vec::new() };
+    let near = |index: &usize| {
+        let standing = work.standing(*index);
+        let low = standing.as_ref().and_then(|standing| standing.interval).map(|[low, _]| low);
+        *index != best && low.is_some_and(|low| low <= high) && standing.is_some_and(|standing| work.fits(&standing))
+    };
+    work.values().into_iter().map(|(index, _)| index).filter(near).map(|index| work.task.name(index)).collect()
+}
+
+/// The values of a candidate, key by key; of the scene as it is written those that it has.
+fn values(work: &Work<'_>, index: usize) -> Vec<Cell> {
+    let text = |value: &toml::Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+    match work.task.candidates.list.get(index) {
+        Some(one) => one.case.values.iter().map(|(_, value)| Cell::Text(text(value))).collect(),
+        None => work.task.wanted.vary.keys().map(|_| Cell::Text("as written".to_owned())).collect(),
+    }
+}
+
+fn numbers(standing: &Standing) -> Vec<Cell> {
+    let [low, high] = standing.interval.unwrap_or([f64::NAN; 2]);
+    [standing.rms, low, high].map(Cell::Number).to_vec()
+}
+
+/// A row for every candidate that was measured, in the order in which they were.
+fn candidates(work: &Work<'_>, best: Option<usize>) -> Table {
+    let task = work.task;
+    let keys = task.wanted.vary.keys().map(|key| format!("{key} [text]"));
+    let numbers_of = [
+        "grain mass [kg]",
+        "rms displacement [m]",
+        "rms low [m]",
+        "rms high [m]",
+        "peak displacement [m]",
+        "peak frequency ratio [-]",
+        "seeds [-]",
+        "runs [-]",
+        "expected rms [m]",
+        "expected low [m]",
+        "expected high [m]",
+        "standing [text]",
+        "front [text]",
+    ];
+    let mut table =
+        Table::new(["candidate [text]".to_owned()].into_iter().chain(keys).chain(numbers_of.map(str::to_owned)));
+    let mut order: Vec<usize> = work.expected.iter().map(|(index, _)| *index).collect();
+    order.extend(
+        work.values()
+            .into_iter()
+            .map(|(index, _)| index)
+            .filter(|index| !work.expected.iter().any(|(known, _)| known == index)),
+    );
+    order.push(task.as_written());
+    let front = front(work);
+    for index in order {
+        let Some(standing) = work.standing(index) else { continue };
+        let expected = work.expected.iter().find(|(known, _)| *known == index).and_then(|(_, expected)| *expected);
+        let [mean, deviation] = expected.unwrap_or([f64::NAN; 2]);
+        let word = match index {
+            _ if Some(index) == best => "best",
+            _ if index == task.as_written() => "as written",
+            _ if work.failures.contains_key(&index) => "failed",
+            _ if !work.fits(&standing) => "beyond the stroke limit",
+            _ if standing.seeds >= task.wanted.seeds as usize => "confirmed",
+            _ => "searched",
+        };
+        let mut row = vec![Cell::Text(task.name(index))];
+        row.extend(values(work, index));
+        row.push(Cell::Number(task.plan(index).grain_mass()));
+        row.extend(numbers(&standing));
+        row.extend(
+            [standing.stroke, standing.ratio, standing.seeds as f64, f64::from(standing.runs)].map(Cell::Number),
+        );
+        row.extend([0.0, -1.96, 1.96].map(|wide| Cell::Number((mean + wide * deviation).exp())));
+        row.extend([word, if front.contains(&index) { "yes" } else { "no" }].map(|text| Cell::Text(text.to_owned())));
+        table.push(row);
+    }
+    table
+}
+
+/// Candidates within the limits than which none that was measured is both lighter and better (Pareto's front of mass and response).
+fn front(work: &Work<'_>) -> Vec<usize> {
+    let measured: Vec<(usize, f64, f64)> = work
+        .values()
+        .into_iter()
+        .filter(|(index, _)| work.standing(*index).is_some_and(|standing| work.fits(&standing)))
+        .map(|(index, rms)| (index, work.task.plan(index).grain_mass(), rms))
+        .collect();
+    let beaten = |one: &(usize, f64, f64)| {
+        measured.iter().any(|other| other.1 <= one.1 && other.2 <= one.2 && (other.1 < one.1 || other.2 < one.2))
+    };
+    measured.iter().filter(|one| !beaten(one)).map(|one| one.0).collect()
+}
+
+/// A row for every step of one key from the best: what it changes.
+fn steps(work: &Work<'_>, best: usize) -> Table {
+    let task = work.task;
+    let mut table = Table::new(
+        [
+            "key [text]",
+            "value [text]",
+            "rms displacement [m]",
+            "rms low [m]",
+            "rms high [m]",
+            "change [-]",
+            "seeds [-]",
+        ]
+        .map(str::to_owned),
+    );
+    let (Some(own), one) = (work.standing(best), &task.candidates.list[best]) else { return table };
+    let text = |value: &toml::Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+    for (axis, (key, value)) in one.case.values.iter().enumerate() {
+        let mut rows: Vec<(usize, Vec<Cell>)> = Vec::new();
+        let around = task.candidates.neighbours(best).into_iter().chain([best]);
+        for index in around {
+            let other = &task.candidates.list[index];
+            let Some(standing) = work.standing(index) else { continue };
+            if index != best && other.digits[axis] == one.digits[axis] {
+                continue;
+            }
+            let shown = if index == best { value } else { &other.case.values[axis].1 };
+            let mut row = vec![Cell::Text(key.clone()), Cell::Text(text(shown))];
+            row.extend(numbers(&standing));
+            row.extend([standing.rms / own.rms - 1.0, standing.seeds as f64].map(Cell::Number));
+            rows.push((other.digits[axis], row));
+        }
+        rows.sort_by_key(|(digit, _)| *digit);
+        rows.into_iter().for_each(|(_, row)| table.push(row));
+    }
+    table
+}
+
+/// The response of the scene as it is written, and that of the best.
+fn curves(work: &Work<'_>, best: usize) -> Table {
+    let task = work.task;
+    let mut table = Table::new(
+        [
+            "candidate [text]",
+            "frequency [Hz]",
+            "frequency ratio [-]",
+            "rms displacement [m]",
+            "peak displacement [m]",
+            "apparent mass [kg]",
+        ]
+        .map(str::to_owned),
+    );
+    for index in [task.as_written(), best] {
+        let of_it = work.done.iter().filter(|(key, _)| key.candidate == index);
+        for (ratio, measured) in of_it.filter_map(|(key, measured)| Some((key.ratio?.0, measured))) {
+            let Measured::Point(point) = measured else { continue };
+            let mut row = vec![Cell::Text(task.name(index))];
+            let numbers = [point.frequency, ratio, point.rms, point.peak, point.apparent_mass];
+            row.extend(numbers.map(Cell::Number));
+            table.push(row);
+        }
+    }
+    table
+}
