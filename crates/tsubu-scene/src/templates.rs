@@ -29,6 +29,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/damper.toml"),
     },
     Template {
+        name: "machine-damper",
+        about: "a box of steel balls on a machine: which one quiets it best, within 0.8 kg?",
+        text: include_str!("../../../scenes/machine-damper.toml"),
+    },
+    Template {
         name: "drop",
         about: "one ball dropped in a still box: each rebound reaches e² of the height before",
         text: include_str!("../../../scenes/drop.toml"),
