@@ -170,15 +170,17 @@ def test_a_structure_outside_moves_as_one_inside(tmp_path):
     way = known["host structure displacement [m]"]
     difference = lambda found: np.abs(found - way).max() / np.abs(way).max()
     unit = Unit(pack(tmp_path, "impact", "--set", SHAKER))
-    assert difference(outside(unit, 1e-5, 1.0)) < 1e-6
+    # Not to the last digit: the step of the contact knows of the mass of a structure inside, 43 times that of the ball.
+    assert difference(outside(unit, 1e-5, 1.0)) < 1e-4
     assert unit["kinetic_energy"] == pytest.approx(known["kinetic energy [J]"][-1], rel=1e-3)
     assert unit["dissipated_energy"] == pytest.approx(known["normal damping [J]"][-1], rel=1e-3)
-    # Ten steps of the engine to one of the tool.
-    unit = Unit(pack(tmp_path, "impact", "--set", SHAKER, "--step", "1e-4"))
-    assert difference(outside(unit, 1e-4, 1.0, load="mean_force")) < 2e-2
-    assert unit["dissipated_energy"] == pytest.approx(known["normal damping [J]"][-1], rel=5e-2)
-    unit = Unit(pack(tmp_path, "impact", "--set", SHAKER, "--step", "1e-4"))
-    assert difference(outside(unit, 1e-4, 1.0, sign=-1, load="mean_force")) > 0.1
+    # Steps of a third of an impact, and of more than a whole one, of which the force at their ends misses a part.
+    for step, load, most in [(1e-4, "force", 2e-2), (5e-4, "mean_force", 4e-2)]:
+        unit = Unit(pack(tmp_path, "impact", "--set", SHAKER, "--step", str(step)))
+        assert difference(outside(unit, step, 1.0, load=load)) < most
+        assert unit["dissipated_energy"] == pytest.approx(known["normal damping [J]"][-1], rel=5e-2)
+        unit = Unit(pack(tmp_path, "impact", "--set", SHAKER, "--step", str(step)))
+        assert difference(outside(unit, step, 1.0, sign=-1, load=load)) > 0.1
 
 
 def test_a_tool_of_its_own_moves_it(tmp_path):
