@@ -268,12 +268,11 @@ impl Instance {
     }
 
     fn opened(&mut self) -> Result<&mut Moving, Error> {
-        let moving = match self.moving.take() {
-            Some(moving) => moving,
-            None => {
-                self.first.clone_from(&self.bases);
-                Moving::open(&self.scene, &self.first)?
-            }
+        let moving = if let Some(moving) = self.moving.take() {
+            moving
+        } else {
+            self.first.clone_from(&self.bases);
+            Moving::open(&self.scene, &self.first)?
         };
         Ok(self.moving.insert(moving))
     }

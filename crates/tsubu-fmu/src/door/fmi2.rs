@@ -137,7 +137,7 @@ unsafe extern "C" fn fmi2Terminate(instance: Pointer) -> Status {
 
 #[unsafe(no_mangle)]
 unsafe extern "C" fn fmi2Reset(instance: Pointer) -> Status {
-    with(instance, "fmi2Reset", reset)
+    reset(instance, "fmi2Reset")
 }
 
 #[unsafe(no_mangle)]

@@ -130,7 +130,7 @@ unsafe extern "C" fn fmi3Terminate(instance: Pointer) -> Status {
 
 #[unsafe(no_mangle)]
 unsafe extern "C" fn fmi3Reset(instance: Pointer) -> Status {
-    with(instance, "fmi3Reset", reset)
+    reset(instance, "fmi3Reset")
 }
 
 #[unsafe(no_mangle)]

@@ -178,10 +178,12 @@ fn terminate(handle: &mut Handle) -> Result<Status, Error> {
 }
 
 /// Makes the instance new.
-fn reset(handle: &mut Handle) -> Result<Status, Error> {
-    handle.instance.reset();
-    handle.start = 0.0;
-    Ok(OK)
+fn reset(pointer: Pointer, function: &str) -> Status {
+    with(pointer, function, |handle| {
+        handle.instance.reset();
+        handle.start = 0.0;
+        Ok(OK)
+    })
 }
 
 /// Keeps what the instance is: in a place that was kept before, or a new one.
