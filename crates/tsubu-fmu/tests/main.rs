@@ -67,6 +67,36 @@ fn the_archive_is_whole() {
     assert_eq!(again.plan().hosts, scene.plan().hosts);
 }
 
+/// Files that the scene names come along: the unit begins where they are nowhere else.
+#[test]
+fn files_of_the_scene_come_along() {
+    let desk = tempfile::tempdir().expect("a folder of its own");
+    let corners = ["0 0 20", "5 0 30", "0 5 30", "-5 -5 30"];
+    let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    let faces = faces.map(|face| {
+        let corners = face.map(|corner: usize| format!("vertex {}\n", corners[corner])).concat();
+        format!("facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
+    });
+    fs::write(desk.path().join("blade.stl"), format!("solid blade\n{}endsolid blade\n", faces.concat()))
+        .expect("a file");
+    let text = scene("ball.toml", &[]).text().replace("[[0, \"5 mm\"]]", "[[0, 0, \"5 mm\"]]");
+    let text = text.replace("height = \"40 mm\" }", "height = \"40 mm\", depth = \"40 mm\" }");
+    let blade =
+        "[walls.blade]\nmaterial = \"putty\"\nhost = \"casing\"\nshape.mesh = { path = \"blade.stl\", scale = 1e-3 }\n";
+    let text = format!("dimension = 3\n{text}{blade}");
+    let scene = Scene::parse("blade.toml", &text, desk.path(), &[]).expect("a scene");
+    let bytes = archive(&scene, Some(1e-3), Version::Three, b"code").expect("an archive");
+    let elsewhere = tempfile::tempdir().expect("a folder of its own");
+    ZipArchive::new(Cursor::new(bytes)).expect("a zip").extract(elsewhere.path()).expect("files");
+    drop(desk);
+    let resources = elsewhere.path().join("resources");
+    let token = token(&fs::read_to_string(resources.join("scene.toml")).expect("a text"));
+    let mut instance = Instance::new(&resources, &token).expect("the scene");
+    instance.begin(0.0).expect("the begin");
+    instance.settle().expect("the scene opens");
+    instance.step(0.0, 1e-3).expect("a step");
+}
+
 /// The engine's step divides the communication step, and is no longer than it would be alone. Control: alone it does not divide it.
 #[test]
 fn the_step_of_the_engine_fits() {
