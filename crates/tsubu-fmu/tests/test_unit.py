@@ -183,6 +183,31 @@ def test_a_structure_outside_moves_as_one_inside(tmp_path):
         assert difference(outside(unit, step, 1.0, sign=-1, load=load)) > 0.1
 
 
+@pytest.mark.parametrize("method", ["dem", "lattice"])
+def test_the_base_of_a_structure_inside_is_told(tmp_path, method):
+    """A unit with the structure inside, whose base is told the sine of the scene, goes where a run goes. Control: told nothing it does not."""
+    scene = SCENES.parents[3] / "scenes/damper.toml"
+    changes = [f"method={method}", "dem.time-step=5e-6", "duration=0.3"]
+    changes = [word for change in changes for word in ("--set", change)]
+    subprocess.run([os.environ["TSUBU"], "run", scene, "-o", tmp_path / "run", "--quiet", *changes], check=True)
+    with open(tmp_path / "run/history.csv", newline="") as file:
+        known = {name: float(value) for name, value in list(csv.DictReader(file))[-1].items()}
+    way = known["host leaf-spring displacement [m]"]
+    file = str(tmp_path / "damper.fmu")
+    subprocess.run([os.environ["TSUBU_FMU"], scene, "-o", file, "--step", "0.1 ms", *changes], check=True)
+    amplitude, rate = 0.5e-3, 2 * pi * 5.7
+    unit, still = Unit(file, **{"leaf-spring__base__velocity": amplitude * rate}), Unit(file)
+    for n in range(3000):
+        phase = rate * n * 1e-4
+        unit.move("leaf-spring", [amplitude * sin(phase), amplitude * rate * cos(phase), -amplitude * rate**2 * sin(phase)])
+        unit.slave.doStep(n * 1e-4, 1e-4)
+        still.slave.doStep(n * 1e-4, 1e-4)
+    assert unit["time"] == pytest.approx(known["time [s]"], abs=1e-9)
+    assert unit["leaf-spring.displacement"] == pytest.approx(way, rel=1e-4)
+    assert unit["base_work"] == pytest.approx(known["base work [J]"], rel=1e-4)
+    assert abs(still["leaf-spring.displacement"] / way - 1) > 0.1
+
+
 def test_a_tool_of_its_own_moves_it(tmp_path):
     """`simulate_fmu`, with inputs as a table, starts at another time than 0 too."""
     unit = pack(tmp_path, "ball", "--step", "1 ms")
