@@ -1,9 +1,9 @@
-//! What needs more than Rust and a C compiler: the book, the browser, Python. What is missing is said and skipped; `.ci/install`
+//! What needs more than Rust and a C compiler: the book, the browser, units for co-simulation, Python. What is missing is said and skipped; `.ci/install`
 //! installs it.
 
 use crate::shell::cargo;
 use crate::test::has_nextest;
-use crate::{book, python};
+use crate::{book, fmu, python};
 
 /// All optional parts.
 pub fn optional() -> Result<(), String> {
@@ -14,5 +14,6 @@ pub fn optional() -> Result<(), String> {
     } else {
         cargo(&["test", "--package", "tsubu-view"])?;
     }
+    fmu::fmu(&[])?;
     python::python(&[])
 }

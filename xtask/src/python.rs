@@ -9,8 +9,7 @@ const MATURIN: &str = "maturin>=1.9,<2";
 
 /// Builds, installs and tests; says so where there is no Python or no network.
 pub fn python(arguments: &[&str]) -> Result<(), String> {
-    let recent = "import sys, venv, ensurepip; assert sys.version_info >= (3, 10)";
-    if !succeeds(command("python3", &["-c", recent])) {
+    if !recent() {
         return skipped("there is no Python 3.10 or later with `venv`");
     }
     let target = root().join("target");
@@ -56,8 +55,14 @@ fn bare(home: &Path, wheel: &str) -> Result<(), String> {
     Ok(())
 }
 
+/// Whether there is a Python that is recent enough and can make environments.
+pub fn recent() -> bool {
+    let recent = "import sys, venv, ensurepip; assert sys.version_info >= (3, 10)";
+    succeeds(command("python3", &["-c", recent]))
+}
+
 /// The Python of an environment that has these packages, made where it is not there.
-fn environment(home: &Path, packages: &[&str]) -> Option<PathBuf> {
+pub fn environment(home: &Path, packages: &[&str]) -> Option<PathBuf> {
     let python = home.join("bin/python3");
     if !python.exists() {
         run(command("python3", &["-m", "venv", &text(home)])).ok()?;

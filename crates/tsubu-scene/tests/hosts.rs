@@ -109,6 +109,19 @@ fn structures_that_cannot_be() {
     insta::assert_snapshot!(told.join("\n\n"));
 }
 
+/// A scene written out in full says of every host that it begins at 0, and that was refused of a shaker: no run of one could be run
+/// again from its folder, or be started from.
+#[test]
+fn a_shaker_written_out_is_read_again() {
+    let host = "structure.shaker = {}\nbase.sine = { amplitude = \"1 mm\", frequency = \"30 Hz\" }";
+    let text = format!("{}{host}\n", GOOD.replace("interface = \"tip\"\n", ""));
+    let read = |text: &str| Scene::parse("scene.toml", text, Path::new("."), &[]);
+    let written = read(&text).expect("a scene").resolved_toml();
+    assert!(written.contains("displacement = 0"), "{written}");
+    assert_eq!(read(&written).expect("the same scene").resolved_toml(), written);
+    assert!(read(&written.replace("displacement = 0.0", "displacement = 0.1")).is_err());
+}
+
 /// A shaker is where its base is, and an atlas shakes walls along a line: what has no effect, or cannot be, is refused.
 #[test]
 fn shakers_and_atlases_that_cannot_be() {

@@ -122,8 +122,14 @@ fn shaker(parts: &Parts<'_>, name: &str, host: &Host, complaints: &mut Vec<Compl
                 .hint("base.sine = { acceleration = \"2 g\", frequency = \"30 Hz\" }"),
         );
     }
-    for key in ["force", "displacement", "velocity"] {
-        if parts.root.find(&path(key)).is_some() {
+    // Written out in full, a scene says of every host that it begins at 0.
+    let told = [
+        ("force", host.force.is_some()),
+        ("displacement", host.displacement != 0.0),
+        ("velocity", host.velocity != 0.0),
+    ];
+    for (key, told) in told {
+        if told {
             complaints.push(
                 Complaint::new(format!("the shaker `{name}` moves as its `base` says, whatever `{key}` is"))
                     .at(&parts.root.locate(&path(key)), "has no effect")

@@ -16,6 +16,7 @@ mod matrices;
 mod runge_kutta;
 mod shaker;
 mod state;
+mod steered;
 
 pub use in_motion::Ballast;
 pub use interface::{Interface, Placed};
@@ -23,6 +24,7 @@ pub use interface::{Interface, Placed};
 use crate::ledger::{Account, Ledger};
 use crate::motion::value_and_rate;
 use matrices::{dot, inverse, matrices, multiply, quadratic};
+use steered::Piece;
 use tsubu_scene::plan::{self, Keep, Signal};
 
 /// A structure in motion.
@@ -48,6 +50,8 @@ pub struct Host {
     /// Unit direction of the motion.
     pub direction: [f64; 3],
     base: Option<Signal>,
+    /// Where its base goes, once somebody outside moves it.
+    steered: Option<Piece>,
     force: Option<Signal>,
     /// Since when they drive it [s].
     driven_since: f64,
@@ -85,6 +89,7 @@ impl Host {
             shaker: plan.is_shaker(),
             direction: plan.direction,
             base: plan.base.clone(),
+            steered: None,
             force: plan.force.clone(),
             driven_since: 0.0,
             q: seen.iter().map(|_| plan.displacement).collect(),
@@ -277,7 +282,11 @@ impl Host {
     }
 
     fn base(&self, time: f64) -> (f64, f64) {
-        self.base.as_ref().map_or((0.0, 0.0), |s| value_and_rate(s, time - self.driven_since))
+        match (&self.steered, &self.base) {
+            (Some(piece), _) => piece.at(time),
+            (None, Some(signal)) => value_and_rate(signal, time - self.driven_since),
+            (None, None) => (0.0, 0.0),
+        }
     }
 
     fn drive(&self, time: f64) -> Drive {

@@ -34,7 +34,10 @@ impl Host {
         let spring = |stretch: f64| if cubic == 0.0 { k * stretch } else { k * stretch + cubic * stretch.powi(3) };
         let inverse = self.mass_inverse[0];
         let times = [time, time + 0.5 * dt, time + dt];
-        let base = three(self.base.as_ref(), times);
+        let base = match &self.steered {
+            Some(piece) => times.map(|time| piece.at(time)),
+            None => three(self.base.as_ref(), times),
+        };
         let applied = three(self.force.as_ref(), times).map(|(value, _)| value);
         let slope = |at: usize, q: f64, v: f64| {
             let (y, y_rate) = base[at];

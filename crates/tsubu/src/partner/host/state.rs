@@ -20,6 +20,7 @@ impl Host {
         if self.driven_since != 0.0 {
             state.put_real(&format!("{name}.driven-since"), vec![self.driven_since]);
         }
+        self.save_steered(name, state);
     }
 
     /// Takes the state back.
@@ -47,6 +48,7 @@ impl Host {
         if let Ok(&[since]) = state.real(&format!("{name}.driven-since")) {
             self.driven_since = since;
         }
+        self.load_steered(name, state);
         Ok(())
     }
 }
