@@ -4,6 +4,7 @@ use super::points;
 use crate::failure::Failure;
 use crate::table;
 use clap::Args;
+use std::fmt::Write as _;
 use std::path::Path;
 use tsubu_frame::Table;
 
@@ -55,7 +56,7 @@ fn candidates(folder: &Path) -> Result<String, Failure> {
     let mut text = table::aligned(&rows);
     let scene = folder.join("best.toml");
     if scene.exists() {
-        text += &format!("  the scene of the best: {}\n", scene.display());
+        let _ = writeln!(text, "  the scene of the best: {}", scene.display());
     }
     Ok(text)
 }

@@ -43,7 +43,7 @@ pub struct Answer {
 /// The plan with its drive so many times as strong.
 pub(super) fn driven(plan: &Plan, host: &str, level: f64) -> Plan {
     let mut plan = plan.clone();
-    for host in plan.hosts.get_mut(host).into_iter() {
+    if let Some(host) = plan.hosts.get_mut(host) {
         for signal in [&mut host.base, &mut host.force].into_iter().flatten() {
             if let Signal::Sine { amplitude, .. } = signal {
                 *amplitude *= level;

@@ -22,6 +22,9 @@ pub(super) struct Found {
     pub searched: bool,
 }
 
+/// What came of a run.
+type Ran = (Key, Result<Measured, RunError>);
+
 /// A design on its way.
 pub(super) struct Work<'a> {
     pub task: &'a Task<'a>,
@@ -214,7 +217,7 @@ impl<'a> Work<'a> {
         }
         let (task, watcher, record) = (self.task, self.watcher, self.record);
         let counter = AtomicU32::new(self.runs());
-        let run = |key: &Key| -> Result<Option<(Key, Result<Measured, RunError>)>, CasesError> {
+        let run = |key: &Key| -> Result<Option<Ran>, CasesError> {
             if watcher.interrupt.asked() {
                 return Ok(None);
             }

@@ -248,7 +248,9 @@ fn steps(work: &Work<'_>, best: usize) -> Table {
             rows.push((other.digits[axis], row));
         }
         rows.sort_by_key(|(digit, _)| *digit);
-        rows.into_iter().for_each(|(_, row)| table.push(row));
+        for (_, row) in rows {
+            table.push(row);
+        }
     }
     table
 }
