@@ -11,8 +11,8 @@ fn named_commands() -> Vec<String> {
     let text = page("docs/src/what-works.md");
     let rows = text.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| what "));
     let shown = rows.map(|row| row.trim_end_matches(" |").rsplit("| ").next().unwrap().trim_matches('`'));
-    // The door to Python has tests of its own.
-    let commands = shown.filter(|shown| *shown != "cargo xtask python");
+    // The doors to Python and to co-simulation have tests of their own.
+    let commands = shown.filter(|shown| !["cargo xtask python", "cargo xtask fmu"].contains(shown));
     commands
         .map(|shown| shown.strip_prefix("tsubu ").unwrap_or_else(|| panic!("no command: `{shown}`")).to_owned())
         .collect()
@@ -59,6 +59,8 @@ fn every_row_of_what_works_does() {
         } else if command.starts_with("response ") {
             let short = "--set response.discard-periods=1 --set response.frequency-ratio=[0.95,1.0]";
             desk.done(&format!("{command} -q -o {folder} {short}"));
+        } else if command.starts_with("design ") {
+            desk.done(&format!("{command} -q -o {folder} --set design.runs=20 --set design.seeds=2"));
         } else {
             desk.done(&command);
         }

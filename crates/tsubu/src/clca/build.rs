@@ -97,11 +97,9 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
         claim: _,
     } = plan;
     let mut remarks = Remarks::of("cl-ca");
-    let noun = "grains of lattice points";
-    remarks.world(plan, World { noun, tilted: false, weightless: true, periodic: [false; 2] });
-    if let Some(refusal) = remarks.refusal() {
-        return Err(refusal);
-    }
+    let world = World { noun: "grains of lattice points", tilted: false, weightless: true, periodic: [false; 2] };
+    remarks.world(plan, world);
+    remarks.refusal().map_or(Ok(()), Err)?;
     remarks.approximate(
         "contact",
         "no forces: grains move where there is room, whatever their stiffness, restitution and friction",
