@@ -21,6 +21,8 @@ pub(super) struct Candidates {
     pub lightest: f64,
     /// Numbers of values, key by key.
     pub values: Vec<usize>,
+    /// Whether these have an order.
+    ordered: Vec<bool>,
 }
 
 /// A combination.
@@ -48,8 +50,15 @@ impl Candidates {
                 (index, case, plan.map_err(told))
             })
             .collect();
-        let mut candidates =
-            Self { list: Vec::new(), too_heavy: 0, wrong: 0, first_wrong: None, lightest: f64::INFINITY, values };
+        let mut candidates = Self {
+            list: Vec::new(),
+            too_heavy: 0,
+            wrong: 0,
+            first_wrong: None,
+            lightest: f64::INFINITY,
+            values,
+            ordered,
+        };
         for (index, case, plan) in read {
             match plan {
                 Err(told) => {
@@ -64,7 +73,7 @@ impl Candidates {
                         continue;
                     }
                     let digits = digits(index, &candidates.values);
-                    let place = place(&digits, &candidates.values, &ordered);
+                    let place = place(&digits, &candidates.values, &candidates.ordered);
                     candidates.list.push(Candidate { case, plan, digits, place });
                 }
             }
@@ -72,11 +81,10 @@ impl Candidates {
         candidates
     }
 
-    /// Candidates with one key a value on.
+    /// Candidates with one key a value on; of a key whose values have no order, with any other.
     pub fn neighbours(&self, of: usize) -> Vec<usize> {
         let own = &self.list[of].digits;
-        let apart = |other: &Candidate| own.iter().zip(&other.digits).map(|(a, b)| a.abs_diff(*b)).sum::<usize>();
-        (0..self.list.len()).filter(|other| apart(&self.list[*other]) == 1).collect()
+        (0..self.list.len()).filter(|other| steps(own, &self.list[*other].digits, &self.ordered) == 1).collect()
     }
 
     /// So many candidates that lie far from each other, from the one in the middle on: each next is the farthest from those before.
@@ -122,6 +130,13 @@ fn digits(index: usize, values: &[usize]) -> Vec<usize> {
     digits
 }
 
+/// How many steps of one key lead from one combination to another.
+fn steps(from: &[usize], to: &[usize], ordered: &[bool]) -> usize {
+    let of_key =
+        |((a, b), ordered): ((&usize, &usize), &bool)| if *ordered { a.abs_diff(*b) } else { usize::from(a != b) };
+    from.iter().zip(to).zip(ordered).map(of_key).sum()
+}
+
 fn place(digits: &[usize], values: &[usize], ordered: &[bool]) -> Vec<f64> {
     let mut place = Vec::new();
     for ((digit, number), ordered) in digits.iter().zip(values).zip(ordered) {
@@ -145,6 +160,8 @@ mod tests {
         let all: Vec<Vec<usize>> = (0..6).map(|index| digits(index, &values)).collect();
         assert_eq!(all, [[0, 0], [0, 1], [0, 2], [1, 0], [1, 1], [1, 2]]);
         assert_eq!(place(&[1, 1], &values, &[true, true]), [1.0, 0.5]);
+        assert_eq!(steps(&[0, 2], &[2, 2], &[false, true]), 1);
+        assert_eq!(steps(&[0, 2], &[2, 2], &[true, true]), 2);
         let corners = [0, 1].map(|digit| place(&[digit, 0], &values, &[false, true]));
         let apart: f64 = corners[0].iter().zip(&corners[1]).map(|(a, b)| (a - b).powi(2)).sum();
         assert!((apart - 1.0).abs() < 1e-12);
