@@ -57,7 +57,11 @@ pub(crate) fn build(source: &mut Source) -> Report {
     for (standing, label) in [("best", "Best"), ("as written", "As written")] {
         let Some(row) = candidates.row(standing) else { continue };
         let (value, unit) = quantity(candidates.rms[row], "m");
-        let interval = format!("95 %: {} to {}", spoken(candidates.low[row], "m"), spoken(candidates.high[row], "m"));
+        let interval = if candidates.low[row].is_finite() {
+            format!("95 %: {} to {}", spoken(candidates.low[row], "m"), spoken(candidates.high[row], "m"))
+        } else {
+            "no interval".to_owned()
+        };
         let name = if standing == "best" { format!("{}; ", candidates.names[row]) } else { String::new() };
         let note = format!(
             "{name}{interval}; {} of grains; peak at f/f₀ = {}",

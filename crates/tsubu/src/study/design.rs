@@ -152,7 +152,7 @@ impl<'a> Task<'a> {
 pub struct Standing {
     /// What is to be low [m]: the mean over the seeds.
     pub rms: f64,
-    /// 95 % interval of that mean [m]; nothing with one seed.
+    /// 95 % interval of that mean [m]; nothing with one seed, or where all seeds give the same.
     pub interval: Option<[f64; 2]>,
     /// Largest displacement over levels and seeds [m].
     pub stroke: f64,

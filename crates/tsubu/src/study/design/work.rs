@@ -164,7 +164,9 @@ impl<'a> Work<'a> {
         }
         let each: Vec<f64> = seeds.into_values().collect();
         let rms = each.iter().sum::<f64>() / each.len() as f64;
-        let interval = (each.len() > 1).then(|| interval_of_mean(&each));
+        // Beds that are the same bit for bit are one bed.
+        let differ = each.windows(2).any(|two| two[0] != two[1]);
+        let interval = differ.then(|| interval_of_mean(&each));
         (!each.is_empty()).then_some(Standing {
             rms,
             interval,

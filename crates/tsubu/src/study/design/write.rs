@@ -93,6 +93,15 @@ fn doubts(work: &Work<'_>, found: Option<&Found>, status: Status, summary: &mut 
         if !near.is_empty() {
             say(format!("not told apart from the best by their intervals: {}", near.join("; ")));
         }
+        let of_one_bed =
+            |(index, standing): &(usize, Standing)| standing.interval.is_none() && task.plan(*index).grain_mass() > 0.0;
+        let same: Vec<String> = confirmed(work).filter(of_one_bed).map(|(index, _)| task.name(index)).collect();
+        if !same.is_empty() {
+            say(format!(
+                "without an interval, for all seeds give the same bed, as where a box is too full for grains to be placed in another way: {}",
+                same.join("; ")
+            ));
+        }
         if !found.searched {
             say(format!(
                 "half of the {} runs were spent before the search had come to an end: a larger `design.runs` may find a better one",
@@ -122,13 +131,19 @@ fn doubts(work: &Work<'_>, found: Option<&Found>, status: Status, summary: &mut 
 
 /// Confirmed candidates whose interval reaches below the end of the best's.
 fn alike(work: &Work<'_>, best: usize) -> Vec<String> {
-    let Some([_, high]) = work.standing(best).and_then(|standing| standing.interval) else { return Vec::new() };
-    let near = |index: &usize| {
-        let standing = work.standing(*index);
-        let low = standing.as_ref().and_then(|standing| standing.interval).map(|[low, _]| low);
-        *index != best && low.is_some_and(|low| low <= high) && standing.is_some_and(|standing| work.fits(&standing))
-    };
-    work.values().into_iter().map(|(index, _)| index).filter(near).map(|index| work.task.name(index)).collect()
+    let ends = |standing: &Standing| standing.interval.unwrap_or([standing.rms; 2]);
+    let Some(own) = work.standing(best) else { return Vec::new() };
+    let near = |standing: &Standing| ends(standing)[0] <= ends(&own)[1] && work.fits(standing);
+    confirmed(work)
+        .filter(|(index, standing)| *index != best && near(standing))
+        .map(|(index, _)| work.task.name(index))
+        .collect()
+}
+
+/// Candidates that were measured with all seeds.
+fn confirmed<'a>(work: &'a Work<'_>) -> impl Iterator<Item = (usize, Standing)> + 'a {
+    let all = work.values().into_iter().filter_map(|(index, _)| Some((index, work.standing(index)?)));
+    all.filter(|(_, standing)| standing.seeds >= work.task.wanted.seeds as usize)
 }
 
 /// The values of a candidate, key by key; of the scene as it is written those that it has.
