@@ -65,9 +65,11 @@ fn seconds(text: &str) -> Result<f64, Error> {
         .map_err(|_| Error::new(format!("`{text}` is no time")).hint("write 1e-4 or \"0.1 ms\""))
 }
 
-/// The library as cargo leaves it: beside this program.
+/// The library as cargo leaves it: beside this program, or one folder below where it built the program alone.
 fn beside() -> PathBuf {
     let name = format!("{}tsubu_fmu{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
     let program = std::env::current_exe().unwrap_or_default();
-    program.parent().unwrap_or(Path::new("")).join(name)
+    let folder = program.parent().unwrap_or(Path::new(""));
+    let below = folder.join("deps").join(&name);
+    if below.exists() { below } else { folder.join(name) }
 }
