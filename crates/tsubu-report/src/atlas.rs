@@ -7,7 +7,7 @@ use tsubu_frame::Table;
 use crate::claims::claims_table;
 use crate::figure::{Axis, Figure, Series, Style};
 use crate::page::{Block, Report, Tone};
-use crate::source::{Source, card, folded, results_table, shown, spoken, summary_cards, versions};
+use crate::source::{Source, card, ended, folded, results_table, shown, spoken, summary_cards, versions};
 use crate::text::short;
 
 /// Figures that are seen without unfolding.
@@ -73,12 +73,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     }
     if let Some(summary) = &summary {
         report.cards.extend(summary_cards(summary).into_iter().filter(|card| card.label == "Computed in"));
-        let failed = summary.claims.iter().filter(|claim| !claim.pass).count();
-        report.verdict = Some(match (summary.status, failed) {
-            (tsubu_frame::Status::Finished, 0) => (Tone::Good, "finished".into()),
-            (tsubu_frame::Status::Finished, n) => (Tone::Bad, format!("{n} claims failed")),
-            (status, _) => (Tone::Warning, status.word().into()),
-        });
+        report.verdict = Some(ended(summary));
     }
     let charts = charts(source, &cavities);
     let mut remarks = source.note_blocks();

@@ -5,7 +5,7 @@ use tsubu_frame::Table;
 use crate::claims::claims_table;
 use crate::figure::{Axis, Figure, Series, Style};
 use crate::page::{Block, Report, Tone};
-use crate::source::{Source, card, folded, quantity, results_table, shown, spoken, summary_cards, versions};
+use crate::source::{Source, card, ended, folded, quantity, results_table, shown, spoken, summary_cards, versions};
 use crate::text::short;
 
 /// The candidates of `design.csv`, column by column.
@@ -72,12 +72,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     }
     if let Some(summary) = &summary {
         report.cards.extend(summary_cards(summary).into_iter().filter(|card| card.label == "Computed in"));
-        let failed = summary.claims.iter().filter(|claim| !claim.pass).count();
-        report.verdict = Some(match (summary.status, failed) {
-            (tsubu_frame::Status::Finished, 0) => (Tone::Good, "finished".into()),
-            (tsubu_frame::Status::Finished, n) => (Tone::Bad, format!("{n} claims failed")),
-            (status, _) => (Tone::Warning, status.word().into()),
-        });
+        report.verdict = Some(ended(summary));
     }
     let curves = before_and_after(source);
     let tried = tried(source, &candidates);
@@ -178,7 +173,7 @@ fn course(source: &mut Source, candidates: &Candidates) -> Vec<Block> {
     let [mean, low, high] = &candidates.expected;
     let known: Vec<usize> = rows().filter(|row| mean[*row].is_finite()).collect();
     let expected = known.iter().map(|row| (place(*row), mean[*row])).collect();
-    let band = known.iter().map(|row| (place(*row), (low[*row], high[*row]))).map(|(_, ends)| ends).collect();
+    let band = known.iter().map(|row| (low[*row], high[*row])).collect();
     let mut figure =
         Figure::new("", Axis::new("candidate, in the order of the search", "-"), Axis::new("rms displacement", "m"));
     figure = figure.with(Series::line("measured", measured).styled(Style::Points));

@@ -4,7 +4,7 @@ use tsubu_frame::Table;
 
 use crate::figure::{Axis, Figure, Series, Style};
 use crate::page::{Block, Report, Tone};
-use crate::source::{Source, card, folded, quantity, shown, spoken, summary_cards, versions};
+use crate::source::{Source, card, ended, folded, quantity, shown, spoken, summary_cards, versions};
 use crate::text::short;
 
 /// What is predicted of a case.
@@ -46,10 +46,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     }
     if let Some(summary) = &summary {
         report.cards.extend(summary_cards(summary).into_iter().filter(|card| card.label == "Computed in"));
-        report.verdict = Some(match summary.status {
-            tsubu_frame::Status::Finished => (Tone::Good, "finished".into()),
-            status => (Tone::Warning, status.word().into()),
-        });
+        report.verdict = Some(ended(summary));
     }
     let chart = chart(source, &curves, &cases);
     let mut remarks = source.note_blocks();

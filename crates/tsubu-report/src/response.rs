@@ -7,7 +7,7 @@ use crate::figure::{Axis, Bars, Figure, Mark, Series, Style};
 use crate::moments;
 use crate::page::{Block, Card, Report, Tone};
 use crate::source::{
-    Source, card, method_name, quantity, result_cards, results_table, shown, spoken, summary_cards, versions,
+    Source, card, ended, method_name, quantity, result_cards, results_table, shown, spoken, summary_cards, versions,
 };
 use crate::text::short;
 
@@ -55,12 +55,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
         if curves.is_empty() {
             report.cards.extend(result_cards(s, 4));
         }
-        let failed = s.claims.iter().filter(|c| !c.pass).count();
-        report.verdict = Some(match (s.status, failed) {
-            (tsubu_frame::Status::Finished, 0) => (Tone::Good, "finished".into()),
-            (tsubu_frame::Status::Finished, n) => (Tone::Bad, format!("{n} claims failed")),
-            (status, _) => (Tone::Warning, status.word().into()),
-        });
+        report.verdict = Some(ended(s));
     }
     let charts = charts(source, &curves, cases.as_ref(), by_ratio);
     let watches = response.map(|table| watched::blocks(source, &table, by_ratio)).unwrap_or_default();

@@ -162,6 +162,16 @@ pub(crate) fn spoken(x: f64, unit: &str) -> String {
 }
 
 /// Cards that every summary gives.
+/// How a study of many runs ended, for the head of its page.
+pub(crate) fn ended(summary: &Summary) -> (Tone, String) {
+    let failed = summary.claims.iter().filter(|claim| !claim.pass).count();
+    match (summary.status, failed) {
+        (tsubu_frame::Status::Finished, 0) => (Tone::Good, "finished".into()),
+        (tsubu_frame::Status::Finished, n) => (Tone::Bad, format!("{n} claims failed")),
+        (status, _) => (Tone::Warning, status.word().into()),
+    }
+}
+
 pub(crate) fn summary_cards(summary: &Summary) -> Vec<Card> {
     let residual = summary.energy.residual_relative;
     let closes = if residual.abs() < 1e-3 { Tone::Good } else { Tone::Warning };

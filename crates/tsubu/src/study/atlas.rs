@@ -72,7 +72,7 @@ pub fn atlas(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -
     };
     let _held = watcher.interrupt.hold();
     let told = failures.iter().map(|failed| task.told(failed)).collect();
-    Ok(write::write(&folder, scene, &task, &points, status, told, before + begun.elapsed().as_secs_f64())?)
+    Ok(write::write(&folder, &task, &points, status, told, before + begun.elapsed().as_secs_f64())?)
 }
 
 /// The cavities of a scene's atlas, without any file.

@@ -72,6 +72,11 @@ pub(super) fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, Case
     list.iter().map(|case| Ok(case.scene(scene).map_err(CasesError::Complaints)?.plan().clone())).collect()
 }
 
+/// A value as a user typed it, texts without quotes.
+pub(super) fn value_text(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
 /// Keys are shortened to their last word as long as that tells them apart.
 fn name(values: &[(String, Value)]) -> String {
     let word = |path: &str| path.rsplit('.').next().unwrap_or(path).to_owned();
@@ -80,8 +85,7 @@ fn name(values: &[(String, Value)]) -> String {
         .iter()
         .map(|(path, value)| {
             let key = if clash(path) { path.clone() } else { word(path) };
-            let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
-            format!("{key} = {value}")
+            format!("{key} = {}", value_text(value))
         })
         .collect();
     parts.join(", ")

@@ -138,6 +138,19 @@ impl<'a> Task<'a> {
         self.candidates.list.get(candidate).map_or_else(|| self.scene.plan(), |one| &one.plan)
     }
 
+    /// A candidate with its drive as strong as a level says.
+    fn driven(&self, candidate: usize, level: usize) -> Plan {
+        let mut plan = self.plan(candidate).clone();
+        let host = plan.response.as_ref().and_then(|response| plan.hosts.get_mut(&response.host));
+        let signals = host.into_iter().flat_map(|host| [&mut host.base, &mut host.force]);
+        for signal in signals.flatten() {
+            if let plan::Signal::Sine { amplitude, .. } = signal {
+                *amplitude *= self.wanted.levels[level];
+            }
+        }
+        plan
+    }
+
     fn name(&self, candidate: usize) -> String {
         self.candidates.list.get(candidate).map_or_else(|| "as written".to_owned(), |one| one.case.name.clone())
     }

@@ -8,6 +8,7 @@ mod journal;
 pub mod predict;
 pub mod response;
 pub mod ring_down;
+mod summary;
 pub mod surrogate;
 pub mod sweep;
 pub mod variant;

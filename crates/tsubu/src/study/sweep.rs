@@ -1,6 +1,6 @@
 //! A parameter sweep: every case is a run of its own.
 
-use super::cases::{Case, CasesError, cases};
+use super::cases::{Case, CasesError, cases, value_text};
 use crate::interrupt::Watcher;
 use crate::methods;
 use crate::partner::Hosts;
@@ -129,9 +129,7 @@ fn table(done: &[(&Case, &Summary)]) -> Table {
     let mut table = Table::new(header);
     for (case, summary) in done {
         let mut row = vec![Cell::Text(case.name.clone())];
-        row.extend(
-            case.values.iter().map(|(_, v)| Cell::Text(v.as_str().map_or_else(|| v.to_string(), str::to_owned))),
-        );
+        row.extend(case.values.iter().map(|(_, v)| Cell::Text(value_text(v))));
         row.push(summary.status.word().into());
         row.extend([Cell::Number(summary.wall_seconds), Cell::Number(summary.energy.residual_relative)]);
         row.extend(results.iter().map(|(name, _)| match summary.results.get(name) {

@@ -1,12 +1,9 @@
 //! The files of an atlas.
 
 use super::{Done, Task, chart};
-use crate::partner::Hosts;
 use crate::study::cases::Case;
-use crate::trial::unsettled;
-use crate::{check, methods, run};
+use crate::study::summary::{begun, judge};
 use tsubu_frame::{FileError, RunFolder, Status, Summary};
-use tsubu_scene::Scene;
 
 /// What the cases are called in tables.
 pub(super) fn names(cases: &[Case]) -> Vec<String> {
@@ -16,7 +13,6 @@ pub(super) fn names(cases: &[Case]) -> Vec<String> {
 /// Writes `atlas.csv`, `check.txt` and `summary.json`.
 pub(super) fn write(
     folder: &RunFolder,
-    scene: &Scene,
     task: &Task,
     points: &Done,
     status: Status,
@@ -24,17 +20,9 @@ pub(super) fn write(
     wall_seconds: f64,
 ) -> Result<Summary, FileError> {
     let plan = &task.plans[0];
-    let mut summary = Summary {
-        tsubu_version: crate::VERSION.to_owned(),
-        status,
-        method: plan.method.name().to_owned(),
-        dimension: u32::from(plan.dimension),
-        particles: task.plans.iter().map(|plan| plan.grains() as u64).max().unwrap_or_default(),
-        wall_seconds,
-        threads: rayon::current_num_threads() as u32,
-        warnings: failures,
-        ..Summary::default()
-    };
+    let mut summary = begun(plan, status, wall_seconds);
+    summary.particles = task.plans.iter().map(|plan| plan.grains() as u64).max().unwrap_or_default();
+    summary.warnings = failures;
     let names = names(&task.cases);
     for (case, name) in names.iter().enumerate() {
         let found = task.found(points, case);
@@ -53,23 +41,8 @@ pub(super) fn write(
             ));
         }
     }
-    let residual = points.values().map(|point| point.residual.abs()).fold(0.0, f64::max);
-    summary.energy.residual_relative = residual;
-    let tolerance = plan.dem.energy_tolerance;
-    if residual > tolerance {
-        summary.warnings.push(format!(
-            "the energy residual of some run is {residual:.2e} of the energy turned over, more than `dem.energy-tolerance` = {tolerance:e}: shorten the time step"
-        ));
-    }
-    let hosts = Hosts::new(&plan.hosts);
-    if let Ok(engine) = methods::open(&unsettled(plan), &hosts) {
-        summary.time_step = engine.time_step();
-        summary.warnings.extend(engine.notes().iter().map(|note| format!("{}: {}", note.key, note.text)));
-        folder.write("check.txt", check::verdict(plan, &hosts, &*engine).to_string().as_bytes())?;
-    }
-    if status == Status::Finished {
-        run::judge(scene.plan(), &mut summary);
-    }
+    summary.energy.residual_relative = points.values().map(|point| point.residual.abs()).fold(0.0, f64::max);
+    judge(folder, plan, &mut summary)?;
     folder.write(chart::FILE, chart::table(&names, &task.plans, points).to_csv().as_bytes())?;
     folder.write_json("summary.json", &summary)?;
     folder.sync()?;

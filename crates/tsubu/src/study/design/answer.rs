@@ -7,12 +7,12 @@
 use crate::interrupt::Interrupt;
 use crate::partner::{Ballast, Host, Hosts};
 use crate::run::RunError;
-use crate::study::response::tasks::bed;
 use crate::study::response::transient::{shown, unknown};
 use crate::study::response::{Point, measure};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::SQRT_2;
-use tsubu_scene::plan::{Goal, Plan, Response, Signal};
+use tsubu_frame::State;
+use tsubu_scene::plan::{Goal, Plan, Response};
 
 /// Runs that follow the peak of one candidate, at most: of an irregular motion it never stays where it is.
 const MOST: usize = 6;
@@ -40,37 +40,22 @@ pub struct Answer {
     pub wall: f64,
 }
 
-/// The plan with its drive so many times as strong.
-pub(super) fn driven(plan: &Plan, host: &str, level: f64) -> Plan {
-    let mut plan = plan.clone();
-    if let Some(host) = plan.hosts.get_mut(host) {
-        for signal in [&mut host.base, &mut host.force].into_iter().flatten() {
-            if let Signal::Sine { amplitude, .. } = signal {
-                *amplitude *= level;
-            }
-        }
-    }
-    plan
-}
-
-/// Measures a candidate; `None` where it was interrupted.
+/// Measures a candidate from its settled bed; `None` where it was interrupted.
 pub(super) fn answer(
     plan: &Plan,
     goal: Goal,
     reference: f64,
-    level: f64,
     seed: u32,
+    bed: &State,
     interrupt: &Interrupt,
 ) -> Result<Option<Answer>, RunError> {
     let Some(wanted) = &plan.response else { return Ok(None) };
-    let plan = driven(plan, &wanted.host, level);
-    let bed = bed(&plan, seed)?;
     let run = |ratio: f64, known: &[Point]| {
         let known: Vec<&Point> = known.iter().collect();
-        measure(&plan, wanted, seed, &bed, reference * ratio, &known, interrupt)
+        measure(plan, wanted, seed, bed, reference * ratio, &known, interrupt)
     };
     match goal {
-        Goal::Peak => follow(&plan, wanted, reference, run),
+        Goal::Peak => follow(plan, wanted, reference, run),
         Goal::Band => band(&wanted.frequency_ratio, run),
     }
 }

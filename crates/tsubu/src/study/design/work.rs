@@ -1,6 +1,6 @@
 //! The work of a design: search, confirm, draw.
 
-use super::answer::{answer, driven};
+use super::answer::answer;
 use super::{Done, Key, Measured, Record, Standing, Task, search};
 use crate::engine::OpenError;
 use crate::interrupt::{Interrupt, Watcher};
@@ -12,6 +12,7 @@ use crate::study::response::{measure, tasks};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicU32, Ordering};
+use tsubu_frame::State;
 
 /// What came of a design.
 pub(super) struct Found {
@@ -208,6 +209,24 @@ impl<'a> Work<'a> {
         values.iter().filter_map(likely).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
     }
 
+    /// The settled beds of these, each once: all points of a curve begin from one. A candidate whose grains do not settle is out.
+    fn beds(&mut self, keys: &[Key]) -> Result<BTreeMap<(usize, usize, u32), State>, CasesError> {
+        let task = self.task;
+        let wanted: BTreeSet<_> = keys.iter().map(|key| (key.candidate, key.level, key.seed)).collect();
+        let settle =
+            |(candidate, level, seed)| ((candidate, level, seed), tasks::bed(&task.driven(candidate, level), seed));
+        let settled: Vec<_> = wanted.into_par_iter().map(settle).collect();
+        let mut beds = BTreeMap::new();
+        for (place, bed) in settled {
+            match bed {
+                Ok(bed) => drop(beds.insert(place, bed)),
+                Err(error @ OpenError::Settling(_)) => drop(self.failures.entry(place.0).or_insert(error.into())),
+                Err(error) => return Err(CasesError::Run { case: task.name(place.0), error: error.into() }),
+            }
+        }
+        Ok(beds)
+    }
+
     /// Measures all of these, side by side, but for what is known; says whether it came to the end. A candidate with a run that fails is
     /// out; the others go on.
     fn measure(&mut self, keys: Vec<Key>) -> Result<bool, CasesError> {
@@ -219,11 +238,11 @@ impl<'a> Work<'a> {
         }
         let (task, watcher, record) = (self.task, self.watcher, self.record);
         let counter = AtomicU32::new(self.runs());
+        let beds = self.beds(&new)?;
         let run = |key: &Key| -> Result<Option<Ran>, CasesError> {
-            if watcher.interrupt.asked() {
-                return Ok(None);
-            }
-            match one(task, key, watcher.interrupt) {
+            let bed = beds.get(&(key.candidate, key.level, key.seed));
+            let Some(bed) = bed.filter(|_| !watcher.interrupt.asked()) else { return Ok(None) };
+            match one(task, key, bed, watcher.interrupt) {
                 Ok(None) => Ok(None),
                 Ok(Some(measured)) => {
                     record(key, &measured)?;
@@ -232,9 +251,7 @@ impl<'a> Work<'a> {
                     (watcher.progress)((f64::from(done) / f64::from(task.wanted.runs)).min(1.0));
                     Ok(Some((*key, Ok(measured))))
                 }
-                Err(error @ (RunError::Fault(_) | RunError::Open(OpenError::Settling(_)))) => {
-                    Ok(Some((*key, Err(error))))
-                }
+                Err(error @ RunError::Fault(_)) => Ok(Some((*key, Err(error)))),
                 Err(error) => Err(CasesError::Run { case: task.name(key.candidate), error }),
             }
         };
@@ -249,16 +266,13 @@ impl<'a> Work<'a> {
     }
 }
 
-fn one(task: &Task<'_>, key: &Key, interrupt: &Interrupt) -> Result<Option<Measured>, RunError> {
-    let plan = task.plan(key.candidate);
+fn one(task: &Task<'_>, key: &Key, bed: &State, interrupt: &Interrupt) -> Result<Option<Measured>, RunError> {
+    let plan = task.driven(key.candidate, key.level);
     let Some(ratio) = key.ratio else {
-        let level = task.wanted.levels[key.level];
-        let found = answer(plan, task.wanted.goal, task.reference, level, key.seed, interrupt)?;
+        let found = answer(&plan, task.wanted.goal, task.reference, key.seed, bed, interrupt)?;
         return Ok(found.map(Measured::Answer));
     };
     let Some(response) = &plan.response else { return Ok(None) };
-    let plan = driven(plan, &response.host, task.wanted.levels[key.level]);
-    let bed = tasks::bed(&plan, key.seed)?;
-    let point = measure(&plan, response, key.seed, &bed, task.reference * ratio.0, &[], interrupt)?;
+    let point = measure(&plan, response, key.seed, bed, task.reference * ratio.0, &[], interrupt)?;
     Ok(point.map(|point| Measured::Point(Box::new(point))))
 }

@@ -2,9 +2,8 @@
 
 use super::work::{Found, Work};
 use super::{Measured, Standing};
-use crate::partner::Hosts;
-use crate::trial::unsettled;
-use crate::{check, methods, run};
+use crate::study::cases::value_text;
+use crate::study::summary::{begun, judge};
 use tsubu_frame::{Cell, FileError, RunFolder, Status, Summary, Table};
 use tsubu_scene::Scene;
 
@@ -19,15 +18,7 @@ pub(super) fn write(
 ) -> Result<Summary, FileError> {
     let task = work.task;
     folder.write("design.csv", candidates(work, found.map(|found| found.best)).to_csv().as_bytes())?;
-    let mut summary = Summary {
-        tsubu_version: crate::VERSION.to_owned(),
-        status,
-        method: scene.plan().method.name().to_owned(),
-        dimension: u32::from(scene.plan().dimension),
-        wall_seconds,
-        threads: rayon::current_num_threads() as u32,
-        ..Summary::default()
-    };
+    let mut summary = begun(scene.plan(), status, wall_seconds);
     summary.give("runs", "-", f64::from(work.runs()));
     summary.give("candidates", "-", task.candidates.list.len() as f64);
     summary.give("candidates measured", "-", work.values().len() as f64);
@@ -48,15 +39,7 @@ pub(super) fn write(
     });
     summary.energy.residual_relative = answers.fold(0.0, f64::max);
     let plan = found.map_or(scene.plan(), |found| task.plan(found.best));
-    let hosts = Hosts::new(&plan.hosts);
-    if let Ok(engine) = methods::open(&unsettled(plan), &hosts) {
-        summary.time_step = engine.time_step();
-        summary.warnings.extend(engine.notes().iter().map(|note| format!("{}: {}", note.key, note.text)));
-        folder.write("check.txt", check::verdict(plan, &hosts, &*engine).to_string().as_bytes())?;
-    }
-    if status == Status::Finished {
-        run::judge(scene.plan(), &mut summary);
-    }
+    judge(folder, plan, &mut summary)?;
     folder.write_json("summary.json", &summary)?;
     folder.sync()?;
     Ok(summary)
@@ -148,9 +131,8 @@ fn confirmed<'a>(work: &'a Work<'_>) -> impl Iterator<Item = (usize, Standing)> 
 
 /// The values of a candidate, key by key; of the scene as it is written those that it has.
 fn values(work: &Work<'_>, index: usize) -> Vec<Cell> {
-    let text = |value: &toml::Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
     match work.task.candidates.list.get(index) {
-        Some(one) => one.case.values.iter().map(|(_, value)| Cell::Text(text(value))).collect(),
+        Some(one) => one.case.values.iter().map(|(_, value)| Cell::Text(value_text(value))).collect(),
         None => work.task.wanted.vary.keys().map(|_| Cell::Text("as written".to_owned())).collect(),
     }
 }
@@ -246,7 +228,6 @@ fn steps(work: &Work<'_>, best: usize) -> Table {
         .map(str::to_owned),
     );
     let (Some(own), one) = (work.standing(best), &task.candidates.list[best]) else { return table };
-    let text = |value: &toml::Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
     for (axis, (key, value)) in one.case.values.iter().enumerate() {
         let mut rows: Vec<(usize, Vec<Cell>)> = Vec::new();
         let around = task.candidates.neighbours(best).into_iter().chain([best]);
@@ -257,7 +238,7 @@ fn steps(work: &Work<'_>, best: usize) -> Table {
                 continue;
             }
             let shown = if index == best { value } else { &other.case.values[axis].1 };
-            let mut row = vec![Cell::Text(key.clone()), Cell::Text(text(shown))];
+            let mut row = vec![Cell::Text(key.clone()), Cell::Text(value_text(shown))];
             row.extend(numbers(&standing));
             row.extend([standing.rms / own.rms - 1.0, standing.seeds as f64].map(Cell::Number));
             rows.push((other.digits[axis], row));

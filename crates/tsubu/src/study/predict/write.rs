@@ -1,6 +1,7 @@
 //! The files of a prediction.
 
 use super::{Check, Checks, Curve, Task};
+use crate::study::summary::begun;
 use std::f64::consts::SQRT_2;
 use tsubu_frame::{Cell, FileError, RunFolder, Status, Summary, Table};
 use tsubu_scene::Scene;
@@ -43,17 +44,9 @@ pub(super) fn write(
     took: [f64; 2],
 ) -> Result<Summary, FileError> {
     let plan = scene.plan();
-    let mut summary = Summary {
-        tsubu_version: crate::VERSION.to_owned(),
-        status,
-        method: plan.method.name().to_owned(),
-        dimension: u32::from(plan.dimension),
-        particles: task.plans.iter().map(|plan| plan.grains() as u64).max().unwrap_or_default(),
-        wall_seconds: took[1],
-        threads: rayon::current_num_threads() as u32,
-        warnings: checks.failures.clone(),
-        ..Summary::default()
-    };
+    let mut summary = begun(plan, status, took[1]);
+    summary.particles = task.plans.iter().map(|plan| plan.grains() as u64).max().unwrap_or_default();
+    summary.warnings.clone_from(&checks.failures);
     summary.give("seconds of the prediction alone".to_owned(), "s", took[0]);
     let (mut rows, mut cases) = (Table::new(CURVES), Table::new(CASES));
     for (case, curve) in curves.iter().enumerate() {

@@ -2,10 +2,7 @@
 
 use super::curve::CaseResult;
 use crate::ledger::Account;
-use crate::methods;
-use crate::partner::Hosts;
-use crate::trial::unsettled;
-use crate::{check, run};
+use crate::study::summary::{begun, judge};
 use std::collections::BTreeSet;
 use tsubu_frame::csv::split_unit;
 use tsubu_frame::{Cell, FileError, RunFolder, Status, Summary, Table};
@@ -78,16 +75,8 @@ pub(super) fn write(
     let losses: Vec<Account> = Account::ALL.into_iter().filter(|a| !a.is_work()).collect();
     let header = std::iter::once("case [text]".to_owned()).chain(losses.iter().map(|a| format!("{} [J]", a.name())));
     let mut causes = Table::new(header);
-    let mut summary = Summary {
-        tsubu_version: crate::VERSION.to_owned(),
-        status,
-        method: plan.method.name().to_owned(),
-        dimension: u32::from(plan.dimension),
-        wall_seconds,
-        threads: rayon::current_num_threads() as u32,
-        warnings: failures,
-        ..Summary::default()
-    };
+    let mut summary = begun(plan, status, wall_seconds);
+    summary.warnings = failures;
     for (case, case_plan) in results.iter().zip(plans) {
         let method = case_plan.method.name();
         let name = if case.name.is_empty() { "scene" } else { &case.name };
@@ -156,13 +145,6 @@ pub(super) fn write(
             ));
         }
     }
-    let tolerance = plan.dem.energy_tolerance;
-    if summary.energy.residual_relative > tolerance {
-        summary.warnings.push(format!(
-            "the energy residual of some run is {:.2e} of the energy turned over, more than `dem.energy-tolerance` = {tolerance:e}: shorten the time step",
-            summary.energy.residual_relative
-        ));
-    }
     for name in plan.watch.keys().filter(|_| status == Status::Finished) {
         if !watched.iter().any(|column| column.strip_prefix(name.as_str()).is_some_and(|rest| rest.starts_with(' '))) {
             summary.warnings.push(format!(
@@ -170,16 +152,7 @@ pub(super) fn write(
             ));
         }
     }
-    let hosts = Hosts::new(&plan.hosts);
-    // Nothing of this depends on where grains lie.
-    if let Ok(engine) = methods::open(&unsettled(plan), &hosts) {
-        summary.time_step = engine.time_step();
-        summary.warnings.extend(engine.notes().iter().map(|n| format!("{}: {}", n.key, n.text)));
-        folder.write("check.txt", check::verdict(plan, &hosts, &*engine).to_string().as_bytes())?;
-    }
-    if status == Status::Finished {
-        run::judge(plan, &mut summary);
-    }
+    judge(folder, plan, &mut summary)?;
     folder.write("response.csv", curves.to_csv().as_bytes())?;
     folder.write("cases.csv", cases.to_csv().as_bytes())?;
     folder.write("energy_by_cause.csv", causes.to_csv().as_bytes())?;
