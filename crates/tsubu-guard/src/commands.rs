@@ -19,6 +19,7 @@ const COMMANDS: &[&str] = &[
     "atlas",
     "predict",
     "design",
+    "calibrate",
     "compare",
     "verify",
     "report",

@@ -58,6 +58,7 @@ const RUNS: &[Run] = &[
         &["method=\"lattice\"", "atlas.at-most=20", "atlas.vary.\"particles.balls.count\"=[10, 30]"],
     ),
     ("design", "damper", 1.0, &["method=\"lattice\"", "design.runs=40"]),
+    ("calibrate", "calibrate", 1.0, &["calibrate.runs=16"]),
 ];
 
 /// How many kills, and of which program.

@@ -180,6 +180,7 @@ fn course(source: &mut Source, candidates: &Candidates) -> Vec<Block> {
     if !known.is_empty() {
         figure = figure.with(Series::line("expected before", expected).with_band(band));
     }
-    let caption = "What was measured of each candidate, and what the Gaussian process had expected of it before, with its 95 % band.";
+    let caption = "What was measured of each candidate, and what the Gaussian process had expected of it before, with its 95 % band. \
+                   Where nothing better was expected, neighbours of the lowest were measured, then what was farthest from all others.";
     source.figure("course", &figure, caption).into_iter().collect()
 }

@@ -10,6 +10,7 @@ use tsubu_frame::{FileError, RunFolder};
 pub mod animation;
 mod atlas;
 pub mod balls;
+mod calibration;
 mod canvas;
 mod claims;
 pub mod colour;
@@ -56,7 +57,7 @@ pub enum ReportError {
     },
     /// It holds nothing that tsubu writes.
     #[error(
-        "{} holds no results: none of summary.json, history.csv, response.csv, atlas.csv, prediction.csv, design.csv, sweep.csv, compare.json, verify.json or frames/ is in it",
+        "{} holds no results: none of summary.json, history.csv, response.csv, atlas.csv, prediction.csv, design.csv, posterior.csv, sweep.csv, compare.json, verify.json or frames/ is in it",
         path.display()
     )]
     NoResults {
@@ -108,6 +109,8 @@ fn gather(dir: &Path) -> Result<(Report, Source), ReportError> {
         atlas::build(&mut source)
     } else if source.has("design.csv") {
         design::build(&mut source)
+    } else if source.has("posterior.csv") {
+        calibration::build(&mut source)
     } else if source.has("prediction.csv") {
         prediction::build(&mut source)
     } else if source.has("response.csv") {

@@ -64,6 +64,7 @@ pub(crate) fn check(resolved: &toml::Table, root: &Node, files: &Files) -> Vec<C
     water::check(&parts, &mut complaints);
     pairs(&parts, &mut complaints);
     claims(&parts, &mut complaints);
+    calibrate(&parts, &mut complaints);
     outputs(&parts, &mut complaints);
     response(&parts, &mut complaints);
     complaints
@@ -154,6 +155,36 @@ fn claims(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
             ),
             _ => {}
         }
+    }
+}
+
+/// A range has two ends, and something that was measured.
+fn calibrate(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
+    let Some(wanted) = parts.resolved.get("calibrate").and_then(toml::Value::as_table) else { return };
+    let example = "for example \"materials.sand.friction\" = [0.2, 0.8]";
+    let varied = wanted.get("vary").and_then(toml::Value::as_table);
+    let at = |key: &str| parts.root.locate(&["calibrate", "vary", key]);
+    if varied.is_some_and(toml::Table::is_empty) {
+        let place = parts.root.locate(&["calibrate", "vary"]);
+        complaints
+            .push(Complaint::new("`calibrate.vary` names no key").at(&place, "which are not known?").hint(example));
+    }
+    for (key, ends) in varied.into_iter().flatten() {
+        let number = ends.as_array().map_or(0, Vec::len);
+        if number != 2 {
+            complaints.push(
+                Complaint::new(format!("`{key}` needs the least and the largest value"))
+                    .at(&at(key), format!("{number} values here"))
+                    .hint(example),
+            );
+        }
+    }
+    if wanted.get("measured").and_then(toml::Value::as_array).is_some_and(Vec::is_empty) {
+        complaints.push(
+            Complaint::new("nothing is measured that values could fit")
+                .at(&parts.root.locate(&["calibrate", "measured"]), "the list is empty")
+                .hint("add [[calibrate.measured]] with `result`, `value` and `uncertainty`"),
+        );
     }
 }
 

@@ -17,6 +17,7 @@ const FREE: &[&str] = &[
     "response",
     "atlas",
     "design",
+    "calibrate",
     "sweep",
     "dem.largest-overlap",
     "dem.energy-tolerance",

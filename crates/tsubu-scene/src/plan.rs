@@ -38,7 +38,7 @@ pub use methods::{
 pub use region::{Ball, Cylinder, Region};
 pub use sites::{GuttHaff, Heap, Savage, Split, Voids};
 pub use stage::{Stage, Until};
-pub use study::{Atlas, Claim, Design, Goal, Keep, Output, Path, Response, Sweep};
+pub use study::{Atlas, Calibrate, Claim, Design, Goal, Keep, Measured, Output, Path, Response, Sweep};
 pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall, box_of_planes};
 pub use watch::{Axis, Bed, Face, Heading, Kernel, Measure, Quantity, Watch};
 pub use water::{Buoyancy, Directions, Drag, Flow, Fluctuation, Hindrance, Lid, Lift, StreamStart, Torque, Water};
@@ -121,6 +121,8 @@ pub struct Plan {
     pub atlas: Option<Atlas>,
     /// What `tsubu design` reads.
     pub design: Option<Design>,
+    /// What `tsubu calibrate` reads.
+    pub calibrate: Option<Calibrate>,
     /// What `tsubu sweep` reads.
     pub sweep: Option<Sweep>,
     /// What is looked at while the scene runs, by name, in the order in which the scene asks for it: results are told in it.

@@ -13,7 +13,7 @@ use toml::{Table, Value};
 const LEADING: [&str; 2] = ["particles", "materials"];
 
 /// The studies that vary keys of a scene.
-pub(crate) const STUDIES: [&str; 4] = ["response", "atlas", "design", "sweep"];
+pub(crate) const STUDIES: [&str; 5] = ["response", "atlas", "design", "calibrate", "sweep"];
 
 /// What each study of a plan varies.
 pub(crate) fn varied(plan: &Plan) -> impl Iterator<Item = (&'static str, &BTreeMap<String, Vec<Value>>)> {
@@ -21,6 +21,7 @@ pub(crate) fn varied(plan: &Plan) -> impl Iterator<Item = (&'static str, &BTreeM
         plan.response.as_ref().map(|response| &response.vary),
         plan.atlas.as_ref().map(|atlas| &atlas.vary),
         plan.design.as_ref().map(|design| &design.vary),
+        plan.calibrate.as_ref().map(|calibrate| &calibrate.vary),
         plan.sweep.as_ref().map(|sweep| &sweep.vary),
     ];
     STUDIES.into_iter().zip(studies).filter_map(|(study, vary)| Some((study, vary?)))
@@ -30,7 +31,9 @@ pub(crate) fn varied(plan: &Plan) -> impl Iterator<Item = (&'static str, &BTreeM
 pub(crate) fn leave_open(resolved: &mut Table, plan: &Plan, typed: &Node) {
     let leads = |path: &String| path.split('.').next().is_some_and(|first| LEADING.contains(&first));
     if varied(plan).flat_map(|(_, vary)| vary.keys()).any(leads) {
-        for key in keys::SCENE.iter().filter(|key| !["output", "response", "atlas", "design"].contains(&key.name)) {
+        for key in
+            keys::SCENE.iter().filter(|key| !["output", "response", "atlas", "design", "calibrate"].contains(&key.name))
+        {
             of_key(key, resolved, Some(typed));
         }
     }

@@ -79,6 +79,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/hops.toml"),
     },
     Template {
+        name: "calibrate",
+        about: "a grain was dropped and measured: how elastic is it, and how stiff its contacts?",
+        text: include_str!("../../../scenes/calibrate.toml"),
+    },
+    Template {
         name: "rock-slide",
         about: "rock slides down a slope and over a plain: run-out, Heim's angle, deposit, transport",
         text: include_str!("../../../scenes/rock-slide.toml"),

@@ -146,6 +146,17 @@ within = 0.02
 seeds = 4
 vary = { "contact.attraction" = [false, true] }
 
+[calibrate]
+runs = 40
+within = 0.2
+checks = 3
+vary = { "contact.attraction" = [false, true] }
+[[calibrate.measured]]
+result = "peak"
+value = 0.01
+uncertainty = 0.001
+source = "a test"
+
 [sweep.vary]
 "contact.damping" = [{ quarter = {} }, { linear = { reference-speed = "2 m/s" } }]
 

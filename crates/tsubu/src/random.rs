@@ -32,6 +32,8 @@ pub enum Purpose {
     Outlet = 17,
     /// Order and side of the moves of grains made of lattice points.
     Move = 18,
+    /// Values of keys that are tried in a calibration.
+    Calibration = 19,
 }
 
 impl Purpose {

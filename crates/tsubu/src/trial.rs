@@ -123,6 +123,15 @@ fn studies(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, cost: [f6
         let [low, high] = time(runs, seconds, &atlas.vary);
         verdict.say(format!("time: about {} for `tsubu atlas` ({runs} runs side by side)", span(low, high)));
     }
+    if let Some(calibrate) = &plan.calibrate {
+        let runs = calibrate.runs + calibrate.checks;
+        let [low, high] = time(f64::from(runs), plan.duration, &calibrate.vary);
+        verdict.judge(
+            high <= LONGEST,
+            format!("time: about {} for `tsubu calibrate` ({runs} runs at most, side by side)", span(low, high)),
+            || "a lower `calibrate.runs`, or a shorter scene".to_owned(),
+        );
+    }
     let Some(response) = &plan.response else { return };
     let runs = number(&response.vary) * response.runs_of_case();
     let f0 = hosts.index(&response.host).and_then(|i| hosts.list[i].natural_frequencies().first().copied());

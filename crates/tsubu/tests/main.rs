@@ -4,6 +4,7 @@
 mod allocation;
 mod atlas;
 mod book;
+mod calibrate;
 mod clca;
 mod contact;
 mod dem;

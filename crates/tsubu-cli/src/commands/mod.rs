@@ -2,6 +2,7 @@
 
 mod atlas;
 mod bench;
+mod calibrate;
 pub mod check;
 mod claims;
 mod compare;
@@ -42,6 +43,8 @@ pub enum Command {
     Predict(predict::Options),
     /// Which of many dampers serves best within its limits, confirmed by simulation
     Design(design::Options),
+    /// Which values of a scene fit what was measured, with intervals
+    Calibrate(calibrate::Options),
     /// One scene by several methods: what differs, and what each costs
     Compare(compare::Options),
     /// Check the shipped verification cases and published studies, claim by claim
@@ -72,6 +75,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Atlas(options) => atlas::run(&options),
         Command::Predict(options) => predict::run(&options),
         Command::Design(options) => design::run(&options),
+        Command::Calibrate(options) => calibrate::run(&options),
         Command::Compare(options) => compare::run(&options),
         Command::Verify(options) => verify::run(&options),
         Command::Explain(options) => explain::run(&options),

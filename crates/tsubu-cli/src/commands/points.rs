@@ -1,4 +1,4 @@
-//! What `response` and `atlas` share: a study of many runs, each written down when it is done, which goes on where it was.
+//! What `response`, `atlas`, `design` and `calibrate` share: a study of many runs, each written down when it is done, which goes on where it was.
 
 use super::{claims, run::warnings};
 use crate::failure::Failure;

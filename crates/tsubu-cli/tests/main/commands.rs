@@ -34,6 +34,7 @@ fn help_lists_the_commands() {
         "atlas",
         "predict",
         "design",
+        "calibrate",
         "compare",
         "verify",
         "explain",

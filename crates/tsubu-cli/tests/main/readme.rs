@@ -68,6 +68,8 @@ mod patient {
                 desk.done(&format!("{command} -q -o {folder} {short}"));
             } else if command.starts_with("design ") {
                 desk.done(&format!("{command} -q -o {folder} --set design.runs=20 --set design.seeds=2"));
+            } else if command.starts_with("calibrate ") {
+                desk.done(&format!("{command} -q -o {folder} --set calibrate.runs=12 --set calibrate.checks=2"));
             } else {
                 desk.done(&command);
             }

@@ -332,3 +332,41 @@ fn a_design_finds_the_best() {
     }
     assert_eq!(desk.files().len(), before);
 }
+
+/// A calibration of the scene that ships, with the same bits for any number of threads and after it was typed again; its page has what
+/// it is read for. What cannot be is refused, before anything is written where that is known.
+#[test]
+fn a_calibration_finds_what_fits() {
+    let desk = Desk::with(include_str!("../../../../scenes/calibrate.toml"));
+    let mut shown = Vec::new();
+    for threads in [1, 7] {
+        let command = format!("calibrate balls.toml -q --set calibrate.runs=16 -o fit{threads} --threads {threads}");
+        shown.push(desk.done(&command).stdout.replace(&format!("fit{threads}"), "fit"));
+    }
+    assert_eq!(shown[0], shown[1]);
+    insta::assert_snapshot!(shown[0]);
+    for file in ["posterior.csv", "parameters.csv", "correlations.csv", "measured.csv", "runs.csv", "best.toml"] {
+        assert_eq!(desk.read(&format!("fit1/{file}")), desk.read(&format!("fit7/{file}")));
+    }
+    let page = desk.read("fit1/report.html");
+    for said in
+        ["What was measured, and what fresh runs gave", "What is told apart", "Samples of materials.quartz.restitution"]
+    {
+        assert!(page.contains(said), "{said}");
+    }
+    desk.done("calibrate balls.toml -q --set calibrate.runs=16 -o fit1");
+    assert_eq!(desk.read("fit1/posterior.csv"), desk.read("fit7/posterior.csv"));
+    desk.done("run fit1/best.toml -q --set duration=0.01");
+    let before = desk.files().len();
+    for change in [
+        "calibrate.vary={}",
+        "calibrate.vary={\"materials.quartz.restitution\"=[0.3,0.5,0.9]}",
+        "calibrate.vary={\"materials.quartz.restitution\"=[0.9,0.3]}",
+        "calibrate.vary={\"materials.quartz.restitution\"=[0.3,1.3]}",
+        "calibrate.measured=[]",
+        "calibrate.measured=[{result=\"sand hops final\",value=1,uncertainty=0}]",
+    ] {
+        insta::assert_snapshot!(desk.shown(&format!("calibrate balls.toml -o new --set {change}")));
+    }
+    assert_eq!(desk.files().len(), before);
+}

@@ -284,7 +284,7 @@ class _Tables(Mapping[str, "pd.DataFrame"]):
 def load(folder: str | os.PathLike[str]) -> Run:
     """Reads a folder of results: a run, a sweep, a response, a comparison or a verification."""
     path = Path(folder)
-    tables = ("history.csv", "sweep.csv", "response.csv", "atlas.csv", "prediction.csv", "compare.csv")
+    tables = ("history.csv", "sweep.csv", "response.csv", "atlas.csv", "prediction.csv", "posterior.csv", "compare.csv")
     known = ("summary.json", *tables, "verify.json")
     if not any((path / name).is_file() for name in known):
         there = "has no results" if path.is_dir() else "is not a folder"

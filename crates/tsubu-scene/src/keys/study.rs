@@ -117,7 +117,7 @@ pub(super) static DESIGN: &[Key] = &[
     Key::new(
         "runs",
         Kind::Whole,
-        "Runs at one frequency each, at most: half of them to search, the others to confirm with `seeds`",
+        "Runs at one frequency each: half of them to search, the others to confirm with `seeds`; the best is confirmed even beyond them",
     )
     .default("200")
     .at_least(20.0)
@@ -125,13 +125,50 @@ pub(super) static DESIGN: &[Key] = &[
     Key::new(
         "within",
         Kind::Quantity(&NUMBER),
-        "The search ends when no candidate is expected to be better by this share",
+        "Where no candidate is expected to be better by this share, the search looks far from all that were measured",
     )
     .default("0.01")
     .at_least(1e-4)
     .at_most(1.0),
     Key::new("seeds", Kind::Whole, "Number of random seeds that confirm the best candidate and its neighbours")
         .default("3")
+        .at_least(2.0)
+        .at_most(1e3),
+];
+
+static MEASURED: &[Key] = &[
+    Key::new("result", Kind::Text, "Name of the result, as in `results` of summary.json"),
+    Key::new("value", Kind::Quantity(&NUMBER), "What was measured, in the unit of the result"),
+    Key::new(
+        "uncertainty",
+        Kind::Quantity(&NUMBER),
+        "Its standard uncertainty, in the same unit: of two in three measurements the truth lies within it",
+    )
+    .above(0.0),
+    Key::new("source", Kind::Text, "Where it was measured").default("''"),
+];
+
+pub(super) static CALIBRATE: &[Key] = &[
+    Key::new(
+        "vary",
+        Kind::Vary,
+        "Scene keys with the least and the largest value of each; a range of a factor of 10 or more counts by its logarithm",
+    ),
+    Key::new("measured", Kind::Many(MEASURED), "What a run of the scene should give"),
+    Key::new("runs", Kind::Whole, "Runs, at most, beside those that check what was found")
+        .default("100")
+        .at_least(8.0)
+        .at_most(1e4),
+    Key::new(
+        "within",
+        Kind::Quantity(&NUMBER),
+        "Runs are added until the results are known as near as this share of what was measured's uncertainty",
+    )
+    .default("0.3")
+    .at_least(1e-3)
+    .at_most(1.0),
+    Key::new("checks", Kind::Whole, "Runs with other seeds and values from what was found, which check it")
+        .default("6")
         .at_least(2.0)
         .at_most(1e3),
 ];

@@ -107,6 +107,8 @@ pub static SCENE: &[Key] = &[
         .optional(),
     Key::new("design", Kind::Table(study::DESIGN), "What `tsubu design` reads: a search for the damper that serves best")
         .optional(),
+    Key::new("calibrate", Kind::Table(study::CALIBRATE), "What `tsubu calibrate` reads: which values of keys fit what was measured")
+        .optional(),
     Key::new("sweep", Kind::Table(study::SWEEP), "What `tsubu sweep` reads: every combination of values is a run")
         .optional(),
     Key::new(

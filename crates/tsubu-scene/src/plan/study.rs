@@ -138,7 +138,7 @@ pub struct Design {
     pub stroke_limit: Option<f64>,
     /// Runs at one frequency each, at most.
     pub runs: u32,
-    /// The search ends when no candidate is expected to be better by this share [-].
+    /// Expected gains below this share do not count: the search looks where nothing was measured instead [-].
     pub within: f64,
     /// Random seeds that confirm.
     pub seeds: u32,
@@ -152,6 +152,36 @@ pub enum Goal {
     Peak,
     /// Its root mean square over the frequencies that are asked for.
     Band,
+}
+
+/// Which values of keys fit what was measured.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Calibrate {
+    /// Scene keys with the least and the largest value of each.
+    pub vary: BTreeMap<String, Vec<toml::Value>>,
+    /// What a run of the scene should give.
+    pub measured: Vec<Measured>,
+    /// Runs, at most, beside the checks.
+    pub runs: u32,
+    /// How near the results must be known, over the uncertainties of what was measured [-].
+    pub within: f64,
+    /// Runs that check what was found.
+    pub checks: u32,
+}
+
+/// A measured result.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Measured {
+    /// Name of the result, as in `results` of `summary.json`.
+    pub result: String,
+    /// What was measured, in the unit of the result.
+    pub value: f64,
+    /// Its standard uncertainty, in the same unit.
+    pub uncertainty: f64,
+    /// Where it was measured.
+    pub source: String,
 }
 
 /// A parameter sweep: every combination of the values is a run.

@@ -88,6 +88,7 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
         response: _,
         atlas: _,
         design: _,
+        calibrate: _,
         sweep: _,
         watch,
         output: _,

@@ -137,6 +137,7 @@ impl DemEngine {
             response: _,
             atlas: _,
             design: _,
+            calibrate: _,
             sweep: _,
             watch: _,
             output: _,

@@ -70,6 +70,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         response: _,
         atlas: _,
         design: _,
+        calibrate: _,
         sweep: _,
         watch,
         output: _,

@@ -78,7 +78,7 @@ pub(super) fn value_text(value: &Value) -> String {
 }
 
 /// Keys are shortened to their last word as long as that tells them apart.
-fn name(values: &[(String, Value)]) -> String {
+pub(super) fn name(values: &[(String, Value)]) -> String {
     let word = |path: &str| path.rsplit('.').next().unwrap_or(path).to_owned();
     let clash = |path: &str| values.iter().filter(|(other, _)| word(other) == word(path)).count() > 1;
     let parts: Vec<String> = values

@@ -1,8 +1,8 @@
 //! A design: which of many candidates gives the lowest response, within limits.
 //!
 //! Candidates are searched with few runs each ([`Answer`]) where a Gaussian process expects them to be better than the best (Jones,
-//! Schonlau and Welch 1998), then the best and its neighbours are confirmed with several seeds, until the best is none of its
-//! neighbours. A design that was stopped goes on where it was.
+//! Schonlau and Welch 1998), then far from all that were measured. The best and its neighbours are confirmed with several seeds, until the
+//! best is none of its neighbours and nowhere on its whole curve higher. A design that was stopped goes on where it was.
 
 mod answer;
 mod candidates;
@@ -45,6 +45,39 @@ struct Key {
 enum Measured {
     Answer(Answer),
     Point(Box<Point>),
+}
+
+impl Measured {
+    fn rms(&self) -> f64 {
+        match self {
+            Self::Answer(answer) => answer.rms,
+            Self::Point(point) => point.rms,
+        }
+    }
+
+    /// Largest displacement [m].
+    fn stroke(&self) -> f64 {
+        match self {
+            Self::Answer(answer) => answer.stroke,
+            Self::Point(point) => point.peak,
+        }
+    }
+
+    /// Runs that it took.
+    fn runs(&self) -> u32 {
+        match self {
+            Self::Answer(answer) => answer.runs,
+            Self::Point(_) => 1,
+        }
+    }
+
+    /// Largest energy residual [-].
+    fn residual(&self) -> f64 {
+        match self {
+            Self::Answer(answer) => answer.residual,
+            Self::Point(point) => point.residual.abs(),
+        }
+    }
 }
 
 /// All that is measured.

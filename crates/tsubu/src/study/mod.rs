@@ -1,6 +1,7 @@
 //! Studies: many runs that answer one question.
 
 pub mod atlas;
+pub mod calibrate;
 pub mod cases;
 pub mod compare;
 pub mod design;

@@ -6,7 +6,7 @@
 //! and missing in its curve. A response that was stopped goes on where it was.
 
 mod curve;
-mod refine;
+pub(super) mod refine;
 mod rounds;
 pub(super) mod tasks;
 pub(super) mod transient;

@@ -10,7 +10,7 @@ use std::f64::consts::{PI, SQRT_2};
 /// Lengths that are tried, where coordinates go from 0 to 1.
 const LENGTHS: [f64; 7] = [0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4];
 /// Variance of the noise over that of the field.
-const NOISES: [f64; 6] = [1e-8, 1e-6, 1e-4, 1e-3, 1e-2, 1e-1];
+const NOISES: [f64; 7] = [1e-8, 1e-6, 1e-4, 1e-3, 1e-2, 1e-1, 1.0];
 /// Without measurements that say otherwise, a length is expected about here, within this factor.
 const EXPECTED: f64 = 1.0;
 const FACTOR: f64 = 3.0;

@@ -79,7 +79,8 @@ pub fn sweep(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -
 /// The folder of the cases' folders.
 const CASES: &str = "cases/";
 
-fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<Summary, CasesError> {
+/// Runs a case into a folder of its own; one that is finished is kept, one that was cut goes on.
+pub(super) fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<Summary, CasesError> {
     let scene = case.scene(scene).map_err(CasesError::Complaints)?;
     let same = std::fs::read_to_string(folder.join("scene.toml")).is_ok_and(|text| text == scene.resolved_toml());
     let earlier = Summary::read(&folder.join("summary.json")).ok().filter(|_| same);

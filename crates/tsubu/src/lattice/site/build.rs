@@ -76,6 +76,7 @@ fn scene(plan: &Plan, rule: SiteRule, hosts: &Hosts, remarks: &mut Remarks) -> O
         response: _,
         atlas: _,
         design: _,
+        calibrate: _,
         sweep: _,
         watch: _, // Once the model is there.
         output: _,

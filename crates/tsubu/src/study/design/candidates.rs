@@ -84,7 +84,19 @@ impl Candidates {
     /// Candidates with one key a value on; of a key whose values have no order, with any other.
     pub fn neighbours(&self, of: usize) -> Vec<usize> {
         let own = &self.list[of].digits;
-        (0..self.list.len()).filter(|other| steps(own, &self.list[*other].digits, &self.ordered) == 1).collect()
+        (0..self.list.len()).filter(|other| apart(own, &self.list[*other].digits, &self.ordered) == 1).collect()
+    }
+
+    /// The candidate that is farthest from all of these, with that distance [values]; of equals the first, and none where all are among
+    /// these.
+    pub fn farthest(&self, from: &[usize]) -> Option<(usize, f64)> {
+        let nearest = |index: usize| {
+            let own = &self.list[index].digits;
+            from.iter().map(|other| apart(own, &self.list[*other].digits, &self.ordered)).min().unwrap_or(usize::MAX)
+        };
+        let open = (0..self.list.len()).map(|index| (index, nearest(index))).filter(|(_, near)| *near > 0);
+        let farthest = open.reduce(|most, one| if one.1 > most.1 { one } else { most });
+        farthest.map(|(index, square)| (index, (square as f64).sqrt()))
     }
 
     /// So many candidates that lie far from each other, from the one in the middle on: each next is the farthest from those before.
@@ -130,11 +142,11 @@ fn digits(index: usize, values: &[usize]) -> Vec<usize> {
     digits
 }
 
-/// How many steps of one key lead from one combination to another.
-fn steps(from: &[usize], to: &[usize], ordered: &[bool]) -> usize {
+/// Square of the distance of two combinations, in values from one to the next; two names are one apart.
+fn apart(from: &[usize], to: &[usize], ordered: &[bool]) -> usize {
     let of_key =
         |((a, b), ordered): ((&usize, &usize), &bool)| if *ordered { a.abs_diff(*b) } else { usize::from(a != b) };
-    from.iter().zip(to).zip(ordered).map(of_key).sum()
+    from.iter().zip(to).zip(ordered).map(of_key).map(|values| values * values).sum()
 }
 
 fn place(digits: &[usize], values: &[usize], ordered: &[bool]) -> Vec<f64> {
@@ -160,8 +172,8 @@ mod tests {
         let all: Vec<Vec<usize>> = (0..6).map(|index| digits(index, &values)).collect();
         assert_eq!(all, [[0, 0], [0, 1], [0, 2], [1, 0], [1, 1], [1, 2]]);
         assert_eq!(place(&[1, 1], &values, &[true, true]), [1.0, 0.5]);
-        assert_eq!(steps(&[0, 2], &[2, 2], &[false, true]), 1);
-        assert_eq!(steps(&[0, 2], &[2, 2], &[true, true]), 2);
+        assert_eq!(apart(&[0, 2], &[2, 2], &[false, true]), 1);
+        assert_eq!(apart(&[0, 2], &[2, 1], &[true, true]), 5);
         let corners = [0, 1].map(|digit| place(&[digit, 0], &values, &[false, true]));
         let apart: f64 = corners[0].iter().zip(&corners[1]).map(|(a, b)| (a - b).powi(2)).sum();
         assert!((apart - 1.0).abs() < 1e-12);

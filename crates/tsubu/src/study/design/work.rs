@@ -1,25 +1,27 @@
 //! The work of a design: search, confirm, draw.
 
 use super::answer::answer;
-use super::{Done, Key, Measured, Record, Standing, Task, search};
+use super::search::{self, Round};
+use super::{Done, Key, Measured, Record, Standing, Task};
 use crate::engine::OpenError;
 use crate::interrupt::{Interrupt, Watcher};
 use crate::run::RunError;
 use crate::student::interval_of_mean;
 use crate::study::cases::CasesError;
 use crate::study::journal::Exact;
-use crate::study::response::{measure, tasks};
+use crate::study::response::{measure, refine, tasks};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicU32, Ordering};
 use tsubu_frame::State;
+use tsubu_scene::plan::Goal;
 
 /// What came of a design.
 pub(super) struct Found {
     pub best: usize,
     /// Whether all neighbours of the best are confirmed, too.
     pub confirmed: bool,
-    /// Whether the search ended before its runs were spent.
+    /// Whether nothing better was expected when the search ended.
     pub searched: bool,
 }
 
@@ -53,20 +55,19 @@ impl<'a> Work<'a> {
         Ok(Some(Found { best, confirmed, searched }))
     }
 
-    /// Looks for the best with one seed each, until nothing better is expected or half of the runs are spent. Says which; nothing where it was
-    /// interrupted.
+    /// Looks for the best with one seed each, until all are measured or half of the runs are spent. Says whether nothing better was
+    /// expected at the end; nothing where it was interrupted.
     fn search(&mut self) -> Result<Option<bool>, CasesError> {
         let task = self.task;
-        let mut wanted = search::first(&task.candidates);
+        let mut round = Round { chosen: search::first(&task.candidates), better: true };
         loop {
-            if wanted.is_empty() {
-                return Ok(Some(true));
-            }
             // As many as the runs that are left allow.
             let left = f64::from(task.wanted.runs) / 2.0 - f64::from(self.runs());
+            let mut wanted = round.chosen;
+            let all = wanted.is_empty();
             wanted.truncate((left / self.runs_of_one()).floor().max(0.0) as usize);
             if wanted.is_empty() {
-                return Ok(Some(false));
+                return Ok(Some(all || !round.better));
             }
             let surrogate = search::fit(&task.candidates, &self.values());
             let place = |index: &usize| &task.candidates.list[*index].place;
@@ -76,12 +77,12 @@ impl<'a> Work<'a> {
                 return Ok(None);
             }
             let closed: Vec<usize> = self.expected.iter().map(|(index, _)| *index).collect();
-            wanted = search::next(&task.candidates, &self.values(), &closed, task.wanted.within);
+            round = search::next(&task.candidates, &self.values(), &closed, task.wanted.within);
         }
     }
 
-    /// Measures the best and its neighbours with all seeds, until it stays the best or the runs are spent; and the scene as it is
-    /// written. Says which is best and whether its neighbours are all confirmed.
+    /// Measures the best, its neighbours, and the lowest with all seeds, until it stays the best or the runs are spent; and the scene as it
+    /// is written. Says which is best and whether its neighbours are all confirmed.
     fn confirm(&mut self) -> Result<Option<(usize, bool)>, CasesError> {
         let task = self.task;
         let seeds = task.wanted.seeds;
@@ -90,19 +91,21 @@ impl<'a> Work<'a> {
         }
         loop {
             let Some(best) = self.best() else { return Ok(None) };
-            let around = std::iter::once(best).chain(task.candidates.neighbours(best));
+            let mut around = vec![best];
+            // The lowest that was measured is no neighbour of the best where the surrogate takes it for a lucky run, or for an island.
+            around.extend(self.lowest().into_iter().chain(task.candidates.neighbours(best)));
+            let mut seen = BTreeSet::new();
             let open: Vec<Vec<Key>> = around
-                .filter(|index| !self.failures.contains_key(index))
+                .into_iter()
+                .filter(|index| seen.insert(*index) && !self.failures.contains_key(index))
                 .map(|index| self.answers(index, seeds).filter(|key| !self.done.contains_key(key)).collect())
                 .filter(|keys: &Vec<Key>| !keys.is_empty())
                 .collect();
-            if open.is_empty() {
-                return Ok(Some((best, true)));
-            }
+            let confirmed = open.is_empty();
             let mut left = (f64::from(task.wanted.runs) - f64::from(self.runs())) / self.runs_of_one()
                 * task.wanted.levels.len() as f64;
             // The best itself is always confirmed.
-            let itself = open[0][0].candidate == best;
+            let itself = open.first().is_some_and(|keys| keys[0].candidate == best);
             let mut keys = Vec::new();
             for (index, more) in open.into_iter().enumerate() {
                 left -= more.len() as f64;
@@ -111,7 +114,10 @@ impl<'a> Work<'a> {
                 }
             }
             if keys.is_empty() {
-                return Ok(Some((best, false)));
+                keys = self.missing(best);
+            }
+            if keys.is_empty() {
+                return Ok(Some((best, confirmed)));
             }
             if !self.measure(keys)? {
                 return Ok(None);
@@ -119,16 +125,61 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// The curves of the scene as it is written and of the best, with the first seed and at the first level.
+    /// The curve of the scene as it is written, to be compared with that of the best.
     fn curves(&mut self, best: usize) -> Result<bool, CasesError> {
-        let ratios = self.task.plan(best).response.as_ref().map(|response| response.frequency_ratio.clone());
-        let key = |candidate, ratio| Key { candidate, level: 0, seed: 0, ratio: Some(Exact(ratio)) };
-        let mut keys = Vec::new();
         for candidate in [self.task.as_written(), best] {
-            let peak = self.standing(candidate).map(|standing| standing.ratio);
-            keys.extend(ratios.iter().flatten().copied().chain(peak).map(|ratio| key(candidate, ratio)));
+            loop {
+                let keys = self.curve(candidate, 0, 0);
+                if keys.is_empty() {
+                    break;
+                }
+                if !self.measure(keys)? {
+                    return Ok(false);
+                }
+            }
         }
-        self.measure(keys)
+        Ok(true)
+    }
+
+    /// What is still missing of the whole curves of a candidate whose peak was found in few runs: those of its first seed, and of all where
+    /// they show that it has a higher peak elsewhere.
+    fn missing(&self, candidate: usize) -> Vec<Key> {
+        let wanted = &self.task.wanted;
+        if wanted.goal != Goal::Peak {
+            return Vec::new();
+        }
+        let of_seed = |seed: u32| (0..wanted.levels.len()).flat_map(move |level| self.curve(candidate, level, seed));
+        let first: Vec<Key> = of_seed(0).collect();
+        let of_first = self.done.iter().filter(|(key, _)| key.candidate == candidate && key.seed == 0);
+        let height = |answers: bool| {
+            let heights = of_first.clone().filter(|(key, _)| key.ratio.is_none() == answers);
+            heights.map(|(key, measured)| measured.rms() / wanted.levels[key.level]).fold(0.0, f64::max)
+        };
+        if !first.is_empty() || height(false) <= height(true) * (1.0 + wanted.within) {
+            return first;
+        }
+        (1..wanted.seeds).flat_map(of_seed).collect()
+    }
+
+    /// What is still missing of a curve: the frequencies that are asked for, then those where it bends.
+    fn curve(&self, candidate: usize, level: usize, seed: u32) -> Vec<Key> {
+        let key = |ratio| Key { candidate, level, seed, ratio: Some(Exact(ratio)) };
+        let Some(response) = &self.task.plan(candidate).response else { return Vec::new() };
+        if self.failures.contains_key(&candidate) {
+            return Vec::new();
+        }
+        let asked = response.frequency_ratio.iter().map(|ratio| key(*ratio));
+        let asked: Vec<Key> = asked.filter(|key| !self.done.contains_key(key)).collect();
+        if !asked.is_empty() {
+            return asked;
+        }
+        let of_it = self
+            .done
+            .iter()
+            .filter(|(other, _)| (other.candidate, other.level, other.seed) == (candidate, level, seed));
+        let known: Vec<(f64, f64)> = of_it.filter_map(|(key, point)| Some((key.ratio?.0, point.rms()))).collect();
+        let more = response.peak_within.map(|within| refine::next(&known, within)).unwrap_or_default();
+        more.into_iter().map(key).collect()
     }
 
     fn answers(&self, candidate: usize, seeds: u32) -> impl Iterator<Item = Key> + use<> {
@@ -136,47 +187,55 @@ impl<'a> Work<'a> {
         (0..seeds).flat_map(move |seed| (0..levels).map(move |level| Key { candidate, level, seed, ratio: None }))
     }
 
-    /// Runs that were spent on answers.
+    /// Runs that were spent.
     pub fn runs(&self) -> u32 {
-        self.done.values().map(|one| if let Measured::Answer(answer) = one { answer.runs } else { 0 }).sum()
+        self.done.values().map(Measured::runs).sum()
     }
 
     /// What a candidate takes with one seed, at all levels.
     fn runs_of_one(&self) -> f64 {
         /// Before anything is known.
         const EXPECTED: f64 = 4.0;
-        let answers = self.done.keys().filter(|key| key.ratio.is_none()).count();
-        let one = if answers == 0 { EXPECTED } else { f64::from(self.runs()) / answers as f64 };
+        let answers = self.done.iter().filter(|(key, _)| key.ratio.is_none()).map(|(_, answer)| answer.runs());
+        let one = match answers.clone().count() {
+            0 => EXPECTED,
+            number => f64::from(answers.sum::<u32>()) / number as f64,
+        };
         one * self.task.wanted.levels.len() as f64
     }
 
     /// What is known of a candidate.
     pub fn standing(&self, candidate: usize) -> Option<Standing> {
         let task = self.task;
-        let mut seeds: BTreeMap<u32, f64> = BTreeMap::new();
-        let (mut stroke, mut ratio, mut runs, mut number, mut found) = (0.0_f64, 0.0, 0, 0.0, true);
+        // The highest of each seed and level, with where it is: of an answer, or of a whole curve.
+        let mut tops: BTreeMap<(u32, usize), (f64, f64)> = BTreeMap::new();
+        let (mut stroke, mut runs, mut found) = (0.0_f64, 0, true);
         for (key, measured) in self.done.iter().filter(|(key, _)| key.candidate == candidate) {
-            let Measured::Answer(answer) = measured else { continue };
-            let worst = seeds.entry(key.seed).or_insert(0.0);
-            *worst = worst.max(answer.rms / task.wanted.levels[key.level]);
-            stroke = stroke.max(answer.stroke);
-            (ratio, number) = (ratio + answer.ratio, number + 1.0);
-            (runs, found) = (runs + answer.runs, found && answer.found);
+            (stroke, runs) = (stroke.max(measured.stroke()), runs + measured.runs());
+            let ratio = match (measured, key.ratio) {
+                (Measured::Answer(answer), _) => answer.ratio,
+                (Measured::Point(_), Some(ratio)) if task.wanted.goal == Goal::Peak => ratio.0,
+                (Measured::Point(_), _) => continue,
+            };
+            found &= if let Measured::Answer(answer) = measured { answer.found } else { true };
+            let rms = measured.rms() / task.wanted.levels[key.level];
+            let top = tops.entry((key.seed, key.level)).or_insert((rms, ratio));
+            if rms > top.0 {
+                *top = (rms, ratio);
+            }
         }
+        let mut seeds: BTreeMap<u32, f64> = BTreeMap::new();
+        for ((seed, _), (rms, _)) in &tops {
+            let worst = seeds.entry(*seed).or_insert(0.0);
+            *worst = worst.max(*rms);
+        }
+        let ratio = tops.values().map(|top| top.1).sum::<f64>() / tops.len() as f64;
         let each: Vec<f64> = seeds.into_values().collect();
         let rms = each.iter().sum::<f64>() / each.len() as f64;
         // Beds that are the same bit for bit are one bed.
         let differ = each.windows(2).any(|two| two[0] != two[1]);
         let interval = differ.then(|| interval_of_mean(&each));
-        (!each.is_empty()).then_some(Standing {
-            rms,
-            interval,
-            stroke,
-            ratio: ratio / number,
-            seeds: each.len(),
-            runs,
-            found,
-        })
+        (!each.is_empty()).then_some(Standing { rms, interval, stroke, ratio, seeds: each.len(), runs, found })
     }
 
     /// All candidates that are measured, with what is to be low.
@@ -192,6 +251,13 @@ impl<'a> Work<'a> {
     /// Whether a candidate keeps within what its host may move.
     pub fn fits(&self, standing: &Standing) -> bool {
         self.task.wanted.stroke_limit.is_none_or(|limit| standing.stroke <= limit)
+    }
+
+    /// The lowest that was measured within the limits.
+    fn lowest(&self) -> Option<usize> {
+        let fits = |index: usize| self.standing(index).is_some_and(|standing| self.fits(&standing));
+        let values = self.values().into_iter().filter(|(index, _)| fits(*index));
+        values.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
     }
 
     /// The best of those within the limits: by its seeds where it is confirmed, by the surrogate where it is not.
@@ -246,8 +312,7 @@ impl<'a> Work<'a> {
                 Ok(None) => Ok(None),
                 Ok(Some(measured)) => {
                     record(key, &measured)?;
-                    let runs = if let Measured::Answer(answer) = &measured { answer.runs } else { 0 };
-                    let done = counter.fetch_add(runs, Ordering::Relaxed) + runs;
+                    let done = counter.fetch_add(measured.runs(), Ordering::Relaxed) + measured.runs();
                     (watcher.progress)((f64::from(done) / f64::from(task.wanted.runs)).min(1.0));
                     Ok(Some((*key, Ok(measured))))
                 }

@@ -21,7 +21,10 @@ pub(super) fn write(
     let mut summary = begun(scene.plan(), status, wall_seconds);
     summary.give("runs", "-", f64::from(work.runs()));
     summary.give("candidates", "-", task.candidates.list.len() as f64);
-    summary.give("candidates measured", "-", work.values().len() as f64);
+    let measured: Vec<usize> = work.values().into_iter().map(|(index, _)| index).collect();
+    summary.give("candidates measured", "-", measured.len() as f64);
+    let farthest = task.candidates.farthest(&measured).map_or(0.0, |(_, distance)| distance);
+    summary.give("distance of the farthest from those", "-", farthest);
     if let Some(found) = found {
         folder.write("steps.csv", steps(work, found.best).to_csv().as_bytes())?;
         folder.write("curves.csv", curves(work, found.best).to_csv().as_bytes())?;
@@ -33,11 +36,7 @@ pub(super) fn write(
         tell(work, found, &mut summary);
     }
     doubts(work, found, status, &mut summary);
-    let answers = work.done.values().map(|one| match one {
-        Measured::Answer(answer) => answer.residual,
-        Measured::Point(point) => point.residual.abs(),
-    });
-    summary.energy.residual_relative = answers.fold(0.0, f64::max);
+    summary.energy.residual_relative = work.done.values().map(Measured::residual).fold(0.0, f64::max);
     let plan = found.map_or(scene.plan(), |found| task.plan(found.best));
     judge(folder, plan, &mut summary)?;
     folder.write_json("summary.json", &summary)?;
@@ -87,7 +86,7 @@ fn doubts(work: &Work<'_>, found: Option<&Found>, status: Status, summary: &mut 
         }
         if !found.searched {
             say(format!(
-                "half of the {} runs were spent before the search had come to an end: a larger `design.runs` may find a better one",
+                "half of the {} runs were spent while a better one was still expected: a larger `design.runs` may find it",
                 wanted.runs
             ));
         }
@@ -266,7 +265,7 @@ fn curves(work: &Work<'_>, best: usize) -> Table {
         .map(str::to_owned),
     );
     for index in [task.as_written(), best] {
-        let of_it = work.done.iter().filter(|(key, _)| key.candidate == index);
+        let of_it = work.done.iter().filter(|(key, _)| (key.candidate, key.level, key.seed) == (index, 0, 0));
         for (ratio, measured) in of_it.filter_map(|(key, measured)| Some((key.ratio?.0, measured))) {
             let Measured::Point(point) = measured else { continue };
             let mut row = vec![Cell::Text(task.name(index))];

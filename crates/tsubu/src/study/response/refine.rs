@@ -5,7 +5,7 @@ const BEND: f64 = 0.03;
 
 /// Places to be measured next between those of a curve of (place, height), ascending: beside the highest until its neighbours are
 /// as near as `within`, and where a point lies off the line between its neighbours. None are needed when it is empty.
-pub(super) fn next(curve: &[(f64, f64)], within: f64) -> Vec<f64> {
+pub(in crate::study) fn next(curve: &[(f64, f64)], within: f64) -> Vec<f64> {
     let Some((top, &(_, height))) = curve.iter().enumerate().max_by(|a, b| a.1.1.total_cmp(&b.1.1)) else {
         return Vec::new();
     };

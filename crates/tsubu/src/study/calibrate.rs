@@ -1,0 +1,257 @@
+//! A calibration: which values of keys fit what was measured, and how well that tells them.
+//!
+//! Runs at places spread over all ranges, then where the values may be, teach a Gaussian process each measured result; with it, samples of
+//! the posterior cost no runs. Before anything was measured all places are equally likely; the likelihood is normal, with the measured
+//! uncertainty and that of the process (Kennedy and O'Hagan 2001, without their term for what a model cannot do). Fresh runs at samples
+//! with other seeds check what was found. Every run has a folder of its own: a calibration that was stopped goes on where it was.
+
+mod posterior;
+mod ranges;
+mod write;
+
+use super::cases::{Case, CasesError};
+use super::surrogate::Surrogate;
+use super::sweep;
+use crate::interrupt::Watcher;
+use crate::scene_files;
+use posterior::{hypercube, sample};
+use ranges::Range;
+use rayon::prelude::*;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+use tsubu_frame::{Existing, ResultValue, RunFolder, Status, Summary};
+use tsubu_scene::{Scene, plan};
+
+/// What a calibration writes beside its scene.
+const FILES: [&str; 9] = [
+    "posterior.csv",
+    "parameters.csv",
+    "correlations.csv",
+    "measured.csv",
+    "runs.csv",
+    "best.toml",
+    "check.txt",
+    "summary.json",
+    RUNS,
+];
+/// The folder of the runs' folders.
+const RUNS: &str = "runs/";
+/// Runs before anything is guessed, a key.
+const FIRST_A_KEY: usize = 6;
+/// Runs side by side; what is run must not depend on the number of threads.
+const ROUND: usize = 4;
+/// Every so manyth sample is looked at for the next run.
+const THINNED: usize = 5;
+
+/// Calibrates within `folder`. An existing folder of a calibration is gone on with: runs of the same values are kept.
+pub fn calibrate(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Summary, CasesError> {
+    let begun = Instant::now();
+    let task = Task::new(scene)?;
+    // A scene that its method refuses leaves nothing behind.
+    crate::methods::open(&crate::trial::unsettled(scene.plan()), &crate::partner::Hosts::new(&scene.plan().hosts))?;
+    let existing = match folder.join(RUNS).is_dir() {
+        _ if overwrite => Existing::Overwrite,
+        true => Existing::Resume,
+        false => Existing::Refuse,
+    };
+    let before = Summary::read(&folder.join("summary.json")).ok().filter(|_| existing == Existing::Resume);
+    let before = before.map_or(0.0, |summary| summary.wall_seconds);
+    let names: Vec<String> = scene_files::names(scene).into_iter().chain(FILES.map(str::to_owned)).collect();
+    let folder = RunFolder::create(folder, existing, &names)?;
+    folder.claim(&names)?;
+    scene_files::write(&folder, scene)?;
+    let mut work = Work { task: &task, folder: &folder, watcher, ran: Vec::new() };
+    let found = work.calibrate()?;
+    let _held = watcher.interrupt.hold();
+    let status = if found.is_some() { Status::Finished } else { Status::Interrupted };
+    let took = before + begun.elapsed().as_secs_f64();
+    Ok(write::write(&folder, &work, found.as_ref(), status, took)?)
+}
+
+/// What is to be calibrated.
+struct Task<'a> {
+    scene: &'a Scene,
+    wanted: plan::Calibrate,
+    ranges: Vec<Range>,
+}
+
+impl<'a> Task<'a> {
+    fn new(scene: &'a Scene) -> Result<Self, CasesError> {
+        let wanted = scene.plan().calibrate.clone().ok_or_else(|| {
+            CasesError::Scene(
+                "the scene has no `[calibrate]`: say what is not known, for example `vary = { \"materials.sand.friction\" = [0.2, 0.8] }`, and what was measured"
+                    .to_owned(),
+            )
+        })?;
+        let ranges = Range::all(&wanted).map_err(CasesError::Scene)?;
+        Ok(Self { scene, wanted, ranges })
+    }
+
+    fn seed(&self) -> u64 {
+        self.scene.plan().seed
+    }
+
+    /// How far the measured results are from guesses, as the logarithm of a likelihood.
+    fn likelihood(&self, fits: &[Surrogate], place: &[f64]) -> f64 {
+        let of_one = |(fit, measured): (&Surrogate, &plan::Measured)| {
+            let [guess, deviation] = fit.at(place);
+            let variance = measured.uncertainty.powi(2) + deviation.powi(2);
+            -0.5 * ((measured.value - guess).powi(2) / variance + variance.ln())
+        };
+        fits.iter().zip(&self.wanted.measured).map(of_one).sum()
+    }
+}
+
+/// What a run was for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Purpose {
+    /// To learn what the results are.
+    Learn,
+    /// To check what was found.
+    Check,
+}
+
+/// A run that was made.
+struct Ran {
+    case: Case,
+    place: Vec<f64>,
+    purpose: Purpose,
+    /// The measured results, not-a-number where there is none.
+    results: Vec<f64>,
+    summary: Summary,
+}
+
+/// What came of a calibration.
+struct Found {
+    fits: Vec<Surrogate>,
+    /// Samples of the posterior.
+    samples: Vec<Vec<f64>>,
+    /// The most likely of them.
+    best: usize,
+    /// How near each result is known, over the measured uncertainty.
+    doubts: Vec<f64>,
+}
+
+/// A calibration on its way.
+struct Work<'a> {
+    task: &'a Task<'a>,
+    folder: &'a RunFolder,
+    watcher: &'a Watcher<'a>,
+    ran: Vec<Ran>,
+}
+
+impl Work<'_> {
+    /// Learns, samples, checks; nothing where it was interrupted.
+    fn calibrate(&mut self) -> Result<Option<Found>, CasesError> {
+        let (task, wanted) = (self.task, &self.task.wanted);
+        let most = wanted.runs as usize;
+        let dimension = task.ranges.len();
+        let mut places = hypercube(dimension, (FIRST_A_KEY * dimension).clamp(ROUND, most), task.seed());
+        loop {
+            if !self.run(&places, Purpose::Learn)? {
+                return Ok(None);
+            }
+            let fits = self.fit()?;
+            let samples = sample(dimension, task.seed(), |place| task.likelihood(&fits, place));
+            let doubts = task.doubts(&fits, &samples);
+            let left = most - self.ran.len();
+            if left > 0 && doubts.iter().any(|doubt| *doubt > wanted.within) {
+                places = task.next(fits, &samples, left.min(ROUND));
+                continue;
+            }
+            let checks = wanted.checks as usize;
+            let checked: Vec<Vec<f64>> =
+                (0..checks).map(|i| samples[(2 * i + 1) * samples.len() / (2 * checks)].clone()).collect();
+            if !self.run(&checked, Purpose::Check)? {
+                return Ok(None);
+            }
+            let likely = samples.iter().map(|place| task.likelihood(&fits, place)).enumerate();
+            let best = likely.reduce(|best, one| if one.1 > best.1 { one } else { best }).map_or(0, |best| best.0);
+            return Ok(Some(Found { fits, samples, best, doubts }));
+        }
+    }
+
+    /// Runs all of these side by side, each with a seed of its own; says whether it came to the end.
+    fn run(&mut self, places: &[Vec<f64>], purpose: Purpose) -> Result<bool, CasesError> {
+        let (task, watcher, before) = (self.task, self.watcher, self.ran.len());
+        let all = f64::from(task.wanted.runs + task.wanted.checks);
+        let counter = AtomicUsize::new(before);
+        let folder = self.folder.file(RUNS);
+        let one = |(index, place): (usize, &Vec<f64>)| -> Result<Option<Ran>, CasesError> {
+            if watcher.interrupt.asked() {
+                return Ok(None);
+            }
+            let (case, place) = Range::case(&task.ranges, place);
+            let seed = task.seed().wrapping_add((before + index) as u64) & i64::MAX as u64;
+            let mut seeded = case.clone();
+            seeded.values.push(("seed".to_owned(), (seed as i64).into()));
+            let at = folder.join(format!("{:04}", before + index));
+            let summary = sweep::one(task.scene, &seeded, &at, watcher)?;
+            let result = |measured: &plan::Measured| match summary.results.get(&measured.result) {
+                Some(ResultValue::Number(value)) if summary.status == Status::Finished => *value,
+                _ => f64::NAN,
+            };
+            let results = task.wanted.measured.iter().map(result).collect();
+            (watcher.progress)((counter.fetch_add(1, Ordering::Relaxed) + 1) as f64 / all);
+            Ok(Some(Ran { case, place, purpose, results, summary }))
+        };
+        let ran: Vec<Option<Ran>> = places.par_iter().enumerate().map(one).collect::<Result<_, _>>()?;
+        self.ran.extend(ran.into_iter().flatten());
+        Ok(!watcher.interrupt.asked())
+    }
+
+    /// A Gaussian process for each measured result.
+    fn fit(&self) -> Result<Vec<Surrogate>, CasesError> {
+        let of_one = |(index, measured): (usize, &plan::Measured)| {
+            let known = self.ran.iter().filter(|ran| ran.results[index].is_finite());
+            let (places, values): (Vec<_>, Vec<_>) = known.map(|ran| (ran.place.clone(), ran.results[index])).unzip();
+            Surrogate::fit(&places, &values)
+                .ok_or_else(|| CasesError::Scene(self.missing(&measured.result, values.len())))
+        };
+        self.task.wanted.measured.iter().enumerate().map(of_one).collect()
+    }
+
+    /// Why a result cannot be fitted.
+    fn missing(&self, result: &str, number: usize) -> String {
+        let runs = self.ran.len();
+        let Some(whole) = self.ran.iter().find(|ran| ran.summary.status == Status::Finished) else {
+            let why = self.ran.iter().find_map(|ran| ran.summary.warnings.last()).cloned().unwrap_or_default();
+            return format!("none of the first {runs} runs came to its end: {why}");
+        };
+        let numbers =
+            whole.summary.results_in_order().into_iter().filter(|(_, value)| matches!(value, ResultValue::Number(_)));
+        let names: Vec<String> = numbers.map(|(name, _)| format!("`{name}`")).collect();
+        format!("{number} of the first {runs} runs have a result `{result}`; results of a run are {}", names.join(", "))
+    }
+}
+
+impl Task<'_> {
+    /// How near each result is known among samples, over the measured uncertainty.
+    fn doubts(&self, fits: &[Surrogate], samples: &[Vec<f64>]) -> Vec<f64> {
+        let of_one = |(fit, measured): (&Surrogate, &plan::Measured)| {
+            let squares: Vec<f64> = samples.par_iter().map(|place| fit.at(place)[1].powi(2)).collect();
+            (squares.iter().sum::<f64>() / samples.len() as f64).sqrt() / measured.uncertainty
+        };
+        fits.iter().zip(&self.wanted.measured).map(of_one).collect()
+    }
+
+    /// The samples at which the results are known worst, each as if those before it had come out as guessed.
+    fn next(&self, mut fits: Vec<Surrogate>, samples: &[Vec<f64>], number: usize) -> Vec<Vec<f64>> {
+        let mut chosen = Vec::new();
+        for _ in 0..number {
+            let doubt = |place: &&Vec<f64>| -> f64 {
+                let of_one =
+                    |(fit, measured): (&Surrogate, &plan::Measured)| (fit.at(place)[1] / measured.uncertainty).powi(2);
+                fits.iter().zip(&self.wanted.measured).map(of_one).sum()
+            };
+            let all: Vec<(&Vec<f64>, f64)> =
+                samples.iter().step_by(THINNED).map(|place| (place, doubt(&place))).collect();
+            let worst = all.into_iter().reduce(|worst, one| if one.1 > worst.1 { one } else { worst });
+            let Some((place, _)) = worst else { break };
+            chosen.push(place.clone());
+            fits = fits.into_iter().map(|fit| fit.believing(place)).collect();
+        }
+        chosen
+    }
+}
