@@ -364,7 +364,7 @@ fn a_calibration_finds_what_fits() {
         "calibrate.vary={\"materials.quartz.restitution\"=[0.9,0.3]}",
         "calibrate.vary={\"materials.quartz.restitution\"=[0.3,1.3]}",
         "calibrate.measured=[]",
-        "calibrate.measured=[{result=\"sand hops final\",value=1,uncertainty=0}]",
+        "calibrate.measured=[{result=\"hops\",value=1,uncertainty=0}]",
     ] {
         insta::assert_snapshot!(desk.shown(&format!("calibrate balls.toml -o new --set {change}")));
     }
