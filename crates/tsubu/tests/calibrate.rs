@@ -119,6 +119,10 @@ fn a_calibration_goes_on_where_it_was() {
     assert_eq!(into("part", 5).0, Status::Interrupted);
     assert_eq!(into("part", 9).0, Status::Interrupted);
     assert_eq!(into("part", usize::MAX), whole);
+    // What another scene has found is not touched.
+    let other = super::calibrate::scene(&["calibrate.runs=21".to_owned()]);
+    let watcher = Watcher { interrupt: &Interrupt::new(), progress: &|_| {} };
+    assert!(matches!(calibrate(&other, &desk.path().join("part"), false, &watcher), Err(CasesError::File(_))));
     let best =
         Scene::read(&desk.path().join("part/best.toml"), &[]).unwrap_or_else(|complaints| panic!("{complaints}"));
     assert!(best.plan().calibrate.is_some());

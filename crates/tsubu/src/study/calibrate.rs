@@ -44,13 +44,14 @@ const ROUND: usize = 4;
 /// Every so manyth sample is looked at for the next run.
 const THINNED: usize = 5;
 
-/// Calibrates within `folder`. An existing folder of a calibration is gone on with: runs of the same values are kept.
+/// Calibrates within `folder`. An existing folder of the same scene is gone on with; one of another scene is not touched.
 pub fn calibrate(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Summary, CasesError> {
     let begun = Instant::now();
     let task = Task::new(scene)?;
     // A scene that its method refuses leaves nothing behind.
     crate::methods::open(&crate::trial::unsettled(scene.plan()), &crate::partner::Hosts::new(&scene.plan().hosts))?;
-    let existing = match folder.join(RUNS).is_dir() {
+    let same = || std::fs::read_to_string(folder.join("scene.toml")).is_ok_and(|text| text == scene.resolved_toml());
+    let existing = match folder.join(RUNS).is_dir() && same() {
         _ if overwrite => Existing::Overwrite,
         true => Existing::Resume,
         false => Existing::Refuse,

@@ -38,13 +38,13 @@ pub(super) fn write(
             parameter.tell(&mut summary);
         }
         let correlations = correlations(&found.samples);
-        folder.write("posterior.csv", posterior(work, found).to_csv().as_bytes())?;
         folder.write("parameters.csv", table_of(&parameters).to_csv().as_bytes())?;
         if !correlations.is_empty() {
             folder.write("correlations.csv", pairs(work, &correlations).to_csv().as_bytes())?;
         }
         let measured: Vec<Compared> =
             (0..task.wanted.measured.len()).map(|index| Compared::new(work, found, index)).collect();
+        folder.write("posterior.csv", posterior(work, found, &measured).to_csv().as_bytes())?;
         folder.write("measured.csv", compared(&measured).to_csv().as_bytes())?;
         let (case, _) = Range::case(&task.ranges, &found.samples[found.best]);
         if let Ok(best) = case.scene(task.scene) {
@@ -246,14 +246,9 @@ fn header(range: &Range) -> String {
     format!("{} [{}]", range.key, if range.unit.is_empty() { "-" } else { &range.unit })
 }
 
-fn posterior(work: &Work<'_>, found: &Found) -> Table {
+fn posterior(work: &Work<'_>, found: &Found, measured: &[Compared<'_>]) -> Table {
     let task = work.task;
-    let results = task
-        .wanted
-        .measured
-        .iter()
-        .enumerate()
-        .map(|(index, measured)| format!("{} [{}]", measured.result, Compared::new(work, found, index).unit));
+    let results = measured.iter().map(|one| format!("{} [{}]", one.measured.result, one.unit));
     let mut table = Table::new(task.ranges.iter().map(header).chain(results));
     for place in &found.samples {
         let values = task.ranges.iter().zip(place).map(|(range, place)| range.value(*place));
