@@ -56,6 +56,7 @@ mod size;
 mod stage;
 mod study;
 mod suggest;
+mod symmetric;
 mod templates;
 mod write;
 

@@ -6,7 +6,7 @@
 mod beam;
 mod derive;
 mod limits;
-mod matrix_market;
+mod matrices;
 mod modal_table;
 mod several;
 mod table;

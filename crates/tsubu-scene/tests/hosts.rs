@@ -75,7 +75,7 @@ fn structures_that_cannot_be() {
             let text = format!("%%MatrixMarket matrix coordinate real general\n2 2 {lines}\n{text}");
             fs::write(desk.path().join(name), text).expect("a folder of its own");
         }
-        let files = "structure.matrix-market = { mass = \"m.mtx\", damping = \"c.mtx\", stiffness = \"k.mtx\" }";
+        let files = "structure.matrix-files = { mass = \"m.mtx\", damping = \"c.mtx\", stiffness = \"k.mtx\", units = \"m-kg-s\" }";
         read(desk.path(), &format!("{files}{tip}\ninterface.tip.translation = [[0, 0, 1], [0, 0, 0]]")).err()
     };
     let host = |text: &str| read(desk.path(), text).err();

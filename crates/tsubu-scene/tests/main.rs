@@ -8,6 +8,7 @@ mod frames;
 mod hosts;
 /// What is too long, too large or no file.
 mod limits;
+mod matrix_files;
 /// What scenes mean: values, defaults, choices.
 mod meaning;
 /// Meshes from files.

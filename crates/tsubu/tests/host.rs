@@ -26,6 +26,7 @@ fn two_masses_have_their_two_frequencies() {
         damping: vec![vec![0.0; 2]; 2],
         stiffness: vec![vec![2.0 * k, -k], vec![-k, 2.0 * k]],
         coordinate: 1,
+        participation: vec![1.0; 2],
     };
     let found = host(chain, 0.0).natural_frequencies();
     for (found, expected) in found.iter().zip([(k / m).sqrt(), (3.0 * k / m).sqrt()]) {
@@ -83,6 +84,7 @@ fn books_of_two_masses_close_by_both_integrators() {
         damping: vec![vec![0.6, -0.2], vec![-0.2, 0.4]],
         stiffness: vec![vec![100.0, -40.0], vec![-40.0, 60.0]],
         coordinate: 1,
+        participation: vec![1.0; 2],
     };
     for verlet in [true, false] {
         let mut host = host(chain.clone(), 0.1);

@@ -237,8 +237,8 @@ fn one_mode(mut plan: Plan, which: usize) -> Plan {
     plan
 }
 
-/// Two masses on three springs, by files of the Matrix Market and by the table of their modes, which are known: frequencies
-/// sqrt(k/m) and sqrt(3 k/m), vectors (1, 1) and (1, -1) over sqrt(2 m). Both give the same motion of the same ball.
+/// Two masses on three springs, by files of the Matrix Market, by the modes of these and by the table of their modes, which are known: frequencies
+/// sqrt(k/m) and sqrt(3 k/m), vectors (1, 1) and (1, -1) over sqrt(2 m). All give the same motion of the same ball.
 #[test]
 fn a_table_of_modes_is_the_matrices_that_it_came_from() {
     let desk = tempfile::tempdir().unwrap();
@@ -301,13 +301,16 @@ force.sine = {{ amplitude = "1 N", frequency = "3.5 Hz" }}
             })
             .collect::<Vec<f64>>()
     };
-    let files = r#"matrix-market = { mass = "m.mtx", damping = "c.mtx", stiffness = "k.mtx" }"#;
+    let files = r#"matrix-files = { mass = "m.mtx", damping = "c.mtx", stiffness = "k.mtx", units = "m-kg-s" }"#;
     let by_matrices =
         run(&text(files, ", translation = [[0, 0, 1], [0, 0, 0]]", ", translation = [[0, 0, 0], [0, 0, 1]]"));
     let by_modes = run(&text(r#"modal-table = { file = "modes.csv" }"#, "", ""));
+    let files = r#"matrix-files = { mass = "m.mtx", stiffness = "k.mtx", units = "m-kg-s", damping-ratio = 0.02 }"#;
+    let by_their_modes =
+        run(&text(files, ", translation = [[0, 0, 1], [0, 0, 0]]", ", translation = [[0, 0, 0], [0, 0, 1]]"));
     let largest = by_matrices.iter().map(|z| z.abs()).fold(0.0, f64::max);
     assert!(largest > 5e-3, "{largest}");
-    for (a, b) in by_matrices.iter().zip(&by_modes) {
-        assert!((a - b).abs() < 1e-6 * largest, "{a} {b}");
+    for ((a, b), c) in by_matrices.iter().zip(&by_modes).zip(&by_their_modes) {
+        assert!((a - b).abs() < 1e-6 * largest && (c - b).abs() < 1e-6 * largest, "{a} {b} {c}");
     }
 }

@@ -46,11 +46,8 @@ pub struct Host {
 
 impl Host {
     pub fn new() -> Self {
-        // A congruence of full period (Hull and Dobell 1962) comes by every line once, in no order that a cache foresees.
-        let next = |line: usize| (line * 0x9E35 + 0x6D2B) % LINES;
-        let walk = (0..LINES).map(|line| Line(next(line) as u32)).collect();
-        let mut host =
-            Self { walk, quickest: Look { step: f64::INFINITY, trip: f64::INFINITY }, patience: Duration::ZERO };
+        let quickest = Look { step: f64::INFINITY, trip: f64::INFINITY };
+        let mut host = Self { walk: walk(), quickest, patience: Duration::ZERO };
         for _ in 0..10 {
             host.look();
         }
@@ -103,6 +100,11 @@ impl Host {
     }
 }
 
+/// A congruence of full period (Hull and Dobell 1962) comes by every line once, in no order that a cache foresees.
+fn walk() -> Vec<Line> {
+    (0..LINES).map(|line| Line(((line * 0x9E35 + 0x6D2B) % LINES) as u32)).collect()
+}
+
 /// How long a line of the cache takes to another core and back [ns]. Two threads that never sleep are on two cores; where there
 /// is but one core, 0.
 fn round_trip() -> f64 {
@@ -151,11 +153,10 @@ mod tests {
 
     #[test]
     fn the_walk_comes_by_every_line() {
-        let host = Host::new();
-        let (mut line, mut seen) = (0, vec![false; LINES]);
+        let (walk, mut line, mut seen) = (walk(), 0, vec![false; LINES]);
         for _ in 0..LINES {
             seen[line] = true;
-            line = host.walk[line].0 as usize;
+            line = walk[line].0 as usize;
         }
         assert!(line == 0 && seen.into_iter().all(|s| s));
     }

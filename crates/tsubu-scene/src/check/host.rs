@@ -3,6 +3,7 @@
 use super::Parts;
 use crate::complaint::Complaint;
 use crate::plan::{Host, Structure};
+use crate::symmetric::{asymmetry, positive_definite};
 
 pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
     for (wall, _) in parts.walls.iter().filter(|(_, wall)| wall.interface.is_some() && wall.host.is_none()) {
@@ -36,7 +37,7 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
                     );
                 }
             }
-            Structure::Matrices { mass, damping, stiffness, coordinate } => {
+            Structure::Matrices { mass, damping, stiffness, coordinate, participation } => {
                 let size = mass.len();
                 for (key, matrix) in [("damping", damping), ("stiffness", stiffness)] {
                     if matrix.len() != size {
@@ -68,6 +69,15 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
                                 .at(&at(&["matrices", key]), "some displacement would have no or negative energy"),
                         );
                     }
+                }
+                if participation.len() != size {
+                    complaints.push(
+                        Complaint::new(format!("`participation` of the host `{name}` has another size than `mass`"))
+                            .at(
+                                &at(&["matrices", "participation"]),
+                                format!("{} numbers, {size} coordinates", participation.len()),
+                            ),
+                    );
                 }
                 if *coordinate >= size {
                     complaints.push(Complaint::new(format!("the host `{name}` has no coordinate {coordinate}")).at(
@@ -208,52 +218,5 @@ fn interfaces(parts: &Parts<'_>, name: &str, host: &Host, complaints: &mut Vec<C
                     }),
             );
         }
-    }
-}
-
-/// The first pair of entries that differ by more than rounding in the typed digits.
-fn asymmetry(matrix: &[Vec<f64>]) -> Option<(usize, usize)> {
-    let pairs = (0..matrix.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-    pairs.into_iter().find(|&(i, j)| {
-        let (a, b) = (matrix[i][j], matrix[j][i]);
-        (a - b).abs() > 1e-9 * a.abs().max(b.abs())
-    })
-}
-
-/// Cholesky: it succeeds exactly for positive definite matrices.
-fn positive_definite(matrix: &[Vec<f64>]) -> bool {
-    let n = matrix.len();
-    let mut lower = vec![vec![0.0; n]; n];
-    for i in 0..n {
-        for j in 0..=i {
-            let known: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
-            let rest: f64 = matrix[i][j] - known;
-            if i == j {
-                // A pivot of pure rounding error means a singular matrix.
-                if rest.is_nan() || rest <= 1e-12 * matrix[i][i].abs() {
-                    return false;
-                }
-                lower[i][i] = rest.sqrt();
-            } else {
-                lower[i][j] = rest / lower[j][j];
-            }
-        }
-    }
-    true
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn definiteness_is_told_apart() {
-        assert!(positive_definite(&[vec![2.0, -1.0], vec![-1.0, 2.0]]));
-        assert!(
-            !positive_definite(&[vec![1.0, -1.0], vec![-1.0, 1.0]]),
-            "a free body has a rigid motion without energy"
-        );
-        assert!(!positive_definite(&[vec![1.0, 2.0], vec![2.0, 1.0]]));
-        assert!(!positive_definite(&[vec![0.0]]));
     }
 }

@@ -1,6 +1,6 @@
 //! Vibrating structures and the signals that drive them.
 
-use super::{Key, Kind, Variant};
+use super::{Key, Kind, Variant, Word};
 use crate::units::{
     ACCELERATION, ANGLE, CUBIC_STIFFNESS, DAMPING, DENSITY, FORCE, FREQUENCY, INERTIA, LENGTH, LOAD_RATE, MASS, NUMBER,
     PRESSURE, SPEED, SPIN, STIFFNESS, TIME, TURN_DAMPING, TURN_PER_LENGTH,
@@ -26,18 +26,19 @@ pub(super) static HOST: &[Key] = &[
 static INTERFACE: &[Key] = &[
     Key::new("point", Kind::Vector(&LENGTH), "Where it is as drawn").derived("from `along` on a beam"),
     Key::new("along", Kind::Quantity(&LENGTH), "Distance from the root of a beam").at_least(0.0).optional(),
+    Key::new("node", Kind::Whole, "Number of its node in files of matrices").at_least(1.0).at_most(1e9).optional(),
     Key::new(
         "translation",
         Kind::Vectors(&NUMBER),
         "Its displacement [x, y, z] for a unit of each coordinate: mode shapes, or rows of ones and zeros",
     )
-    .derived("from the beam, or from the table of modes"),
+    .derived("from the beam, the table of modes, or the node"),
     Key::new(
         "rotation",
         Kind::Turnings(&TURN_PER_LENGTH),
         "Its rotation for a unit of each coordinate: in the plane a number (about y), in space a vector",
     )
-    .derived("from the beam, or from the table of modes; otherwise it does not turn"),
+    .derived("from the beam, the table of modes, or the node; otherwise it does not turn"),
 ];
 
 static STRUCTURE: &[Variant] = &[
@@ -84,6 +85,8 @@ static STRUCTURE: &[Variant] = &[
             .default("0")
             .at_least(0.0)
             .at_most(1e4),
+            Key::new("participation", Kind::Quantities(&NUMBER), "How the motion of the base drives each coordinate")
+                .derived("1 each"),
         ],
     },
     Variant {
@@ -102,16 +105,38 @@ static STRUCTURE: &[Variant] = &[
         )],
     },
     Variant {
-        name: "matrix-market",
-        about: "n degrees of freedom by matrices in files of the Matrix Market, in SI units",
+        name: "matrix-files",
+        about: "n degrees of freedom by matrices in files: Matrix Market, Nastran (DMIG), Abaqus, or CalculiX",
         keys: &[
             Key::new("mass", Kind::Text, "File of M beside the scene, symmetric and positive definite"),
-            Key::new("damping", Kind::Text, "File of C, symmetric"),
-            Key::new("stiffness", Kind::Text, "File of K, symmetric and positive definite"),
-            Key::new("coordinate", Kind::Whole, "Index (from 0) of the coordinate that is told and takes the force")
-                .default("0")
-                .at_least(0.0)
-                .at_most(1e4),
+            Key::new("stiffness", Kind::Text, "File of K, symmetric and positive definite; it may be that of M"),
+            Key::new("units", Kind::OneOf(UNITS), "Units that the files are in, which tell none themselves"),
+            Key::new("damping", Kind::Text, "File of C, symmetric: all coordinates are kept")
+                .optional()
+                .rivals(&["damping-ratio", "modes"]),
+            Key::new(
+                "damping-ratio",
+                Kind::Quantity(&NUMBER),
+                "Damping of each mode over critical damping, in place of `damping`",
+            )
+            .at_least(0.0)
+            .optional()
+            .rivals(&["damping"]),
+            Key::new("modes", Kind::Whole, "Number of modes that are kept, lowest first; needs `damping-ratio`")
+                .at_least(1.0)
+                .at_most(400.0)
+                .derived("10, or as many as there are")
+                .rivals(&["damping"]),
+            Key::new("nodes", Kind::Text, "File of CalculiX (`.dof`) with node and direction of each coordinate")
+                .optional(),
+            Key::new(
+                "coordinate",
+                Kind::Whole,
+                "Index (from 0) of the coordinate that is told and takes the force, without an interface",
+            )
+            .default("0")
+            .at_least(0.0)
+            .at_most(1e4),
         ],
     },
     Variant {
@@ -150,6 +175,12 @@ static STRUCTURE: &[Variant] = &[
                 .default("0"),
         ],
     },
+];
+
+static UNITS: &[Word] = &[
+    Word { name: "m-kg-s", about: "SI: m, kg, s, N" },
+    Word { name: "mm-t-s", about: "mm, tonnes, s, N" },
+    Word { name: "in-lbf-s", about: "inches, lbf s^2/in, s, lbf" },
 ];
 
 static SECTION: &[Variant] = &[

@@ -116,6 +116,8 @@ pub enum Structure {
         stiffness: Vec<Vec<f64>>,
         /// Index (from 0) of the coordinate that carries the walls and takes the force.
         coordinate: usize,
+        /// How the motion of the base drives each coordinate [-].
+        participation: Vec<f64>,
     },
     /// A list of modes.
     Modes {

@@ -3,6 +3,7 @@
 mod films;
 mod grains;
 mod hosts;
+mod matrix_files;
 mod regions;
 mod signals;
 mod walls;

@@ -116,6 +116,7 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
             || format!("shorten `{}` to {:.2e} s or less", engine.step_key(), period / 50.0),
         );
     }
+    structures(&mut verdict, plan, hosts);
     for note in engine.notes() {
         let (why, advice) = note.text.split_once("; ").unwrap_or((&note.text, ""));
         match note.verdict {
@@ -133,6 +134,19 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         human_memory(memory::of(plan, engine.places()))
     ));
     verdict
+}
+
+/// A structure lighter than its grains is seldom meant: matrices and modes come from programs that calculate in units of their own.
+fn structures(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts) {
+    let grains = plan.grain_mass();
+    for (name, host) in plan.hosts.keys().zip(&hosts.list) {
+        let Some([frequency, mass]) = host.livest_mode() else { continue };
+        verdict.judge(
+            grains <= mass,
+            format!("host {name}: moves most in a mode of {frequency:.4} Hz and {mass:.3e} kg; the grains weigh {grains:.3e} kg"),
+            || format!("units of [hosts.{name}.structure], if it is not as light as that: was it calculated in tonnes and millimetres?"),
+        );
+    }
 }
 
 fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {

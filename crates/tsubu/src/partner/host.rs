@@ -140,6 +140,12 @@ impl Host {
         self.undamped().first().map_or(f64::NAN, |(_, seen)| 1.0 / (seen * seen))
     }
 
+    /// Natural frequency [Hz] and modal mass [kg] of the mode in which what is told moves most for its energy; none of a shaker.
+    pub fn livest_mode(&self) -> Option<[f64; 2]> {
+        let modes = self.undamped().into_iter().map(|(frequency, seen)| [frequency, 1.0 / (seen * seen)]);
+        modes.min_by(|a, b| a[1].total_cmp(&b[1]))
+    }
+
     /// Natural frequencies [Hz] of the undamped modes, lowest first, and what is seen of each when its modal mass is one [1/sqrt(kg)].
     fn undamped(&self) -> Vec<(f64, f64)> {
         if self.shaker {

@@ -2,7 +2,7 @@
 
 use super::{Derive, tables_in};
 use crate::complaint::Complaint;
-use crate::resolve::{beam, matrix_market, modal_table};
+use crate::resolve::{beam, modal_table};
 use crate::suggest;
 use toml::{Table, Value};
 
@@ -12,7 +12,8 @@ impl Derive<'_> {
         let gravity = resolved.get("gravity").and_then(vector).unwrap_or_default();
         for (name, host) in tables_in(resolved, "hosts") {
             self.modal_table(&name, host);
-            self.matrix_market(&name, host);
+            self.matrix_files(&name, host);
+            participation(host);
             self.beam(&name, host);
             self.pendulum(&name, host, gravity);
             self.interfaces(&name, host);
@@ -84,36 +85,6 @@ impl Derive<'_> {
                 self.file_is_wrong(wrong, &path);
             }
         }
-    }
-
-    fn matrix_market(&mut self, name: &str, host: &mut Table) {
-        let Some(files) = taken(host, "matrix-market") else { return };
-        let mut matrices = Table::new();
-        for key in ["mass", "damping", "stiffness"] {
-            let path = ["hosts", name, "structure", "matrix-market", key];
-            let Some(file) = files.get(key).and_then(Value::as_str) else { continue };
-            let text = match self.files.text(file, self.sources) {
-                Ok(text) => text,
-                Err(wrong) => {
-                    self.file_is_wrong(wrong, &path);
-                    continue;
-                }
-            };
-            match matrix_market::read(&text, self.sources.len()) {
-                Ok(rows) => {
-                    let row = |row: Vec<f64>| Value::Array(row.into_iter().map(Value::Float).collect());
-                    matrices.insert(key.to_owned(), Value::Array(rows.into_iter().map(row).collect()));
-                }
-                Err(wrong) => {
-                    self.sources.push(crate::complaint::Source { name: file.to_owned(), text, numbered: true });
-                    self.file_is_wrong(vec![wrong], &path);
-                }
-            }
-        }
-        if let Some(coordinate) = files.get("coordinate") {
-            matrices.insert("coordinate".into(), coordinate.clone());
-        }
-        host.insert("structure".into(), Value::Table(Table::from_iter([("matrices".to_owned(), matrices.into())])));
     }
 
     fn beam(&mut self, name: &str, host: &mut Table) {
@@ -242,11 +213,16 @@ impl Derive<'_> {
                 }
             }
             table.entry("rotation").or_insert_with(|| Value::Array(Vec::new()));
-            if table.remove("along").is_some() {
-                self.complaints.push(
-                    Complaint::new(format!("`along` in [{}] is a place on a beam", path.join(".")))
-                        .at(&self.root.locate(&[&path[..], &["along"]].concat()), "the structure is no beam"),
-                );
+            for (key, what, label) in [
+                ("along", "a place on a beam", "the structure is no beam"),
+                ("node", "a node of `matrix-files`", "the structure has no such files"),
+            ] {
+                if table.remove(key).is_some() {
+                    self.complaints.push(
+                        Complaint::new(format!("`{key}` in [{}] is {what}", path.join(".")))
+                            .at(&self.root.locate(&[&path[..], &[key]].concat()), label),
+                    );
+                }
             }
         }
         match (host.get("at").and_then(Value::as_str), names.as_slice()) {
@@ -272,20 +248,28 @@ impl Derive<'_> {
     }
 }
 
+/// The base drives all coordinates of matrices alike, where nobody says otherwise.
+fn participation(host: &mut Table) {
+    let matrices = host.get_mut("structure").and_then(|structure| structure.get_mut("matrices"));
+    let Some(matrices) = matrices.and_then(Value::as_table_mut) else { return };
+    let n = matrices.get("mass").and_then(Value::as_array).map_or(0, Vec::len);
+    matrices.entry("participation").or_insert_with(|| Value::Array(vec![Value::Float(1.0); n]));
+}
+
 /// Takes the table of a structure of this kind away, to be replaced.
-fn taken(host: &mut Table, kind: &str) -> Option<Table> {
+pub(super) fn taken(host: &mut Table, kind: &str) -> Option<Table> {
     match host.get_mut("structure")?.as_table_mut()?.remove(kind)? {
         Value::Table(table) => Some(table),
         _ => None,
     }
 }
 
-fn vector(value: &Value) -> Option<[f64; 3]> {
+pub(super) fn vector(value: &Value) -> Option<[f64; 3]> {
     let list: Vec<f64> = value.as_array()?.iter().filter_map(Value::as_float).collect();
     list.try_into().ok()
 }
 
-fn array(vector: [f64; 3]) -> Value {
+pub(super) fn array(vector: [f64; 3]) -> Value {
     Value::Array(vector.into_iter().map(Value::Float).collect())
 }
 

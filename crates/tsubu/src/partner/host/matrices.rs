@@ -11,10 +11,10 @@ pub(super) fn matrices(structure: &Structure) -> Matrices {
         Structure::Oscillator { mass, stiffness, damping, cubic_stiffness: _ } => {
             (vec![*mass], vec![*damping], vec![*stiffness], vec![1.0], vec![1.0])
         }
-        Structure::Matrices { mass, damping, stiffness, coordinate } => {
+        Structure::Matrices { mass, damping, stiffness, coordinate, participation } => {
             let n = mass.len();
             let seen = (0..n).map(|i| f64::from(u8::from(i == *coordinate))).collect();
-            (mass.concat(), damping.concat(), stiffness.concat(), seen, vec![1.0; n])
+            (mass.concat(), damping.concat(), stiffness.concat(), seen, participation.clone())
         }
         Structure::Modes { mode } => {
             let n = mode.len();

@@ -1,11 +1,9 @@
 //! Matrices in the exchange format of the Matrix Market (Boisvert, Pozo and Remington 1996): real, general or symmetric, as
 //! coordinates or as an array.
 
+use super::MOST;
 use crate::complaint::{Complaint, Place};
 use crate::lines::{Line, lines};
-
-/// The largest matrix that is read.
-const MOST: usize = 400;
 
 /// Reads a square matrix, row by row. The text is the given source.
 pub(super) fn read(text: &str, source: usize) -> Result<Vec<Vec<f64>>, Complaint> {
