@@ -38,6 +38,7 @@ mod attach;
 mod change;
 mod check;
 mod choices;
+mod clump;
 mod complaint;
 mod files;
 mod going_on;

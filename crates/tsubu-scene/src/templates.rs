@@ -54,6 +54,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/beam-damper.toml"),
     },
     Template {
+        name: "rods",
+        about: "in space: rods, tetrahedra and balls fall into a box; a clump is spheres that are one body",
+        text: include_str!("../../../scenes/rods.toml"),
+    },
+    Template {
         name: "heap",
         about: "a hopper empties onto a floor and a heap grows: watches count, weigh and measure; the scene claims what comes out",
         text: include_str!("../../../scenes/heap.toml"),

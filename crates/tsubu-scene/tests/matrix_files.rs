@@ -1,6 +1,7 @@
 //! Structures by files of matrices, held against the program that wrote them: a clamped beam of steel, 100 x 10 x 5 mm in three bricks,
 //! by CalculiX 2.20 (`structures/beam.inp`; `*FREQUENCY, SOLVER=MATRIXSTORAGE` writes its matrices).
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 use tsubu_scene::Scene;
@@ -92,11 +93,11 @@ fn nastran(name: &str, text: &str) -> String {
     let names = names();
     let mut out = format!("$ condensed\nDMIG    {name:8}       0       6       2       0              36\n");
     for (column, (node, direction)) in names.iter().enumerate() {
-        out += &format!("DMIG*   {name:8}        {node:>16}{direction:>16}\n");
+        let _ = writeln!(out, "DMIG*   {name:8}        {node:>16}{direction:>16}");
         for (row, _, value) in entries(text).filter(|entry| entry.1 == column + 1 && entry.2 != 0.0) {
             let (node, direction) = &names[row - 1];
             let value = format!("{value:.9e}").replace('e', "D");
-            out += &format!("*       {node:>16}{direction:>16}{value:>16}\n");
+            let _ = writeln!(out, "*       {node:>16}{direction:>16}{value:>16}");
         }
     }
     out
@@ -187,7 +188,7 @@ fn matrix_files_that_cannot_be() {
         host(MASS, STIFFNESS, &format!(r#"{all}, damping = "m""#)),
         host(MASS, STIFFNESS, &format!("{all}, modes = 37")),
         host(MASS, STIFFNESS, &format!("{OTHERWISE}{rest}")),
-        host(MASS, STIFFNESS, &format!("{}, coordinate = 99", format!("{AS_STORED}{rest}"))),
+        host(MASS, STIFFNESS, &format!("{AS_STORED}{rest}, coordinate = 99")),
         host(&MASS.replacen("9.6913628703704e-07", "0.0", 1), STIFFNESS, &all),
         host(&MASS.replacen("9.6913628703704e-07", "-1.0", 1), STIFFNESS, &all),
         host(MASS, &STIFFNESS.replacen("1.5899579657054e+06", "oops", 1), &all),

@@ -144,6 +144,12 @@ impl Refusal {
         Self { method: "of this scene", notes: vec![Note { key, verdict: Verdict::Refused, text }] }
     }
 
+    /// A method that knows no grains of several spheres.
+    pub fn clumps(method: &'static str, group: &str) -> Self {
+        let text = "its grains are no clumps; `dem` computes them".to_owned();
+        Self { method, notes: vec![Note { key: format!("particles.{group}.shape"), verdict: Verdict::Refused, text }] }
+    }
+
     /// A method that knows no stages.
     pub fn stages(method: &'static str) -> Self {
         let text = "it runs scenes of one stage; `dem` runs more".to_owned();

@@ -15,6 +15,10 @@ pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
     if plan.stage.len() > 1 && plan.method != Method::Dem {
         return Err(Refusal::stages(plan.method.name()).into());
     }
+    let clump = plan.particles.iter().find(|(_, group)| group.shape.clump().is_some());
+    if let Some((name, _)) = clump.filter(|_| plan.method != Method::Dem) {
+        return Err(Refusal::clumps(plan.method.name(), name).into());
+    }
     refuse_more_than_there_is(plan, 0)?;
     let rule = match plan.method {
         Method::Dem => return Ok(Box::new(DemEngine::new(plan, hosts)?)),

@@ -34,6 +34,8 @@ pub enum Purpose {
     Move = 18,
     /// Values of keys that are tried in a calibration.
     Calibration = 19,
+    /// How grains that are no spheres are turned at the start.
+    Orientation = 20,
 }
 
 impl Purpose {

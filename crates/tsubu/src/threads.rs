@@ -88,6 +88,16 @@ pub(crate) fn each<T: Send>(things: &mut [T], shares: usize, work: impl Fn(&mut 
     }
 }
 
+/// The same in as many equal parts as there are `shares`, for things that are too small to be handed out one by one.
+pub(crate) fn each_in_parts<T: Send>(things: &mut [T], shares: usize, work: &(impl Fn(&mut T) + Sync)) {
+    if shares <= 1 || things.len() <= 1 {
+        return things.iter_mut().for_each(work);
+    }
+    let left = shares / 2;
+    let (first, others) = things.split_at_mut(things.len() * left / shares);
+    both(|| each_in_parts(first, left, work), || each_in_parts(others, shares - left, work));
+}
+
 /// Does something when dropped, however the work before has ended.
 struct Finally<F: Fn()>(F);
 

@@ -15,6 +15,7 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
                     .hint("write shape.sphere = {}, or set dimension = 2"),
             );
         }
+        clump(parts, name, group, complaints);
         sizes_and_places(parts, name, group, complaints);
         held(parts, name, group, complaints);
         complaints.extend(density(parts, name, group));
@@ -30,6 +31,37 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
         }
     }
 }
+
+/// A clump has as many diameters as centres; in the plane its centres are in the plane.
+fn clump(parts: &Parts<'_>, name: &str, group: &Particles, complaints: &mut Vec<Complaint>) {
+    let GrainShape::Clump { centre, diameter, .. } = &group.shape else { return };
+    let at = |key: &str| parts.root.locate(&["particles", name, "shape", "clump", key]);
+    if centre.is_empty() {
+        complaints
+            .push(Complaint::new(format!("the clump `{name}` has no spheres")).at(&at("centre"), "needs one or more"));
+    } else if centre.len() != diameter.len() {
+        complaints.push(
+            Complaint::new(format!("the clump `{name}` has another number of diameters than of centres"))
+                .at(&at("diameter"), format!("{} diameters, {} centres", diameter.len(), centre.len())),
+        );
+    }
+    if centre.len() > MOST_PIECES {
+        complaints.push(
+            Complaint::new(format!("the clump `{name}` has {} spheres", centre.len()))
+                .at(&at("centre"), format!("at most {MOST_PIECES}")),
+        );
+    }
+    if !matches!(group.motion, GrainMotion::Free {}) {
+        complaints.push(
+            Complaint::new(format!("the clumps `{name}` must be free to move"))
+                .at(&parts.root.locate(&["particles", name, "motion"]), "spheres and discs may be held or driven")
+                .hint("build a rough floor or a moving part of spheres, or as a wall"),
+        );
+    }
+}
+
+/// The most spheres of a clump.
+const MOST_PIECES: usize = 1000;
 
 /// Who gives places gives sizes with them: drawn at random they would overlap.
 fn sizes_and_places(parts: &Parts<'_>, name: &str, group: &Particles, complaints: &mut Vec<Complaint>) {

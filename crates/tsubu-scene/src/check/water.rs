@@ -22,6 +22,15 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
             );
             continue;
         }
+        if matches!(group.shape, GrainShape::Clump { .. }) {
+            complaints.push(
+                Complaint::new(format!("the grains `{name}` are clumps; drag and buoyancy are those of spheres"))
+                    .at(&parts.root.locate(&["particles", name, "shape", "clump"]), "not in water")
+                    .also(&at(&[]), "there is water")
+                    .hint("write shape.sphere = {}"),
+            );
+            continue;
+        }
         let density = group.mass / (PI / 6.0 * group.diameter.powi(3));
         if density <= water.density && !water.float {
             complaints.push(

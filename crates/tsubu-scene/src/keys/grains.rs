@@ -1,6 +1,6 @@
 //! Groups of grains: what they are, how large, where they begin, who moves them.
 
-use super::{Family, Key, Kind, Variant, hosts};
+use super::{Family, Key, Kind, Variant, Word, hosts};
 use crate::plan::Region;
 use crate::units::{LENGTH, MASS, NUMBER, RATE, SPEED, SPIN, TIME};
 
@@ -16,7 +16,7 @@ pub(crate) static PARTICLES: &[Key] = &[
     Key::new("mass", Kind::Quantity(&MASS), "Mass of a grain of that diameter; others scale with their volume")
         .above(0.0)
         .derived("sphere or disc of the material's density"),
-    Key::new("shape", Kind::Choice(SHAPE), "What a grain is, for its mass and inertia; contacts are those of spheres")
+    Key::new("shape", Kind::Choice(SHAPE), "What a grain is; its contacts are those of spheres")
         .default("{ sphere = {} }"),
     Key::new("size", Kind::Choice(SIZE), "How the diameters are distributed").default("{ equal = {} }"),
     Key::new("start", Kind::Choice(START), "Where the grains begin").default("{ settled = {} }"),
@@ -30,6 +30,21 @@ static SHAPE: &[Variant] = &[
         about: "Mass pi/4 rho d^2 h, moment of inertia 1/2 m r^2; only in the plane",
         keys: &[Key::new("thickness", Kind::Quantity(&LENGTH), "Thickness h along y").above(0.0)],
     },
+    Variant {
+        name: "clump",
+        about: "Spheres that are one body, scaled so that it just fits a sphere of the grain's `diameter` about its centre of mass; what overlaps counts once",
+        keys: &[
+            Key::new("centre", Kind::Vectors(&NUMBER), "Centres of the spheres, in any unit"),
+            Key::new("diameter", Kind::Quantities(&NUMBER), "Their diameters in the same unit, one for each centre")
+                .above(0.0),
+            Key::new("orientation", Kind::OneOf(ORIENTATION), "How each grain is turned at first").default("'random'"),
+        ],
+    },
+];
+
+static ORIENTATION: &[Word] = &[
+    Word { name: "random", about: "any orientation as likely as another; in the plane any angle" },
+    Word { name: "as-drawn", about: "as the centres say" },
 ];
 
 const CUT: Key = Key::new("cut", Kind::Quantity(&NUMBER), "Where the tails are cut on both sides, in deviations")

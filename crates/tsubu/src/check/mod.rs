@@ -81,13 +81,15 @@ pub fn bodies(plan: &Plan, table: &Table, hosts: &Hosts) -> Bodies {
     for (name, group) in plan.particles.iter().filter(|(_, group)| group.count > 0) {
         let (smallest, largest) = (group.smallest_diameter(), group.largest_diameter());
         let free = matches!(group.motion, GrainMotion::Free {});
+        let clump = group.shape.clump();
+        let ([thin, thick], lightness) = clump.map_or(([0.5; 2], 1.0), |clump| (clump.radii(), clump.lightness()));
         kinds.push(Kind {
             name: name.clone(),
             group: Some(name.clone()),
             material: table.material(&group.material),
-            radius: 0.5 * smallest,
-            largest: 0.5 * largest,
-            mass: if free { sizes::mass(group, smallest) + added(smallest) } else { f64::INFINITY },
+            radius: thin * smallest,
+            largest: thick * largest,
+            mass: if free { sizes::mass(group, smallest) / lightness + added(smallest) } else { f64::INFINITY },
         });
     }
     for wall in plan.walls.values() {

@@ -10,6 +10,7 @@ mod walls;
 
 pub(super) use list::contact_list;
 
+use super::bodies::Bodies;
 use super::contact_batch::{self, ContactBatch};
 use super::contact_history::{ContactHistory, FRESH, WallKey};
 use super::history_transfer::HistorySnapshot;
@@ -83,6 +84,7 @@ impl ContactLaws {
 #[derive(Clone, Copy)]
 pub(super) struct ForceInput<'a> {
     pub grains: &'a Grains,
+    pub bodies: &'a Bodies,
     pub walls: &'a [Wall],
     pub neighbours: &'a NeighbourLists,
     pub laws: &'a ContactLaws,

@@ -1,5 +1,6 @@
 //! The DEM engine: its state, how it is built from a plan, and how it answers.
 
+use super::bodies::{self, Bodies};
 use super::books::{Books, Reactions};
 use super::contact_forces::{ContactForces, ContactLaws};
 use super::immersion::Immersion;
@@ -32,6 +33,7 @@ use tsubu_scene::plan::{Particles, Plan};
 #[derive(Debug)]
 pub struct DemEngine {
     pub(super) grains: Grains,
+    pub(super) bodies: Bodies,
     pub(super) walls: Vec<Wall>,
     pub(super) faces: Faces,
     pub(super) clock: Clock,
@@ -150,6 +152,7 @@ impl DemEngine {
             let notes = vec![Note { key, verdict: Verdict::Refused, text }];
             Refusal { method: "dem", notes }
         };
+        bodies::refused(plan)?;
         let table = Table::new(plan);
         let dt = check::time_step(plan, &table, hosts);
         if let Some(text) = check::blows_up(plan, hosts, dt) {
@@ -162,6 +165,7 @@ impl DemEngine {
         if let Some(i) = first.filter(|_| left_out(Mutation::LastBit)) {
             grains.position[i].x += f64::EPSILON * grains.position[i].x.abs().max(grains.radius[i]);
         }
+        let bodies = Bodies::assemble(plan, &mut grains);
         let sources = Sources::new(plan, &table, &walls, grains.len());
         let diameters = grains.radius.iter().map(|r| (2.0 * r, 2.0 * r)).chain(sources.sizes());
         let (smallest, largest) = diameters.fold((f64::INFINITY, 0.0f64), |a, d| (a.0.min(d.0), a.1.max(d.1)));
@@ -174,7 +178,7 @@ impl DemEngine {
             walls,
             faces: Faces::new(plan),
             clock: Clock { dt, ..Clock::default() },
-            neighbours: NeighbourLists::new(search),
+            neighbours: NeighbourLists::new(search).between_bodies(bodies.of_grains()),
             laws,
             contacts: ContactForces::default(),
             immersion: water
@@ -193,6 +197,7 @@ impl DemEngine {
             },
             notes: Vec::new(),
             grains,
+            bodies,
         };
         engine.start();
         engine.judge_start(plan)?;
@@ -272,6 +277,7 @@ impl Engine for DemEngine {
         for (own, _) in of.iter_mut().zip(inverse_mass).filter(|(_, inverse)| **inverse != 0.0) {
             *own += DVec3::from_array(velocity);
         }
+        self.bodies.push(DVec3::from_array(velocity));
         true
     }
 
@@ -292,15 +298,26 @@ impl Engine for DemEngine {
     fn grain_energies(&self) -> Energies {
         let walls: f64 = self.walls.iter().map(|w| w.energy().0 + w.energy().1).sum();
         let stream = self.immersion.as_ref().map_or(0.0, Immersion::stream_energy);
-        Energies { elastic: self.contacts.sums.stored, walls, stream, ..self.grains.energies(self.integration.gravity) }
+        let (spheres, bodies) =
+            (self.grains.energies(self.integration.gravity), self.bodies.energies(self.integration.gravity));
+        Energies {
+            kinetic: spheres.kinetic + bodies.kinetic,
+            rotational: spheres.rotational + bodies.rotational,
+            potential: spheres.potential + bodies.potential,
+            elastic: self.contacts.sums.stored,
+            walls,
+            stream,
+            ..spheres
+        }
     }
 
     fn momentum(&self) -> [f64; 3] {
-        self.grains.momentum().to_array()
+        (self.grains.momentum() + self.bodies.momentum()).to_array()
     }
 
     fn centre_of_mass(&self) -> [f64; 3] {
-        self.grains.centre_of_mass().to_array()
+        let (mass, moment) = (self.grains.moved_mass(), self.grains.moment_of_mass() + self.bodies.moment_of_mass());
+        if mass > 0.0 { (moment / mass).to_array() } else { [0.0; 3] }
     }
 
     fn grain_steps(&self) -> u64 {

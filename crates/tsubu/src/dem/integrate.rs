@@ -1,6 +1,7 @@
 //! Time integration of grains, split around the evaluation of forces. Both halves go block by block, on many threads where
 //! that is worth it.
 
+use super::bodies::{Block, Bodies};
 use super::contact_forces::BlockContacts;
 use super::sweep::{BlockRange, Direction, sweep};
 use crate::mutation::{Mutation, left_out, mutated};
@@ -50,6 +51,7 @@ struct Slice<'a> {
     angular_acceleration: &'a mut [DVec3],
     inverse_mass: &'a [f64],
     inertia: &'a [f64],
+    unwrap_offset: &'a [DVec3],
     reference: &'a [DVec3],
     // One a block.
     lists: &'a [BlockList],
@@ -68,6 +70,7 @@ impl<'a> Slice<'a> {
             angular_acceleration: &mut grains.angular_acceleration,
             inverse_mass: &grains.inverse_mass,
             inertia: &grains.inertia,
+            unwrap_offset: &grains.unwrap_offset,
             reference: &neighbours.reference,
             lists: &neighbours.lists,
             drifts: &mut neighbours.drifts.of,
@@ -90,6 +93,7 @@ impl BlockRange for Slice<'_> {
         let (angular_acceleration, angular_accelerations) = self.angular_acceleration.split_at_mut(grains);
         let (inverse_mass, inverse_masses) = self.inverse_mass.split_at(grains);
         let (inertia, inertias) = self.inertia.split_at(grains);
+        let (unwrap_offset, unwrap_offsets) = self.unwrap_offset.split_at(grains);
         let (reference, references) = self.reference.split_at(grains);
         let (list, lists) = self.lists.split_at(blocks);
         let (drift, drifts) = self.drifts.split_at_mut(blocks);
@@ -102,6 +106,7 @@ impl BlockRange for Slice<'_> {
             angular_acceleration,
             inverse_mass,
             inertia,
+            unwrap_offset,
             reference,
             lists: list,
             drifts: drift,
@@ -115,6 +120,7 @@ impl BlockRange for Slice<'_> {
             angular_acceleration: angular_accelerations,
             inverse_mass: inverse_masses,
             inertia: inertias,
+            unwrap_offset: unwrap_offsets,
             reference: references,
             lists,
             drifts,
@@ -137,10 +143,10 @@ impl TimeIntegration {
 
     /// Before the forces: brings positions to the end of the step, and velocities there too, predicted with the old
     /// acceleration, so that forces that depend on velocity see positions and velocities of one time level.
-    pub fn first_half(&mut self, grains: &mut Grains, neighbours: &mut NeighbourLists, dt: f64) {
+    pub fn first_half(&mut self, grains: &mut Grains, bodies: &Bodies, neighbours: &mut NeighbourLists, dt: f64) {
         let (motion, shares) = (self.motion(dt), shares(grains.len()));
         let blocks = Slice::new(grains, neighbours, &mut self.reports);
-        sweep(blocks, Direction::Forward, shares, &|mut s: Slice| first_half(&mut s, &motion));
+        sweep(blocks, Direction::Forward, shares, &|mut s: Slice| first_half(&mut s, bodies, &motion));
     }
 
     /// After the forces: sums what blocks hold for every grain, finds the new accelerations and completes the velocities of
@@ -149,6 +155,7 @@ impl TimeIntegration {
     pub fn second_half(
         &mut self,
         grains: &mut Grains,
+        bodies: &Bodies,
         contacts: &[BlockContacts],
         neighbours: &mut NeighbourLists,
         dt: f64,
@@ -159,7 +166,7 @@ impl TimeIntegration {
         sweep(blocks, Direction::Backward, shares, &|mut s: Slice| {
             s.reports[0] = second_half(&mut s, contacts, &motion);
             if go_on {
-                first_half(&mut s, &motion);
+                first_half(&mut s, bodies, &motion);
             }
         });
         let mut total = Report::default();
@@ -176,11 +183,17 @@ impl TimeIntegration {
 }
 
 /// First half of a step of one block.
-fn first_half(s: &mut Slice, motion: &Motion) {
+fn first_half(s: &mut Slice, bodies: &Bodies, motion: &Motion) {
     let drift = &mut s.drifts[0];
     drift.offset += drift.velocity * motion.dt;
     let offset = drift.offset;
-    let (total, farthest) = drift_on(s, offset, motion);
+    let (mut total, mut farthest) = drift_on(s, offset, motion);
+    if !bodies.is_empty() {
+        let Slice { position, velocity, spin, unwrap_offset, reference, lists, .. } = s;
+        let first = lists[0].first;
+        (total, farthest) =
+            bodies.place(&mut Block { first, position, velocity, spin, unwrap_offset, reference }, offset);
+    }
     let velocity = total / s.position.len() as f64;
     s.drifts[0] = Drift { offset, velocity, farthest };
 }
@@ -236,6 +249,12 @@ fn second_half(s: &mut Slice, contacts: &[BlockContacts], motion: &Motion) -> Re
         {
             load.add(&contacts[other.block as usize].loads[other.local as usize]);
             next += 1;
+        }
+        // A piece of a body moves with that, which finds here what the piece feels.
+        if s.inertia[i] == 0.0 {
+            (s.acceleration[i], s.angular_acceleration[i]) = (load.force, load.torque);
+            s.velocity[i] = load.dissipative.as_dvec3();
+            continue;
         }
         if s.inverse_mass[i] == 0.0 {
             report.fixed_force += load.force;

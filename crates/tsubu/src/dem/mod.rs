@@ -1,5 +1,6 @@
 //! The discrete element method.
 
+mod bodies;
 mod books;
 mod contact_batch;
 mod contact_forces;

@@ -32,7 +32,10 @@ impl Group<'_> {
     fn key(&self, id: u32) -> String {
         let (start, part) = ("particles", self.name);
         match &self.of.start {
-            Start::At { .. } => format!("{start}.{part}.start.at.position[{}]", id - self.first_id),
+            Start::At { .. } => {
+                let pieces = self.of.shape.clump().map_or(1, |clump| clump.pieces.len() as u32);
+                format!("{start}.{part}.start.at.position[{}]", (id - self.first_id) / pieces)
+            }
             Start::File { .. } => format!("{start}.{part}.start.file"),
             Start::Rows { .. } => format!("{start}.{part}.start.rows"),
             Start::Settled { .. } => format!("{start}.{part}.start.settled"),

@@ -19,8 +19,11 @@ impl DemEngine {
         let next = self.clock.step + 1;
         let (insertion_due, gate_due) = (self.insertion_due(next), self.gate_due(next));
         let go_on = go_on && !insertion_due && !gate_due && !self.contacts.outside.acts();
+        let looked_at = !go_on;
+        let go_on = go_on && self.bodies.is_empty();
         if !std::mem::replace(&mut self.clock.half_step_done, go_on) {
-            self.integration.first_half(&mut self.grains, &mut self.neighbours, self.clock.dt);
+            self.bodies.first_half(self.clock.dt);
+            self.integration.first_half(&mut self.grains, &self.bodies, &mut self.neighbours, self.clock.dt);
         }
         self.clock.tick(self.grains.len());
         let (time, dt) = (self.clock.time(), self.clock.dt);
@@ -39,6 +42,9 @@ impl DemEngine {
         // Before positions may go on to the next step: the stream looks where the grains are now.
         self.advance_stream(ledger);
         self.second_half_step(dt, go_on);
+        if looked_at {
+            self.bodies.show(&mut self.grains);
+        }
         self.apply_reactions(hosts, ledger);
         hosts.after(time, dt, ledger);
         self.post_powers(ledger);
@@ -70,6 +76,7 @@ impl DemEngine {
     /// The same with the contact history from before grains came or went.
     pub(super) fn rebuild_neighbours_with(&mut self, history: HistorySnapshot) {
         self.neighbours.sort_grains(&mut self.grains);
+        self.bodies.find(&self.grains);
         self.neighbours.rebuild(&self.grains, &self.walls);
         self.resize_contacts();
         let released = self.restore_history(history);
@@ -118,6 +125,7 @@ impl DemEngine {
         self.contacts.sums.stored = stored;
         self.evaluate_stream_at_rest();
         self.second_half_step(0.0, false);
+        self.bodies.show(&mut self.grains);
         self.reactions.sum_wall_loads(&self.contacts);
         self.faces.measure(&mut self.walls);
         for (wall, load) in self.walls.iter_mut().zip(&self.reactions.wall_loads) {
@@ -128,15 +136,15 @@ impl DemEngine {
 
     /// The contacts, and what their forces are computed from.
     fn contacts_and_input(&mut self) -> (&mut ContactForces, ForceInput<'_>) {
-        let Self { grains, walls, neighbours, laws, contacts, immersion, integration, clock, .. } = self;
+        let Self { grains, bodies, walls, neighbours, laws, contacts, immersion, integration, clock, .. } = self;
         let water = immersion.as_ref().map(|immersion| immersion.at(clock.time(), integration.gravity, clock.settling));
-        (contacts, ForceInput { grains, walls, neighbours, laws, dt: clock.dt, completion: 0.0, water })
+        (contacts, ForceInput { grains, bodies, walls, neighbours, laws, dt: clock.dt, completion: 0.0, water })
     }
 
     /// The same to look at.
     pub(super) fn force_input(&self) -> ForceInput<'_> {
-        let Self { grains, walls, neighbours, laws, clock, .. } = self;
-        ForceInput { grains, walls, neighbours, laws, dt: clock.dt, completion: 0.0, water: None }
+        let Self { grains, bodies, walls, neighbours, laws, clock, .. } = self;
+        ForceInput { grains, bodies, walls, neighbours, laws, dt: clock.dt, completion: 0.0, water: None }
     }
 
     /// The contacts of this moment.
@@ -151,13 +159,18 @@ impl DemEngine {
 
     /// Accelerations from forces and gravity; completes the velocities of a step `dt` (0: leaves them).
     fn second_half_step(&mut self, dt: f64, go_on: bool) {
-        let Self { grains, neighbours, contacts, integration, .. } = self;
+        let Self { grains, bodies, neighbours, contacts, integration, .. } = self;
         let predicted = contacts.outside.torque_power(grains);
-        let report = integration.second_half(grains, &contacts.blocks, neighbours, dt, go_on);
+        let report = integration.second_half(grains, bodies, &contacts.blocks, neighbours, dt, go_on);
+        let share = integration.predicted_for(dt);
+        let correction = bodies.second_half(grains, integration.gravity, share);
+        if contacts.outside.acts() {
+            bodies.show(grains);
+        }
         contacts.outside.measure(grains);
         // Torques from outside are in the correction too, but no loss.
         let turned = 2.0 / 3.0 * (contacts.outside.torque_power(grains) - predicted);
-        contacts.sums.lost.correct(report.correction + turned);
+        contacts.sums.lost.correct(report.correction + correction + turned);
         (self.reactions.on_fixed, self.reactions.driven_power) = (report.fixed_force, report.driven_power);
     }
 

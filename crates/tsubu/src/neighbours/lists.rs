@@ -117,6 +117,8 @@ pub struct NeighbourLists {
     pub drifts: Drifts,
     /// Shift of every image [m].
     pub shifts: Vec<DVec3>,
+    /// The body of every grain by its id, whose pieces never touch each other; empty where every grain is by itself.
+    body_of: Vec<u32>,
     levels: Vec<Grid>,
     level_of: Vec<u8>,
     largest: Vec<f64>,
@@ -139,6 +141,12 @@ impl NeighbourLists {
     /// Empty lists.
     pub fn new(search: Search) -> Self {
         Self { search, ..Self::default() }
+    }
+
+    /// The same where grains with these ids are pieces of these bodies.
+    #[must_use]
+    pub fn between_bodies(self, body_of: Vec<u32>) -> Self {
+        Self { body_of, ..self }
     }
 
     /// Whether the lists may miss a touching pair.
@@ -220,6 +228,9 @@ impl NeighbourLists {
                 } else {
                     self.neighbours(finder, grains, i);
                 }
+                if !self.body_of.is_empty() {
+                    self.forget_own_body(finder, grains, i, list.start[own] as usize);
+                }
                 list.start.push(finder.seconds.len() as u32);
                 let reach = grains.radius[i] + search.skin + search.reach;
                 let moves = grains.inverse_mass[i] > 0.0;
@@ -287,6 +298,17 @@ impl NeighbourLists {
             let watched = |m: &&Image| (moves || grains.inverse_mass[m.grain as usize] > 0.0) && m.grain as usize != i;
             finder.seconds.extend(finder.nearby.found().iter().filter(watched));
         }
+    }
+
+    /// Drops, of the pairs from `first` on, those of two pieces of one body.
+    fn forget_own_body(&self, finder: &mut Finder, grains: &Grains, i: usize, first: usize) {
+        let body = |i: usize| self.body_of.get(grains.id[i] as usize).copied().filter(|body| *body != u32::MAX);
+        let Some(own) = body(i) else { return };
+        let mut place = 0;
+        finder.seconds.retain(|second| {
+            place += 1;
+            place <= first || body(second.grain as usize) != Some(own)
+        });
     }
 
     /// The same for few grains, without a grid.

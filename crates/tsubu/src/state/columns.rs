@@ -54,6 +54,9 @@ macro_rules! columns {
             /// Adds a row.
             pub fn push(&mut self, row: $row) { $(self.$column.push(row.$column);)+ }
 
+            /// A row.
+            pub fn row(&self, i: usize) -> $row { $row { $($column: self.$column[i],)+ } }
+
             /// Puts row `order[i]` at place i; rows that are not in the order are dropped. Columns side by side on many
             /// threads.
             pub fn permute(&mut self, order: &[u32]) {

@@ -26,7 +26,7 @@ columns! {
         mass: f64,
         /// One over the mass that others feel [1/kg]; 0 for grains that forces do not move.
         inverse_mass: f64,
-        /// Moment of inertia [kg.m^2].
+        /// Moment of inertia [kg.m^2]; 0 for a piece of a body, which moves and turns with it.
         inertia: f64,
         /// Number of the material in the contact table.
         material: u32,
@@ -48,11 +48,16 @@ impl Grains {
         self.id.is_empty()
     }
 
-    /// Kinetic, rotational and potential energy under `gravity` [m/s^2] of the grains that forces move.
+    /// Whether a grain moves and turns by itself; what is held or driven does, too.
+    fn single(&self, i: usize) -> bool {
+        self.inertia[i] != 0.0
+    }
+
+    /// Kinetic, rotational and potential energy under `gravity` [m/s^2] of the grains that forces move, but for pieces of bodies.
     pub fn energies(&self, gravity: DVec3) -> Energies {
         let mut energies = Energies::default();
         for i in 0..self.len() {
-            if self.inverse_mass[i] == 0.0 {
+            if self.inverse_mass[i] == 0.0 || !self.single(i) {
                 continue;
             }
             let squared = self.velocity[i].length_squared();
@@ -71,18 +76,16 @@ impl Grains {
         if added > 1e-12 * self.mass[i] { added } else { 0.0 }
     }
 
-    /// Total momentum [N.s] of the grains that forces move, and of the water that moves along with them.
+    /// Total momentum [N.s] of the grains that forces move, and of the water that moves along with them, but for pieces of bodies.
     pub fn momentum(&self) -> DVec3 {
-        let moved = (0..self.len()).filter(|&i| self.inverse_mass[i] != 0.0);
+        let moved = (0..self.len()).filter(|&i| self.inverse_mass[i] != 0.0 && self.single(i));
         moved.map(|i| (self.mass[i] + self.added_mass(i)) * self.velocity[i]).sum()
     }
 
-    /// Centre of mass of the grains that forces move, unwrapped [m]; zero where there are none.
-    pub fn centre_of_mass(&self) -> DVec3 {
-        let moved = (0..self.len()).filter(|&i| self.inverse_mass[i] != 0.0);
-        let sum: DVec3 = moved.map(|i| self.mass[i] * (self.position[i] + self.unwrap_offset[i])).sum();
-        let mass = self.moved_mass();
-        if mass > 0.0 { sum / mass } else { DVec3::ZERO }
+    /// Sum of mass times unwrapped centre [kg.m] of the grains that forces move, but for pieces of bodies.
+    pub fn moment_of_mass(&self) -> DVec3 {
+        let moved = (0..self.len()).filter(|&i| self.inverse_mass[i] != 0.0 && self.single(i));
+        moved.map(|i| self.mass[i] * (self.position[i] + self.unwrap_offset[i])).sum()
     }
 
     /// Total mass of the grains that forces move [kg].

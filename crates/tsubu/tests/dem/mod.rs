@@ -1,6 +1,7 @@
 //! DEM by its outcome.
 
 mod books;
+mod clump;
 mod come_and_go;
 mod everything;
 mod gates;

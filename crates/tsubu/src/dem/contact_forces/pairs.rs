@@ -32,6 +32,7 @@ pub(super) fn evaluate(
         for touching in touching_pairs.under(number).chunks(ROWS) {
             batch.gather(touching, grains, list, spheres, &laws.table, laws.rotation);
             batch.sphere_geometry(laws.rotation, laws.lever_share);
+            input.bodies.show_mass(batch, list, false);
             if width > 0 {
                 for (touching, old) in touching.iter().zip(&mut *old) {
                     let opened = skip(&history.pairs.keys, &mut cursor, |pair| *pair < touching.pair);

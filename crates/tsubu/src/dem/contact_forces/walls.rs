@@ -91,11 +91,11 @@ fn evaluate_law(
             Chunk::set(&mut batch.spin[1], r, wall.pose.spin);
             batch.chunk.len = r + 1;
             if r + 1 == ROWS {
-                finish(input, number, history, scratch, sums, visit);
+                finish(input, number, list, history, scratch, sums, visit);
             }
         }
     }
-    finish(input, number, history, scratch, sums, visit);
+    finish(input, number, list, history, scratch, sums, visit);
     if remembers {
         released += history.walls.stored_energy(cursor..history.walls.keys.len(), law);
         sums.lost.sliding += power(released, input.dt);
@@ -137,6 +137,7 @@ fn slot(c: usize) -> u32 {
 fn finish(
     input: &ForceInput,
     number: usize,
+    list: &BlockList,
     history: &ContactHistory,
     scratch: &mut Scratch,
     sums: &mut ContactSums,
@@ -147,6 +148,7 @@ fn finish(
     let remembers = input.laws.all()[number].width() > 0;
     let n = batch.chunk.rows();
     batch.relative_motion(input.laws.rotation);
+    input.bodies.show_mass(batch, list, true);
     if remembers {
         history.walls.gather(&old[..n], &mut batch.chunk.history);
     }

@@ -1,0 +1,254 @@
+//! Bodies of several spheres (clumps): contacts act on the spheres, their sum moves the body, and the body moves its spheres.
+//!
+//! The pieces are rows among the grains, so contacts, walls and neighbour lists know nothing of bodies, but that two pieces of one body never
+//! touch. Integration is velocity Verlet, as for spheres. Free rotation between two kicks is the implicit midpoint rule with an
+//! attitude by Cayley's map (Austin, Krishnaprasad and Wang 1993): in space the angular momentum stays what it is to the bit, and the
+//! rotational energy to rounding, at any step and for any moments of inertia.
+
+mod assemble;
+mod body;
+
+pub(super) use assemble::refused;
+
+use super::contact_batch::ContactBatch;
+use crate::contact::chunk::Chunk;
+use crate::ledger::Energies;
+use crate::neighbours::lists::{BlockList, shares};
+use crate::state::Grains;
+use crate::threads::each_in_parts;
+use body::{Body, Felt};
+use glam::{DQuat, DVec3};
+use tsubu_frame::State;
+use tsubu_frame::state::MissingSection;
+
+/// What is no piece of a body.
+const NO_BODY: u32 = u32::MAX;
+
+/// A sphere of a body, or one that is none.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    body: u32,
+    /// Its centre from that of the body, along the principal axes [m].
+    offset: DVec3,
+}
+
+/// All bodies of several spheres, in the order of the ids of their pieces; empty where every grain is a sphere.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Bodies {
+    list: Vec<Body>,
+    /// By the ids of grains.
+    by_id: Vec<Piece>,
+    /// The same as the grains are sorted.
+    sorted: Vec<Piece>,
+    /// Where the pieces are among the grains, body by body.
+    places: Vec<u32>,
+    /// Whether all stay in the plane: what rounding would bring out of it is an exact zero.
+    plane: bool,
+}
+
+impl Bodies {
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// The body of every grain by its id; nothing where there are none.
+    pub fn of_grains(&self) -> Vec<u32> {
+        if self.is_empty() { Vec::new() } else { self.by_id.iter().map(|piece| piece.body).collect() }
+    }
+
+    /// The body of the grain with an id.
+    pub fn of(&self, id: u32) -> Option<u32> {
+        self.by_id.get(id as usize).map(|piece| piece.body).filter(|body| *body != NO_BODY)
+    }
+
+    /// Finds the pieces among the grains; wherever these are sorted.
+    pub fn find(&mut self, grains: &Grains) {
+        if self.is_empty() {
+            return;
+        }
+        let by_id = &self.by_id;
+        self.sorted.clear();
+        self.sorted.extend(grains.id.iter().map(|id| by_id[*id as usize]));
+        self.places = grains.by_id().into_iter().map(|place| place as u32).collect();
+        let sorted = &self.sorted;
+        self.places.retain(|place| sorted[*place as usize].body != NO_BODY);
+    }
+
+    /// Before the forces: bodies go to the end of the step. Their pieces follow block by block, see [`Bodies::place`].
+    pub fn first_half(&mut self, dt: f64) {
+        let (plane, pieces) = (self.plane, self.places.len());
+        each_in_parts(&mut self.list, shares(pieces), &|body: &mut Body| body.first_half(dt, plane));
+    }
+
+    /// Puts the pieces of a block where their bodies have them. Returns, of all of its grains, the sum of the velocities [m/s] and how far the
+    /// farthest is from where it was at the search and from `offset` [m].
+    pub fn place(&self, block: &mut Block, offset: DVec3) -> (DVec3, f64) {
+        let (mut total, mut farthest, mut sum) = (DVec3::ZERO, 0.0_f64, 0.0);
+        for (i, piece) in self.sorted[block.first..].iter().enumerate().take(block.position.len()) {
+            if let Some(body) = self.list.get(piece.body as usize) {
+                let arm = body.arm(piece, self.plane);
+                block.position[i] = body.centre + arm - block.unwrap_offset[i];
+                block.velocity[i] = body.velocity + body.spin.cross(arm);
+                block.spin[i] = body.spin;
+            }
+            total += block.velocity[i];
+            let away = (block.position[i] - block.reference[i] - offset).length_squared();
+            farthest = farthest.max(away);
+            sum += away;
+        }
+        // The sum catches what a maximum hides.
+        (total, if f64::is_finite(sum) { farthest.sqrt() } else { f64::NAN })
+    }
+
+    /// After the forces: sums what the pieces feel, which their columns carry ([`super::integrate`]), finds the new accelerations and completes
+    /// the velocities, which the old ones have brought `share` [s] of the way. Returns the correction of the losses, as for spheres.
+    pub fn second_half(&mut self, grains: &Grains, gravity: DVec3, share: f64) -> f64 {
+        let Self { list, sorted, places, plane, .. } = self;
+        let plane = *plane;
+        each_in_parts(list, shares(places.len()), &|body: &mut Body| {
+            let mut felt = Felt::default();
+            for &place in &places[body.pieces.clone()] {
+                let i = place as usize;
+                let (force, torque, dissipative) =
+                    (grains.acceleration[i], grains.angular_acceleration[i], grains.velocity[i]);
+                let arm = body.arm(&sorted[i], plane);
+                felt.force += force;
+                felt.torque += torque + arm.cross(force);
+                felt.loss[0] += dissipative;
+                felt.loss[1] += torque + arm.cross(dissipative);
+            }
+            body.second_half(&felt, gravity, share, plane);
+        });
+        -2.0 / 3.0 * list.iter().map(|body| body.correction).sum::<f64>()
+    }
+
+    /// Completes the velocities of the pieces, for those who look; the next step finds them anew.
+    pub fn show(&self, grains: &mut Grains) {
+        for (i, piece) in self.sorted.iter().enumerate() {
+            let Some(body) = self.list.get(piece.body as usize) else { continue };
+            grains.velocity[i] = body.velocity + body.spin.cross(body.arm(piece, self.plane));
+            (grains.acceleration[i], grains.spin[i]) = (body.acceleration, body.spin);
+            grains.angular_acceleration[i] = DVec3::ZERO;
+        }
+    }
+
+    /// Gives each row of a batch the mass that its bodies show at the place of contact: 1/m + (r x n) . I^-1 (r x n), with the arm r from the
+    /// centre of mass (Goldsmith 1960). So what was asked for comes back from an impact anywhere on a body.
+    pub fn show_mass(&self, batch: &mut ContactBatch, list: &BlockList, wall: bool) {
+        if self.is_empty() {
+            return;
+        }
+        for r in 0..batch.chunk.rows() {
+            let normal = Chunk::vector(&batch.chunk.normal, r);
+            let mut more = self.turning(list.first + batch.first[r] as usize, normal);
+            if !wall {
+                more += self.turning(list.grain_at[batch.second[r] as usize] as usize, normal);
+            }
+            if more > 0.0 {
+                batch.chunk.effective_mass[r] = 1.0 / (1.0 / batch.chunk.effective_mass[r] + more);
+            }
+        }
+    }
+
+    /// How much a body gives way by turning, to a push along a normal on a piece of it [1/kg].
+    fn turning(&self, i: usize, normal: DVec3) -> f64 {
+        let piece = &self.sorted[i];
+        let Some(body) = self.list.get(piece.body as usize) else { return 0.0 };
+        let lever = body.arm(piece, self.plane).cross(normal);
+        lever.dot(body.inverse_inertia * lever)
+    }
+
+    /// Kinetic, rotational and potential energy.
+    pub fn energies(&self, gravity: DVec3) -> Energies {
+        let mut energies = Energies::default();
+        for body in &self.list {
+            energies.kinetic += 0.5 * body.mass * body.velocity.length_squared();
+            energies.rotational += 0.5 * body.angular_momentum.dot(body.spin);
+            energies.potential -= body.mass * gravity.dot(body.centre);
+        }
+        energies
+    }
+
+    /// Total momentum [N.s].
+    pub fn momentum(&self) -> DVec3 {
+        self.list.iter().map(|body| body.mass * body.velocity).sum()
+    }
+
+    /// Sum of mass times centre [kg.m].
+    pub fn moment_of_mass(&self) -> DVec3 {
+        self.list.iter().map(|body| body.mass * body.centre).sum()
+    }
+
+    /// Adds a velocity to all.
+    pub fn push(&mut self, velocity: DVec3) {
+        self.list.iter_mut().for_each(|body| body.velocity += velocity);
+    }
+
+    /// Brings all to rest.
+    pub fn stop(&mut self) {
+        for body in &mut self.list {
+            (body.velocity, body.angular_momentum, body.spin) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+        }
+    }
+
+    /// How the body of a grain is turned.
+    pub fn orientation(&self, id: u32) -> Option<DQuat> {
+        self.of(id).map(|body| self.list[body as usize].orientation)
+    }
+
+    pub fn save(&self, state: &mut State) {
+        if self.is_empty() {
+            return;
+        }
+        for (k, name) in VECTORS.iter().enumerate() {
+            let column = self.list.iter().flat_map(|body| body.vectors()[k].to_array());
+            state.put_real(name, column.collect::<Vec<_>>());
+        }
+        let turned = self.list.iter().flat_map(|body| body.orientation.to_array());
+        state.put_real("bodies.orientation", turned.collect::<Vec<_>>());
+    }
+
+    /// Takes it back, with the grains that were saved beside.
+    pub fn load(&mut self, state: &State, grains: &Grains) -> Result<(), MissingSection> {
+        if self.is_empty() {
+            return Ok(());
+        }
+        let missing = |name: &str| MissingSection { name: name.to_owned(), kind: "real" };
+        if grains.len() != self.by_id.len() || grains.id.iter().any(|id| *id as usize >= self.by_id.len()) {
+            return Err(missing("bodies"));
+        }
+        for (k, name) in VECTORS.iter().enumerate() {
+            let column = state.real(name)?.as_chunks::<3>().0;
+            if column.len() != self.list.len() {
+                return Err(missing(name));
+            }
+            for (body, value) in self.list.iter_mut().zip(column) {
+                *body.vectors_mut()[k] = DVec3::from_array(*value);
+            }
+        }
+        let turned = state.real("bodies.orientation")?.as_chunks::<4>().0;
+        if turned.len() != self.list.len() {
+            return Err(missing("bodies.orientation"));
+        }
+        for (body, turned) in self.list.iter_mut().zip(turned) {
+            body.orientation = DQuat::from_array(*turned);
+            body.follow(self.plane);
+        }
+        self.find(grains);
+        Ok(())
+    }
+}
+
+/// Names of [`Body::vectors`] in a checkpoint.
+const VECTORS: [&str; 5] =
+    ["bodies.centre", "bodies.velocity", "bodies.acceleration", "bodies.angular-momentum", "bodies.torque"];
+
+/// The pieces of one block, as columns.
+pub(super) struct Block<'a> {
+    pub first: usize,
+    pub position: &'a mut [DVec3],
+    pub velocity: &'a mut [DVec3],
+    pub spin: &'a mut [DVec3],
+    pub unwrap_offset: &'a [DVec3],
+    pub reference: &'a [DVec3],
+}
