@@ -100,3 +100,16 @@ fn frames_that_cannot_be_read() {
     ];
     insta::assert_snapshot!(all.join("\n"));
 }
+
+/// Spheres of a clump would fall apart; a frame in which every sphere is by itself is read.
+#[test]
+fn frames_of_clumps_are_refused() {
+    let with = |bodies: &str| {
+        let column =
+            format!("<DataArray type=\"Int64\" Name=\"body\" format=\"ascii\">{bodies}</DataArray>\n</PointData>");
+        read(TEXT.replace("</PointData>", &column).as_bytes(), "")
+    };
+    assert!(with("-1 -1").is_ok());
+    let told = with("-1 0").expect_err("clumps").to_string();
+    assert!(told.contains("spheres of clumps") && told.contains("start-from"), "{told}");
+}

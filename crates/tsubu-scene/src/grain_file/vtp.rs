@@ -71,6 +71,12 @@ pub(super) fn as_dump(name: &str, bytes: &[u8]) -> Result<String, Complaint> {
         columns.push((read(array, width)?, width));
         let _ = write!(names, " {name}");
     }
+    // Spheres that were one body would fall apart.
+    if let Some(bodies) = named(&["body"])
+        && read(bodies, 1)?.iter().any(|body| *body >= 0.0)
+    {
+        return Err(wrong("it has spheres of clumps; `start-from` goes on from a run with them"));
+    }
     // Types of a dump begin with 1, groups with 0.
     if let Some(groups) = named(&["group"]) {
         columns.push((read(groups, 1)?.into_iter().map(|group| group + 1.0).collect(), 1));

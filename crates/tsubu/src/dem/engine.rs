@@ -33,7 +33,6 @@ use tsubu_scene::plan::{Particles, Plan};
 #[derive(Debug)]
 pub struct DemEngine {
     pub(super) grains: Grains,
-    pub(super) bodies: Bodies,
     pub(super) walls: Vec<Wall>,
     pub(super) faces: Faces,
     pub(super) clock: Clock,
@@ -184,7 +183,7 @@ impl DemEngine {
             immersion: water
                 .as_ref()
                 .map(|water| Immersion::new(Water::new(water, gravity).seeded(*seed, *dimension == 3))),
-            integration: TimeIntegration::new(dem.integrator, gravity, contact.rotation),
+            integration: TimeIntegration::new(dem.integrator, gravity, contact.rotation, bodies),
             orientation: Orientation::new(dem.orientation),
             sources,
             reactions,
@@ -197,7 +196,6 @@ impl DemEngine {
             },
             notes: Vec::new(),
             grains,
-            bodies,
         };
         engine.start();
         engine.judge_start(plan)?;
@@ -277,7 +275,7 @@ impl Engine for DemEngine {
         for (own, _) in of.iter_mut().zip(inverse_mass).filter(|(_, inverse)| **inverse != 0.0) {
             *own += DVec3::from_array(velocity);
         }
-        self.bodies.push(DVec3::from_array(velocity));
+        self.integration.bodies.push(DVec3::from_array(velocity));
         true
     }
 
@@ -298,8 +296,10 @@ impl Engine for DemEngine {
     fn grain_energies(&self) -> Energies {
         let walls: f64 = self.walls.iter().map(|w| w.energy().0 + w.energy().1).sum();
         let stream = self.immersion.as_ref().map_or(0.0, Immersion::stream_energy);
-        let (spheres, bodies) =
-            (self.grains.energies(self.integration.gravity), self.bodies.energies(self.integration.gravity));
+        let (spheres, bodies) = (
+            self.grains.energies(self.integration.gravity),
+            self.integration.bodies.energies(self.integration.gravity),
+        );
         Energies {
             kinetic: spheres.kinetic + bodies.kinetic,
             rotational: spheres.rotational + bodies.rotational,
@@ -312,11 +312,12 @@ impl Engine for DemEngine {
     }
 
     fn momentum(&self) -> [f64; 3] {
-        (self.grains.momentum() + self.bodies.momentum()).to_array()
+        (self.grains.momentum() + self.integration.bodies.momentum()).to_array()
     }
 
     fn centre_of_mass(&self) -> [f64; 3] {
-        let (mass, moment) = (self.grains.moved_mass(), self.grains.moment_of_mass() + self.bodies.moment_of_mass());
+        let (mass, moment) =
+            (self.grains.moved_mass(), self.grains.moment_of_mass() + self.integration.bodies.moment_of_mass());
         if mass > 0.0 { (moment / mass).to_array() } else { [0.0; 3] }
     }
 

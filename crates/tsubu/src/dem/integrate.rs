@@ -13,9 +13,10 @@ use glam::DVec3;
 use multiversion::multiversion;
 use tsubu_scene::plan::Integrator;
 
-/// Time integration of the grains.
+/// Time integration of the grains, and of the bodies that some are pieces of.
 #[derive(Debug)]
 pub(super) struct TimeIntegration {
+    pub bodies: Bodies,
     scheme: Integrator,
     /// Acceleration by gravity [m/s^2].
     pub gravity: DVec3,
@@ -131,9 +132,9 @@ impl BlockRange for Slice<'_> {
 }
 
 impl TimeIntegration {
-    pub fn new(scheme: Integrator, gravity: DVec3, rotation: bool) -> Self {
+    pub fn new(scheme: Integrator, gravity: DVec3, rotation: bool, bodies: Bodies) -> Self {
         let scheme = if left_out(Mutation::SecondOrder) { Integrator::ForwardEuler } else { scheme };
-        Self { scheme, gravity: mutated(Mutation::Gravity, 1.0) * gravity, rotation, reports: Vec::new() }
+        Self { bodies, scheme, gravity: mutated(Mutation::Gravity, 1.0) * gravity, rotation, reports: Vec::new() }
     }
 
     /// How long velocities go with the old acceleration until the second half step puts the new one in its place [s].
@@ -143,8 +144,9 @@ impl TimeIntegration {
 
     /// Before the forces: brings positions to the end of the step, and velocities there too, predicted with the old
     /// acceleration, so that forces that depend on velocity see positions and velocities of one time level.
-    pub fn first_half(&mut self, grains: &mut Grains, bodies: &Bodies, neighbours: &mut NeighbourLists, dt: f64) {
-        let (motion, shares) = (self.motion(dt), shares(grains.len()));
+    pub fn first_half(&mut self, grains: &mut Grains, neighbours: &mut NeighbourLists, dt: f64) {
+        self.bodies.first_half(dt);
+        let (bodies, motion, shares) = (&self.bodies, self.motion(dt), shares(grains.len()));
         let blocks = Slice::new(grains, neighbours, &mut self.reports);
         sweep(blocks, Direction::Forward, shares, &|mut s: Slice| first_half(&mut s, bodies, &motion));
     }
@@ -155,13 +157,12 @@ impl TimeIntegration {
     pub fn second_half(
         &mut self,
         grains: &mut Grains,
-        bodies: &Bodies,
         contacts: &[BlockContacts],
         neighbours: &mut NeighbourLists,
         dt: f64,
         go_on: bool,
     ) -> Report {
-        let (motion, shares) = (self.motion(dt), shares(grains.len()));
+        let (bodies, motion, shares) = (&self.bodies, self.motion(dt), shares(grains.len()));
         let blocks = Slice::new(grains, neighbours, &mut self.reports);
         sweep(blocks, Direction::Backward, shares, &|mut s: Slice| {
             s.reports[0] = second_half(&mut s, contacts, &motion);
@@ -173,6 +174,7 @@ impl TimeIntegration {
         for report in &self.reports {
             total.add(report);
         }
+        total.correction += self.bodies.second_half(grains, self.gravity, motion.predicted_for);
         total
     }
 

@@ -21,8 +21,8 @@ impl DemEngine {
         let whole = |column: &[u32]| order.iter().map(|&i| i64::from(column[i])).collect::<Vec<_>>();
         frame.integer(Kind::Grain, "id", "-", whole(&self.grains.id));
         frame.integer(Kind::Grain, "group", "-", whole(&self.grains.group));
-        if !self.bodies.is_empty() {
-            let body = |&i: &usize| self.bodies.of(self.grains.id[i]).map_or(-1, i64::from);
+        if !self.integration.bodies.is_empty() {
+            let body = |&i: &usize| self.integration.bodies.of(self.grains.id[i]).map_or(-1, i64::from);
             frame.integer(Kind::Grain, "body", "-", order.iter().map(body).collect());
         }
         frame.vector(Kind::Grain, "position", "m", vectors(&self.grains.position));
@@ -35,7 +35,7 @@ impl DemEngine {
         let turned: Option<Vec<_>> = order
             .iter()
             .map(|&i| self.grains.id[i])
-            .map(|id| self.orientation.of(id).map(|turned| self.bodies.orientation(id).unwrap_or(turned)))
+            .map(|id| self.orientation.of(id).map(|turned| self.integration.bodies.orientation(id).unwrap_or(turned)))
             .collect();
         if let Some(turned) = turned {
             frame.quaternion(Kind::Grain, "orientation", turned.iter().map(|q| [q.w, q.x, q.y, q.z]).collect());
@@ -66,7 +66,7 @@ impl DemEngine {
     /// What contacts do to every grain [N]. In water the acceleration does not tell, so the contacts are summed.
     fn contact_forces(&self, contacts: &[Contact]) -> Vec<DVec3> {
         let g = &self.grains;
-        if self.immersion.is_none() && !self.pushed_from_outside() && self.bodies.is_empty() {
+        if self.immersion.is_none() && !self.pushed_from_outside() && self.integration.bodies.is_empty() {
             let pull = |i: usize| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { self.integration.gravity };
             return (0..g.len()).map(|i| g.mass[i] * (g.acceleration[i] - pull(i))).collect();
         }
@@ -127,7 +127,7 @@ impl DemEngine {
             let (step, time) = self.clock.begin;
             state.put_real("dem.stage-begin", vec![step as f64, time]);
         }
-        self.bodies.save(state);
+        self.integration.bodies.save(state);
         self.orientation.save(state);
         state.put_integer("dem.streams", self.sources.counts());
         let begun = self.sources.begun();
@@ -164,7 +164,7 @@ impl DemEngine {
             return Err(missing("dem.step"));
         };
         self.grains = Grains::load("grains", grains as usize, state)?;
-        self.bodies.load(state, &self.grains)?;
+        self.integration.bodies.load(state, &self.grains)?;
         // Whoever keeps something by the numbers of grains would make room for any number.
         if self.grains.id.iter().any(|id| *id >= self.sources.numbers) {
             return Err(missing("grains.id"));

@@ -52,7 +52,7 @@ impl DemEngine {
         (self.clock.step, self.clock.grain_steps) = (0, 0);
         self.grains.velocity.fill(DVec3::ZERO);
         self.grains.spin.fill(DVec3::ZERO);
-        self.bodies.stop();
+        self.integration.bodies.stop();
         result
     }
 

@@ -20,10 +20,9 @@ impl DemEngine {
         let (insertion_due, gate_due) = (self.insertion_due(next), self.gate_due(next));
         let go_on = go_on && !insertion_due && !gate_due && !self.contacts.outside.acts();
         let looked_at = !go_on;
-        let go_on = go_on && self.bodies.is_empty();
+        let go_on = go_on && self.integration.bodies.is_empty();
         if !std::mem::replace(&mut self.clock.half_step_done, go_on) {
-            self.bodies.first_half(self.clock.dt);
-            self.integration.first_half(&mut self.grains, &self.bodies, &mut self.neighbours, self.clock.dt);
+            self.integration.first_half(&mut self.grains, &mut self.neighbours, self.clock.dt);
         }
         self.clock.tick(self.grains.len());
         let (time, dt) = (self.clock.time(), self.clock.dt);
@@ -43,7 +42,7 @@ impl DemEngine {
         self.advance_stream(ledger);
         self.second_half_step(dt, go_on);
         if looked_at {
-            self.bodies.show(&mut self.grains);
+            self.integration.bodies.show(&mut self.grains);
         }
         self.apply_reactions(hosts, ledger);
         hosts.after(time, dt, ledger);
@@ -76,7 +75,7 @@ impl DemEngine {
     /// The same with the contact history from before grains came or went.
     pub(super) fn rebuild_neighbours_with(&mut self, history: HistorySnapshot) {
         self.neighbours.sort_grains(&mut self.grains);
-        self.bodies.find(&self.grains);
+        self.integration.bodies.find(&self.grains);
         self.neighbours.rebuild(&self.grains, &self.walls);
         self.resize_contacts();
         let released = self.restore_history(history);
@@ -125,7 +124,7 @@ impl DemEngine {
         self.contacts.sums.stored = stored;
         self.evaluate_stream_at_rest();
         self.second_half_step(0.0, false);
-        self.bodies.show(&mut self.grains);
+        self.integration.bodies.show(&mut self.grains);
         self.reactions.sum_wall_loads(&self.contacts);
         self.faces.measure(&mut self.walls);
         for (wall, load) in self.walls.iter_mut().zip(&self.reactions.wall_loads) {
@@ -136,15 +135,36 @@ impl DemEngine {
 
     /// The contacts, and what their forces are computed from.
     fn contacts_and_input(&mut self) -> (&mut ContactForces, ForceInput<'_>) {
-        let Self { grains, bodies, walls, neighbours, laws, contacts, immersion, integration, clock, .. } = self;
+        let Self { grains, walls, neighbours, laws, contacts, immersion, integration, clock, .. } = self;
         let water = immersion.as_ref().map(|immersion| immersion.at(clock.time(), integration.gravity, clock.settling));
-        (contacts, ForceInput { grains, bodies, walls, neighbours, laws, dt: clock.dt, completion: 0.0, water })
+        (
+            contacts,
+            ForceInput {
+                grains,
+                bodies: &integration.bodies,
+                walls,
+                neighbours,
+                laws,
+                dt: clock.dt,
+                completion: 0.0,
+                water,
+            },
+        )
     }
 
     /// The same to look at.
     pub(super) fn force_input(&self) -> ForceInput<'_> {
-        let Self { grains, bodies, walls, neighbours, laws, clock, .. } = self;
-        ForceInput { grains, bodies, walls, neighbours, laws, dt: clock.dt, completion: 0.0, water: None }
+        let Self { grains, integration, walls, neighbours, laws, clock, .. } = self;
+        ForceInput {
+            grains,
+            bodies: &integration.bodies,
+            walls,
+            neighbours,
+            laws,
+            dt: clock.dt,
+            completion: 0.0,
+            water: None,
+        }
     }
 
     /// The contacts of this moment.
@@ -159,18 +179,16 @@ impl DemEngine {
 
     /// Accelerations from forces and gravity; completes the velocities of a step `dt` (0: leaves them).
     fn second_half_step(&mut self, dt: f64, go_on: bool) {
-        let Self { grains, bodies, neighbours, contacts, integration, .. } = self;
+        let Self { grains, neighbours, contacts, integration, .. } = self;
         let predicted = contacts.outside.torque_power(grains);
-        let report = integration.second_half(grains, bodies, &contacts.blocks, neighbours, dt, go_on);
-        let share = integration.predicted_for(dt);
-        let correction = bodies.second_half(grains, integration.gravity, share);
+        let report = integration.second_half(grains, &contacts.blocks, neighbours, dt, go_on);
         if contacts.outside.acts() {
-            bodies.show(grains);
+            integration.bodies.show(grains);
         }
         contacts.outside.measure(grains);
         // Torques from outside are in the correction too, but no loss.
         let turned = 2.0 / 3.0 * (contacts.outside.torque_power(grains) - predicted);
-        contacts.sums.lost.correct(report.correction + correction + turned);
+        contacts.sums.lost.correct(report.correction + turned);
         (self.reactions.on_fixed, self.reactions.driven_power) = (report.fixed_force, report.driven_power);
     }
 
