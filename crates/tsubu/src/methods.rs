@@ -15,7 +15,7 @@ pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
     if plan.stage.len() > 1 && plan.method != Method::Dem {
         return Err(Refusal::stages(plan.method.name()).into());
     }
-    let clump = plan.particles.iter().find(|(_, group)| group.shape.clump().is_some());
+    let clump = plan.particles.iter().find(|(_, group)| group.shape.is_clump());
     if let Some((name, _)) = clump.filter(|_| plan.method != Method::Dem) {
         return Err(Refusal::clumps(plan.method.name(), name).into());
     }

@@ -99,10 +99,15 @@ impl Clump {
 }
 
 impl GrainShape {
+    /// Whether it is a body of several spheres: [`GrainShape::clump`] without the work of its mass.
+    pub fn is_clump(&self) -> bool {
+        matches!(self, Self::Clump { centre, .. } if centre.len() > 1)
+    }
+
     /// The clump, if it is one of several spheres; of one sphere it is a sphere.
     pub fn clump(&self) -> Option<Clump> {
         let Self::Clump { centre, diameter, orientation } = self else { return None };
-        if centre.len() < 2 || centre.len() != diameter.len() {
+        if !self.is_clump() || centre.len() != diameter.len() {
             return None;
         }
         let spheres: Vec<(Vector, f64)> = centre.iter().zip(diameter).map(|(c, d)| (*c, 0.5 * d)).collect();

@@ -25,7 +25,7 @@ pub(super) struct Coordinate {
 }
 
 /// What a matrix is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Role {
     Mass,
     Damping,
@@ -132,6 +132,15 @@ pub(super) fn read(text: &str, source: usize, role: Role, names: Option<&[Coordi
             .hint("reduce the structure to its interfaces, or give its modes in a `modal-table`"));
     }
     Ok(matrix)
+}
+
+/// `1.5+4` and `1.5D+04` are 1.5e4.
+fn number(field: &str) -> Option<f64> {
+    let mut text = field.to_uppercase().replace('D', "E");
+    if let Some(sign) = text.rfind(['+', '-']).filter(|sign| *sign > 0 && !text[..*sign].ends_with('E')) {
+        text.insert(sign, 'E');
+    }
+    text.parse::<f64>().ok().filter(|value| value.is_finite())
 }
 
 /// Units in which a number is what it is.

@@ -13,16 +13,13 @@ pub(super) use assemble::refused;
 use super::contact_batch::ContactBatch;
 use crate::contact::chunk::Chunk;
 use crate::ledger::Energies;
-use crate::neighbours::lists::{BlockList, shares};
+use crate::neighbours::lists::{BlockList, NO_BODY, shares};
 use crate::state::Grains;
 use crate::threads::each_in_parts;
 use body::{Body, Felt};
 use glam::{DQuat, DVec3};
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
-
-/// What is no piece of a body.
-const NO_BODY: u32 = u32::MAX;
 
 /// A sphere of a body, or one that is none.
 #[derive(Clone, Copy, Debug)]

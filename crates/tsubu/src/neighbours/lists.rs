@@ -30,6 +30,9 @@ pub fn shares(grains: usize) -> usize {
 /// Below this many grains all pairs are looked at: a grid would cost more than it saves, and nothing needs sorting.
 const SMALL: usize = 96;
 
+/// The body of a grain that is a piece of none.
+pub const NO_BODY: u32 = u32::MAX;
+
 /// Up to this ratio of sizes one grid is faster than two.
 const ONE_LEVEL: f64 = 2.5;
 
@@ -302,13 +305,16 @@ impl NeighbourLists {
 
     /// Drops, of the pairs from `first` on, those of two pieces of one body.
     fn forget_own_body(&self, finder: &mut Finder, grains: &Grains, i: usize, first: usize) {
-        let body = |i: usize| self.body_of.get(grains.id[i] as usize).copied().filter(|body| *body != u32::MAX);
-        let Some(own) = body(i) else { return };
-        let mut place = 0;
-        finder.seconds.retain(|second| {
-            place += 1;
-            place <= first || body(second.grain as usize) != Some(own)
-        });
+        let body = |i: usize| self.body_of[grains.id[i] as usize];
+        let (own, mut kept) = (body(i), first);
+        for k in first..finder.seconds.len() {
+            let second = finder.seconds[k];
+            if own == NO_BODY || body(second.grain as usize) != own {
+                finder.seconds[kept] = second;
+                kept += 1;
+            }
+        }
+        finder.seconds.truncate(kept);
     }
 
     /// The same for few grains, without a grid.

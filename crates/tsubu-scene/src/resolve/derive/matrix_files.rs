@@ -31,7 +31,7 @@ impl Derive<'_> {
         let units = files.get("units").and_then(Value::as_str).and_then(Units::named);
         let (Some(direction), Some(units)) = (direction, units) else { return };
         let Some((coordinates, read)) = self.matrices(&files, &path) else { return };
-        let rows = |role| read.get(&(role as u8)).map(|matrix| matrix.rows(&coordinates, units));
+        let rows = |role| read.get(&role).map(|matrix| matrix.rows(&coordinates, units));
         let (Some(mass), Some(stiffness)) = (rows(Role::Mass), rows(Role::Stiffness)) else { return };
         let weightless = (0..coordinates.len()).find(|index| mass[*index][*index] == 0.0);
         if let Some(index) = weightless {
@@ -55,7 +55,7 @@ impl Derive<'_> {
     }
 
     /// The matrices, by role, and all of their coordinates. `None` where something is wrong, which is complained about.
-    fn matrices(&mut self, files: &Table, path: &[&str; 4]) -> Option<(Vec<Coordinate>, BTreeMap<u8, Matrix>)> {
+    fn matrices(&mut self, files: &Table, path: &[&str; 4]) -> Option<(Vec<Coordinate>, BTreeMap<Role, Matrix>)> {
         let names = match files.get("nodes").and_then(Value::as_str) {
             Some(file) => Some(self.read(file, &[&path[..], &["nodes"]].concat(), matrices::names)?),
             None => None,
@@ -66,7 +66,7 @@ impl Derive<'_> {
             let place = [&path[..], &[role.key()]].concat();
             let matrix =
                 self.read(file, &place, |text, source| matrices::read(text, source, role, names.as_deref()))?;
-            read.insert(role as u8, matrix);
+            read.insert(role, matrix);
         }
         if !files.contains_key("damping") && !files.contains_key("damping-ratio") {
             self.complain(

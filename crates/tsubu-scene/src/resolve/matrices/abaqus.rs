@@ -1,7 +1,7 @@
 //! Matrices as Abaqus writes them: entry by entry (`*MATRIX OUTPUT, FORMAT=MATRIX INPUT`), with node and direction of row and column; or
 //! those of a substructure as a user element (`*SUBSTRUCTURE MATRIX OUTPUT, OUTPUT FILE=USER DEFINED`), which CalculiX writes, too.
 
-use super::{Coordinate, Matrix, Role};
+use super::{Coordinate, Matrix, Role, number};
 use crate::complaint::{Complaint, Place};
 use crate::lines::{Line, lines};
 
@@ -41,10 +41,6 @@ fn coordinate(node: &str, direction: &str) -> Option<Coordinate> {
     let node: i64 = node.parse().ok()?;
     let direction: u8 = direction.parse().ok().filter(|direction| *direction <= 6)?;
     Some(Coordinate { node: node.unsigned_abs(), direction: if node > 0 { direction } else { 0 } })
-}
-
-fn number(cell: &str) -> Option<f64> {
-    cell.to_uppercase().replace('D', "E").parse::<f64>().ok().filter(|value| value.is_finite())
 }
 
 /// Nodes in the comment below `** ELEMENT NODES`; directions of the first node, then lines `place, directions` from where they

@@ -1,7 +1,7 @@
 //! Matrices as Nastran writes them: `DMIG` entries of a punch file (`.pch`), in small, large or free fields, with node and direction of each
 //! column and its rows.
 
-use super::{Coordinate, Matrix, Role};
+use super::{Coordinate, Matrix, Role, number};
 use crate::complaint::{Complaint, Place};
 use crate::lines::{Line, lines};
 use std::collections::BTreeMap;
@@ -119,15 +119,6 @@ fn coordinate(node: &str, direction: &str) -> Option<Coordinate> {
     let direction =
         if direction.is_empty() { Some(0) } else { direction.parse().ok().filter(|direction| *direction <= 6) };
     Some(Coordinate { node: node.parse().ok()?, direction: direction? })
-}
-
-/// `1.5+4` and `1.5D+04` are 1.5e4.
-fn number(field: &str) -> Option<f64> {
-    let mut text = field.to_uppercase().replace('D', "E");
-    if let Some(sign) = text.rfind(['+', '-']).filter(|sign| *sign > 0 && !text[..*sign].ends_with('E')) {
-        text.insert(sign, 'E');
-    }
-    text.parse::<f64>().ok().filter(|value| value.is_finite())
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! How bodies come to be: clumps of a plan in the place of the grains that stand for them.
 
 use super::body::Body;
-use super::{Bodies, NO_BODY, Piece};
+use super::{Bodies, Piece};
 use crate::engine::{Note, Refusal, Verdict};
+use crate::neighbours::lists::NO_BODY;
 use crate::random::{Purpose, unit, words};
 use crate::state::{Grain, Grains};
 use glam::{DMat3, DQuat, DVec3};
@@ -10,14 +11,14 @@ use tsubu_scene::plan::{Clump, ClumpOrientation, Integrator, Plan, Start};
 
 /// What scenes with clumps cannot have yet.
 pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
-    if plan.particles.values().all(|group| group.shape.clump().is_none()) {
+    if !plan.particles.values().any(|group| group.shape.is_clump()) {
         return Ok(());
     }
     let mut notes = Vec::new();
     let mut refuse =
         |key: String, text: &str| notes.push(Note { key, verdict: Verdict::Refused, text: text.to_owned() });
     for (name, group) in &plan.particles {
-        if group.shape.clump().is_some() && matches!(group.start, Start::Stream { .. }) {
+        if group.shape.is_clump() && matches!(group.start, Start::Stream { .. }) {
             refuse(
                 format!("particles.{name}.start.stream"),
                 "clumps cannot come in during a run yet; let them begin by `start.random` or `start.rows`",
@@ -66,9 +67,9 @@ impl Bodies {
                 let i = place as usize;
                 let arm = body.arm(&sorted[i], *plane);
                 grains.position[i] = body.centre + arm;
-                (grains.velocity[i], grains.spin[i]) = (body.velocity + body.spin.cross(arm), body.spin);
             }
         }
+        bodies.show(grains);
         bodies
     }
 
