@@ -46,7 +46,7 @@ pub struct LookedAt {
 /// How often the end is asked for.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// How long a page is waited for that has not heard of the end.
+/// How long pages have to fetch the last moment of a run that was stopped.
 const FAREWELL: Duration = Duration::from_secs(3);
 
 impl LookedAt {
@@ -64,7 +64,7 @@ impl LookedAt {
     }
 
     /// Tells the page how the run ended. One that came to its end is shown as long as a page is open; else the page has a moment to
-    /// hear of it.
+    /// fetch what is left.
     pub fn end(mut self, summary: Option<Summary>, told: String) {
         let finished = summary.as_ref().is_some_and(|summary| summary.status == Status::Finished);
         let word = summary.as_ref().map_or("failed", |summary| summary.status.word());
@@ -74,16 +74,11 @@ impl LookedAt {
             output::tell("the page is open: close it, or press Ctrl-C, to end\n");
         }
         let begun = Instant::now();
-        let stays = || {
-            let hears = begun.elapsed() < FAREWELL && !self.live.is_end_heard();
-            self.live.is_looked_at() && (if finished { !stop::is_asked() } else { hears })
-        };
+        let stays = || if finished { !stop::is_asked() } else { begun.elapsed() < FAREWELL };
         stop::nothing_to_save();
-        while stays() {
+        while self.live.is_looked_at() && stays() {
             thread::sleep(PATIENCE);
         }
-        // What is being answered now is heard.
-        thread::sleep(PATIENCE);
         self.over.store(true, Ordering::Relaxed);
         if let Some(server) = self.server.take() {
             let _ = server.join();

@@ -38,6 +38,8 @@ export function follow(panes, { grown, told, ended, failed }) {
     if (running && !panes.some(goesOn)) {
       running = false;
       await ended();
+      // The server of a run that was stopped goes once its pages have all that they want.
+      panes.filter(({ about }) => about.live && about.status !== "finished").forEach(({ run }) => server.bye(run));
     }
   }
   const again = () => {

@@ -21,7 +21,7 @@ const PAGE = crypto.getRandomValues(new Uint32Array(2)).join("-");
 export const news = async (run) => (await ask(`run/${run}/news?${PAGE}`)).json();
 // Asks a run to `pause`, `go-on` or `stop`.
 export const command = async (run, word) => (await ask(`run/${run}/${word}`, { method: "POST" })).json();
-// Says that this page goes.
+// Says that this page wants nothing more.
 export const bye = (run) => navigator.sendBeacon(`run/${run}/bye?${PAGE}`);
 // Times, and what a grain has in a column at them.
 export const curve = async (run, id, colour) => (await ask(`run/${run}/grain/${id}?colour=${encodeURIComponent(colour)}`)).json();

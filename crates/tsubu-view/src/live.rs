@@ -58,8 +58,6 @@ struct Seen {
     /// How it ended, in a word and a sentence.
     end: Option<(&'static str, String)>,
     summary: Option<Summary>,
-    /// Whether a page has heard of the end.
-    heard: bool,
     pages: HashMap<String, Instant>,
 }
 
@@ -144,14 +142,9 @@ impl Live {
         (seen.end, seen.summary) = (Some((word, told)), summary);
     }
 
-    /// Whether a page is open.
+    /// Whether a page is open that may want something.
     pub fn is_looked_at(&self) -> bool {
         self.seen().pages.values().any(|when| when.elapsed() < GONE)
-    }
-
-    /// Whether a page has heard that the run is at its end.
-    pub fn is_end_heard(&self) -> bool {
-        self.seen().heard
     }
 
     /// What a page asks for with a word; whether there is such a word.
@@ -165,7 +158,7 @@ impl Live {
         true
     }
 
-    /// A page is there, or says that it goes.
+    /// A page is there, or says that it wants nothing more.
     pub(crate) fn page(&self, page: &str, stays: bool) {
         let mut seen = self.seen();
         seen.pages.retain(|_, when| when.elapsed() < GONE);
@@ -188,14 +181,13 @@ impl Live {
 
     /// What there is, as JSON.
     pub(crate) fn about(&self) -> Value {
-        let mut seen = self.seen();
+        let seen = self.seen();
         let paused = self.paused();
         let (status, told) = match &seen.end {
             Some((word, told)) => (*word, told.clone()),
             None if paused => ("paused", String::new()),
             None => ("running", String::new()),
         };
-        seen.heard |= seen.end.is_some();
         let (now, steps, share) = seen.now;
         let (numbers, times): (Vec<_>, Vec<_>) = seen.ring.moments().into_iter().unzip();
         json!({
