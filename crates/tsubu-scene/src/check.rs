@@ -2,6 +2,7 @@
 //!
 //! They work on the parts that could be read, one by one, so that a wrong wall does not hide an overlap of grains.
 
+mod bonds;
 mod contact;
 mod fill;
 mod grains;
@@ -60,6 +61,7 @@ pub(crate) fn check(resolved: &toml::Table, root: &Node, files: &Files) -> Vec<C
     world::check(&parts, &mut complaints);
     watch::check(&parts, &rooms, &mut complaints);
     contact::check(&parts, &mut complaints);
+    bonds::check(&parts, &mut complaints);
     host::check(&parts, &mut complaints);
     water::check(&parts, &mut complaints);
     pairs(&parts, &mut complaints);

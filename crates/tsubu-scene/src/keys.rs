@@ -4,6 +4,7 @@
 //! page. A key that is not here does not exist; a key that is here is checked, converted, documented and offered in
 //! an editor without another line of code.
 
+mod bonds;
 mod contact;
 mod gases;
 mod grains;

@@ -9,6 +9,7 @@
 
 #![allow(rustdoc::broken_intra_doc_links, reason = "[s] is a unit, not a link")]
 
+mod bonds;
 mod contact;
 mod gases;
 mod grains;
@@ -23,6 +24,7 @@ mod walls;
 pub mod watch;
 mod water;
 
+pub use bonds::Bond;
 pub use contact::{
     Cohesion, Contact, Damping, Film, Material, MaterialPair, MindlinForm, Normal, Rolling, SlipLever, Strength,
     Tangential, Twisting,
@@ -93,6 +95,9 @@ pub struct Plan {
     pub water: Option<Water>,
     /// The contact law, used by DEM; pairs of materials may have their own.
     pub contact: Contact,
+    /// Bonds between grains.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bond: Vec<Bond>,
     /// What only the discrete element method reads.
     pub dem: Dem,
     /// What only the lattice automaton reads.

@@ -193,6 +193,7 @@ fn reason(first: &str) -> &'static str {
         "water" => {
             "what moves along with grains hangs on it; how the water flows and what holds grains in it may change"
         }
+        "bond" => "bonds are part of the grains; `at` says when they are made",
         "periodic" => "the places of all grains hang on it",
         "method" | "dimension" | "seed" | "dem" => "the run is one from beginning to end",
         _ => "it is of the run as a whole",

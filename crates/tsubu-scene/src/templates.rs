@@ -54,6 +54,16 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/beam-damper.toml"),
     },
     Template {
+        name: "beam",
+        about: "a cantilever of bonded grains bends as beam theory says",
+        text: include_str!("../../../scenes/beam.toml"),
+    },
+    Template {
+        name: "agglomerate",
+        about: "an agglomerate of bonded grains flies against a plate and breaks",
+        text: include_str!("../../../scenes/agglomerate.toml"),
+    },
+    Template {
         name: "rods",
         about: "in space: rods, tetrahedra and balls fall into a box; a clump is spheres that are one body",
         text: include_str!("../../../scenes/rods.toml"),

@@ -187,6 +187,18 @@ twisting-friction = 0.1
 surface-energy = "50 mJ/m^2"
 cohesion = "2 kPa"
 
+[[bond]]
+particles = ["bed", "wide"]
+at = "1 ms"
+gap = 0.02
+radius = 0.5
+young-modulus = "2 GPa"
+poisson-ratio = 0.2
+damping = 0.1
+tensile-strength = "3 MPa"
+shear-strength = "4 MPa"
+weibull-modulus = 5
+
 [[material-pair]]
 between = ["steel", "steel"]
 twisting-friction = 0.2

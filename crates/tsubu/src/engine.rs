@@ -150,6 +150,12 @@ impl Refusal {
         Self { method, notes: vec![Note { key: format!("particles.{group}.shape"), verdict: Verdict::Refused, text }] }
     }
 
+    /// A method whose grains nothing holds together.
+    pub fn bonds(method: &'static str) -> Self {
+        let text = "nothing holds its grains together; `dem` computes bonds".to_owned();
+        Self { method, notes: vec![Note { key: "bond".to_owned(), verdict: Verdict::Refused, text }] }
+    }
+
     /// A method that knows no stages.
     pub fn stages(method: &'static str) -> Self {
         let text = "it runs scenes of one stage; `dem` runs more".to_owned();

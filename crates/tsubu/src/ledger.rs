@@ -28,6 +28,10 @@ pub enum Account {
     Sliding,
     /// Lost in rolling resistance [J].
     Rolling,
+    /// Lost in the damping of bonds [J].
+    BondDamping,
+    /// Set free by bonds that broke, less what the contacts in their place hold; or held by contacts that bonds took the place of [J].
+    Bonds,
     /// Lost in the structure's own damper [J].
     HostDamping,
     /// Lost in lattice collisions by restitution [J].
@@ -61,13 +65,15 @@ pub enum Account {
 
 impl Account {
     /// All accounts, in the order they are reported.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 20] = [
         Self::BaseWork,
         Self::ForceWork,
         Self::WallWork,
         Self::NormalDamping,
         Self::Sliding,
         Self::Rolling,
+        Self::BondDamping,
+        Self::Bonds,
         Self::HostDamping,
         Self::Collision,
         Self::StreamWork,
@@ -91,6 +97,8 @@ impl Account {
             Self::NormalDamping => "normal damping",
             Self::Sliding => "sliding",
             Self::Rolling => "rolling",
+            Self::BondDamping => "bond damping",
+            Self::Bonds => "bonds made and broken",
             Self::HostDamping => "host damping",
             Self::StreamWork => "stream work",
             Self::Buoyancy => "buoyancy",
@@ -134,6 +142,8 @@ pub struct Energies {
     pub potential: f64,
     /// Stored in contacts.
     pub elastic: f64,
+    /// Stored in bonds.
+    pub bonds: f64,
     /// Kinetic energy of the hosts.
     pub host_kinetic: f64,
     /// Stored in the springs of the hosts.
@@ -148,16 +158,17 @@ pub struct Energies {
 
 impl Energies {
     /// The terms with their names.
-    pub fn terms(mut self) -> [(&'static str, f64); 9] {
+    pub fn terms(mut self) -> [(&'static str, f64); 10] {
         self.terms_mut().map(|(name, value)| (name, *value))
     }
 
-    fn terms_mut(&mut self) -> [(&'static str, &mut f64); 9] {
+    fn terms_mut(&mut self) -> [(&'static str, &mut f64); 10] {
         [
             ("kinetic", &mut self.kinetic),
             ("rotational", &mut self.rotational),
             ("potential", &mut self.potential),
             ("elastic", &mut self.elastic),
+            ("bonds", &mut self.bonds),
             ("host kinetic", &mut self.host_kinetic),
             ("host spring", &mut self.host_spring),
             ("walls", &mut self.walls),

@@ -5,6 +5,7 @@
 //! once a step; [`ledger::Ledger`] keeps the books.
 
 pub mod about;
+pub(crate) mod beam;
 pub mod bench;
 pub mod check;
 pub mod clca;

@@ -19,6 +19,9 @@ pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
     if let Some((name, _)) = clump.filter(|_| plan.method != Method::Dem) {
         return Err(Refusal::clumps(plan.method.name(), name).into());
     }
+    if !plan.bond.is_empty() && plan.method != Method::Dem {
+        return Err(Refusal::bonds(plan.method.name()).into());
+    }
     refuse_more_than_there_is(plan, 0)?;
     let rule = match plan.method {
         Method::Dem => return Ok(Box::new(DemEngine::new(plan, hosts)?)),

@@ -36,6 +36,8 @@ pub enum Purpose {
     Calibration = 19,
     /// How grains that are no spheres are turned at the start.
     Orientation = 20,
+    /// Strengths of bonds.
+    BondStrength = 21,
 }
 
 impl Purpose {

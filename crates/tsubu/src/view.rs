@@ -74,6 +74,10 @@ pub struct View<'a> {
     /// Touching pairs; empty unless wanted. Those who want places alone may be shown forces too, and then also pairs that
     /// adhere over a gap.
     pub contacts: Vec<Contact>,
+    /// Pairs of grains that bonds hold together.
+    pub bonds: Vec<[u32; 2]>,
+    /// How many bonds have broken so far.
+    pub broken_bonds: u64,
     /// Loads on the walls, in the order of their names; empty unless wanted.
     pub walls: Vec<WallLoad>,
     /// The water that the grains are in.

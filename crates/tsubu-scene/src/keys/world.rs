@@ -1,6 +1,6 @@
 //! The top of a scene, and its materials.
 
-use super::{Key, Kind, Word, contact, gases, grains, hosts, methods, sites, stage, study, walls, watch, water};
+use super::{Key, Kind, Word, bonds, contact, gases, grains, hosts, methods, sites, stage, study, walls, watch, water};
 use crate::units::{DENSITY, NUMBER, PRESSURE, SPEED, SURFACE_ENERGY, TIME};
 
 /// The keys at the top of a scene, in the order of the plan.
@@ -66,6 +66,7 @@ pub static SCENE: &[Key] = &[
     .default("{}"),
     Key::new("water", Kind::Table(water::WATER), "The water that the grains are in").optional(),
     Key::new("contact", Kind::Table(contact::CONTACT), "The contact law, a stack of parts").default("{}").may_change(),
+    Key::new("bond", Kind::Many(bonds::BOND), "Beams that hold grains together until they break").default("[]"),
     Key::new("dem", Kind::Table(methods::DEM), "What only the discrete element method reads").default("{}"),
     Key::new("lattice", Kind::Table(methods::LATTICE), "What only the lattice automaton reads").default("{}"),
     Key::new("cl-ca", Kind::Table(methods::CL_CA), "What only CL-CA reads: grains made of lattice points")

@@ -299,6 +299,8 @@ kinds! {
         region: Option<Region> = WITHIN,
     }
 
+    fragments::Fragments "fragments" "What bonds hold together: how many hold and have broken, into how many pieces, how large the largest is" {}
+
     segregation::Segregation "segregation" "How well two groups are mixed: Lacey index, and the height of one over the other" {
         /// The two groups.
         groups: [String; 2] =

@@ -1,5 +1,6 @@
 //! The verdict on a scene before it runs.
 
+mod bonds;
 mod fall;
 mod idle;
 mod mesh;
@@ -29,6 +30,7 @@ pub fn time_step(plan: &Plan, table: &Table, hosts: &Hosts) -> f64 {
             (time / plan.dem.steps_per_contact).min(rest::longest_step(&pair, speed, depth))
         });
         let dt = steps.fold(water::longest_step(plan, hosts), f64::min);
+        let dt = dt.min(bonds::shortest_period(plan) / plan.dem.steps_per_contact);
         if dt.is_finite() { dt } else { shortest_period(hosts).min(plan.duration) / 200.0 }
     })
 }

@@ -1,7 +1,7 @@
 //! The verdict: is this scene resolved well enough, and what will it cost?
 
 use super::rest::{self, IN_A_BED, IN_A_FILM, IN_AN_IMPACT};
-use super::{bodies, idle, mesh, shortest_period, speed_scale, water};
+use super::{bodies, bonds, idle, mesh, shortest_period, speed_scale, water};
 use crate::contact::{Pair, Table};
 use crate::engine::{Engine, Fault, Verdict as Noted};
 use crate::memory::{self, human_memory};
@@ -91,6 +91,7 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         Method::Dem => {
             dem(&mut verdict, plan, hosts, dt, speed);
             water::judge(&mut verdict, plan, hosts, dt);
+            bonded(&mut verdict, plan, dt);
         }
         Method::Lattice => lattice(&mut verdict, plan, dt, speed),
         // Grains that move where there is room know no contact time.
@@ -145,6 +146,17 @@ fn structures(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts) {
             grains <= mass,
             format!("host {name}: moves most in a mode of {frequency:.4} Hz and {mass:.3e} kg; the grains weigh {grains:.3e} kg"),
             || format!("units of [hosts.{name}.structure], if it is not as light as that: was it calculated in tonnes and millimetres?"),
+        );
+    }
+}
+
+fn bonded(verdict: &mut Verdict, plan: &Plan, dt: f64) {
+    let period = bonds::shortest_period(plan);
+    if period.is_finite() {
+        verdict.judge(
+            period / dt >= 9.999,
+            format!("bonds: grains vibrate in {period:.3e} s or slower, {:.1} steps a period (never below 10, good from 20)", period / dt),
+            || format!("`dem.time-step` to {:.2e} s or less, or leave it out (20 steps a period)", period / 20.0),
         );
     }
 }

@@ -73,6 +73,7 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
         water: _,
         hosts: _,
         contact: _,
+        bond: _,
         dem: _,
         lattice: _,
         cl_ca,

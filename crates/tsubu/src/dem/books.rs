@@ -15,6 +15,8 @@ use std::slice::from_mut;
 pub(super) struct Powers {
     /// Lost in contacts [W].
     pub lost: ContactLosses,
+    /// Lost in the damping of bonds [W].
+    pub bonds: f64,
     /// Work of walls and of driven grains [W].
     pub walls: f64,
     /// Work of whoever acts on grains and moves walls from outside [W].
@@ -29,12 +31,13 @@ pub(super) struct Powers {
 impl Powers {
     /// Everything, each under its name, for a checkpoint.
     pub fn named(&mut self) -> Named<'_> {
-        let Self { lost, walls, outside, outside_force, wall_force, water } = self;
+        let Self { lost, bonds, walls, outside, outside_force, wall_force, water } = self;
         let WaterPowers { pressure, carried, stream, spin_work, fluctuation, lost: drag, held, force } = water;
         vec![
             ("normal damping", from_mut(&mut lost.normal)),
             ("sliding", from_mut(&mut lost.sliding)),
             ("rolling", from_mut(&mut lost.rolling)),
+            ("bond damping", from_mut(bonds)),
             ("walls", from_mut(walls)),
             ("wall force", wall_force.as_mut()),
             ("water pressure", from_mut(pressure)),
@@ -84,7 +87,8 @@ impl DemEngine {
     /// Powers of this time level.
     pub(super) fn powers(&self) -> Powers {
         let water = self.immersion.as_ref().map_or_else(WaterPowers::default, |immersion| immersion.powers);
-        let mut powers = Powers { lost: self.contacts.sums.lost, water, ..Powers::default() };
+        let mut powers =
+            Powers { lost: self.contacts.sums.lost, bonds: self.contacts.bonds.lost, water, ..Powers::default() };
         for (wall, load) in self.walls.iter().zip(&self.reactions.wall_loads) {
             powers.wall_force -= load.force;
             let power = wall.prescribed_power(load.force, load.torque);
@@ -105,6 +109,7 @@ impl DemEngine {
         post(Account::NormalDamping, |p| p.lost.normal);
         post(Account::Sliding, |p| p.lost.sliding);
         post(Account::Rolling, |p| p.lost.rolling);
+        post(Account::BondDamping, |p| p.bonds);
         post(Account::WallWork, |p| p.walls);
         post(Account::Outside, |p| p.outside);
         post(Account::Buoyancy, |p| p.water.pressure);

@@ -11,6 +11,7 @@ mod walls;
 pub(super) use list::contact_list;
 
 use super::bodies::Bodies;
+use super::bonds::Bonds;
 use super::contact_batch::{self, ContactBatch};
 use super::contact_history::{ContactHistory, FRESH, WallKey};
 use super::history_transfer::HistorySnapshot;
@@ -190,6 +191,8 @@ pub(super) struct ContactForces {
     pub sums: ContactSums,
     /// Energy of contacts that a rebuild of the neighbour lists has found gone [J].
     pub released: f64,
+    /// What holds grains together besides contacts.
+    pub bonds: Bonds,
     /// Forces on grains that no contact exerts.
     pub outside: Outside,
     /// The snapshot of the last rebuild, kept for its memory.
@@ -242,6 +245,11 @@ impl Scratch {
 }
 
 impl ContactForces {
+    /// Beside bonds.
+    pub fn beside(bonds: Bonds) -> Self {
+        Self { bonds, ..Self::default() }
+    }
+
     /// Prepares as many blocks as there are neighbour lists; called when these have been rebuilt.
     pub fn resize(&mut self, input: &ForceInput) {
         let laws = input.laws.all();

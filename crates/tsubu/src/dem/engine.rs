@@ -1,6 +1,7 @@
 //! The DEM engine: its state, how it is built from a plan, and how it answers.
 
 use super::bodies::{self, Bodies};
+use super::bonds::{self, Bonds};
 use super::books::{Books, Reactions};
 use super::contact_forces::{ContactForces, ContactLaws};
 use super::immersion::Immersion;
@@ -14,6 +15,7 @@ use crate::contact::Table;
 use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
 use crate::ledger::{Energies, Ledger};
 use crate::mutation::{Mutation, left_out};
+use crate::neighbours::joined::Joined;
 use crate::neighbours::lists::{BLOCK, shares};
 use crate::neighbours::{NeighbourLists, Search};
 use crate::outside::Action;
@@ -123,6 +125,7 @@ impl DemEngine {
             hosts: _,
             water,
             contact,
+            bond,
             dem,
             lattice: _,
             cl_ca: _,
@@ -152,6 +155,7 @@ impl DemEngine {
             Refusal { method: "dem", notes }
         };
         bodies::refused(plan)?;
+        bonds::refused(plan)?;
         let table = Table::new(plan);
         let dt = check::time_step(plan, &table, hosts);
         if let Some(text) = check::blows_up(plan, hosts, dt) {
@@ -177,14 +181,14 @@ impl DemEngine {
             walls,
             faces: Faces::new(plan),
             clock: Clock { dt, ..Clock::default() },
-            neighbours: NeighbourLists::new(search).between_bodies(bodies.of_grains()),
+            neighbours: NeighbourLists::new(search).but(Joined::bodies(bodies.of_grains())),
             laws,
-            contacts: ContactForces::default(),
+            contacts: ContactForces::beside(Bonds::new(plan)),
             immersion: water
                 .as_ref()
                 .map(|water| Immersion::new(Water::new(water, gravity).seeded(*seed, *dimension == 3))),
             integration: TimeIntegration::new(dem.integrator, gravity, contact.rotation, bodies),
-            orientation: Orientation::new(dem.orientation),
+            orientation: Orientation::new(dem.orientation || !bond.is_empty()),
             sources,
             reactions,
             books: Books { moved_mass: grains.moved_mass(), ..Books::default() },
@@ -203,6 +207,7 @@ impl DemEngine {
             engine.settle(settle).map_err(OpenError::Settling)?;
             engine.start();
         }
+        engine.make_bonds(&mut Ledger::default());
         Ok(engine)
     }
 
@@ -305,6 +310,7 @@ impl Engine for DemEngine {
             rotational: spheres.rotational + bodies.rotational,
             potential: spheres.potential + bodies.potential,
             elastic: self.contacts.sums.stored,
+            bonds: self.contacts.bonds.stored,
             walls,
             stream,
             ..spheres

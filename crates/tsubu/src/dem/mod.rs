@@ -1,6 +1,7 @@
 //! The discrete element method.
 
 mod bodies;
+mod bonds;
 mod books;
 mod contact_batch;
 mod contact_forces;

@@ -66,7 +66,11 @@ impl DemEngine {
     /// What contacts do to every grain [N]. In water the acceleration does not tell, so the contacts are summed.
     fn contact_forces(&self, contacts: &[Contact]) -> Vec<DVec3> {
         let g = &self.grains;
-        if self.immersion.is_none() && !self.pushed_from_outside() && self.integration.bodies.is_empty() {
+        if self.immersion.is_none()
+            && !self.pushed_from_outside()
+            && self.integration.bodies.is_empty()
+            && self.contacts.bonds.is_empty()
+        {
             let pull = |i: usize| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { self.integration.gravity };
             return (0..g.len()).map(|i| g.mass[i] * (g.acceleration[i] - pull(i))).collect();
         }
@@ -86,7 +90,10 @@ impl DemEngine {
         let g = &self.grains;
         let rest = |i: usize| {
             let all = (g.mass[i] + g.added_mass(i)) * g.acceleration[i];
-            all - g.mass[i] * self.integration.gravity - contact[i] - self.contacts.outside.on(i)
+            all - g.mass[i] * self.integration.gravity
+                - contact[i]
+                - self.contacts.outside.on(i)
+                - self.contacts.bonds.on(i)
         };
         (0..g.len()).map(|i| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { rest(i) }).collect()
     }
@@ -113,7 +120,17 @@ impl DemEngine {
         contacts.retain(|c| c.overlap > 0.0 || c.force != DVec3::ZERO);
         let walls = if wants.walls { self.reactions.wall_loads.clone() } else { Vec::new() };
         let water = self.immersion.as_ref().map(|immersion| &immersion.water);
-        View { time: self.clock.time(), periodic: self.neighbours.search.periodic, grains, contacts, walls, water }
+        let bonds = self.contacts.bonds.rows().collect();
+        View {
+            time: self.clock.time(),
+            periodic: self.neighbours.search.periodic,
+            grains,
+            contacts,
+            bonds,
+            broken_bonds: self.contacts.bonds.broken(),
+            walls,
+            water,
+        }
     }
 
     /// Everything that the next step depends on.
@@ -129,6 +146,7 @@ impl DemEngine {
         }
         self.integration.bodies.save(state);
         self.orientation.save(state);
+        self.contacts.bonds.save(state);
         state.put_integer("dem.streams", self.sources.counts());
         let begun = self.sources.begun();
         if !begun.is_empty() {
@@ -198,6 +216,8 @@ impl DemEngine {
             wall.pose.set_place(*place);
         }
         self.neighbours.wall_reference = self.walls.iter().map(|w| w.pose).collect();
+        self.contacts.bonds.load(state, &self.grains)?;
+        self.neighbours.joined.bond(self.contacts.bonds.pairs());
         self.neighbours.build(&self.grains, &self.walls);
         let drifts = state.real("dem.drifts")?.as_chunks::<6>().0;
         for (drift, d) in self.neighbours.drifts.of.iter_mut().zip(drifts) {

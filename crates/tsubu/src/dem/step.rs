@@ -1,5 +1,6 @@
 //! The step.
 
+use super::bonds::Attitudes;
 use super::contact_forces::{ContactForces, ForceInput, contact_list};
 use super::engine::DemEngine;
 use super::history_transfer::HistorySnapshot;
@@ -7,6 +8,7 @@ use super::overlaps::overlaps;
 use crate::engine::Fault;
 use crate::ledger::{Account, Ledger};
 use crate::partner::Hosts;
+use crate::state::Grains;
 use crate::view::Contact;
 use crate::wall::{Mover, Wall};
 use glam::DVec3;
@@ -17,8 +19,10 @@ impl DemEngine {
     pub(super) fn step(&mut self, hosts: &mut Hosts, ledger: &mut Ledger, go_on: bool) -> Result<(), Fault> {
         // Grains come and go, and gates open, between steps; a step before that is done to its end.
         let next = self.clock.step + 1;
-        let (insertion_due, gate_due) = (self.insertion_due(next), self.gate_due(next));
-        let go_on = go_on && !insertion_due && !gate_due && !self.contacts.outside.acts();
+        let (insertion_due, gate_due, bonds_due) =
+            (self.insertion_due(next), self.gate_due(next), self.bonds_due(next));
+        let go_on = go_on && !insertion_due && !gate_due && !bonds_due;
+        let go_on = go_on && !self.contacts.outside.acts() && self.contacts.bonds.is_empty();
         let looked_at = !go_on;
         let go_on = go_on && self.integration.bodies.is_empty();
         if !std::mem::replace(&mut self.clock.half_step_done, go_on) {
@@ -53,6 +57,12 @@ impl DemEngine {
         if gate_due {
             self.open_gates(ledger);
         }
+        if self.contacts.bonds.overloaded() {
+            self.break_bonds(ledger);
+        }
+        if bonds_due {
+            self.make_bonds(ledger);
+        }
         Ok(())
     }
 
@@ -76,6 +86,7 @@ impl DemEngine {
     pub(super) fn rebuild_neighbours_with(&mut self, history: HistorySnapshot) {
         self.neighbours.sort_grains(&mut self.grains);
         self.integration.bodies.find(&self.grains);
+        self.contacts.bonds.find(&self.grains);
         self.neighbours.rebuild(&self.grains, &self.walls);
         self.resize_contacts();
         let released = self.restore_history(history);
@@ -109,6 +120,15 @@ impl DemEngine {
             immersion.sum_powers(&self.contacts.blocks);
         }
         self.contacts.add_outside(&self.grains);
+        self.add_bonds();
+    }
+
+    /// Adds what bonds do to the grains to what contacts do.
+    fn add_bonds(&mut self) {
+        let Self { grains, contacts, orientation, integration, .. } = self;
+        let ContactForces { bonds, blocks, .. } = contacts;
+        bonds.evaluate(grains, Attitudes { orientation, bodies: &integration.bodies });
+        bonds.add(blocks);
     }
 
     /// Forces, energies and powers of a moment that no step has led to: at time 0, and after grains or walls have gone.
@@ -180,14 +200,18 @@ impl DemEngine {
     /// Accelerations from forces and gravity; completes the velocities of a step `dt` (0: leaves them).
     fn second_half_step(&mut self, dt: f64, go_on: bool) {
         let Self { grains, neighbours, contacts, integration, .. } = self;
-        let predicted = contacts.outside.torque_power(grains);
+        let power = |contacts: &ContactForces, grains: &Grains| {
+            contacts.outside.torque_power(grains) + contacts.bonds.torque_power(grains)
+        };
+        let predicted = power(contacts, grains);
         let report = integration.second_half(grains, &contacts.blocks, neighbours, dt, go_on);
-        if contacts.outside.acts() {
+        if contacts.outside.acts() || !contacts.bonds.is_empty() {
             integration.bodies.show(grains);
         }
         contacts.outside.measure(grains);
-        // Torques from outside are in the correction too, but no loss.
-        let turned = 2.0 / 3.0 * (contacts.outside.torque_power(grains) - predicted);
+        contacts.bonds.measure(grains);
+        // Torques from outside and of bonds are in the correction too, but no loss of contacts.
+        let turned = 2.0 / 3.0 * (power(contacts, grains) - predicted);
         contacts.sums.lost.correct(report.correction + turned);
         (self.reactions.on_fixed, self.reactions.driven_power) = (report.fixed_force, report.driven_power);
     }

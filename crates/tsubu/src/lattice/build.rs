@@ -55,6 +55,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         water: _,
         hosts,
         contact,
+        bond: _,
         dem: _,
         lattice,
         cl_ca: _,

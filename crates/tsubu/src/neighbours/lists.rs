@@ -10,6 +10,7 @@
 
 use super::drift::Drifts;
 use super::grid::{Grid, Image, Nearby, Numbering, PRIMARY_IMAGE, PeriodicBounds, shift};
+use super::joined::Joined;
 use crate::state::Grains;
 use crate::threads;
 use crate::wall::{Pose, Wall};
@@ -29,9 +30,6 @@ pub fn shares(grains: usize) -> usize {
 
 /// Below this many grains all pairs are looked at: a grid would cost more than it saves, and nothing needs sorting.
 const SMALL: usize = 96;
-
-/// The body of a grain that is a piece of none.
-pub const NO_BODY: u32 = u32::MAX;
 
 /// Up to this ratio of sizes one grid is faster than two.
 const ONE_LEVEL: f64 = 2.5;
@@ -120,8 +118,8 @@ pub struct NeighbourLists {
     pub drifts: Drifts,
     /// Shift of every image [m].
     pub shifts: Vec<DVec3>,
-    /// The body of every grain by its id, whose pieces never touch each other; empty where every grain is by itself.
-    body_of: Vec<u32>,
+    /// Which grains are not to touch each other.
+    pub joined: Joined,
     levels: Vec<Grid>,
     level_of: Vec<u8>,
     largest: Vec<f64>,
@@ -146,10 +144,10 @@ impl NeighbourLists {
         Self { search, ..Self::default() }
     }
 
-    /// The same where grains with these ids are pieces of these bodies.
+    /// The same where some grains are not to touch each other.
     #[must_use]
-    pub fn between_bodies(self, body_of: Vec<u32>) -> Self {
-        Self { body_of, ..self }
+    pub fn but(self, joined: Joined) -> Self {
+        Self { joined, ..self }
     }
 
     /// Whether the lists may miss a touching pair.
@@ -231,8 +229,8 @@ impl NeighbourLists {
                 } else {
                     self.neighbours(finder, grains, i);
                 }
-                if !self.body_of.is_empty() {
-                    self.forget_own_body(finder, grains, i, list.start[own] as usize);
+                if !self.joined.is_empty() {
+                    self.forget_joined(finder, grains, i, list.start[own] as usize);
                 }
                 list.start.push(finder.seconds.len() as u32);
                 let reach = grains.radius[i] + search.skin + search.reach;
@@ -303,13 +301,12 @@ impl NeighbourLists {
         }
     }
 
-    /// Drops, of the pairs from `first` on, those of two pieces of one body.
-    fn forget_own_body(&self, finder: &mut Finder, grains: &Grains, i: usize, first: usize) {
-        let body = |i: usize| self.body_of[grains.id[i] as usize];
-        let (own, mut kept) = (body(i), first);
+    /// Drops, of the pairs from `first` on, those that are not to touch each other.
+    fn forget_joined(&self, finder: &mut Finder, grains: &Grains, i: usize, first: usize) {
+        let mut kept = first;
         for k in first..finder.seconds.len() {
             let second = finder.seconds[k];
-            if own == NO_BODY || body(second.grain as usize) != own {
+            if !self.joined.are(grains.id[i], grains.id[second.grain as usize]) {
                 finder.seconds[kept] = second;
                 kept += 1;
             }

@@ -2,6 +2,7 @@
 
 pub mod drift;
 pub mod grid;
+pub mod joined;
 pub mod lists;
 
 pub use lists::{NeighbourLists, Search};

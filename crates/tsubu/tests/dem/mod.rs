@@ -1,5 +1,6 @@
 //! DEM by its outcome.
 
+mod bonds;
 mod books;
 mod clump;
 mod come_and_go;

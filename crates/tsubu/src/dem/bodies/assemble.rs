@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::{Bodies, Piece};
 use crate::engine::{Note, Refusal, Verdict};
-use crate::neighbours::lists::NO_BODY;
+use crate::neighbours::joined::NO_BODY;
 use crate::random::{Purpose, unit, words};
 use crate::state::{Grain, Grains};
 use glam::{DMat3, DQuat, DVec3};

@@ -61,6 +61,7 @@ fn scene(plan: &Plan, rule: SiteRule, hosts: &Hosts, remarks: &mut Remarks) -> O
         water: _,
         hosts: _,
         contact: _,
+        bond: _,
         dem: _,
         lattice: _,
         cl_ca: _,

@@ -5,7 +5,7 @@ use serde_json::Value;
 use tsubu_scene::Plan;
 
 /// What of a plan makes a cavity.
-const PARTS: [&str; 13] = [
+const PARTS: [&str; 14] = [
     "method",
     "dimension",
     "gravity",
@@ -17,6 +17,7 @@ const PARTS: [&str; 13] = [
     "removal",
     "water",
     "contact",
+    "bond",
     "lattice",
     "cl-ca",
 ];

@@ -1,0 +1,44 @@
+//! How fast bonded grains vibrate.
+
+use crate::beam::Stiffness;
+use crate::sizes;
+use std::f64::consts::TAU;
+use tsubu_scene::plan::{Bond, GrainMotion, GrainShape, Particles, Plan};
+
+/// Shortest period of bonded grains [s]; infinite without bonds.
+///
+/// Of the smallest grains, each with as many bonds as it can have neighbours of its size (12, in the plane 6), evenly around it. In the fastest
+/// vibration of such a bed neighbours go against each other: then every bond is stretched, sheared and bent by twice what a grain does.
+/// Shaking and turning are coupled; the square of the frequency is at most the sum of both.
+pub(super) fn shortest_period(plan: &Plan) -> f64 {
+    plan.bond.iter().map(|bond| TAU / fastest(plan, bond)).fold(f64::INFINITY, f64::min)
+}
+
+/// Largest angular frequency of the grains of a bond [1/s].
+fn fastest(plan: &Plan, bond: &Bond) -> f64 {
+    let joined = plan.particles.iter().filter(|(name, group)| group.count > 0 && bond.joins(name));
+    let free = joined.filter(|(_, group)| matches!(group.motion, GrainMotion::Free {}));
+    free.map(|(_, group)| of_smallest(plan, bond, group)).fold(0.0, f64::max)
+}
+
+fn of_smallest(plan: &Plan, bond: &Bond, group: &Particles) -> f64 {
+    let smallest = group.smallest_diameter();
+    let clump = group.shape.clump();
+    let ([thin, _], lightness) = clump.map_or(([0.5; 2], 1.0), |clump| (clump.radii(), clump.lightness()));
+    let (radius, mass) = (thin * smallest, sizes::mass(group, smallest) / lightness);
+    let share = if matches!(group.shape, GrainShape::Disc { .. }) { 0.5 } else { 0.4 };
+    let inertia = share * mass * radius * radius;
+    let length = 2.0 * radius;
+    let Stiffness { stretch, ends, bend, twist } = Stiffness::of(bond, bond.radius * radius, length);
+    // Turned ends of a bond whose grains are shifted: each by the shift over the length.
+    let shear = 2.0 * ends / (length * length);
+    let turned = ends.max(ends + 2.0 * bend);
+    // Shares of directions along and across a bond.
+    let (neighbours, along) = if plan.dimension == 2 { (6.0, 1.0 / 2.0) } else { (12.0, 1.0 / 3.0) };
+    let (shaken, turned) = if plan.dimension == 2 {
+        (along * (stretch + shear), turned)
+    } else {
+        (along * (stretch + 2.0 * shear), along * (2.0 * turned + 2.0 * twist))
+    };
+    (neighbours * (2.0 * shaken / mass + turned / inertia)).sqrt()
+}

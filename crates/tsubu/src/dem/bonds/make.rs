@@ -1,0 +1,137 @@
+//! How bonds come to be, and how they go.
+
+use super::beam::Beam;
+use super::{Attitudes, Bonds, nearest};
+use crate::dem::engine::DemEngine;
+use crate::dem::history_transfer::HistorySnapshot;
+use crate::dem::room::periodic_bounds;
+use crate::engine::{Engine, Note, Refusal, Verdict};
+use crate::ledger::{Account, Ledger};
+use crate::random::{Purpose, unit, words};
+use tsubu_scene::plan::{Bond, Particles, Plan};
+
+/// Scenes whose bonds nobody could make.
+pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
+    let nobody =
+        |bond: &Bond| !plan.particles.iter().any(|(name, group): (_, &Particles)| group.count > 0 && bond.joins(name));
+    let Some(index) = plan.bond.iter().position(nobody) else { return Ok(()) };
+    let text = "there are no grains that it could hold together".to_owned();
+    Err(Refusal { method: "dem", notes: vec![Note { key: format!("bond.{index}"), verdict: Verdict::Refused, text }] })
+}
+
+impl Bonds {
+    /// What a plan says; none is made yet.
+    pub fn new(plan: &Plan) -> Self {
+        let joins = |bond: &Bond| plan.particles.keys().map(|name| bond.joins(name)).collect();
+        Self {
+            entries: plan.bond.clone(),
+            joins: plan.bond.iter().map(joins).collect(),
+            made: vec![false; plan.bond.len()],
+            seed: plan.seed,
+            plane: plan.dimension == 2,
+            periodic: periodic_bounds(plan),
+            ..Self::default()
+        }
+    }
+
+    /// Whether some are still to be made by a time [s].
+    pub fn due(&self, time: f64) -> bool {
+        self.entries.iter().zip(&self.made).any(|(bond, made)| !made && bond.at <= time)
+    }
+
+    /// Strength of the bond with a number over the mean: Weibull (1951).
+    fn strength(&self, bond: &Bond, number: u64) -> f64 {
+        bond.weibull_modulus.map_or(1.0, |modulus| {
+            let [high, low, ..] = words(self.seed, Purpose::BondStrength, number as u32, number >> 32);
+            let survival = 1.0 - unit(high, low);
+            (-survival.ln()).powf(1.0 / modulus) / libm::tgamma(1.0 + 1.0 / modulus)
+        })
+    }
+}
+
+impl DemEngine {
+    /// Whether bonds are to be made after step `step`.
+    pub(in crate::dem) fn bonds_due(&self, step: u64) -> bool {
+        !self.clock.settling && self.contacts.bonds.due(self.clock.time_of(step))
+    }
+
+    /// Makes the bonds whose time has come, at rest as the grains are; what the contacts in their place held is gone.
+    pub(in crate::dem) fn make_bonds(&mut self, ledger: &mut Ledger) {
+        let time = self.clock.time();
+        if !self.contacts.bonds.due(time) {
+            return;
+        }
+        let before = self.grain_energies().total();
+        let history = self.snapshot_history();
+        for entry in 0..self.contacts.bonds.entries.len() {
+            let bonds = &self.contacts.bonds;
+            if !bonds.made[entry] && bonds.entries[entry].at <= time {
+                self.make_entry(entry);
+            }
+        }
+        self.bonds_have_changed(history);
+        ledger.post(Account::Bonds, before - self.grain_energies().total());
+    }
+
+    fn make_entry(&mut self, entry: usize) {
+        let reach = self.neighbours.search.reach;
+        let bond = self.contacts.bonds.entries[entry].clone();
+        self.neighbours.search.reach = reach.max(0.5 * bond.gap * self.limits.largest_diameter);
+        self.neighbours.rebuild(&self.grains, &self.walls);
+        self.neighbours.search.reach = reach;
+        let Self { grains, neighbours, contacts, orientation, integration, .. } = self;
+        let bonds = &mut contacts.bonds;
+        let attitudes = Attitudes { orientation, bodies: &integration.bodies };
+        let joins = |i: usize| bonds.joins[entry][grains.group[i] as usize];
+        let mut pairs: Vec<([u32; 2], [u32; 2])> = Vec::new();
+        for list in &neighbours.lists {
+            for pair in &list.pairs {
+                let (i, j) = (list.first + pair.first as usize, list.grain_at[pair.second as usize] as usize);
+                let smaller = grains.radius[i].min(grains.radius[j]);
+                let limit = grains.radius[i] + grains.radius[j] + bond.gap * smaller;
+                let mut rows = [i as u32, j as u32];
+                if joins(i) && joins(j) && nearest(&bonds.periodic, grains, rows).length_squared() <= limit * limit {
+                    rows.sort_unstable_by_key(|row| grains.id[*row as usize]);
+                    pairs.push((rows.map(|row| grains.id[row as usize]), rows));
+                }
+            }
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        for (ids, rows) in pairs {
+            let [i, j] = rows.map(|row| row as usize);
+            let branch = nearest(&bonds.periodic, grains, rows);
+            let turned = ids.map(|id| attitudes.of(id));
+            let smaller = grains.radius[i].min(grains.radius[j]);
+            let mass = 1.0 / (grains.inverse_mass[i] + grains.inverse_mass[j]);
+            let mut beam = Beam::new((entry as u32, &bond), ids, branch, turned, bonds.plane).made_of(
+                &bond,
+                bond.radius * smaller,
+                mass,
+            );
+            beam.strength = bonds.strength(&bond, bonds.counted);
+            bonds.list.push(beam);
+            bonds.counted += 1;
+        }
+        bonds.made[entry] = true;
+        neighbours.joined.bond(bonds.pairs());
+    }
+
+    /// Lets the bonds go that carry too much. Where grains are pressed together, their contact takes over.
+    pub(in crate::dem) fn break_bonds(&mut self, ledger: &mut Ledger) {
+        let before = self.grain_energies().total();
+        let history = self.snapshot_history();
+        self.contacts.bonds.give_way();
+        self.bonds_have_changed(history);
+        ledger.post(Account::Bonds, before - self.grain_energies().total());
+    }
+
+    /// Contacts are looked for anew where bonds have come or gone; motion and height of the grains do not change.
+    fn bonds_have_changed(&mut self, history: HistorySnapshot) {
+        self.neighbours.joined.bond(self.contacts.bonds.pairs());
+        self.rebuild_neighbours_with(history);
+        // What the springs of contacts held that have given way to bonds is in the difference that is posted.
+        self.contacts.released = 0.0;
+        self.evaluate_at_rest();
+    }
+}
