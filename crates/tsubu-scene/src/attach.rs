@@ -24,10 +24,14 @@ pub(crate) fn grains(particles: &mut BTreeMap<String, Particles>, files: &Files,
 
 /// The same for the spheres of one shape.
 pub(crate) fn shape(shape: &mut GrainShape, files: &Files, space: bool) {
-    if let GrainShape::ClumpFile { path, spheres, .. } = shape
-        && let Some(known) = files.known_clump(path, space)
-    {
-        *spheres = known;
+    match shape {
+        GrainShape::ClumpFile { path, spheres, .. } => {
+            files.known_clump(path, space).into_iter().for_each(|known| *spheres = known);
+        }
+        GrainShape::ClumpMesh { path, spheres, packing, .. } => {
+            files.known_packing(path, *spheres).into_iter().for_each(|known| *packing = known);
+        }
+        GrainShape::Sphere {} | GrainShape::Disc { .. } | GrainShape::Clump { .. } => {}
     }
 }
 
@@ -50,7 +54,7 @@ pub(crate) fn companions(plan: &mut Plan, files: &Files) -> Vec<Companion> {
         if let Start::File { path, .. } = &mut group.start {
             copies.take(path, "particles", name);
         }
-        if let GrainShape::ClumpFile { path, .. } = &mut group.shape {
+        if let GrainShape::ClumpFile { path, .. } | GrainShape::ClumpMesh { path, .. } = &mut group.shape {
             copies.take(path, "clumps", name);
         }
     }

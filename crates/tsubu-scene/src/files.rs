@@ -4,7 +4,8 @@ use crate::complaint::{Complaint, Complaints, Source};
 use crate::grain_file::{self, GrainFile, How, clump};
 use crate::lines;
 use crate::mesh_file;
-use crate::plan::Vector;
+use crate::packing;
+use crate::plan::{Packing, Vector};
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -19,6 +20,7 @@ pub(crate) struct Files {
     grains: BTreeMap<(String, How), Arc<GrainFile>>,
     meshes: BTreeMap<String, Arc<Vec<[Vector; 3]>>>,
     clumps: BTreeMap<(String, bool), Spheres>,
+    packings: BTreeMap<(String, usize), Arc<Packing>>,
 }
 
 /// The spheres of a clump: centre and radius.
@@ -32,6 +34,7 @@ impl Files {
             grains: BTreeMap::new(),
             meshes: BTreeMap::new(),
             clumps: BTreeMap::new(),
+            packings: BTreeMap::new(),
         }
     }
 
@@ -130,6 +133,16 @@ impl Files {
         }
     }
 
+    /// At most so many spheres in the mesh in the file.
+    pub fn packing(&mut self, name: &str, most: usize, sources: &mut Vec<Source>) -> Result<(), Vec<Complaint>> {
+        let key = (name.to_string(), most);
+        if !self.packings.contains_key(&key) {
+            let packing = packing::pack(&*self.mesh(name, sources)?, most).map_err(|complaint| vec![complaint])?;
+            self.packings.insert(key, Arc::new(packing));
+        }
+        Ok(())
+    }
+
     /// What tells the file from another: CRC-32 of its bytes, in hex.
     pub fn fingerprint(&mut self, name: &str) -> Option<String> {
         Some(format!("{:08x}", crc32fast::hash(&self.bytes(name).ok()?)))
@@ -153,6 +166,11 @@ impl Files {
     /// The spheres of a clump whose file was read.
     pub fn known_clump(&self, name: &str, space: bool) -> Option<Spheres> {
         self.clumps.get(&(name.to_string(), space)).cloned()
+    }
+
+    /// The spheres in a mesh whose file was read.
+    pub fn known_packing(&self, name: &str, most: usize) -> Option<Arc<Packing>> {
+        self.packings.get(&(name.to_string(), most)).cloned()
     }
 
     /// The triangles of a file that was read.

@@ -24,7 +24,7 @@ mod walls;
 pub mod watch;
 mod water;
 
-pub use clumps::{Clump, ClumpOrientation};
+pub use clumps::{Clump, ClumpOrientation, Packing, PackingError};
 pub use contact::{
     Cohesion, Contact, Damping, Film, Material, MaterialPair, MindlinForm, Normal, Rolling, SlipLever, Strength,
     Tangential, Twisting,

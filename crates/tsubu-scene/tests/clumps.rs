@@ -61,13 +61,13 @@ fn clumps_that_cannot_be() {
     insta::assert_snapshot!(told.join("\n\n"));
 }
 
-const HEAD: &str = "duration = 1\n[materials.glass]\nyoung-modulus = 1e9\ndensity = 2500\n[particles.rods]\nmaterial = \"glass\"\n\
+pub(super) const HEAD: &str = "duration = 1\n[materials.glass]\nyoung-modulus = 1e9\ndensity = 2500\n[particles.rods]\nmaterial = \"glass\"\n\
                     count = 3\ndiameter = 0.004\nstart.random.region = { low = [0, 0, 0], high = [1, 1, 1] }\n";
 
 /// Two spheres that touch, as CLUMP writes them.
 const TWO: &str = "-1.000000,  0.000000,  0.000000,  1.000000\n 1.000000,  0.000000,  0.000000,  1.000000\n";
 
-fn in_folder(files: &[(&str, &str)], shape: &str, changes: &[&str]) -> Result<Scene, String> {
+pub(super) fn in_folder(files: &[(&str, &str)], shape: &str, changes: &[&str]) -> Result<Scene, String> {
     let desk = tempfile::tempdir().expect("a folder of its own");
     for (name, text) in files {
         fs::write(desk.path().join(name), text).expect("a folder of its own");

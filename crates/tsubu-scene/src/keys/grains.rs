@@ -53,6 +53,27 @@ static SHAPE: &[Variant] = &[
             TURNED,
         ],
     },
+    Variant {
+        name: "clump-mesh",
+        about: "Spheres within a closed mesh, with the mass and moments of inertia of what it encloses; the mesh just fits a sphere of the grain's `diameter` about its centre of mass; only in space",
+        keys: &[
+            Key::new(
+                "path",
+                Kind::Text,
+                "An STL (`.stl`) or OBJ (`.obj`) file in any unit, from the folder of the scene file",
+            ),
+            FINGERPRINT,
+            Key::new(
+                "spheres",
+                Kind::Whole,
+                "How many spheres at most; `tsubu check` says how well they stand for the mesh",
+            )
+            .default("60")
+            .at_least(1.0)
+            .at_most(1000.0),
+            TURNED,
+        ],
+    },
 ];
 
 const TURNED: Key =

@@ -1,7 +1,7 @@
 //! Clumps: grains that are several spheres.
 
 use super::{GrainShape, Vector};
-use crate::clump::Solid;
+use crate::clump::{Solid, surface};
 use serde::{Deserialize, Serialize};
 
 /// How the grains of a group of clumps are turned at first.
@@ -27,6 +27,47 @@ pub struct Clump {
     pub axes: [Vector; 3],
     /// How each grain is turned at first.
     pub orientation: ClumpOrientation,
+}
+
+/// Spheres within a closed mesh, and the mesh that they stand for, in the unit of its file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Packing {
+    /// Centres and radii, in the order in which they were chosen.
+    pub spheres: Vec<(Vector, f64)>,
+    /// What the mesh encloses.
+    pub solid: Solid,
+    /// Surface of the mesh.
+    pub surface: f64,
+    /// Farthest corner of the mesh from its centre of mass: half of the diameter.
+    pub reach: f64,
+    /// Number of triangles.
+    pub triangles: usize,
+    /// How far the mesh lies outside the spheres, over the diameter: on average over its surface, and at most.
+    pub gap: [f64; 2],
+}
+
+/// What the union of the spheres of a packing has more than the mesh, over what the mesh has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PackingError {
+    /// Of the volume.
+    pub volume: f64,
+    /// Of the principal moments of inertia at the same density, smallest first.
+    pub inertia: Vector,
+    /// Of the surface.
+    pub surface: f64,
+}
+
+impl Packing {
+    /// How well the spheres stand for the mesh; volume and inertia to about 1e-5, the surface to 1e-3.
+    pub fn error(&self) -> Option<PackingError> {
+        let union = Solid::of(&self.spheres)?;
+        let inertia = |solid: &Solid, k: usize| solid.volume * solid.moments[k];
+        Some(PackingError {
+            volume: union.volume / self.solid.volume - 1.0,
+            inertia: [0, 1, 2].map(|k| inertia(&union, k) / inertia(&self.solid, k) - 1.0),
+            surface: surface(&self.spheres) / self.surface - 1.0,
+        })
+    }
 }
 
 impl Clump {
@@ -61,6 +102,7 @@ impl GrainShape {
             Self::Sphere {} | Self::Disc { .. } => None,
             Self::Clump { .. } => Some("clump"),
             Self::ClumpFile { .. } => Some("clump-file"),
+            Self::ClumpMesh { .. } => Some("clump-mesh"),
         }
     }
 
@@ -70,31 +112,43 @@ impl GrainShape {
             Self::Sphere {} | Self::Disc { .. } => false,
             Self::Clump { centre, .. } => centre.len() > 1,
             Self::ClumpFile { spheres, .. } => spheres.len() > 1,
+            // Even one sphere has the mass and inertia of the mesh.
+            Self::ClumpMesh { packing, .. } => !packing.spheres.is_empty(),
         }
+    }
+
+    /// The packing in place of a mesh.
+    pub fn packing(&self) -> Option<&Packing> {
+        if let Self::ClumpMesh { packing, .. } = self { Some(packing) } else { None }
     }
 
     /// The clump, if it is one of several spheres; of one sphere it is a sphere.
     pub fn clump(&self) -> Option<Clump> {
-        let (spheres, orientation) = match self {
-            Self::Sphere {} | Self::Disc { .. } => return None,
-            Self::Clump { centre, diameter, .. } if centre.len() != diameter.len() => return None,
-            Self::Clump { centre, diameter, orientation } => {
-                (centre.iter().zip(diameter).map(|(c, d)| (*c, 0.5 * d)).collect(), orientation)
-            }
-            Self::ClumpFile { spheres, orientation, .. } => (spheres.to_vec(), orientation),
-        };
         if !self.is_clump() {
             return None;
         }
-        Some(scaled(&spheres, &Solid::of(&spheres)?, *orientation))
+        match self {
+            Self::Sphere {} | Self::Disc { .. } => None,
+            Self::Clump { centre, diameter, orientation } => {
+                let spheres: Vec<_> = centre.iter().zip(diameter).map(|(c, d)| (*c, 0.5 * d)).collect();
+                let whole = centre.len() == diameter.len();
+                if whole { Some(scaled(&spheres, &Solid::of(&spheres)?, 0.0, *orientation)) } else { None }
+            }
+            Self::ClumpFile { spheres, orientation, .. } => {
+                Some(scaled(spheres, &Solid::of(spheres)?, 0.0, *orientation))
+            }
+            Self::ClumpMesh { packing, orientation, .. } => {
+                Some(scaled(&packing.spheres, &packing.solid, packing.reach, *orientation))
+            }
+        }
     }
 }
 
-/// To a diameter of 1.
-fn scaled(spheres: &[(Vector, f64)], solid: &Solid, orientation: ClumpOrientation) -> Clump {
+/// To a diameter of 1, of what reaches as far from its centre of mass as its spheres do, and at least that far.
+fn scaled(spheres: &[(Vector, f64)], solid: &Solid, reach: f64, orientation: ClumpOrientation) -> Clump {
     let arm = |c: &Vector| [0, 1, 2].map(|k| c[k] - solid.centre[k]);
     let dot = |a: &Vector, b: &Vector| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
-    let reach = spheres.iter().map(|(c, r)| dot(&arm(c), &arm(c)).sqrt() + r).fold(0.0, f64::max);
+    let reach = spheres.iter().map(|(c, r)| dot(&arm(c), &arm(c)).sqrt() + r).fold(reach, f64::max);
     let unit = 0.5 / reach;
     Clump {
         pieces: spheres.iter().map(|(c, r)| (solid.axes.map(|axis| unit * dot(&axis, &arm(c))), unit * r)).collect(),

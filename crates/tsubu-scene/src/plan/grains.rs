@@ -1,6 +1,6 @@
 //! Groups of grains, and where they come and go.
 
-use super::{ClumpOrientation, Region, Signal, Vector};
+use super::{ClumpOrientation, Packing, Region, Signal, Vector};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -57,6 +57,21 @@ pub enum GrainShape {
         /// Centre and radius of each, in the unit of the file.
         #[serde(skip)]
         spheres: Arc<Vec<(Vector, f64)>>,
+    },
+    /// Spheres within a closed mesh, with the mass and inertia of what it encloses; the diameter is that of the sphere about its centre of mass
+    /// which just holds the mesh.
+    ClumpMesh {
+        /// Name of the file's copy in the run folder (see `Scene::companions`).
+        path: String,
+        /// What tells one file from another: CRC-32 of its bytes, in hex.
+        fingerprint: String,
+        /// How many spheres at most.
+        spheres: usize,
+        /// How each grain is turned at first.
+        orientation: ClumpOrientation,
+        /// The spheres, and what they stand for.
+        #[serde(skip)]
+        packing: Arc<Packing>,
     },
 }
 

@@ -1,5 +1,6 @@
 //! The verdict on a scene before it runs.
 
+mod clump;
 mod fall;
 mod idle;
 mod mesh;

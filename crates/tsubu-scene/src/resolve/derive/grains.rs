@@ -35,18 +35,27 @@ impl Derive<'_> {
 
     /// What the grains are, with what files say of it; nothing where that is wrong.
     fn shape(&mut self, group: &mut toml::Table, name: &str, space: bool) -> Option<GrainShape> {
-        let here = ["particles", name, "shape", "clump-file"];
-        if let Some(file) =
-            group.get_mut("shape").and_then(|shape| shape.get_mut(here[3])).and_then(Value::as_table_mut)
-        {
+        let shape = group.get_mut("shape")?;
+        for key in ["clump-file", "clump-mesh"] {
+            let Some(file) = shape.get_mut(key).and_then(Value::as_table_mut) else { continue };
+            let here = ["particles", name, "shape", key];
             let path = file.get("path")?.as_str()?.to_string();
-            if let Err(wrong) = self.files.clump(&path, space, self.sources) {
+            let read = if key == "clump-file" {
+                self.files.clump(&path, space, self.sources)
+            } else if space {
+                let most = usize::try_from(file.get("spheres")?.as_integer()?).ok()?;
+                self.files.packing(&path, most, self.sources)
+            } else {
+                let wrong = Complaint::new("a mesh is a body in space, but the scene has dimension 2");
+                Err(vec![wrong.hint("set dimension = 3")])
+            };
+            if let Err(wrong) = read {
                 self.file_is_wrong(wrong, &[&here[..], &["path"]].concat());
                 return None;
             }
             self.fingerprint(file, &here, &path);
         }
-        let mut shape = group.get("shape")?.clone().try_into().ok()?;
+        let mut shape = shape.clone().try_into().ok()?;
         attach::shape(&mut shape, self.files, space);
         Some(shape)
     }
