@@ -211,10 +211,6 @@ fn what_clumps_cannot_have_is_refused() {
         assert!(keys.iter().all(|key| told.contains(&format!("  {key}: "))), "{told}");
     };
     refused(rods, &["dem.integrator=forward-euler", "contact.rotation=false"], &["dem.integrator", "contact.rotation"]);
-    let region = "region={low=[-0.01,-0.01,0.06], high=[0.01,0.01,0.08]}";
-    let stream = format!("particles.rods.start={{stream={{rate=100, {region}}}}}");
-    let removal = "removal.low={behind={point=[0,0,-1], normal=[0,0,1]}}";
-    refused(rods, &[&stream, removal], &["particles.rods.start.stream", "removal.low"]);
     refused(BARS, &["method=lattice"], &["particles.bars.shape"]);
     let (engine, ..) = open("rods", &[]);
     assert_eq!(engine.grains(), 120 * 5 + 60 * 4 + 60);

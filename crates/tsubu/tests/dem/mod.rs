@@ -2,6 +2,7 @@
 
 mod books;
 mod clump;
+mod clump_traffic;
 mod come_and_go;
 mod everything;
 mod gates;
