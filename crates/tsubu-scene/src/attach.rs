@@ -26,10 +26,14 @@ pub(crate) fn grains(particles: &mut BTreeMap<String, Particles>, files: &Files,
 pub(crate) fn shape(shape: &mut GrainShape, files: &Files, space: bool) {
     match shape {
         GrainShape::ClumpFile { path, spheres, .. } => {
-            files.known_clump(path, space).into_iter().for_each(|known| *spheres = known);
+            if let Some(known) = files.known_clump(path, space) {
+                *spheres = known;
+            }
         }
         GrainShape::ClumpMesh { path, spheres, packing, .. } => {
-            files.known_packing(path, *spheres).into_iter().for_each(|known| *packing = known);
+            if let Some(known) = files.known_packing(path, *spheres) {
+                *packing = known;
+            }
         }
         GrainShape::Sphere {} | GrainShape::Disc { .. } | GrainShape::Clump { .. } => {}
     }

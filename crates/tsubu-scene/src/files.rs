@@ -137,7 +137,7 @@ impl Files {
     pub fn packing(&mut self, name: &str, most: usize, sources: &mut Vec<Source>) -> Result<(), Vec<Complaint>> {
         let key = (name.to_string(), most);
         if !self.packings.contains_key(&key) {
-            let packing = packing::pack(&*self.mesh(name, sources)?, most).map_err(|complaint| vec![complaint])?;
+            let packing = packing::pack(&self.mesh(name, sources)?, most).map_err(|complaint| vec![complaint])?;
             self.packings.insert(key, Arc::new(packing));
         }
         Ok(())

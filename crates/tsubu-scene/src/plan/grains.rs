@@ -144,7 +144,8 @@ pub struct Periodic {
     pub z: Option<[f64; 2]>,
 }
 
-/// Where grains vanish: places that stand still. Grains are looked at every 50 steps, so one may go a little way in.
+/// Where grains vanish: places that stand still. Grains are looked at every 50 steps, so one may go a little way in. The centre of a clump is
+/// that of its mass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Removal {

@@ -262,7 +262,7 @@ fn a_brick_is_as_heavy_as_its_mesh() {
     let [a, b, c] = [3.0, 2.0, 1.0_f64];
     let corner = |i: usize| [a, b, c].iter().enumerate().map(|(k, x)| if i >> k & 1 == 0 { 0.0 } else { *x }).collect();
     let corners: Vec<Vec<f64>> = (0..8).map(corner).collect();
-    let mut obj: String = corners.iter().map(|v| format!("v {:?} {:?} {:?}\n", v[0], v[1], v[2])).collect();
+    let mut obj = corners.iter().map(|v| format!("v {:?} {:?} {:?}\n", v[0], v[1], v[2])).collect::<Vec<_>>().concat();
     obj += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
     let desk = tempfile::tempdir().unwrap();
     std::fs::write(desk.path().join("brick.obj"), obj).unwrap();
