@@ -3,21 +3,39 @@
 use crate::files::Files;
 use crate::grain_file::{How, ending};
 use crate::mesh_file;
-use crate::plan::{Particles, Plan, Shape, Start, Wall};
+use crate::plan::{GrainShape, Particles, Plan, Shape, Start, Wall};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// A file for the run folder: its name there, and its bytes.
 pub(crate) type Companion = (String, Arc<[u8]>);
 
-/// Puts the grains of files that were read where the plan has room for them.
+/// Puts the grains of files that were read, and the spheres of clumps, where the plan has room for them.
 pub(crate) fn grains(particles: &mut BTreeMap<String, Particles>, files: &Files, space: bool) {
     for group in particles.values_mut() {
+        shape(&mut group.shape, files, space);
         if let Start::File { path, kind, grains, .. } = &mut group.start
             && let Some(file) = files.known_grains(path, How { space, kind: *kind })
         {
             *grains = Arc::clone(&file.grains);
         }
+    }
+}
+
+/// The same for the spheres of one shape.
+pub(crate) fn shape(shape: &mut GrainShape, files: &Files, space: bool) {
+    match shape {
+        GrainShape::ClumpFile { path, spheres, .. } => {
+            if let Some(known) = files.known_clump(path, space) {
+                *spheres = known;
+            }
+        }
+        GrainShape::ClumpMesh { path, spheres, packing, .. } => {
+            if let Some(known) = files.known_packing(path, *spheres) {
+                *packing = known;
+            }
+        }
+        GrainShape::Sphere {} | GrainShape::Disc { .. } | GrainShape::Clump { .. } => {}
     }
 }
 
@@ -39,6 +57,9 @@ pub(crate) fn companions(plan: &mut Plan, files: &Files) -> Vec<Companion> {
     for (name, group) in &mut plan.particles {
         if let Start::File { path, .. } = &mut group.start {
             copies.take(path, "particles", name);
+        }
+        if let GrainShape::ClumpFile { path, .. } | GrainShape::ClumpMesh { path, .. } = &mut group.shape {
+            copies.take(path, "clumps", name);
         }
     }
     for (name, wall) in &mut plan.walls {

@@ -1,10 +1,11 @@
 //! Files that a scene names, read once.
 
 use crate::complaint::{Complaint, Complaints, Source};
-use crate::grain_file::{self, GrainFile, How};
+use crate::grain_file::{self, GrainFile, How, clump};
 use crate::lines;
 use crate::mesh_file;
-use crate::plan::Vector;
+use crate::packing;
+use crate::plan::{Packing, Vector};
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -18,12 +19,23 @@ pub(crate) struct Files {
     bytes: BTreeMap<String, Result<Arc<[u8]>, String>>,
     grains: BTreeMap<(String, How), Arc<GrainFile>>,
     meshes: BTreeMap<String, Arc<Vec<[Vector; 3]>>>,
+    clumps: BTreeMap<(String, bool), Spheres>,
+    packings: BTreeMap<(String, usize), Arc<Packing>>,
 }
+
+/// The spheres of a clump: centre and radius.
+type Spheres = Arc<Vec<(Vector, f64)>>;
 
 impl Files {
     pub fn new(folder: &Path) -> Self {
-        let folder = folder.to_path_buf();
-        Self { folder, bytes: BTreeMap::new(), grains: BTreeMap::new(), meshes: BTreeMap::new() }
+        Self {
+            folder: folder.to_path_buf(),
+            bytes: BTreeMap::new(),
+            grains: BTreeMap::new(),
+            meshes: BTreeMap::new(),
+            clumps: BTreeMap::new(),
+            packings: BTreeMap::new(),
+        }
     }
 
     /// The whole path of something that the scene names.
@@ -102,6 +114,35 @@ impl Files {
         }
     }
 
+    /// The spheres of the clump in the file, in space or in the plane.
+    pub fn clump(&mut self, name: &str, space: bool, sources: &mut Vec<Source>) -> Result<(), Vec<Complaint>> {
+        let key = (name.to_string(), space);
+        if self.clumps.contains_key(&key) {
+            return Ok(());
+        }
+        let text = self.text(name, sources)?;
+        match clump::read(&text, sources.len(), space) {
+            Ok(spheres) => {
+                self.clumps.insert(key, Arc::new(spheres));
+                Ok(())
+            }
+            Err(complaints) => {
+                sources.push(Source { name: name.to_string(), text, numbered: true });
+                Err(complaints)
+            }
+        }
+    }
+
+    /// At most so many spheres in the mesh in the file.
+    pub fn packing(&mut self, name: &str, most: usize, sources: &mut Vec<Source>) -> Result<(), Vec<Complaint>> {
+        let key = (name.to_string(), most);
+        if !self.packings.contains_key(&key) {
+            let packing = packing::pack(&self.mesh(name, sources)?, most).map_err(|complaint| vec![complaint])?;
+            self.packings.insert(key, Arc::new(packing));
+        }
+        Ok(())
+    }
+
     /// What tells the file from another: CRC-32 of its bytes, in hex.
     pub fn fingerprint(&mut self, name: &str) -> Option<String> {
         Some(format!("{:08x}", crc32fast::hash(&self.bytes(name).ok()?)))
@@ -120,6 +161,16 @@ impl Files {
     /// The largest diameter in a file that was read.
     pub fn largest_diameter(&self, name: &str, how: How) -> Option<f64> {
         self.known_grains(name, how)?.grains.diameter.iter().copied().reduce(f64::max)
+    }
+
+    /// The spheres of a clump whose file was read.
+    pub fn known_clump(&self, name: &str, space: bool) -> Option<Spheres> {
+        self.clumps.get(&(name.to_string(), space)).cloned()
+    }
+
+    /// The spheres in a mesh whose file was read.
+    pub fn known_packing(&self, name: &str, most: usize) -> Option<Arc<Packing>> {
+        self.packings.get(&(name.to_string(), most)).cloned()
     }
 
     /// The triangles of a file that was read.

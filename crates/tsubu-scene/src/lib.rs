@@ -49,6 +49,7 @@ mod lines;
 mod mesh_check;
 mod mesh_file;
 mod node;
+mod packing;
 mod reference;
 mod resolve;
 mod scene;

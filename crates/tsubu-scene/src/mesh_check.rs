@@ -65,6 +65,15 @@ pub fn diagnose(triangles: &[[Vector; 3]]) -> Diagnosis {
     diagnosis
 }
 
+/// The triangles with corners that differ by rounding put to one place.
+pub(crate) fn welded(triangles: &[[Vector; 3]]) -> Vec<[Vector; 3]> {
+    let (corner_of, corners) = weld(triangles, largest(length(ends(triangles))));
+    let mut places = vec![None; corners];
+    let mut place = |corner: Vector, number: usize| *places[number].get_or_insert(corner);
+    let triangles = triangles.iter().zip(corner_of);
+    triangles.filter_map(|(t, numbers)| numbers.map(|n| [0, 1, 2].map(|i| place(t[i], n[i])))).collect()
+}
+
 /// Only what makes a mesh useless: corners that are no numbers, triangles without area.
 pub(crate) fn broken(triangles: &[[Vector; 3]]) -> Diagnosis {
     let mut diagnosis = Diagnosis { triangles: triangles.len(), ..Diagnosis::default() };

@@ -10,6 +10,7 @@
 #![allow(rustdoc::broken_intra_doc_links, reason = "[s] is a unit, not a link")]
 
 mod bonds;
+mod clumps;
 mod contact;
 mod gases;
 mod grains;
@@ -25,15 +26,14 @@ pub mod watch;
 mod water;
 
 pub use bonds::Bond;
+pub use clumps::{Clump, ClumpOrientation, Packing, PackingError};
 pub use contact::{
     Cohesion, Contact, Damping, Film, Material, MaterialPair, MindlinForm, Normal, Rolling, SlipLever, Strength,
     Tangential, Twisting,
 };
 pub(crate) use contact::{READ_A_DENSITY, READ_A_FORCE, SLIP_LEVER};
 pub use gases::{BaxterBehringer, Fhp, FhpRules, GasWalls, KarolyiKertesz, PengHerrmann};
-pub use grains::{
-    Clump, ClumpOrientation, GrainMotion, GrainShape, GrainTable, Particles, Periodic, Removal, Size, Start, submerged,
-};
+pub use grains::{GrainMotion, GrainShape, GrainTable, Particles, Periodic, Removal, Size, Start, submerged};
 pub use hosts::{Host, Interface, Mode, Signal, Structure};
 pub use methods::{
     Arithmetic, ClCa, ClCaRule, Collision, Dem, GrainPoints, GravitySwitch, Integrator, Lattice, LatticeMode,

@@ -39,7 +39,10 @@ fn sieve_mean(diameter: &[f64], passing: &[f64], shape: &GrainShape) -> Option<f
         let share = (p[1] - p[0]) / (b - a);
         let [inverse, square] = [1.0 / a - 1.0 / b, 0.5 * (1.0 / (a * a) - 1.0 / (b * b))];
         match shape {
-            GrainShape::Sphere {} | GrainShape::Clump { .. } => {
+            GrainShape::Sphere {}
+            | GrainShape::Clump { .. }
+            | GrainShape::ClumpFile { .. }
+            | GrainShape::ClumpMesh { .. } => {
                 number += share * square;
                 moment += share * inverse;
             }
@@ -79,7 +82,7 @@ impl GrainShape {
     pub fn mass(&self, density: f64, diameter: f64) -> f64 {
         match self {
             Self::Sphere {} => density * std::f64::consts::PI / 6.0 * diameter.powi(3),
-            Self::Clump { .. } => {
+            Self::Clump { .. } | Self::ClumpFile { .. } | Self::ClumpMesh { .. } => {
                 density * self.clump().map_or(std::f64::consts::PI / 6.0, |clump| clump.volume) * diameter.powi(3)
             }
             Self::Disc { thickness } => density * std::f64::consts::PI / 4.0 * diameter.powi(2) * thickness,

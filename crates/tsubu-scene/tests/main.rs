@@ -2,6 +2,7 @@
 
 /// `--set` and programmatic changes.
 mod changes;
+mod clump_meshes;
 mod clumps;
 /// Grains from files, and what all files have in common.
 mod files;

@@ -2,7 +2,7 @@
 
 use super::Parts;
 use crate::complaint::Complaint;
-use crate::grain_file::How;
+use crate::grain_file::{How, clump::MOST_PIECES};
 use crate::plan::{GrainMotion, GrainShape, Particles, Size, Start, Vector};
 
 pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
@@ -34,6 +34,13 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
 
 /// A clump has as many diameters as centres; in the plane its centres are in the plane.
 fn clump(parts: &Parts<'_>, name: &str, group: &Particles, complaints: &mut Vec<Complaint>) {
+    if group.shape.clump_key().is_some() && !matches!(group.motion, GrainMotion::Free {}) {
+        complaints.push(
+            Complaint::new(format!("the clumps `{name}` must be free to move"))
+                .at(&parts.root.locate(&["particles", name, "motion"]), "spheres and discs may be held or driven")
+                .hint("build a rough floor or a moving part of spheres, or as a wall"),
+        );
+    }
     let GrainShape::Clump { centre, diameter, .. } = &group.shape else { return };
     let at = |key: &str| parts.root.locate(&["particles", name, "shape", "clump", key]);
     if centre.is_empty() {
@@ -51,17 +58,7 @@ fn clump(parts: &Parts<'_>, name: &str, group: &Particles, complaints: &mut Vec<
                 .at(&at("centre"), format!("at most {MOST_PIECES}")),
         );
     }
-    if !matches!(group.motion, GrainMotion::Free {}) {
-        complaints.push(
-            Complaint::new(format!("the clumps `{name}` must be free to move"))
-                .at(&parts.root.locate(&["particles", name, "motion"]), "spheres and discs may be held or driven")
-                .hint("build a rough floor or a moving part of spheres, or as a wall"),
-        );
-    }
 }
-
-/// The most spheres of a clump.
-const MOST_PIECES: usize = 1000;
 
 /// Who gives places gives sizes with them: drawn at random they would overlap.
 fn sizes_and_places(parts: &Parts<'_>, name: &str, group: &Particles, complaints: &mut Vec<Complaint>) {

@@ -22,10 +22,10 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
             );
             continue;
         }
-        if matches!(group.shape, GrainShape::Clump { .. }) {
+        if let Some(clump) = group.shape.clump_key() {
             complaints.push(
                 Complaint::new(format!("the grains `{name}` are clumps; drag and buoyancy are those of spheres"))
-                    .at(&parts.root.locate(&["particles", name, "shape", "clump"]), "not in water")
+                    .at(&parts.root.locate(&["particles", name, "shape", clump]), "not in water")
                     .also(&at(&[]), "there is water")
                     .hint("write shape.sphere = {}"),
             );

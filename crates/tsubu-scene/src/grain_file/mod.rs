@@ -3,6 +3,7 @@
 //! Each format says what stands in which column; the rows themselves are read here, so that a bad number is the same
 //! message everywhere.
 
+pub(crate) mod clump;
 mod csv;
 mod dump;
 mod lammps;

@@ -37,10 +37,51 @@ static SHAPE: &[Variant] = &[
             Key::new("centre", Kind::Vectors(&NUMBER), "Centres of the spheres, in any unit"),
             Key::new("diameter", Kind::Quantities(&NUMBER), "Their diameters in the same unit, one for each centre")
                 .above(0.0),
-            Key::new("orientation", Kind::OneOf(ORIENTATION), "How each grain is turned at first").default("'random'"),
+            TURNED,
+        ],
+    },
+    Variant {
+        name: "clump-file",
+        about: "The same, its spheres from a file of CLUMP, YADE, LAMMPS, LIGGGHTS or MercuryDPM; one that lies within another is left out",
+        keys: &[
+            Key::new(
+                "path",
+                Kind::Text,
+                "Rows x y z r between blanks or commas, with a header or the line `#format` of YADE, or a molecule of LAMMPS, told apart by how they begin; from the folder of the scene file",
+            ),
+            FINGERPRINT,
+            TURNED,
+        ],
+    },
+    Variant {
+        name: "clump-mesh",
+        about: "Spheres within a closed mesh, with the mass and moments of inertia of what it encloses; the mesh just fits a sphere of the grain's `diameter` about its centre of mass; only in space",
+        keys: &[
+            Key::new(
+                "path",
+                Kind::Text,
+                "An STL (`.stl`) or OBJ (`.obj`) file in any unit, from the folder of the scene file",
+            ),
+            FINGERPRINT,
+            Key::new(
+                "spheres",
+                Kind::Whole,
+                "How many spheres at most; `tsubu check` says how well they stand for the mesh",
+            )
+            .default("60")
+            .at_least(1.0)
+            .at_most(1000.0),
+            TURNED,
         ],
     },
 ];
+
+const TURNED: Key =
+    Key::new("orientation", Kind::OneOf(ORIENTATION), "How each grain is turned at first").default("'random'");
+
+const FINGERPRINT: Key =
+    Key::new("fingerprint", Kind::Text, "CRC-32 of the file in hex, to tell that it is still the same file")
+        .derived("from the file");
 
 static ORIENTATION: &[Word] = &[
     Word { name: "random", about: "any orientation as likely as another; in the plane any angle" },
@@ -167,8 +208,7 @@ static START: &[Variant] = &[
             .optional()
             .at_least(1.0)
             .at_most(1e9),
-            Key::new("fingerprint", Kind::Text, "CRC-32 of the file in hex, to tell that it is still the same file")
-                .derived("from the file"),
+            FINGERPRINT,
         ],
     },
     Variant {

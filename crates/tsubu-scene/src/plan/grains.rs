@@ -1,8 +1,8 @@
 //! Groups of grains, and where they come and go.
 
-use super::{Region, Signal, Vector};
-use crate::clump::Solid;
+use super::{ClumpOrientation, Packing, Region, Signal, Vector};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// A group of grains of one material.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,87 +46,33 @@ pub enum GrainShape {
         /// How each grain is turned at first.
         orientation: ClumpOrientation,
     },
-}
-
-/// How the grains of a group of clumps are turned at first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ClumpOrientation {
-    /// Any orientation as likely as another.
-    Random,
-    /// As the centres say.
-    AsDrawn,
-}
-
-/// The spheres of a clump of diameter 1, and how its mass is spread.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Clump {
-    /// Centres from the centre of mass, along the principal axes, and radii.
-    pub pieces: Vec<(Vector, f64)>,
-    /// Volume; what overlaps counts once.
-    pub volume: f64,
-    /// Principal moments of inertia over the mass, smallest first.
-    pub moments: Vector,
-    /// Directions of the principal axes as drawn.
-    pub axes: [Vector; 3],
-    /// How each grain is turned at first.
-    pub orientation: ClumpOrientation,
-}
-
-impl Clump {
-    /// Radius of the smallest sphere, and of the largest.
-    pub fn radii(&self) -> [f64; 2] {
-        let radii = || self.pieces.iter().map(|(_, radius)| *radius);
-        [radii().fold(f64::INFINITY, f64::min), radii().fold(0.0, f64::max)]
-    }
-
-    /// The mass over the smallest that it shows to an impact anywhere: 1 + (r x n) . I^-1 (r x n) m, of the worst arm r and normal n.
-    pub fn lightness(&self) -> f64 {
-        // Of I^-1 across the arm the larger of two eigenvalues, from its trace and that of its square.
-        let worst = |(arm, _): &(Vector, f64)| {
-            let squared: f64 = arm.iter().map(|x| x * x).sum();
-            if squared == 0.0 {
-                return 0.0;
-            }
-            let across = |i: usize, j: usize| f64::from(u8::from(i == j)) - arm[i] * arm[j] / squared;
-            let entry = |i: usize, j: usize| (0..3).map(|k| across(i, k) * across(k, j) / self.moments[k]).sum::<f64>();
-            let trace: f64 = (0..3).map(|i| entry(i, i)).sum();
-            let square: f64 = (0..9).map(|k| entry(k / 3, k % 3).powi(2)).sum();
-            squared * 0.5 * (trace + (2.0 * square - trace * trace).max(0.0).sqrt())
-        };
-        1.0 + self.pieces.iter().map(worst).fold(0.0, f64::max)
-    }
-}
-
-impl GrainShape {
-    /// Whether it is a body of several spheres: [`GrainShape::clump`] without the work of its mass.
-    pub fn is_clump(&self) -> bool {
-        matches!(self, Self::Clump { centre, .. } if centre.len() > 1)
-    }
-
-    /// The clump, if it is one of several spheres; of one sphere it is a sphere.
-    pub fn clump(&self) -> Option<Clump> {
-        let Self::Clump { centre, diameter, orientation } = self else { return None };
-        if !self.is_clump() || centre.len() != diameter.len() {
-            return None;
-        }
-        let spheres: Vec<(Vector, f64)> = centre.iter().zip(diameter).map(|(c, d)| (*c, 0.5 * d)).collect();
-        let solid = Solid::of(&spheres)?;
-        let arm = |c: &Vector| [0, 1, 2].map(|k| c[k] - solid.centre[k]);
-        let dot = |a: &Vector, b: &Vector| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
-        let reach = spheres.iter().map(|(c, r)| dot(&arm(c), &arm(c)).sqrt() + r).fold(0.0, f64::max);
-        let unit = 0.5 / reach;
-        Some(Clump {
-            pieces: spheres
-                .iter()
-                .map(|(c, r)| (solid.axes.map(|axis| unit * dot(&axis, &arm(c))), unit * r))
-                .collect(),
-            volume: solid.volume * unit.powi(3),
-            moments: solid.moments.map(|moment| moment * unit * unit),
-            axes: solid.axes,
-            orientation: *orientation,
-        })
-    }
+    /// The same, its spheres from a file.
+    ClumpFile {
+        /// Name of the file's copy in the run folder (see `Scene::companions`).
+        path: String,
+        /// What tells one file from another: CRC-32 of its bytes, in hex.
+        fingerprint: String,
+        /// How each grain is turned at first.
+        orientation: ClumpOrientation,
+        /// Centre and radius of each, in the unit of the file.
+        #[serde(skip)]
+        spheres: Arc<Vec<(Vector, f64)>>,
+    },
+    /// Spheres within a closed mesh, with the mass and inertia of what it encloses; the diameter is that of the sphere about its centre of mass
+    /// which just holds the mesh.
+    ClumpMesh {
+        /// Name of the file's copy in the run folder (see `Scene::companions`).
+        path: String,
+        /// What tells one file from another: CRC-32 of its bytes, in hex.
+        fingerprint: String,
+        /// How many spheres at most.
+        spheres: usize,
+        /// How each grain is turned at first.
+        orientation: ClumpOrientation,
+        /// The spheres, and what they stand for.
+        #[serde(skip)]
+        packing: Arc<Packing>,
+    },
 }
 
 /// Distribution of diameters within a group.
@@ -198,7 +144,8 @@ pub struct Periodic {
     pub z: Option<[f64; 2]>,
 }
 
-/// Where grains vanish: places that stand still. Grains are looked at every 50 steps, so one may go a little way in.
+/// Where grains vanish: places that stand still. Grains are looked at every 50 steps, so one may go a little way in. The centre of a clump is
+/// that of its mass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum Removal {
@@ -278,7 +225,7 @@ pub enum Start {
         fingerprint: String,
         /// What the file says.
         #[serde(skip)]
-        grains: std::sync::Arc<GrainTable>,
+        grains: Arc<GrainTable>,
     },
     /// Given places.
     At {

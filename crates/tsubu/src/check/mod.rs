@@ -1,6 +1,7 @@
 //! The verdict on a scene before it runs.
 
 mod bonds;
+mod clump;
 mod fall;
 mod idle;
 mod mesh;

@@ -30,7 +30,8 @@ struct Piece {
     offset: DVec3,
 }
 
-/// All bodies of several spheres, in the order of the ids of their pieces; empty where every grain is a sphere.
+/// All bodies of several spheres, in the order of the ids of their pieces, with those that are yet to come and those that have gone, which have
+/// no pieces; empty where every grain is a sphere.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Bodies {
     list: Vec<Body>,
@@ -70,12 +71,31 @@ impl Bodies {
         self.places = grains.by_id().into_iter().map(|place| place as u32).collect();
         let sorted = &self.sorted;
         self.places.retain(|place| sorted[*place as usize].body != NO_BODY);
+        self.list.iter_mut().for_each(|body| body.pieces = 0..0);
+        for (k, place) in self.places.iter().enumerate() {
+            let pieces = &mut self.list[sorted[*place as usize].body as usize].pieces;
+            *pieces = if pieces.end == 0 { k..k + 1 } else { pieces.start..k + 1 };
+        }
+    }
+
+    /// Those that are there.
+    fn there(&self) -> impl Iterator<Item = &Body> {
+        self.list.iter().filter(|body| body.is_there())
+    }
+
+    /// Which bodies a look at their centres of mass [m] takes away, by their numbers.
+    pub fn taken(&self, mut takes: impl FnMut(DVec3) -> bool) -> Vec<bool> {
+        self.list.iter().map(|body| body.is_there() && takes(body.centre)).collect()
     }
 
     /// Before the forces: bodies go to the end of the step. Their pieces follow block by block, see [`Bodies::place`].
     pub fn first_half(&mut self, dt: f64) {
         let (plane, pieces) = (self.plane, self.places.len());
-        each_in_parts(&mut self.list, shares(pieces), &|body: &mut Body| body.first_half(dt, plane));
+        each_in_parts(&mut self.list, shares(pieces), &|body: &mut Body| {
+            if body.is_there() {
+                body.first_half(dt, plane);
+            }
+        });
     }
 
     /// Puts the pieces of a block where their bodies have them. Returns, of all of its grains, the sum of the velocities [m/s] and how far the
@@ -115,9 +135,11 @@ impl Bodies {
                 felt.loss[0] += dissipative;
                 felt.loss[1] += torque + arm.cross(dissipative);
             }
-            body.second_half(&felt, gravity, share, plane);
+            if body.is_there() {
+                body.second_half(&felt, gravity, share, plane);
+            }
         });
-        -2.0 / 3.0 * list.iter().map(|body| body.correction).sum::<f64>()
+        -2.0 / 3.0 * self.there().map(|body| body.correction).sum::<f64>()
     }
 
     /// Completes the velocities of the pieces, for those who look; the next step finds them anew.
@@ -159,7 +181,7 @@ impl Bodies {
     /// Kinetic, rotational and potential energy.
     pub fn energies(&self, gravity: DVec3) -> Energies {
         let mut energies = Energies::default();
-        for body in &self.list {
+        for body in self.there() {
             energies.kinetic += 0.5 * body.mass * body.velocity.length_squared();
             energies.rotational += 0.5 * body.angular_momentum.dot(body.spin);
             energies.potential -= body.mass * gravity.dot(body.centre);
@@ -169,12 +191,12 @@ impl Bodies {
 
     /// Total momentum [N.s].
     pub fn momentum(&self) -> DVec3 {
-        self.list.iter().map(|body| body.mass * body.velocity).sum()
+        self.there().map(|body| body.mass * body.velocity).sum()
     }
 
     /// Sum of mass times centre [kg.m].
     pub fn moment_of_mass(&self) -> DVec3 {
-        self.list.iter().map(|body| body.mass * body.centre).sum()
+        self.there().map(|body| body.mass * body.centre).sum()
     }
 
     /// Adds a velocity to all.
@@ -212,7 +234,16 @@ impl Bodies {
             return Ok(());
         }
         let missing = |name: &str| MissingSection { name: name.to_owned(), kind: "real" };
-        if grains.len() != self.by_id.len() || grains.id.iter().any(|id| *id as usize >= self.by_id.len()) {
+        if grains.id.iter().any(|id| *id as usize >= self.by_id.len()) {
+            return Err(missing("bodies"));
+        }
+        self.find(grains);
+        // A body is there with all of its pieces.
+        let mut pieces = vec![0; self.list.len()];
+        for piece in self.by_id.iter().filter(|piece| piece.body != NO_BODY) {
+            pieces[piece.body as usize] += 1;
+        }
+        if self.list.iter().zip(pieces).any(|(body, count)| body.is_there() && body.pieces.len() != count) {
             return Err(missing("bodies"));
         }
         for (k, name) in VECTORS.iter().enumerate() {
@@ -232,7 +263,6 @@ impl Bodies {
             body.orientation = DQuat::from_array(*turned);
             body.follow(self.plane);
         }
-        self.find(grains);
         Ok(())
     }
 }

@@ -3,7 +3,7 @@
 use super::engine::DemEngine;
 use super::fill::Occupied;
 use super::place::{direction, still};
-use super::room::{Clearance, Room, Side, images, periodic_bounds, sides};
+use super::room::{Clearance, Room, Side, images, periodic_bounds, sides, wrapped};
 use crate::contact::Table;
 use crate::engine::Engine;
 use crate::ledger::{Account, Ledger};
@@ -12,7 +12,7 @@ use crate::random::{Purpose, words};
 use crate::sizes;
 use crate::wall::Wall;
 use glam::DVec3;
-use tsubu_scene::plan::{GrainMotion, Particles, Plan, Removal, Signal, Start};
+use tsubu_scene::plan::{Clump, GrainMotion, Particles, Plan, Removal, Signal, Start};
 
 /// Steps between two looks at what should come or go.
 const EVERY: u64 = 50;
@@ -27,6 +27,8 @@ struct GrainStream {
     group: Particles,
     number: usize,
     material: u32,
+    /// The clump that its grains are, if they are several spheres.
+    clump: Option<Clump>,
     first_id: u32,
     /// How many have come.
     placed: usize,
@@ -34,6 +36,13 @@ struct GrainStream {
     since: (f64, usize),
     /// On which side of every wall its region lies at time 0: to look anew whenever a grain comes would take longer than a step.
     sides: Vec<Side>,
+}
+
+impl GrainStream {
+    /// Numbers that each of its grains takes.
+    fn pieces(&self) -> u32 {
+        self.clump.as_ref().map_or(1, |clump| clump.pieces.len() as u32)
+    }
 }
 
 /// A group that moves as told.
@@ -78,12 +87,13 @@ impl Sources {
                     group: group.clone(),
                     number,
                     material,
+                    clump: group.shape.clump(),
                     first_id: id,
                     placed: 0,
                     since: (0.0, 0),
                     sides: sides(walls, &Room::of(region), plan.dimension, gravity),
                 });
-                id += group.count as u32;
+                id += group.count as u32 * streams.last().map_or(1, GrainStream::pieces);
             }
             if let GrainMotion::Driven { direction, signal } = &group.motion {
                 let direction = DVec3::from_array(*direction);
@@ -162,9 +172,18 @@ impl Sources {
         came.chain(went).collect()
     }
 
+    /// Whether a grain with its centre there [m] vanishes; it is counted.
+    fn take(&mut self, place: DVec3) -> bool {
+        let drain = self.removal.iter_mut().find(|drain| drain.region.takes(place.to_array()));
+        drain.map(|drain| drain.taken += 1).is_some()
+    }
+
     /// Largest diameter [m] of grains that may still come, and the smallest.
     pub fn sizes(&self) -> Option<(f64, f64)> {
-        let ranges = self.streams.iter().map(|s| (s.group.smallest_diameter(), s.group.largest_diameter()));
+        let ranges = self.streams.iter().map(|s| {
+            let [thin, thick] = s.clump.as_ref().map_or([1.0; 2], |clump| clump.radii().map(|radius| 2.0 * radius));
+            (thin * s.group.smallest_diameter(), thick * s.group.largest_diameter())
+        });
         ranges.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 }
@@ -198,14 +217,18 @@ impl DemEngine {
     /// Lets grains come and go between two steps. What is posted is the difference of all that is held: motion, height, and
     /// the energy of the contacts of grains that go.
     pub(super) fn insert_and_remove(&mut self, ledger: &mut Ledger) {
-        let grains = &self.grains;
+        let Self { grains, sources, integration, .. } = self;
+        let ends = periodic_bounds(&sources.plan);
+        // A body goes as a whole, with its centre of mass.
+        let gone = integration.bodies.taken(|centre| sources.take(wrapped(&ends, centre)));
         let mut order: Vec<u32> = Vec::with_capacity(grains.len());
         for i in 0..grains.len() {
-            let place = grains.position[i].to_array();
-            let free = grains.inverse_mass[i] != 0.0;
-            match self.sources.removal.iter_mut().find(|drain| free && drain.region.takes(place)) {
-                Some(drain) => drain.taken += 1,
-                None => order.push(i as u32),
+            let goes = match integration.bodies.of(grains.id[i]) {
+                Some(body) => gone[body as usize],
+                None => grains.inverse_mass[i] != 0.0 && sources.take(grains.position[i]),
+            };
+            if !goes {
+                order.push(i as u32);
             }
         }
         let some_go = order.len() < grains.len();
@@ -235,7 +258,7 @@ impl DemEngine {
     }
 
     fn energy_and_momentum(&self) -> (f64, DVec3) {
-        (self.grain_energies().total(), self.grains.momentum())
+        (self.grain_energies().total(), self.momentum().into())
     }
 
     /// The grains that come now.
@@ -265,7 +288,7 @@ impl DemEngine {
                 }
             }
             while stream.placed < due {
-                let id = stream.first_id + stream.placed as u32;
+                let id = stream.first_id + stream.placed as u32 * stream.pieces();
                 let diameter = sizes::diameter(&stream.group, self.sources.plan.seed, id);
                 let radius = 0.5 * diameter;
                 let place = (0..ATTEMPTS).find_map(|attempt| {
@@ -281,7 +304,12 @@ impl DemEngine {
                 let w = words(self.sources.plan.seed, Purpose::Stream, id, 1);
                 grain.velocity = DVec3::from_array(*velocity) + direction(dimension, w) * *speed;
                 grain.acceleration = self.integration.gravity;
-                arrivals.push(grain);
+                match &stream.clump {
+                    Some(clump) => {
+                        arrivals.extend(self.integration.bodies.enter(clump, &grain, id, &self.sources.plan));
+                    }
+                    None => arrivals.push(grain),
+                }
                 stream.placed += 1;
             }
         }

@@ -78,7 +78,7 @@ fn a_cantilever_sways_at_the_frequency_of_a_beam() {
     let look = (1.0 / expected / dt / 50.0) as u64;
     // Upward crossings of the tip through its place of rest.
     let (mut before, mut crossings, mut step) = (1.0, Vec::new(), 0);
-    while crossings.len() < 31 {
+    while crossings.len() < 11 {
         engine.advance(look, &mut hosts, &mut ledger).unwrap();
         step += look;
         let now = vectors(&*engine, "position")[19][2];
@@ -87,7 +87,7 @@ fn a_cantilever_sways_at_the_frequency_of_a_beam() {
         }
         before = now;
     }
-    let found = 30.0 / (crossings[30] - crossings[0]);
+    let found = 10.0 / (crossings[10] - crossings[0]);
     assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
     assert!((found / frequency(20.0 * LENGTH) - 1.0).abs() > 0.03, "{found}");
     assert!(missing(&*engine, &hosts, &ledger) < 1e-3);
@@ -254,7 +254,7 @@ fn a_long_chain_is_as_weak_as_weibull_says() {
 const BLOCK: &str = "duration = '1 s'\n[materials.rock]\nyoung-modulus = '10 MPa'\ndensity = '2500 kg/m^3'\n[contact]\nnormal.hertz = {}\n\
      [particles.block]\nmaterial = 'rock'\ncount = 1200\ndiameter = '2 mm'\nstart.rows = { spacing = 1.001, jitter = 0 }\n\
      [walls.box]\nmaterial = 'rock'\nshape.box = { width = '81 mm', height = '200 mm' }\n\
-     [[bond]]\nyoung-modulus = '10 MPa'\ndamping = 0.1\ntensile-strength = '20 kPa'\nshear-strength = '20 kPa'\nweibull-modulus = 4\n\
+     [[bond]]\nyoung-modulus = '10 MPa'\ndamping = 0.1\ntensile-strength = '10 kPa'\nshear-strength = '10 kPa'\nweibull-modulus = 4\n\
      [dem]\ntime-step = '5 us'\n";
 
 #[test]
@@ -263,7 +263,7 @@ fn a_block_breaks_by_the_same_bits() {
         let look = |engine: &dyn Engine, hosts: &Hosts, ledger: &tsubu::ledger::Ledger| {
             (bonds(engine), missing(engine, hosts, ledger))
         };
-        hash(|| open_text(BLOCK, &["gravity=500"]), [500, 500], threads, resume, look)
+        hash(|| open_text(BLOCK, &["gravity=500"]), [900, 900], threads, resume, look)
     };
     let (bits, ((hold, broken), lost)) = run(1, false);
     assert!(hold > 2000 && broken > 10, "{hold} {broken}");

@@ -1,6 +1,6 @@
 //! Bodies of several spheres.
 
-use super::{hash, missing, open, open_text};
+use super::{hash, missing, open, open_text, run_text};
 use std::f64::consts::PI;
 use tsubu::engine::Engine;
 use tsubu_frame::Kind;
@@ -211,11 +211,117 @@ fn what_clumps_cannot_have_is_refused() {
         assert!(keys.iter().all(|key| told.contains(&format!("  {key}: "))), "{told}");
     };
     refused(rods, &["dem.integrator=forward-euler", "contact.rotation=false"], &["dem.integrator", "contact.rotation"]);
-    let region = "region={low=[-0.01,-0.01,0.06], high=[0.01,0.01,0.08]}";
-    let stream = format!("particles.rods.start={{stream={{rate=100, {region}}}}}");
-    let removal = "removal.low={behind={point=[0,0,-1], normal=[0,0,1]}}";
-    refused(rods, &[&stream, removal], &["particles.rods.start.stream", "removal.low"]);
     refused(BARS, &["method=lattice"], &["particles.bars.shape"]);
     let (engine, ..) = open("rods", &[]);
     assert_eq!(engine.grains(), 120 * 5 + 60 * 4 + 60);
+}
+
+/// A distribution scales the whole clump: its mass with the cube of the diameter, its moments of inertia with the fifth power. Where lengths stayed
+/// what they are, moments would go with the mass, eight times at twice the diameter: the gate refuses that.
+#[test]
+fn sizes_scale_the_whole_clump() {
+    let range = "size.uniform = { smallest = \"2 mm\", largest = \"4 mm\" }\ncount = 40";
+    let region = "start.random.region = { low = [-0.03, -0.03, 0.01], high = [0.03, 0.03, 0.06] }";
+    let text =
+        PAIR.replace("diameter = \"3.2 mm\"", range).replace("start.at = { position = [[0, 0, \"3 mm\"]] }", region);
+    let (engine, hosts, _) = open_text(&text, &["particles.pair.mass=1e-5"]);
+    let frame = engine.frame(&hosts);
+    let [radius, mass] = ["radius", "mass"].map(|name| frame.scalars(Kind::Grain, name));
+    let place = vectors(&*engine, "position");
+    assert_eq!(mass.len(), 80);
+    let mut diameters = Vec::new();
+    for i in (0..80).step_by(2) {
+        let apart: f64 = (0..3).map(|k| (place[i][k] - place[i + 1][k]).powi(2)).sum::<f64>().sqrt();
+        // Radii 1, centres 1.2 apart: a sphere of diameter 3.2 holds them. The mean diameter, 3 mm, has the mass of the group.
+        let diameter = 3.2 * radius[i];
+        assert!((apart / (1.2 * radius[i]) - 1.0).abs() < 1e-12 && radius[i] == radius[i + 1]);
+        assert!(((mass[i] + mass[i + 1]) / (1e-5 * (diameter / 3e-3).powi(3)) - 1.0).abs() < 1e-12);
+        diameters.push(diameter);
+    }
+    diameters.sort_by(f64::total_cmp);
+    assert!(diameters[0] < 2.2e-3 && diameters[39] > 3.8e-3, "{diameters:?}");
+
+    let rotational = |diameter: f64| {
+        let desk = tempfile::tempdir().unwrap();
+        std::fs::write(desk.path().join("one.csv"), format!("x,y,z,d,wx,wy,wz\n0,0,1,{diameter:?},3,40,500\n"))
+            .unwrap();
+        let text = PAIR
+            .replace("diameter = \"3.2 mm\"", "")
+            .replace("start.at = { position = [[0, 0, \"3 mm\"]] }", "start.file.path = \"one.csv\"");
+        run_text(&text, desk.path(), &[]).0.grain_energies().rotational
+    };
+    let ratio = rotational(4e-3) / rotational(2e-3);
+    assert!((ratio / 32.0 - 1.0).abs() < 1e-12, "{ratio}");
+    assert!((8.0_f64 / 32.0 - 1.0).abs() > 1e-12);
+}
+
+/// A brick a x b x c as spheres: it flies and tumbles with the mass and the moments m (b^2 + c^2) / 12 of the brick, bounces in a box with its books
+/// closed, and gives the same bits for any threads and after a resume. Its spheres alone would have moments that are smaller by a tenth.
+#[test]
+fn a_brick_is_as_heavy_as_its_mesh() {
+    let [a, b, c] = [3.0, 2.0, 1.0_f64];
+    let corner = |i: usize| [a, b, c].iter().enumerate().map(|(k, x)| if i >> k & 1 == 0 { 0.0 } else { *x }).collect();
+    let corners: Vec<Vec<f64>> = (0..8).map(corner).collect();
+    let mut obj = corners.iter().map(|v| format!("v {:?} {:?} {:?}\n", v[0], v[1], v[2])).collect::<Vec<_>>().concat();
+    obj += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    let desk = tempfile::tempdir().unwrap();
+    std::fs::write(desk.path().join("brick.obj"), obj).unwrap();
+    let brick = |count: usize, more: &str| {
+        let shape = format!("shape.clump-mesh = {{ path = \"brick.obj\", spheres = {count}, {more} }}");
+        let (at, end) = (PAIR.find("shape.clump").unwrap(), PAIR.find("start.at").unwrap());
+        format!("{}{shape}\n{}", &PAIR[..at], &PAIR[end..])
+    };
+    let one =
+        brick(40, "orientation = \"as-drawn\"").replace("[[0, 0, \"3 mm\"]]", "[[0, 0, 1]], spin = [[3, 40, 500]]");
+    let (engine, ..) = run_text(&one, desk.path(), &["gravity=0"]);
+    assert_eq!(engine.grains(), 40);
+    let scale = 3.2e-3 / (a * a + b * b + c * c).sqrt();
+    let mass = 2500.0 * a * b * c * scale.powi(3);
+    let moments = [b * b + c * c, a * a + c * c, a * a + b * b].map(|sum| mass * sum / 12.0 * scale * scale);
+    let expected: f64 = moments.iter().zip([3.0, 40.0, 500.0]).map(|(i, w): (&f64, f64)| 0.5 * i * w * w).sum();
+    let found = engine.grain_energies().rotational;
+    assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+
+    let region = "count = 30\nstart.random = { region = { low = [-0.008, -0.008, 0.002], high = [0.008, 0.008, 0.02] }, speed = 0.5 }";
+    let many =
+        brick(20, "orientation = \"random\"").replace("start.at = { position = [[0, 0, \"3 mm\"]] }", region).replace(
+            "shape.plane = { point = [0, 0, 0], normal = [0, 0, 1] }",
+            "shape.box = { width = 0.02, depth = 0.02, height = 0.03 }",
+        );
+    let run = |threads, resume| {
+        hash(
+            || run_text(&many, desk.path(), &["gravity=9.81"]),
+            [1500, 1500],
+            threads,
+            resume,
+            |engine, hosts, ledger| (missing(engine, hosts, ledger), engine.grains()),
+        )
+    };
+    let (alone, (residual, grains)) = run(1, false);
+    assert!(grains == 600 && residual < 1e-3, "{grains} {residual}");
+    assert_eq!(alone, run(2, false).0);
+    assert_eq!(alone, run(7, true).0);
+}
+
+/// The check tells what `Packing::error` is held to: of one sphere in a cube, 1 - pi/6 of the volume is missing, and a warning names the key.
+#[test]
+fn the_check_tells_how_well_spheres_stand_for_a_mesh() {
+    let desk = tempfile::tempdir().unwrap();
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    std::fs::write(desk.path().join("cube.obj"), obj).unwrap();
+    let told = |count: usize| {
+        let shape = format!("shape.clump-mesh = {{ path = \"cube.obj\", spheres = {count} }}");
+        let (at, end) = (PAIR.find("shape.clump").unwrap(), PAIR.find("start.at").unwrap());
+        let text = format!("{}{shape}\n{}", &PAIR[..at], &PAIR[end..]);
+        let scene = Scene::parse("cube.toml", &text, desk.path(), &[]).unwrap_or_else(|c| panic!("{c}"));
+        let hosts = tsubu::partner::Hosts::default();
+        let engine = tsubu::methods::open(scene.plan(), &hosts).unwrap();
+        tsubu::check::verdict(scene.plan(), &hosts, &*engine).to_string()
+    };
+    let one = told(1);
+    assert!(one.contains("warn grains `pair`: 1 spheres within a mesh of 12 triangles: volume -47."), "{one}");
+    assert!(one.contains("change: `particles.pair.shape.clump-mesh.spheres` to more than 1"), "{one}");
+    assert!(one.contains("as it is drawn its diameter is 1.7321 of its units"), "{one}");
+    let many = told(100);
+    assert!(many.contains("ok   grains `pair`: 100 spheres within"), "{many}");
 }

@@ -3,6 +3,7 @@
 mod bonds;
 mod books;
 mod clump;
+mod clump_traffic;
 mod come_and_go;
 mod everything;
 mod gates;

@@ -1,11 +1,11 @@
 //! Groups of grains: counts, diameters, masses.
 
 use super::{Derive, explained, is_space, table_at, tables_in};
+use crate::attach;
 use crate::complaint::Complaint;
 use crate::grain_file::{GrainFile, How};
 use crate::keys;
 use crate::plan::{GrainShape, Size};
-use serde::de::DeserializeOwned;
 use std::sync::Arc;
 use toml::Value;
 
@@ -26,10 +26,38 @@ impl Derive<'_> {
         let space = is_space(resolved);
         for (name, group) in tables_in(resolved, "particles") {
             let file = self.file(group, &name, space);
+            let shape = self.shape(group, &name, space);
             self.count(group, &name, &file);
-            self.diameter(group, &name, &file);
-            self.mass(group, &name, &materials);
+            self.diameter(group, &name, &file, shape.as_ref());
+            self.mass(group, &name, &materials, shape.as_ref());
         }
+    }
+
+    /// What the grains are, with what files say of it; nothing where that is wrong.
+    fn shape(&mut self, group: &mut toml::Table, name: &str, space: bool) -> Option<GrainShape> {
+        let shape = group.get_mut("shape")?;
+        for key in ["clump-file", "clump-mesh"] {
+            let Some(file) = shape.get_mut(key).and_then(Value::as_table_mut) else { continue };
+            let here = ["particles", name, "shape", key];
+            let path = file.get("path")?.as_str()?.to_string();
+            let read = if key == "clump-file" {
+                self.files.clump(&path, space, self.sources)
+            } else if space {
+                let most = usize::try_from(file.get("spheres")?.as_integer()?).ok()?;
+                self.files.packing(&path, most, self.sources)
+            } else {
+                let wrong = Complaint::new("a mesh is a body in space, but the scene has dimension 2");
+                Err(vec![wrong.hint("set dimension = 3")])
+            };
+            if let Err(wrong) = read {
+                self.file_is_wrong(wrong, &[&here[..], &["path"]].concat());
+                return None;
+            }
+            self.fingerprint(file, &here, &path);
+        }
+        let mut shape = shape.clone().try_into().ok()?;
+        attach::shape(&mut shape, self.files, space);
+        Some(shape)
     }
 
     fn file(&mut self, group: &mut toml::Table, name: &str, space: bool) -> File {
@@ -102,19 +130,19 @@ impl Derive<'_> {
     }
 
     /// The mean of a distribution or of a file; a resolved scene carries it, a typed one may.
-    fn diameter(&mut self, group: &mut toml::Table, name: &str, file: &File) {
+    fn diameter(&mut self, group: &mut toml::Table, name: &str, file: &File, shape: Option<&GrainShape>) {
         let in_file = match file {
             File::Read(read) => read.grains.mean_diameter(),
             File::Wrong | File::None => None,
         };
-        let size: Option<Size> = part(group, "size");
+        let size: Option<Size> = group.get("size").and_then(|size| size.clone().try_into().ok());
         let equal = size == Some(Size::Equal {});
         let sized = size.as_ref().is_some_and(|size| *size != Size::Equal {});
         let mean = if sized {
             if !self.size_is_right(size.as_ref(), name) {
                 return;
             }
-            size.zip(part::<GrainShape>(group, "shape")).and_then(|(size, shape)| size.mean(&shape))
+            size.zip(shape).and_then(|(size, shape)| size.mean(shape))
         } else {
             in_file
         };
@@ -203,13 +231,12 @@ impl Derive<'_> {
         }
     }
 
-    fn mass(&mut self, group: &mut toml::Table, name: &str, materials: &toml::Table) {
+    fn mass(&mut self, group: &mut toml::Table, name: &str, materials: &toml::Table, shape: Option<&GrainShape>) {
         if group.contains_key("mass") || self.typed(&["particles", name, "mass"]) {
             return;
         }
         let Some(material) = group.get("material").and_then(Value::as_str) else { return };
         let density = materials.get(material).and_then(|material| material.get("density")).and_then(Value::as_float);
-        let shape: Option<GrainShape> = part(group, "shape");
         match (density, group.get("diameter").and_then(Value::as_float), shape) {
             (Some(density), Some(diameter), Some(shape)) => {
                 group.insert("mass".into(), Value::Float(shape.mass(density, diameter)));
@@ -223,9 +250,4 @@ impl Derive<'_> {
             _ => {}
         }
     }
-}
-
-/// A part of a group, if it is right.
-fn part<T: DeserializeOwned>(group: &toml::Table, key: &str) -> Option<T> {
-    group.get(key)?.clone().try_into().ok()
 }

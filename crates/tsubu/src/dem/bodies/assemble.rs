@@ -5,9 +5,10 @@ use super::{Bodies, Piece};
 use crate::engine::{Note, Refusal, Verdict};
 use crate::neighbours::joined::NO_BODY;
 use crate::random::{Purpose, unit, words};
+use crate::sizes;
 use crate::state::{Grain, Grains};
 use glam::{DMat3, DQuat, DVec3};
-use tsubu_scene::plan::{Clump, ClumpOrientation, Integrator, Plan, Start};
+use tsubu_scene::plan::{Clump, ClumpOrientation, Integrator, Particles, Plan, Start};
 
 /// What scenes with clumps cannot have yet.
 pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
@@ -17,20 +18,6 @@ pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
     let mut notes = Vec::new();
     let mut refuse =
         |key: String, text: &str| notes.push(Note { key, verdict: Verdict::Refused, text: text.to_owned() });
-    for (name, group) in &plan.particles {
-        if group.shape.is_clump() && matches!(group.start, Start::Stream { .. }) {
-            refuse(
-                format!("particles.{name}.start.stream"),
-                "clumps cannot come in during a run yet; let them begin by `start.random` or `start.rows`",
-            );
-        }
-    }
-    if let Some(name) = plan.removal.keys().next() {
-        refuse(
-            format!("removal.{name}"),
-            "grains cannot be removed from a scene with clumps yet; let them fall onto a floor out of the way",
-        );
-    }
     if plan.dem.integrator != Integrator::VelocityVerlet {
         refuse("dem.integrator".to_owned(), "clumps are moved by `velocity-verlet` alone; leave the key out");
     }
@@ -41,7 +28,8 @@ pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
 }
 
 impl Bodies {
-    /// Puts the spheres of clumps in the place of the grains that stand for them; those get numbers one after the other.
+    /// Puts the spheres of clumps in the place of the grains that stand for them, which get numbers one after the other; those of streams
+    /// have the numbers behind, see [`super::super::sources`].
     pub fn assemble(plan: &Plan, grains: &mut Grains) -> Self {
         let clumps: Vec<Option<Clump>> = plan.particles.values().map(|group| group.shape.clump()).collect();
         let mut bodies = Self { plane: plan.dimension == 2, ..Self::default() };
@@ -51,70 +39,91 @@ impl Bodies {
         let whole = std::mem::take(grains);
         for i in 0..whole.len() {
             let grain = whole.row(i);
-            let id = grains.len() as u32;
+            let first = grains.len() as u32;
             if let Some(clump) = &clumps[grain.group as usize] {
-                bodies.add(clump, &grain, plan, grains);
+                bodies.expect(clump, grain.mass, 2.0 * grain.radius);
+                bodies.enter(clump, &grain, first, plan).into_iter().for_each(|piece| grains.push(piece));
             } else {
-                grains.push(Grain { id, ..grain });
-                bodies.by_id.push(Piece { body: NO_BODY, offset: DVec3::ZERO });
+                grains.push(Grain { id: first, ..grain });
+                bodies.by_id.push(ALONE);
+            }
+        }
+        for (group, clump) in plan.particles.values().zip(&clumps).filter(|(group, _)| is_stream(group)) {
+            for _ in 0..group.count {
+                let diameter = sizes::diameter(group, plan.seed, bodies.by_id.len() as u32);
+                match clump {
+                    Some(clump) => bodies.expect(clump, sizes::mass(group, diameter), diameter),
+                    None => bodies.by_id.push(ALONE),
+                }
             }
         }
         bodies.find(grains);
-        let Self { list, sorted, places, plane, .. } = &mut bodies;
-        for body in &mut *list {
-            body.follow(*plane);
-            for &place in &places[body.pieces.clone()] {
-                let i = place as usize;
-                let arm = body.arm(&sorted[i], *plane);
-                grains.position[i] = body.centre + arm;
-            }
-        }
         bodies.show(grains);
         bodies
     }
 
-    fn add(&mut self, clump: &Clump, grain: &Grain, plan: &Plan, grains: &mut Grains) {
-        let diameter = 2.0 * grain.radius;
+    /// Makes room for a body: what of it never changes.
+    fn expect(&mut self, clump: &Clump, mass: f64, diameter: f64) {
+        let body = self.list.len() as u32;
+        self.list.push(Body {
+            mass,
+            moments: DVec3::from_array(clump.moments) * (mass * diameter * diameter),
+            pieces: 0..0,
+            centre: DVec3::ZERO,
+            velocity: DVec3::ZERO,
+            acceleration: DVec3::ZERO,
+            orientation: DQuat::IDENTITY,
+            angular_momentum: DVec3::ZERO,
+            torque: DVec3::ZERO,
+            axes: DMat3::IDENTITY,
+            inverse_inertia: DMat3::ZERO,
+            spin: DVec3::ZERO,
+            correction: 0.0,
+        });
+        let piece = |(offset, _): &([f64; 3], f64)| Piece { body, offset: DVec3::from_array(*offset) * diameter };
+        self.by_id.extend(clump.pieces.iter().map(piece));
+    }
+
+    /// Puts a body in the place of a grain that stands for it: its pieces, with numbers from `first` on.
+    pub fn enter(&mut self, clump: &Clump, grain: &Grain, first: u32, plan: &Plan) -> Vec<Grain> {
+        let (plane, pieces) = (self.plane, &self.by_id[first as usize..][..clump.pieces.len()]);
+        let body = &mut self.list[pieces[0].body as usize];
         let drawn = DQuat::from_mat3(&DMat3::from_cols_array_2d(&clump.axes)).normalize();
         let turned = match clump.orientation {
             ClumpOrientation::AsDrawn => DQuat::IDENTITY,
             ClumpOrientation::Random => anyhow(plan, grain.id),
         };
-        let orientation = (turned * drawn).normalize();
-        let moments = DVec3::from_array(clump.moments) * (grain.mass * diameter * diameter);
-        let axes = DMat3::from_quat(orientation);
-        let inertia = axes * DMat3::from_diagonal(moments) * axes.transpose();
-        let body = self.list.len() as u32;
-        let first = self.list.last().map_or(0, |body| body.pieces.end);
-        self.list.push(Body {
-            mass: grain.mass,
-            moments,
-            pieces: first..first + clump.pieces.len(),
-            centre: grain.position,
-            velocity: grain.velocity,
-            acceleration: DVec3::ZERO,
-            orientation,
-            angular_momentum: inertia * grain.spin,
-            torque: DVec3::ZERO,
-            axes,
-            inverse_inertia: DMat3::ZERO,
-            spin: grain.spin,
-            correction: 0.0,
-        });
+        body.orientation = (turned * drawn).normalize();
+        let axes = DMat3::from_quat(body.orientation);
+        let inertia = axes * DMat3::from_diagonal(body.moments) * axes.transpose();
+        (body.centre, body.velocity, body.acceleration) = (grain.position, grain.velocity, grain.acceleration);
+        (body.angular_momentum, body.torque, body.correction) = (inertia * grain.spin, DVec3::ZERO, 0.0);
+        body.follow(plane);
         let volume: f64 = clump.pieces.iter().map(|(_, radius)| radius.powi(3)).sum();
-        for (offset, radius) in &clump.pieces {
-            grains.push(Grain {
-                radius: radius * diameter,
+        let piece = |(k, (piece, (_, radius))): (usize, (&Piece, &([f64; 3], f64)))| {
+            let arm = body.arm(piece, plane);
+            Grain {
+                position: body.centre + arm,
+                velocity: body.velocity + body.spin.cross(arm),
+                spin: body.spin,
+                radius: radius * 2.0 * grain.radius,
                 // Others feel the mass of the whole; shares of it make sums over grains right.
                 mass: grain.mass * radius.powi(3) / volume,
                 inverse_mass: 1.0 / grain.mass,
                 inertia: 0.0,
-                id: grains.len() as u32,
+                id: first + k as u32,
                 ..*grain
-            });
-            self.by_id.push(Piece { body, offset: DVec3::from_array(*offset) * diameter });
-        }
+            }
+        };
+        pieces.iter().zip(&clump.pieces).enumerate().map(piece).collect()
     }
+}
+
+/// A grain that is a piece of no body.
+const ALONE: Piece = Piece { body: NO_BODY, offset: DVec3::ZERO };
+
+fn is_stream(group: &Particles) -> bool {
+    matches!(group.start, Start::Stream { .. })
 }
 
 /// Any orientation as likely as another (Shoemake 1992); in the plane any angle about y.

@@ -13,7 +13,7 @@ pub struct Body {
     pub mass: f64,
     /// Moments of inertia about the principal axes [kg.m^2].
     pub moments: DVec3,
-    /// Where its pieces are in the list of places.
+    /// Where its pieces are in the list of places; none where it is not there.
     pub pieces: Range<usize>,
     /// Centre of mass, never wrapped [m].
     pub centre: DVec3,
@@ -47,6 +47,11 @@ pub struct Felt {
 }
 
 impl Body {
+    /// Whether it is among the grains.
+    pub fn is_there(&self) -> bool {
+        !self.pieces.is_empty()
+    }
+
     /// Finds what follows from attitude and angular momentum.
     pub fn follow(&mut self, plane: bool) {
         self.axes = DMat3::from_quat(self.orientation);

@@ -1,0 +1,160 @@
+//! Clumps: grains that are several spheres.
+
+use super::{GrainShape, Vector};
+use crate::clump::{Solid, surface};
+use serde::{Deserialize, Serialize};
+
+/// How the grains of a group of clumps are turned at first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ClumpOrientation {
+    /// Any orientation as likely as another.
+    Random,
+    /// As the centres say.
+    AsDrawn,
+}
+
+/// The spheres of a clump of diameter 1, and how its mass is spread.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clump {
+    /// Centres from the centre of mass, along the principal axes, and radii.
+    pub pieces: Vec<(Vector, f64)>,
+    /// Volume; what overlaps counts once.
+    pub volume: f64,
+    /// Principal moments of inertia over the mass, smallest first.
+    pub moments: Vector,
+    /// Directions of the principal axes as drawn.
+    pub axes: [Vector; 3],
+    /// How each grain is turned at first.
+    pub orientation: ClumpOrientation,
+}
+
+/// Spheres within a closed mesh, and the mesh that they stand for, in the unit of its file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Packing {
+    /// Centres and radii, in the order in which they were chosen.
+    pub spheres: Vec<(Vector, f64)>,
+    /// What the mesh encloses.
+    pub solid: Solid,
+    /// Surface of the mesh.
+    pub surface: f64,
+    /// Farthest corner of the mesh from its centre of mass: half of the diameter.
+    pub reach: f64,
+    /// Number of triangles.
+    pub triangles: usize,
+    /// How far the mesh lies outside the spheres, over the diameter: on average over its surface, and at most.
+    pub gap: [f64; 2],
+}
+
+/// What the union of the spheres of a packing has more than the mesh, over what the mesh has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PackingError {
+    /// Of the volume.
+    pub volume: f64,
+    /// Of the principal moments of inertia at the same density, smallest first.
+    pub inertia: Vector,
+    /// Of the surface.
+    pub surface: f64,
+}
+
+impl Packing {
+    /// How well the spheres stand for the mesh; volume and inertia to about 1e-5, the surface to 1e-3.
+    pub fn error(&self) -> Option<PackingError> {
+        let union = Solid::of(&self.spheres)?;
+        let inertia = |solid: &Solid, k: usize| solid.volume * solid.moments[k];
+        Some(PackingError {
+            volume: union.volume / self.solid.volume - 1.0,
+            inertia: [0, 1, 2].map(|k| inertia(&union, k) / inertia(&self.solid, k) - 1.0),
+            surface: surface(&self.spheres) / self.surface - 1.0,
+        })
+    }
+}
+
+impl Clump {
+    /// Radius of the smallest sphere, and of the largest.
+    pub fn radii(&self) -> [f64; 2] {
+        let radii = || self.pieces.iter().map(|(_, radius)| *radius);
+        [radii().fold(f64::INFINITY, f64::min), radii().fold(0.0, f64::max)]
+    }
+
+    /// The mass over the smallest that it shows to an impact anywhere: 1 + (r x n) . I^-1 (r x n) m, of the worst arm r and normal n.
+    pub fn lightness(&self) -> f64 {
+        // Of I^-1 across the arm the larger of two eigenvalues, from its trace and that of its square.
+        let worst = |(arm, _): &(Vector, f64)| {
+            let squared: f64 = arm.iter().map(|x| x * x).sum();
+            if squared == 0.0 {
+                return 0.0;
+            }
+            let across = |i: usize, j: usize| f64::from(u8::from(i == j)) - arm[i] * arm[j] / squared;
+            let entry = |i: usize, j: usize| (0..3).map(|k| across(i, k) * across(k, j) / self.moments[k]).sum::<f64>();
+            let trace: f64 = (0..3).map(|i| entry(i, i)).sum();
+            let square: f64 = (0..9).map(|k| entry(k / 3, k % 3).powi(2)).sum();
+            squared * 0.5 * (trace + (2.0 * square - trace * trace).max(0.0).sqrt())
+        };
+        1.0 + self.pieces.iter().map(worst).fold(0.0, f64::max)
+    }
+}
+
+impl GrainShape {
+    /// Of a clump, the name of its choice in a scene.
+    pub fn clump_key(&self) -> Option<&'static str> {
+        match self {
+            Self::Sphere {} | Self::Disc { .. } => None,
+            Self::Clump { .. } => Some("clump"),
+            Self::ClumpFile { .. } => Some("clump-file"),
+            Self::ClumpMesh { .. } => Some("clump-mesh"),
+        }
+    }
+
+    /// Whether it is a body of several spheres: [`GrainShape::clump`] without the work of its mass.
+    pub fn is_clump(&self) -> bool {
+        match self {
+            Self::Sphere {} | Self::Disc { .. } => false,
+            Self::Clump { centre, .. } => centre.len() > 1,
+            Self::ClumpFile { spheres, .. } => spheres.len() > 1,
+            // Even one sphere has the mass and inertia of the mesh.
+            Self::ClumpMesh { packing, .. } => !packing.spheres.is_empty(),
+        }
+    }
+
+    /// The packing in place of a mesh.
+    pub fn packing(&self) -> Option<&Packing> {
+        if let Self::ClumpMesh { packing, .. } = self { Some(packing) } else { None }
+    }
+
+    /// The clump, if it is one of several spheres; of one sphere it is a sphere.
+    pub fn clump(&self) -> Option<Clump> {
+        if !self.is_clump() {
+            return None;
+        }
+        match self {
+            Self::Sphere {} | Self::Disc { .. } => None,
+            Self::Clump { centre, diameter, orientation } => {
+                let spheres: Vec<_> = centre.iter().zip(diameter).map(|(c, d)| (*c, 0.5 * d)).collect();
+                let whole = centre.len() == diameter.len();
+                if whole { Some(scaled(&spheres, &Solid::of(&spheres)?, 0.0, *orientation)) } else { None }
+            }
+            Self::ClumpFile { spheres, orientation, .. } => {
+                Some(scaled(spheres, &Solid::of(spheres)?, 0.0, *orientation))
+            }
+            Self::ClumpMesh { packing, orientation, .. } => {
+                Some(scaled(&packing.spheres, &packing.solid, packing.reach, *orientation))
+            }
+        }
+    }
+}
+
+/// To a diameter of 1, of what reaches as far from its centre of mass as its spheres do, and at least that far.
+fn scaled(spheres: &[(Vector, f64)], solid: &Solid, reach: f64, orientation: ClumpOrientation) -> Clump {
+    let arm = |c: &Vector| [0, 1, 2].map(|k| c[k] - solid.centre[k]);
+    let dot = |a: &Vector, b: &Vector| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
+    let reach = spheres.iter().map(|(c, r)| dot(&arm(c), &arm(c)).sqrt() + r).fold(reach, f64::max);
+    let unit = 0.5 / reach;
+    Clump {
+        pieces: spheres.iter().map(|(c, r)| (solid.axes.map(|axis| unit * dot(&axis, &arm(c))), unit * r)).collect(),
+        volume: solid.volume * unit.powi(3),
+        moments: solid.moments.map(|moment| moment * unit * unit),
+        axes: solid.axes,
+        orientation,
+    }
+}
