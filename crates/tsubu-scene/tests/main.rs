@@ -1,5 +1,6 @@
 //! One binary for all integration tests of the crate: it links once.
 
+mod bonds;
 /// `--set` and programmatic changes.
 mod changes;
 mod clump_meshes;

@@ -170,8 +170,7 @@ impl DemEngine {
         }
         let bodies = Bodies::assemble(plan, &mut grains);
         let sources = Sources::new(plan, &table, &walls, grains.len());
-        let diameters = grains.radius.iter().map(|r| (2.0 * r, 2.0 * r)).chain(sources.sizes());
-        let (smallest, largest) = diameters.fold((f64::INFINITY, 0.0f64), |a, d| (a.0.min(d.0), a.1.max(d.1)));
+        let (smallest, largest) = diameters(&grains, &sources);
         let skin = if smallest.is_finite() { dem.skin * smallest } else { 0.0 };
         let laws = ContactLaws::new(plan, table, hosts);
         let search = Search { skin, reach: laws.reach(), periodic: room::periodic_bounds(plan) };
@@ -219,6 +218,12 @@ impl DemEngine {
         self.rebuild_neighbours();
         self.evaluate_at_rest();
     }
+}
+
+/// Diameters of the smallest and of the largest grain that there is or will be [m].
+fn diameters(grains: &Grains, sources: &Sources) -> (f64, f64) {
+    let all = grains.radius.iter().map(|r| (2.0 * r, 2.0 * r)).chain(sources.sizes());
+    all.fold((f64::INFINITY, 0.0), |ends, of| (ends.0.min(of.0), ends.1.max(of.1)))
 }
 
 /// The walls of a plan at time 0.

@@ -204,19 +204,13 @@ fn a_long_chain_is_as_weak_as_weibull_says() {
         // Mean strength over E is 1e-3; pulled at such a rate that twice of it comes after 4 ms.
         let rate = 0.5 * links as f64 * LENGTH;
         let pull = format!("motion.driven = {{ direction = 'x', signal.steady.rate = {rate} }}");
-        let mut text = "duration = '1 s'\ngravity = 0\n[materials.rock]\nyoung-modulus = '1 GPa'\ndensity = '2500 kg/m^3'\n[contact]\nnormal.hertz = {}\n".to_owned()
+        // Somebody must be free to move.
+        let free = if links > 1 { between.join(", ") } else { "[-1, 0]".to_owned() };
+        let text = "duration = '1 s'\ngravity = 0\n[materials.rock]\nyoung-modulus = '1 GPa'\ndensity = '2500 kg/m^3'\n[contact]\nnormal.hertz = {}\n".to_owned()
             + &group("a-held", "motion.frozen = {}", &at(0))
-            + &group("c-pulled", &pull, &at(links));
-        if links > 1 {
-            text += &group("b-free", "", &between.join(", "));
-        } else {
-            // Somebody must be free to move.
-            text += &group("b-free", "", "[-1, 0]");
-        }
-        text += &format!(
-            "[[bond]]\nyoung-modulus = {YOUNG}\ndamping = 0.5\ntensile-strength = {}\n{scatter}\n",
-            1e-3 * YOUNG
-        );
+            + &group("b-free", "", &free)
+            + &group("c-pulled", &pull, &at(links))
+            + &format!("[[bond]]\nyoung-modulus = {YOUNG}\ndamping = 0.5\ntensile-strength = {}\n{scatter}\n", 1e-3 * YOUNG);
         let (mut engine, mut hosts, mut ledger) = open_text(&text, &["dem.time-step='2 us'"]);
         let mut strength = vec![0.0; 150];
         let mut all = bonds(&*engine).0;
@@ -256,6 +250,14 @@ const BLOCK: &str = "duration = '1 s'\n[materials.rock]\nyoung-modulus = '10 MPa
      [walls.box]\nmaterial = 'rock'\nshape.box = { width = '81 mm', height = '200 mm' }\n\
      [[bond]]\nyoung-modulus = '10 MPa'\ndamping = 0.1\ntensile-strength = '10 kPa'\nshear-strength = '10 kPa'\nweibull-modulus = 4\n\
      [dem]\ntime-step = '5 us'\n";
+
+#[test]
+fn other_methods_have_no_bonds() {
+    let scene = tsubu_scene::Scene::parse("test", BLOCK, std::path::Path::new("."), &["method=cl-ca".to_owned()]);
+    let plan = scene.unwrap_or_else(|wrong| panic!("{wrong}"));
+    let refused = tsubu::methods::open(plan.plan(), &Hosts::default()).map(|_| ()).unwrap_err().to_string();
+    assert!(refused.contains("bond: nothing holds its grains together; `dem` computes bonds"), "{refused}");
+}
 
 #[test]
 fn a_block_breaks_by_the_same_bits() {

@@ -100,11 +100,6 @@ fn scene(plan: &Plan, rule: SiteRule, hosts: &Hosts, remarks: &mut Remarks) -> O
     let spacing = spacing(plan, rule, remarks)?;
     let walls: Vec<Wall> =
         walls.iter().map(|(name, wall)| Wall::new(name, wall, 2, hosts, DVec3::from_array(*gravity))).collect();
-    let sites = match rule {
-        SiteRule::Gas(_) | SiteRule::GuttHaff => Sites::Upright,
-        SiteRule::Savage => Sites::Level(Layout::Square),
-        SiteRule::Litwiniszyn | SiteRule::CaramHong | SiteRule::HemmingssonHerrmann => Sites::Level(Layout::Triangular),
-    };
     let mut region = stage::region(plan, &walls, 4.0 * spacing);
     for (axis, ends) in [(0, periodic.x), (2, periodic.z)] {
         if let (Some(region), Some([low, high])) = (&mut region, ends) {
@@ -113,7 +108,7 @@ fn scene(plan: &Plan, rule: SiteRule, hosts: &Hosts, remarks: &mut Remarks) -> O
     }
     let gas = if let SiteRule::Gas(gas) = rule { Some(gas) } else { None };
     let repeats = if gas.is_some() { [periodic.x.is_some(), periodic.z.is_some()] } else { [false; 2] };
-    let ground = region.as_ref().and_then(|region: &Region| Ground::repeating(sites, region, spacing, repeats));
+    let ground = region.as_ref().and_then(|region: &Region| Ground::repeating(sites(rule), region, spacing, repeats));
     let Some(ground) = ground else {
         let text = "nothing in the scene tells how large the lattice is, or it would have less than one site across or more than 1e8; draw a box around the grains";
         remarks.refuse("walls", text);
@@ -145,6 +140,15 @@ fn scene(plan: &Plan, rule: SiteRule, hosts: &Hosts, remarks: &mut Remarks) -> O
         seed: *seed,
     };
     Some((scene, cells))
+}
+
+/// How the sites of a method lie.
+fn sites(rule: SiteRule) -> Sites {
+    match rule {
+        SiteRule::Gas(_) | SiteRule::GuttHaff => Sites::Upright,
+        SiteRule::Savage => Sites::Level(Layout::Square),
+        SiteRule::Litwiniszyn | SiteRule::CaramHong | SiteRule::HemmingssonHerrmann => Sites::Level(Layout::Triangular),
+    }
 }
 
 /// The key that says how long a step is; a pile at rest has a step for every row.
