@@ -49,6 +49,7 @@ mod lines;
 mod mesh_check;
 mod mesh_file;
 mod node;
+pub mod philox;
 mod reference;
 mod resolve;
 mod scene;

@@ -3,6 +3,8 @@
 /// `--set` and programmatic changes.
 mod changes;
 mod clumps;
+/// What drives hosts.
+mod drives;
 /// Grains from files, and what all files have in common.
 mod files;
 mod frames;

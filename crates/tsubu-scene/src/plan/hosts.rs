@@ -37,6 +37,26 @@ pub enum Signal {
         /// Begin [s].
         at: f64,
     },
+    /// Half-sine pulse of acceleration; afterwards it goes on at the speed gained.
+    Shock {
+        /// Peak of the acceleration [m/s^2].
+        acceleration: f64,
+        /// Length of the pulse [s].
+        duration: f64,
+        /// Begin [s].
+        at: f64,
+    },
+    /// offset + sum of amplitude sin(2 pi frequency t + phase). What a scene gives as `random` is realised as these.
+    Sines {
+        /// Amplitudes [m] or [N].
+        amplitude: Vec<f64>,
+        /// Frequencies [Hz].
+        frequency: Vec<f64>,
+        /// Phases [rad].
+        phase: Vec<f64>,
+        /// Added to their sum [m] or [N].
+        offset: f64,
+    },
     /// rate t: steady translation or turning.
     Steady {
         /// Rate [m/s] or [rad/s] (or [N/s]).

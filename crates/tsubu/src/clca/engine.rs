@@ -270,7 +270,7 @@ impl Engine for ClCaEngine {
             id: present.iter().map(|&grain| self.bed.grains.id[grain]).collect(),
         };
         let contacts = if wants.contacts > Contacts::Nothing { self.contacts_of(&present) } else { Vec::new() };
-        View { time: self.time(), periodic: [None; 3], grains, contacts, walls: Vec::new(), water: None }
+        View { time: self.time(), periodic: [None; 3], grains, contacts, walls: Vec::new(), water: None, hosts: &[] }
     }
 
     fn save(&self, state: &mut State) {

@@ -113,7 +113,15 @@ impl DemEngine {
         contacts.retain(|c| c.overlap > 0.0 || c.force != DVec3::ZERO);
         let walls = if wants.walls { self.reactions.wall_loads.clone() } else { Vec::new() };
         let water = self.immersion.as_ref().map(|immersion| &immersion.water);
-        View { time: self.clock.time(), periodic: self.neighbours.search.periodic, grains, contacts, walls, water }
+        View {
+            time: self.clock.time(),
+            periodic: self.neighbours.search.periodic,
+            grains,
+            contacts,
+            walls,
+            water,
+            hosts: &[],
+        }
     }
 
     /// Everything that the next step depends on.

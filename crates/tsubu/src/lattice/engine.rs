@@ -257,7 +257,15 @@ impl Engine for LatticeEngine {
             group: self.groups.as_slice().into(),
             id: (0..n as u32).collect(),
         };
-        View { time: self.time(), periodic: [None; 3], grains, contacts: Vec::new(), walls: Vec::new(), water: None }
+        View {
+            time: self.time(),
+            periodic: [None; 3],
+            grains,
+            contacts: Vec::new(),
+            walls: Vec::new(),
+            water: None,
+            hosts: &[],
+        }
     }
 
     fn save(&self, state: &mut State) {

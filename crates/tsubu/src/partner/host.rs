@@ -10,6 +10,7 @@
 //! With DEM the structure moves by velocity Verlet in step with the grains (damping implicit, exact for any C); with the
 //! automaton by Runge-Kutta 4 under the force of the step.
 
+mod base_force;
 mod in_motion;
 mod interface;
 mod matrices;
@@ -300,7 +301,8 @@ impl Host {
         Drive { y, y_rate, applied: self.applied(time) }
     }
 
-    fn applied(&self, time: f64) -> f64 {
+    /// Applied force at `time` [s] [N].
+    pub fn applied(&self, time: f64) -> f64 {
         self.force.as_ref().map_or(0.0, |s| value_and_rate(s, time - self.driven_since).0)
     }
 

@@ -52,7 +52,7 @@ pub fn view(balls: &[Ball], contacts: Vec<Contact>, ends: [Option<[f64; 2]>; 3])
         group: balls.iter().map(|b| b.group).collect(),
         id: (0..balls.len() as u32).collect(),
     };
-    View { time: 0.0, periodic: ends, grains, contacts, walls: Vec::new(), water: None }
+    View { time: 0.0, periodic: ends, grains, contacts, walls: Vec::new(), water: None, hosts: &[] }
 }
 
 /// Every pair that touches, also across periodic ends, pressed together with `force` [N].

@@ -251,7 +251,7 @@ impl Engine for SiteEngine {
         };
         let needs = wants.walls || wants.contacts > Contacts::Nothing;
         let (contacts, walls) = if needs { self.forces(&bodies) } else { (Vec::new(), Vec::new()) };
-        View { time: self.time(), periodic: self.scene.ground.ends(), grains, contacts, walls, water: None }
+        View { time: self.time(), periodic: self.scene.ground.ends(), grains, contacts, walls, water: None, hosts: &[] }
     }
 
     fn save(&self, state: &mut State) {
