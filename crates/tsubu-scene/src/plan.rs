@@ -32,7 +32,7 @@ pub use gases::{BaxterBehringer, Fhp, FhpRules, GasWalls, KarolyiKertesz, PengHe
 pub use grains::{
     Clump, ClumpOrientation, GrainMotion, GrainShape, GrainTable, Particles, Periodic, Removal, Size, Start, submerged,
 };
-pub use hosts::{Host, Interface, Mode, Signal, Structure};
+pub use hosts::{Dwell, Host, Interface, Mode, Signal, Structure};
 pub use methods::{
     Arithmetic, ClCa, ClCaRule, Collision, Dem, GrainPoints, GravitySwitch, Integrator, Lattice, LatticeMode,
     ObliqueGravity,

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 use tsubu_scene::Scene;
-use tsubu_scene::plan::Signal;
+use tsubu_scene::plan::{Keep, Signal};
 
 const SINE: &str = "base.sine = { amplitude = \"0.5 mm\", frequency = \"6 Hz\" }";
 
@@ -88,4 +88,44 @@ fn drives_that_cannot_be() {
         "base.shock = { acceleration = \"50 mm\", duration = \"11 ms\" }",
     ];
     insta::assert_snapshot!(wrong.map(about).join("\n\n"));
+}
+
+/// A dwell has one sine, and nobody else moves its frequency; spectra have segments and looks that can tell their frequencies.
+#[test]
+fn dwells_and_spectra_that_cannot_be() {
+    let about = |drive: &str| read(&driven(drive), &[]).expect_err("wrong").to_string();
+    let wrong = [
+        "base.table = { time = [0], value = [0] }\ndwell = {}".to_owned(),
+        format!("{SINE}\ndwell = {{ lag = \"190 deg\", gain = 2 }}"),
+        format!("{SINE}\ndwell = {{}}\n[response]\nfrequency-ratio = [1]"),
+        format!("{SINE}\n[watch.w]\nresonance = {{}}"),
+        format!("{SINE}\n[watch.w]\nspectrum = {{ frequency = [2, 100], segment = 0.5 }}"),
+        format!("{SINE}\n[watch.w]\nspectrum = {{ frequency = [20, 10], segment = 0.5 }}"),
+        format!("{SINE}\n[watch.w]\nspectrum = {{ frequency = [20, 20000], segment = 0.5 }}"),
+        format!("{SINE}\n[watch.w]\nevery = \"5 ms\"\nspectrum = {{ frequency = [20, 100], segment = 0.5 }}"),
+    ];
+    insta::assert_snapshot!(wrong.map(|drive| about(&drive)).join("\n\n"));
+    let scene = read(&driven(&format!("{SINE}\ndwell = {{}}\n[watch.w]\nresonance = {{}}")), &[]);
+    let plan = scene.unwrap_or_else(|complaints| panic!("{complaints}")).plan().clone();
+    let dwell = plan.hosts["spring"].dwell.clone().expect("a dwell");
+    assert_eq!((dwell.lag, dwell.gain, dwell.keep), (0.5 * std::f64::consts::PI, None, Keep::Displacement));
+    assert_eq!(plan.watch["w"].every, Some(plan.output.history_interval));
+}
+
+/// A run's own scene has what was realised, and means the same.
+#[test]
+fn drives_mean_the_same_when_read_again() {
+    let drives = [
+        FLAT.to_owned(),
+        "base.shock = { acceleration = \"50 g\", duration = \"11 ms\", at = 0.1 }".to_owned(),
+        format!("{SINE}\nforce.sines = {{ amplitude = [1, \"2 N\"], frequency = [3, 5] }}"),
+        format!("{SINE}\ndwell = {{ gain = 0.01 }}"),
+        "base.sine = { acceleration = \"0.1 g\", frequency = 3 }\ndwell = {}".to_owned(),
+    ];
+    for drive in drives {
+        let scene = read(&driven(&drive), &[]).unwrap_or_else(|complaints| panic!("{complaints}"));
+        let again = read(&scene.resolved_toml(), &[]).unwrap_or_else(|complaints| panic!("{complaints}"));
+        assert_eq!(again.plan(), scene.plan());
+        assert_eq!(again.resolved_toml(), scene.resolved_toml());
+    }
 }

@@ -62,13 +62,6 @@ interface.tip = { point = [0, 0, "3 cm"], translation = [[0, 0, 1], [1, 0, 0]], 
 [hosts.three]
 structure.modes.mode = [{ frequency = 3, damping-ratio = 0.01, mass = 0.2 }, { frequency = 7, damping-ratio = 0.02, mass = 0.1, shape = -0.3 }]
 base.table = { time = [0, "10 ms", 0.3], value = [0, "1 mm", 0] }
-force.sines = { amplitude = [1, "2 N"], frequency = [3, 5] }
-[hosts.four]
-structure.shaker = {}
-base.random = { frequency = ["20 Hz", 80, 200], psd = ["0.01 g^2/Hz", 4, 4], lines = 7 }
-[hosts.five]
-structure.shaker = {}
-base.shock = { acceleration = "50 g", duration = "11 ms", at = 0.1 }
 
 [contact]
 normal.hooke.stiffness = "1 kN/m"

@@ -5,7 +5,7 @@ use super::place::Room;
 use super::{Parts, named};
 use crate::complaint::{Complaint, Place};
 use crate::key::{Kind, Word};
-use crate::plan::watch::{Bedload, CoarseGrain, Discharge, Hops, Mixing, Spectrum, Track, WallLoad};
+use crate::plan::watch::{Bedload, CoarseGrain, Discharge, Hops, Mixing, Resonance, Spectrum, Track, WallLoad};
 use crate::plan::{self, Bed, Face, GrainMotion, Measure, Particles, Region, Watch};
 use crate::suggest;
 
@@ -220,8 +220,20 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
                 );
             }
         }
+        Measure::Resonance(Resonance { host }) => resonance(parts, name, host, complaints),
         Measure::Spectrum(asked) => spectrum(parts, name, asked, complaints),
         _ => {}
+    }
+}
+
+/// Only a dwell comes to a resonance.
+fn resonance(parts: &Parts<'_>, name: &str, host: &str, complaints: &mut Vec<Complaint>) {
+    if parts.hosts.get(host).is_some_and(|host| host.dwell.is_none()) {
+        complaints.push(
+            Complaint::new(format!("the host `{host}` has no `dwell` to look at"))
+                .at(&parts.root.locate(&["watch", name, "resonance"]), "what does its frequency follow?")
+                .hint(format!("hosts.{host}.dwell = {{}} lets the frequency of its sine follow the resonance")),
+        );
     }
 }
 

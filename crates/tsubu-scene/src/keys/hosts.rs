@@ -1,6 +1,7 @@
 //! Vibrating structures.
 
 use super::signals::{DISPLACEMENT, LOAD};
+use super::study::KEEP;
 use super::{Key, Kind, Variant, Word};
 use crate::units::{
     ANGLE, CUBIC_STIFFNESS, DAMPING, DENSITY, FREQUENCY, INERTIA, LENGTH, MASS, NUMBER, PRESSURE, SPEED, STIFFNESS,
@@ -20,8 +21,31 @@ pub(super) static HOST: &[Key] = &[
         .derived("the only interface"),
     Key::new("base", Kind::Choice(&DISPLACEMENT), "Displacement of the base against time").optional().may_change(),
     Key::new("force", Kind::Choice(&LOAD), "Applied force against time").optional().may_change(),
+    Key::new("dwell", Kind::Table(DWELL), "Sine dwell: the frequency of the sine that drives it follows its resonance")
+        .optional(),
     Key::new("displacement", Kind::Quantity(&LENGTH), "Displacement of every coordinate at time 0").default("0"),
     Key::new("velocity", Kind::Quantity(&SPEED), "Velocity of every coordinate at time 0").default("0"),
+];
+
+static DWELL: &[Key] = &[
+    Key::new(
+        "lag",
+        Kind::Quantity(&ANGLE),
+        "How far the answer, against the base, lags behind the drive: at a quarter of a turn is the undamped resonance",
+    )
+    .default("'90 deg'")
+    .above(0.0)
+    .below(std::f64::consts::PI),
+    Key::new(
+        "gain",
+        Kind::Quantity(&NUMBER),
+        "Relative change of the frequency a period, for each radian that the lag is off",
+    )
+    .above(0.0)
+    .at_most(1.0)
+    .derived("pi/2 times the square of the structure's damping ratio, of 0.002 at least"),
+    Key::new("keep", Kind::OneOf(KEEP), "What of the base motion stays the same at all frequencies")
+        .derived("what its sine is given by: `amplitude`, `velocity` or `acceleration`"),
 ];
 
 static INTERFACE: &[Key] = &[

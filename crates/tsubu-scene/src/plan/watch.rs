@@ -382,4 +382,9 @@ kinds! {
         )
         .above(0.0),
     }
+
+    resonance::Resonance "resonance" "Where the dwell of a host has come to: frequency, lag, amplitude, and the mass that the shift means" {
+        /// The host.
+        host: String = Key::new("host", Kind::Name(Family::Host), "The host, which has a `dwell`").derived("the only host"),
+    }
 }

@@ -98,10 +98,14 @@ impl Derive<'_> {
         }
         let host = response.get("host").and_then(Value::as_str).unwrap_or_default().to_owned();
         if !response.contains_key("keep") && !self.typed(&["response", "keep"]) {
-            let given = |key: &&str| self.typed(&["hosts", &host, "base", "sine", key]);
-            let keep = ["velocity", "acceleration"].into_iter().find(given).unwrap_or("displacement");
-            response.insert("keep".into(), Value::String(keep.into()));
+            response.insert("keep".into(), self.kept(&host));
         }
+    }
+
+    /// What of a base motion stays the same where nobody says it: what its sine is given by.
+    fn kept(&self, host: &str) -> Value {
+        let given = |key: &&str| self.typed(&["hosts", host, "base", "sine", key]);
+        Value::String(["velocity", "acceleration"].into_iter().find(given).unwrap_or("displacement").into())
     }
 
     /// A study of a host is of the only one where it names none.

@@ -39,13 +39,14 @@ impl Derive<'_> {
             if let Some(segregation) = watch.get_mut("segregation").and_then(Value::as_table_mut) {
                 self.groups(segregation, &["watch", &name, "segregation"], &groups);
             }
-            if let Some(spectrum) = watch.get_mut("spectrum").and_then(Value::as_table_mut) {
-                let path = ["watch", &name, "spectrum"];
+            for kind in ["spectrum", "resonance"] {
+                let Some(measure) = watch.get_mut(kind).and_then(Value::as_table_mut) else { continue };
+                let needs = format!("a {kind} is of a host");
                 self.only_host(
-                    spectrum,
+                    measure,
                     &hosts,
-                    &path,
-                    "a spectrum is of a host",
+                    &["watch", &name, kind],
+                    &needs,
                     "add [hosts.NAME], or leave the watch out",
                 );
             }
