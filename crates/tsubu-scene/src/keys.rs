@@ -10,6 +10,7 @@ mod gases;
 mod grains;
 mod hosts;
 mod methods;
+mod signals;
 mod sites;
 mod stage;
 mod study;
@@ -108,7 +109,7 @@ mod tests {
     fn every_whole_number_has_two_ends() {
         every(&mut |path, key| {
             // Every whole number that TOML has is a seed.
-            if matches!(key.kind, Kind::Whole | Kind::Wholes) && path != ".seed" {
+            if matches!(key.kind, Kind::Whole | Kind::Wholes) && key.name != "seed" {
                 let ends = [key.range.low, key.range.high];
                 assert!(ends.iter().all(|end| matches!(end, Bound::Including(_))), "{path}");
                 assert!(!key.range.holds(-1.0) && !key.range.holds(f64::from(u32::MAX)), "{path}");

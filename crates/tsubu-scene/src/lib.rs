@@ -50,6 +50,7 @@ mod mesh_check;
 mod mesh_file;
 mod node;
 mod packing;
+pub mod philox;
 mod reference;
 mod resolve;
 mod scene;

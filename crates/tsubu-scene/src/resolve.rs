@@ -9,6 +9,7 @@ mod limits;
 mod matrices;
 mod modal_table;
 mod several;
+mod spectrum;
 mod table;
 mod value;
 mod vector;

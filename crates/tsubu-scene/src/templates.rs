@@ -64,6 +64,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/agglomerate.toml"),
     },
     Template {
+        name: "random-vibration",
+        about: "a box of balls on a machine under random vibration: spectra of base and machine, and what is transmitted",
+        text: include_str!("../../../scenes/random-vibration.toml"),
+    },
+    Template {
         name: "rods",
         about: "in space: rods, tetrahedra and balls fall into a box; a clump is spheres that are one body",
         text: include_str!("../../../scenes/rods.toml"),

@@ -44,6 +44,10 @@ dimensions! {
     SPEED "a speed" "m/s" [1, 0, -1, 0] [1e-15, 1e9] ["m/s", "mm/s", "cm/s", "km/h"] ["1 m/s", "5 mm/s"] "Speeds."
     ACCELERATION "an acceleration" "m/s^2" [1, 0, -2, 0] [1e-15, 1e12] ["m/s^2", "mm/s^2", "cm/s^2", "g"] ["9.8 m/s^2", "2 g"]
         "Accelerations; g is standard gravity, 9.80665 m/s^2."
+    ACCELERATION_DENSITY "a spectral density of acceleration" "(m/s^2)^2/Hz" [2, 0, -3, 0] [1e-30, 1e24]
+        ["(m/s^2)^2/Hz", "m^2/s^3", "g^2/Hz"] ["0.04 g^2/Hz", "4 m^2/s^3"] "Power spectral densities of accelerations; g is standard gravity."
+    FORCE_DENSITY "a spectral density of force" "N^2/Hz" [2, 2, -3, 0] [1e-40, 1e36] ["N^2/Hz"] ["0.5 N^2/Hz"]
+        "Power spectral densities of forces."
     FORCE "a force" "N" [1, 1, -2, 0] [1e-30, 1e18] ["N", "mN", "kN"] ["61.7 mN", "2 N"] "Forces."
     STIFFNESS "a stiffness" "N/m" [0, 1, -2, 0] [1e-20, 1e20] ["N/m", "N/mm", "kN/m", "N/cm"] ["123.4 N/m"] "Stiffnesses."
     CUBIC_STIFFNESS "a cubic stiffness" "N/m^3" [-2, 1, -2, 0] [1e-20, 1e30] ["N/m^3", "N/mm^3"] ["2e6 N/m^3"] "Stiffnesses that grow with the square of the stretch."
@@ -151,10 +155,13 @@ pub fn read(text: &str, want: &Dimension) -> Result<f64, UnitError> {
     }
 }
 
-/// A lone g is a gram, but no acceleration is in grams.
+/// A lone g is a gram, but no acceleration is in grams, and no density of it in their squares.
 fn parse(text: &str, want: &Dimension) -> Result<Unit, expression::Problem> {
     if *want == ACCELERATION && text == "g" {
         return Ok(Unit { ratio: STANDARD_GRAVITY, ten: 0, powers: ACCELERATION.powers });
+    }
+    if *want == ACCELERATION_DENSITY && ["g^2/Hz", "g²/Hz", "g2/Hz"].contains(&text) {
+        return Ok(Unit { ratio: STANDARD_GRAVITY * STANDARD_GRAVITY, ten: 0, powers: ACCELERATION_DENSITY.powers });
     }
     expression::parse(text)
 }
@@ -325,6 +332,9 @@ mod tests {
         assert_eq!(si("9.8 m/s/s", &ACCELERATION), 9.8);
         assert_eq!(si("9.8 m/s²", &ACCELERATION), 9.8);
         assert_eq!(si("2 g", &ACCELERATION), 19.6133);
+        assert_eq!(si("1 g^2/Hz", &ACCELERATION_DENSITY), 9.80665 * 9.80665);
+        assert_eq!(si("3 (m/s^2)^2/Hz", &ACCELERATION_DENSITY), 3.0);
+        assert_eq!(si("4 N^2/Hz", &FORCE_DENSITY), 4.0);
         assert_eq!(si("180 deg", &ANGLE), std::f64::consts::PI);
         assert_eq!(si("60 rpm", &SPIN), 2.0 * std::f64::consts::PI);
         assert_eq!(si("75 %", &NUMBER), 0.75);

@@ -5,6 +5,8 @@ mod bonds;
 mod changes;
 mod clump_meshes;
 mod clumps;
+/// What drives hosts.
+mod drives;
 /// Grains from files, and what all files have in common.
 mod files;
 mod frames;

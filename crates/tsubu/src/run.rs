@@ -216,7 +216,7 @@ impl Run<'_> {
         let pictures = output.frame_interval.map(clock);
         self.tell_stage();
         if self.engine.steps() == self.first {
-            self.watches.look(&*self.engine)?;
+            self.watches.look(&*self.engine, &self.hosts)?;
             out.history.append(&self.row())?;
             if pictures.is_some() {
                 out.frames.write(&self.engine.frame(&self.hosts))?;
@@ -240,7 +240,7 @@ impl Run<'_> {
             // Short enough to answer Ctrl-C at once, long enough that nothing here is felt.
             block = if begun.elapsed().as_millis() < 20 { (2 * block).min(1 << 20) } else { (block / 2).max(1) };
             if target == next_look {
-                self.watches.look(&*self.engine)?;
+                self.watches.look(&*self.engine, &self.hosts)?;
             }
             if target == next_row || target == last {
                 let row = self.row();

@@ -1,6 +1,7 @@
 //! What an engine shows to those who look on: grains, contacts, loads on walls.
 
 use crate::neighbours::grid::PeriodicBounds;
+use crate::partner::Host;
 use crate::water::Water;
 use glam::DVec3;
 use std::borrow::Cow;
@@ -82,6 +83,8 @@ pub struct View<'a> {
     pub walls: Vec<WallLoad>,
     /// The water that the grains are in.
     pub water: Option<&'a Water>,
+    /// The hosts, in the order of their names; engines show none, whoever lets watches look adds them.
+    pub hosts: &'a [Host],
 }
 
 /// Columns of the grains.

@@ -12,6 +12,7 @@ fn host(structure: plan::Structure, displacement: f64) -> Host {
         at: None,
         base: None,
         force: None,
+        dwell: None,
         displacement,
         velocity: 0.0,
     })

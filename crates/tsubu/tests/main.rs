@@ -9,6 +9,7 @@ mod clca;
 mod contact;
 mod dem;
 mod design;
+mod drives;
 mod grouping;
 mod host;
 mod interface;

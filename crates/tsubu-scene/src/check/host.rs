@@ -2,7 +2,7 @@
 
 use super::Parts;
 use crate::complaint::Complaint;
-use crate::plan::{Host, Structure};
+use crate::plan::{Host, Signal, Structure};
 use crate::symmetric::{asymmetry, positive_definite};
 
 pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
@@ -21,6 +21,7 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
             parts.root.locate(&path)
         };
         interfaces(parts, name, host, complaints);
+        dwell(parts, name, host, complaints);
         match &host.structure {
             Structure::Oscillator { .. } | Structure::Pendulum { .. } => {}
             Structure::Shaker {} => shaker(parts, name, host, complaints),
@@ -144,6 +145,34 @@ fn shaker(parts: &Parts<'_>, name: &str, host: &Host, complaints: &mut Vec<Compl
                 Complaint::new(format!("the shaker `{name}` moves as its `base` says, whatever `{key}` is"))
                     .at(&parts.root.locate(&path(key)), "has no effect")
                     .hint("leave it out; a force that moves a mass is `structure.oscillator`"),
+            );
+        }
+    }
+}
+
+/// A dwell has one sine whose frequency it moves, and nobody else does.
+fn dwell(parts: &Parts<'_>, name: &str, host: &Host, complaints: &mut Vec<Complaint>) {
+    if host.dwell.is_none() {
+        return;
+    }
+    let place = parts.root.locate(&["hosts", name, "dwell"]);
+    let sines =
+        [&host.base, &host.force].into_iter().filter(|signal| matches!(signal, Some(Signal::Sine { .. }))).count();
+    if sines != 1 || host.is_shaker() {
+        complaints.push(
+            Complaint::new(format!("the host `{name}` has no sine whose frequency could follow its resonance"))
+                .at(&place, "needs a structure that answers, and one of `base.sine` and `force.sine`")
+                .hint("base.sine = { acceleration = \"0.5 g\", frequency = \"20 Hz\" }, a frequency to begin with"),
+        );
+    }
+    for study in ["response", "atlas"] {
+        let of = parts.resolved.get(study).and_then(|study| study.get("host")).and_then(toml::Value::as_str);
+        if of == Some(name) {
+            complaints.push(
+                Complaint::new(format!("both `dwell` and [{study}] move the frequency of the host `{name}`"))
+                    .at(&place, "follows the resonance")
+                    .also(&parts.root.locate(&[study]), "goes through frequencies")
+                    .hint("leave one of them out"),
             );
         }
     }

@@ -147,7 +147,10 @@ fn signal_at_start(signal: &Signal) -> f64 {
     match signal {
         Signal::Sine { amplitude, phase, .. } => amplitude * phase.sin(),
         Signal::Table { value, .. } => value.first().copied().unwrap_or(0.0),
-        Signal::SineSweep { .. } | Signal::Impact { .. } | Signal::Steady { .. } => 0.0,
+        Signal::Sines { amplitude, phase, offset, .. } => {
+            offset + amplitude.iter().zip(phase).map(|(amplitude, phase)| amplitude * phase.sin()).sum::<f64>()
+        }
+        Signal::SineSweep { .. } | Signal::Impact { .. } | Signal::Shock { .. } | Signal::Steady { .. } => 0.0,
     }
 }
 

@@ -5,7 +5,7 @@ use super::place::Room;
 use super::{Parts, named};
 use crate::complaint::{Complaint, Place};
 use crate::key::{Kind, Word};
-use crate::plan::watch::{Bedload, CoarseGrain, Discharge, Hops, Mixing, Track, WallLoad};
+use crate::plan::watch::{Bedload, CoarseGrain, Discharge, Hops, Mixing, Resonance, Spectrum, Track, WallLoad};
 use crate::plan::{self, Bed, Face, GrainMotion, Measure, Particles, Region, Watch};
 use crate::suggest;
 
@@ -220,7 +220,53 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
                 );
             }
         }
+        Measure::Resonance(Resonance { host }) => resonance(parts, name, host, complaints),
+        Measure::Spectrum(asked) => spectrum(parts, name, asked, complaints),
         _ => {}
+    }
+}
+
+/// Only a dwell comes to a resonance.
+fn resonance(parts: &Parts<'_>, name: &str, host: &str, complaints: &mut Vec<Complaint>) {
+    if parts.hosts.get(host).is_some_and(|host| host.dwell.is_none()) {
+        complaints.push(
+            Complaint::new(format!("the host `{host}` has no `dwell` to look at"))
+                .at(&parts.root.locate(&["watch", name, "resonance"]), "what does its frequency follow?")
+                .hint(format!("hosts.{host}.dwell = {{}} lets the frequency of its sine follow the resonance")),
+        );
+    }
+}
+
+/// Most frequencies of a spectrum: each is summed up at every look.
+const MOST_FREQUENCIES: f64 = 4000.0;
+
+/// Frequencies that a segment and the looks can tell apart.
+fn spectrum(parts: &Parts<'_>, name: &str, asked: &Spectrum, complaints: &mut Vec<Complaint>) {
+    let Spectrum { host: _, frequency: [low, high], segment } = asked;
+    let at = |key: &str| parts.root.locate(&["watch", name, "spectrum", key]);
+    let every = parts.resolved.get("watch").and_then(|watch| watch.get(name)?.get("every")?.as_float());
+    if low * segment < 2.0 - 1e-9 {
+        complaints.push(
+            Complaint::new(format!("segments of {segment} s are too short for {low} Hz"))
+                .at(&at("segment"), "must be two periods of the lowest frequency or longer")
+                .hint(format!("segment = \"{} s\" tells frequencies from {} Hz on", 4.0 / low, 0.5 * low)),
+        );
+    } else if (high - low) * segment > MOST_FREQUENCIES {
+        complaints.push(
+            Complaint::new(format!("the spectrum `{name}` has too many frequencies"))
+                .at(&at("segment"), format!("more than {MOST_FREQUENCIES}, {} Hz apart", 1.0 / segment))
+                .hint("shorten `segment`, or narrow `frequency`"),
+        );
+    }
+    if let Some(every) = every.filter(|every| every * high > 0.4) {
+        complaints.push(
+            Complaint::new(format!("looks every {every} s are too few for {high} Hz"))
+                .at(
+                    &parts.root.locate(&["watch", name, "every"]),
+                    "what is faster than half of their rate is folded over",
+                )
+                .hint("leave `every` out to look at every step, or look five times a period of the highest frequency"),
+        );
     }
 }
 

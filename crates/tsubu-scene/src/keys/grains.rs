@@ -1,6 +1,6 @@
 //! Groups of grains: what they are, how large, where they begin, who moves them.
 
-use super::{Family, Key, Kind, Variant, Word, hosts};
+use super::{Family, Key, Kind, Variant, Word, signals};
 use crate::plan::Region;
 use crate::units::{LENGTH, MASS, NUMBER, RATE, SPEED, SPIN, TIME};
 
@@ -240,7 +240,7 @@ static MOTION: &[Variant] = &[
         about: "A displacement from their places given in advance; they do not spin, of infinite mass to others; velocities in a file are passed over",
         keys: &[
             Key::new("direction", Kind::Direction, "Direction of the motion").default("'z'"),
-            Key::new("signal", Kind::Choice(&hosts::DISPLACEMENT), "Displacement against time"),
+            Key::new("signal", Kind::Choice(&signals::DISPLACEMENT), "Displacement against time"),
         ],
     },
 ];

@@ -1,9 +1,11 @@
-//! Vibrating structures and the signals that drive them.
+//! Vibrating structures.
 
+use super::signals::{DISPLACEMENT, LOAD};
+use super::study::KEEP;
 use super::{Key, Kind, Variant, Word};
 use crate::units::{
-    ACCELERATION, ANGLE, CUBIC_STIFFNESS, DAMPING, DENSITY, FORCE, FREQUENCY, INERTIA, LENGTH, LOAD_RATE, MASS, NUMBER,
-    PRESSURE, SPEED, SPIN, STIFFNESS, TIME, TURN_DAMPING, TURN_PER_LENGTH,
+    ANGLE, CUBIC_STIFFNESS, DAMPING, DENSITY, FREQUENCY, INERTIA, LENGTH, MASS, NUMBER, PRESSURE, SPEED, STIFFNESS,
+    TURN_DAMPING, TURN_PER_LENGTH,
 };
 
 pub(super) static HOST: &[Key] = &[
@@ -19,8 +21,31 @@ pub(super) static HOST: &[Key] = &[
         .derived("the only interface"),
     Key::new("base", Kind::Choice(&DISPLACEMENT), "Displacement of the base against time").optional().may_change(),
     Key::new("force", Kind::Choice(&LOAD), "Applied force against time").optional().may_change(),
+    Key::new("dwell", Kind::Table(DWELL), "Sine dwell: the frequency of the sine that drives it follows its resonance")
+        .optional(),
     Key::new("displacement", Kind::Quantity(&LENGTH), "Displacement of every coordinate at time 0").default("0"),
     Key::new("velocity", Kind::Quantity(&SPEED), "Velocity of every coordinate at time 0").default("0"),
+];
+
+static DWELL: &[Key] = &[
+    Key::new(
+        "lag",
+        Kind::Quantity(&ANGLE),
+        "How far the answer, against the base, lags behind the drive: at a quarter of a turn is the undamped resonance",
+    )
+    .default("'90 deg'")
+    .above(0.0)
+    .below(std::f64::consts::PI),
+    Key::new(
+        "gain",
+        Kind::Quantity(&NUMBER),
+        "Relative change of the frequency a period, for each radian that the lag is off",
+    )
+    .above(0.0)
+    .at_most(1.0)
+    .derived("pi/2 times the square of the structure's damping ratio, of 0.002 at least"),
+    Key::new("keep", Kind::OneOf(KEEP), "What of the base motion stays the same at all frequencies")
+        .derived("what its sine is given by: `amplitude`, `velocity` or `acceleration`"),
 ];
 
 static INTERFACE: &[Key] = &[
@@ -206,90 +231,3 @@ static MODE: &[Key] = &[
     Key::new("shape", Kind::Quantity(&NUMBER), "Mode shape where the walls are").default("1"),
     Key::new("participation", Kind::Quantity(&NUMBER), "Participation of the base motion").default("1"),
 ];
-
-const FREQUENCY_OF_A_SINE: Key = Key::new("frequency", Kind::Quantity(&FREQUENCY), "Frequency").above(0.0);
-const PHASE: Key = Key::new("phase", Kind::Quantity(&ANGLE), "Phase at time 0").default("0");
-
-/// A sine, by its amplitude.
-macro_rules! sine {
-    ($what:expr) => {
-        &[Key::new("amplitude", Kind::Quantity($what), "Amplitude").at_least(0.0), FREQUENCY_OF_A_SINE, PHASE]
-    };
-}
-
-/// Displacements are known by their acceleration too.
-static SHAKEN: &[Key] = &[
-    Key::new("amplitude", Kind::Quantity(&LENGTH), "Amplitude")
-        .at_least(0.0)
-        .derived("from `velocity` or `acceleration`; one of the three is required")
-        .rivals(&["velocity", "acceleration"]),
-    Key::new("velocity", Kind::Quantity(&SPEED), "Amplitude of the velocity: amplitude 2 pi frequency")
-        .at_least(0.0)
-        .optional()
-        .rivals(&["amplitude", "acceleration"]),
-    Key::new(
-        "acceleration",
-        Kind::Quantity(&ACCELERATION),
-        "Amplitude of the acceleration: amplitude (2 pi frequency)^2; `g` is a unit",
-    )
-    .at_least(0.0)
-    .optional()
-    .rivals(&["amplitude", "velocity"]),
-    FREQUENCY_OF_A_SINE,
-    PHASE,
-];
-
-/// The same signals for displacements, angles and forces.
-macro_rules! signals {
-    ($what:expr, $rate:expr, $sine:expr) => {
-        [
-            Variant {
-                name: "sine",
-                about: "amplitude sin(2 pi frequency t + phase)",
-                keys: $sine,
-            },
-            Variant {
-                name: "sine-sweep",
-                about: "Sine of constant amplitude whose frequency runs linearly in time; silent afterwards",
-                keys: &[
-                    Key::new("amplitude", Kind::Quantity($what), "Amplitude").at_least(0.0),
-                    Key::new("from", Kind::Quantity(&FREQUENCY), "First frequency").above(0.0),
-                    Key::new("to", Kind::Quantity(&FREQUENCY), "Last frequency").above(0.0),
-                    Key::new("duration", Kind::Quantity(&TIME), "Length").above(0.0),
-                ],
-            },
-            Variant {
-                name: "impact",
-                about: "Half-sine pulse",
-                keys: &[
-                    Key::new("peak", Kind::Quantity($what), "Height"),
-                    Key::new("duration", Kind::Quantity(&TIME), "Length").above(0.0),
-                    Key::new("at", Kind::Quantity(&TIME), "Begin").default("0").at_least(0.0),
-                ],
-            },
-            Variant {
-                name: "steady",
-                about: "rate t: steady motion, turning or loading from 0 on",
-                keys: &[Key::new("rate", Kind::Quantity($rate), "Rate")],
-            },
-            Variant {
-                name: "table",
-                about: "Straight lines between given points, constant outside",
-                keys: &[
-                    Key::new("file", Kind::Text, "CSV file with columns time and value, beside the scene; header cells may carry units: `time [ms]`")
-                        .optional()
-                        .rivals(&["time", "value"]),
-                    Key::new("time", Kind::Quantities(&TIME), "Times, rising").derived("from `file`").rivals(&["file"]),
-                    Key::new("value", Kind::Quantities($what), "Values, one for each time").derived("from `file`").rivals(&["file"]),
-                ],
-            },
-        ]
-    };
-}
-
-/// Displacements against time.
-pub(super) static DISPLACEMENT: [Variant; 5] = signals!(&LENGTH, &SPEED, SHAKEN);
-/// Angles against time.
-pub(super) static TURN: [Variant; 5] = signals!(&ANGLE, &SPIN, sine!(&ANGLE));
-/// Forces against time.
-pub(super) static LOAD: [Variant; 5] = signals!(&FORCE, &LOAD_RATE, sine!(&FORCE));

@@ -3,7 +3,7 @@
 use super::{Family, Key, Kind, Word};
 use crate::units::{ACCELERATION, FREQUENCY, LENGTH, MASS, NUMBER, TIME};
 
-static KEEP: &[Word] = &[
+pub(super) static KEEP: &[Word] = &[
     Word { name: "displacement", about: "The amplitude of the displacement" },
     Word { name: "velocity", about: "The amplitude of the velocity" },
     Word { name: "acceleration", about: "The amplitude of the acceleration, as on a shaker" },

@@ -1,6 +1,6 @@
 //! Walls, and the ends of the world: their shapes, who moves them, where space repeats, where grains vanish.
 
-use super::{Family, Key, Kind, Variant, hosts};
+use super::{Family, Key, Kind, Variant, signals};
 use crate::plan::Region;
 use crate::units::{AREA, DAMPING, FORCE, INERTIA, LENGTH, MASS, NUMBER, PRESSURE, SPEED, SPIN, TIME};
 
@@ -109,13 +109,13 @@ static SHAPE: &[Variant] = &[
 
 static MOTION: &[Key] = &[
     Key::new("direction", Kind::Direction, "Direction of the motion").default("'z'"),
-    Key::new("signal", Kind::Choice(&hosts::DISPLACEMENT), "Displacement against time"),
+    Key::new("signal", Kind::Choice(&signals::DISPLACEMENT), "Displacement against time"),
 ];
 
 static ROTATION: &[Key] = &[
     Key::new("centre", Kind::Vector(&LENGTH), "A point on the axis").default("'origin'"),
     Key::new("axis", Kind::Axis, "Direction of the axis; the angle is right-handed about it").default("'y'"),
-    Key::new("signal", Kind::Choice(&hosts::TURN), "Angle against time"),
+    Key::new("signal", Kind::Choice(&signals::TURN), "Angle against time"),
 ];
 
 static SERVO: &[Key] = &[

@@ -1,6 +1,6 @@
 //! Vibrating structures, and signals against time.
 
-use super::Vector;
+use super::{Keep, Vector};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -37,6 +37,26 @@ pub enum Signal {
         /// Begin [s].
         at: f64,
     },
+    /// Half-sine pulse of acceleration; afterwards it goes on at the speed gained.
+    Shock {
+        /// Peak of the acceleration [m/s^2].
+        acceleration: f64,
+        /// Length of the pulse [s].
+        duration: f64,
+        /// Begin [s].
+        at: f64,
+    },
+    /// offset + sum of amplitude sin(2 pi frequency t + phase). What a scene gives as `random` is realised as these.
+    Sines {
+        /// Amplitudes [m] or [N].
+        amplitude: Vec<f64>,
+        /// Frequencies [Hz].
+        frequency: Vec<f64>,
+        /// Phases [rad].
+        phase: Vec<f64>,
+        /// Added to their sum [m] or [N].
+        offset: f64,
+    },
     /// rate t: steady translation or turning.
     Steady {
         /// Rate [m/s] or [rad/s] (or [N/s]).
@@ -70,10 +90,24 @@ pub struct Host {
     pub base: Option<Signal>,
     /// Applied force F(t) [N].
     pub force: Option<Signal>,
+    /// How the frequency of its sine follows its resonance.
+    pub dwell: Option<Dwell>,
     /// Displacement at time 0 of every coordinate [m].
     pub displacement: f64,
     /// Velocity at time 0 of every coordinate [m/s].
     pub velocity: f64,
+}
+
+/// A sine whose frequency follows the resonance, by the phase of the answer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Dwell {
+    /// How far the answer is to lag behind the drive [rad].
+    pub lag: f64,
+    /// Relative change of frequency a period, for an error of one radian [-]; `None`: by the damping of the structure.
+    pub gain: Option<f64>,
+    /// What of a base motion stays the same.
+    pub keep: Keep,
 }
 
 /// A point of a structure that moves and turns with it: displacement u = sum of translation times coordinate, rotation vector

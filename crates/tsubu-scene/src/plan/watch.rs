@@ -7,7 +7,7 @@ pub use words::{Axis, Bed, Face, Heading, Kernel, Quantity};
 
 use super::{Region, Vector};
 use crate::key::{Family, Key, Kind};
-use crate::units::{AREA, DENSITY, LENGTH, NUMBER, SPEED};
+use crate::units::{AREA, DENSITY, FREQUENCY, LENGTH, NUMBER, SPEED, TIME};
 use serde::{Deserialize, Serialize};
 
 /// A watch: when it looks, and at what.
@@ -368,5 +368,25 @@ kinds! {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         group: Option<String> =
             Key::new("group", Kind::Name(Family::Group), "The group that the numbers count in, from its first grain").optional(),
+    }
+
+    spectrum::Spectrum "spectrum"
+    "Spectra of a host by Welch's method: accelerations of structure and base, force on the base, transmissibility" {
+        /// The host.
+        host: String = Key::new("host", Kind::Name(Family::Host), "The host").derived("the only host"),
+        /// Lowest and highest frequency [Hz].
+        frequency: [f64; 2] = Key::new("frequency", Kind::Ends(&FREQUENCY), "Lowest and highest frequency").above(0.0),
+        /// Length of the segments [s].
+        segment: f64 = Key::new(
+            "segment",
+            Kind::Quantity(&TIME),
+            "Length of the segments that are averaged; frequencies are the multiples of one over it",
+        )
+        .above(0.0),
+    }
+
+    resonance::Resonance "resonance" "Where the dwell of a host has come to: frequency, lag, amplitude, and the mass that the shift means" {
+        /// The host.
+        host: String = Key::new("host", Kind::Name(Family::Host), "The host, which has a `dwell`").derived("the only host"),
     }
 }

@@ -4,6 +4,7 @@ mod films;
 mod grains;
 mod hosts;
 mod matrix_files;
+mod random;
 mod regions;
 mod signals;
 mod walls;
@@ -97,37 +98,47 @@ impl Derive<'_> {
         }
         let host = response.get("host").and_then(Value::as_str).unwrap_or_default().to_owned();
         if !response.contains_key("keep") && !self.typed(&["response", "keep"]) {
-            let given = |key: &&str| self.typed(&["hosts", &host, "base", "sine", key]);
-            let keep = ["velocity", "acceleration"].into_iter().find(given).unwrap_or("displacement");
-            response.insert("keep".into(), Value::String(keep.into()));
+            response.insert("keep".into(), self.kept(&host));
         }
+    }
+
+    /// What of a base motion stays the same where nobody says it: what its sine is given by.
+    fn kept(&self, host: &str) -> Value {
+        let given = |key: &&str| self.typed(&["hosts", host, "base", "sine", key]);
+        Value::String(["velocity", "acceleration"].into_iter().find(given).unwrap_or("displacement").into())
     }
 
     /// A study of a host is of the only one where it names none.
     fn host_of_study(&mut self, resolved: &mut toml::Table, study: &str, needs: &str) {
-        let hosts: Vec<String> =
-            table_at(resolved, "hosts").map(|hosts| hosts.keys().cloned().collect()).unwrap_or_default();
-        let Some(table) = resolved.get_mut(study).and_then(Value::as_table_mut) else { return };
-        if table.contains_key("host") || self.typed(&[study, "host"]) {
+        let hosts = hosts(resolved);
+        if let Some(table) = resolved.get_mut(study).and_then(Value::as_table_mut) {
+            self.only_host(table, &hosts, &[study], needs, &format!("add [hosts.NAME], or leave [{study}] out"));
+        }
+    }
+
+    /// What is of a host is of the only one, where it names none.
+    fn only_host(&mut self, table: &mut toml::Table, hosts: &[String], path: &[&str], needs: &str, hint: &str) {
+        if table.contains_key("host") || self.typed(&[path, &["host"]].concat()) {
             return;
         }
-        let place = self.root.locate(&[study]);
-        match hosts.as_slice() {
+        let place = self.root.locate(path);
+        match hosts {
             [host] => {
                 table.insert("host".into(), Value::String(host.clone()));
             }
-            [] => self.complain(
-                Complaint::new(needs)
-                    .at(&place, "there are no hosts in this scene")
-                    .hint(format!("add [hosts.NAME], or leave [{study}] out")),
-            ),
+            [] => self.complain(Complaint::new(needs).at(&place, "there are no hosts in this scene").hint(hint)),
             many => self.complain(
-                Complaint::new(format!("missing key `host` in [{study}]"))
+                Complaint::new(format!("missing key `host` in [{}]", path.join(".")))
                     .at(&place, "needs `host`")
                     .hint(format!("hosts here: {}", suggest::list(many.iter().map(String::as_str)))),
             ),
         }
     }
+}
+
+/// The names of all hosts.
+fn hosts(resolved: &toml::Table) -> Vec<String> {
+    table_at(resolved, "hosts").map(|hosts| hosts.keys().cloned().collect()).unwrap_or_default()
 }
 
 fn settings(resolved: &mut toml::Table, root: &Node) {

@@ -1,19 +1,40 @@
-//! Signals given as a table: a CSV file with the columns time and value.
+//! Signals and spectra given as a table: a CSV file with two columns, of which the first rises.
 
 use crate::complaint::{Complaint, Place};
 use crate::header::{self, Header};
 use crate::lines::{Cell, Line, MOST_COMPLAINTS, lines};
-use crate::units::{Dimension, Scale, TIME};
+use crate::units::{Dimension, FREQUENCY, Scale, TIME};
 
-/// The two columns of a table signal.
+/// What stands in the first column, and what the second is called beside it.
+pub(super) struct Axis {
+    table: &'static str,
+    name: &'static str,
+    short: &'static str,
+    beside: &'static str,
+    dimension: &'static Dimension,
+}
+
+/// A signal: a value at each time.
+pub(super) static OF_TIME: Axis =
+    Axis { table: "a table signal", name: "time", short: "t", beside: "value", dimension: &TIME };
+/// A spectrum: a density at each frequency.
+pub(super) static OF_FREQUENCY: Axis = Axis {
+    table: "a table of spectral densities",
+    name: "frequency",
+    short: "f",
+    beside: "density",
+    dimension: &FREQUENCY,
+};
+
+/// The two columns of such a table.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Columns {
-    pub time: Vec<f64>,
+    pub axis: Vec<f64>,
     pub value: Vec<f64>,
 }
 
 /// Reads a CSV text that is the given source. A header line may give units: `time [ms], displacement [mm]`.
-pub(super) fn read(text: &str, source: usize, value: &Dimension) -> Result<Columns, Vec<Complaint>> {
+pub(super) fn read(text: &str, source: usize, axis: &Axis, value: &Dimension) -> Result<Columns, Vec<Complaint>> {
     let mut columns = Columns::default();
     let mut complaints = Vec::new();
     let mut comment = None;
@@ -33,7 +54,7 @@ pub(super) fn read(text: &str, source: usize, value: &Dimension) -> Result<Colum
                 return Err(vec![complaint]);
             }
             let named = !cells.is_empty() && cells.iter().all(|cell| header::is_name(cell.text));
-            let scales = if named { header_scales(&line, &cells, source, value) } else { Ok([Scale::SI; 2]) };
+            let scales = if named { header_scales(&line, &cells, source, axis, value) } else { Ok([Scale::SI; 2]) };
             match scales {
                 Ok(scales) => layout = Some((separator, scales)),
                 Err(wrong) => return Err(wrong),
@@ -43,15 +64,13 @@ pub(super) fn read(text: &str, source: usize, value: &Dimension) -> Result<Colum
             }
             (separator, [Scale::SI; 2])
         };
-        match row(&line, separator, scales, source, value) {
-            Ok(([time, value], place)) => {
-                if let Some(last) = columns.time.last().filter(|last| **last >= time) {
-                    complaints.push(
-                        Complaint::new(format!("time does not rise: {time} s after {last} s"))
-                            .at(&place, "must be later than the line before"),
-                    );
+        match row(&line, separator, scales, source, [axis.dimension, value], axis) {
+            Ok(([x, value], place)) => {
+                if let Some(last) = columns.axis.last().filter(|last| **last >= x) {
+                    complaints
+                        .push(axis.falls(x, *last).at(&place, format!("must be {} than the line before", axis.more())));
                 } else {
-                    columns.time.push(time);
+                    columns.axis.push(x);
                     columns.value.push(value);
                 }
             }
@@ -61,66 +80,86 @@ pub(super) fn read(text: &str, source: usize, value: &Dimension) -> Result<Colum
             break;
         }
     }
-    if complaints.is_empty() && columns.time.is_empty() {
+    if complaints.is_empty() && columns.axis.is_empty() {
         complaints
             .push(Complaint::new("the table has no rows").at(&Place::new(source, 0..0), "no numbers in this file"));
     }
     if complaints.is_empty() { Ok(columns) } else { Err(complaints) }
 }
 
-/// What the header makes of the numbers below it; the first column is time.
+impl Axis {
+    /// The complaint that `x` comes after `last`, which it must be above.
+    pub fn falls(&self, x: f64, last: f64) -> Complaint {
+        let unit = self.dimension.si;
+        Complaint::new(format!("{} does not rise: {x} {unit} after {last} {unit}", self.name))
+    }
+
+    /// What each must be.
+    pub fn more(&self) -> &'static str {
+        if self.name == "time" { "later" } else { "higher" }
+    }
+
+    fn is(&self, header: &Header<'_>) -> bool {
+        [self.short, self.name].contains(&header.name.to_lowercase().as_str())
+    }
+
+    fn columns(&self) -> String {
+        format!("{} and {}", self.name, self.beside)
+    }
+}
+
+/// What the header makes of the numbers below it.
 fn header_scales(
     line: &Line<'_>,
     cells: &[Cell<'_>],
     source: usize,
+    axis: &Axis,
     value: &Dimension,
 ) -> Result<[Scale; 2], Vec<Complaint>> {
-    let [time, values] = two(line, cells, source).map_err(|complaint| vec![complaint])?;
-    let headers = [time, values].map(|cell| Header::read(cell, source));
+    let headers =
+        two(line, cells, source, axis).map_err(|complaint| vec![complaint])?.map(|cell| Header::read(cell, source));
     if let [Ok(first), Ok(second)] = &headers
-        && !is_time(first)
-        && is_time(second)
+        && !axis.is(first)
+        && axis.is(second)
     {
         return Err(vec![
-            Complaint::new("the second column is the time")
-                .at(&second.cell.place(source), "the first column must be the time")
-                .hint("the columns of a table signal are time and value, in this order"),
+            Complaint::new(format!("the second column is the {}", axis.name))
+                .at(&second.cell.place(source), format!("the first column must be the {}", axis.name))
+                .hint(format!("the columns of {} are {}, in this order", axis.table, axis.columns())),
         ]);
     }
-    let [time, values] = headers;
-    let scales =
-        [time.and_then(|header| header.scale(source, &TIME)), values.and_then(|header| header.scale(source, value))];
+    let [first, values] = headers;
+    let scales = [
+        first.and_then(|header| header.scale(source, axis.dimension)),
+        values.and_then(|header| header.scale(source, value)),
+    ];
     match scales {
-        [Ok(time), Ok(value)] => Ok([time, value]),
+        [Ok(first), Ok(value)] => Ok([first, value]),
         wrong => Err(wrong.into_iter().filter_map(Result::err).collect()),
     }
 }
 
-fn is_time(header: &Header<'_>) -> bool {
-    ["t", "time"].contains(&header.name.to_lowercase().as_str())
-}
-
-fn two<'a>(line: &Line<'_>, cells: &[Cell<'a>], source: usize) -> Result<[Cell<'a>; 2], Complaint> {
+fn two<'a>(line: &Line<'_>, cells: &[Cell<'a>], source: usize, axis: &Axis) -> Result<[Cell<'a>; 2], Complaint> {
     <[Cell<'a>; 2]>::try_from(cells).map_err(|_| {
-        Complaint::new("a table signal has two columns, time and value")
+        Complaint::new(format!("{} has two columns, {}", axis.table, axis.columns()))
             .at(&line.place(source), format!("{} cells in this line", cells.len()))
     })
 }
 
-/// Time and value of a row, and where the time stands.
+/// Both numbers of a row, and where the first stands.
 fn row(
     line: &Line<'_>,
     separator: Option<char>,
     scales: [Scale; 2],
     source: usize,
-    value: &Dimension,
+    dimensions: [&Dimension; 2],
+    axis: &Axis,
 ) -> Result<([f64; 2], Place), Vec<Complaint>> {
     let cells: Vec<Cell<'_>> = line.cells(separator).collect();
-    let cells = two(line, &cells, source).map_err(|complaint| vec![complaint])?;
-    let numbers = [(&cells[0], scales[0], &TIME), (&cells[1], scales[1], value)]
-        .map(|(cell, scale, dimension)| number(cell, scale, source, dimension));
+    let cells = two(line, &cells, source, axis).map_err(|complaint| vec![complaint])?;
+    let numbers = [0, 1].map(|k| number(&cells[k], scales[k], source, dimensions[k]));
     match numbers {
-        [Ok(time), Ok(value)] => Ok(([time, value], cells[0].place(source))),
+        [Ok(first), Ok(value)] => Ok(([first, value], cells[0].place(source))),
         wrong => Err(wrong.into_iter().filter_map(Result::err).collect()),
     }
 }

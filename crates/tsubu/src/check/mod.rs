@@ -2,6 +2,7 @@
 
 mod bonds;
 mod clump;
+mod drive;
 mod fall;
 mod idle;
 mod mesh;
@@ -9,6 +10,7 @@ mod rest;
 mod verdict;
 mod water;
 
+pub(crate) use drive::{fastest, peak};
 pub use verdict::{Line, Verdict, human_time, verdict};
 pub use water::blows_up;
 
@@ -16,7 +18,7 @@ use crate::contact::Table;
 use crate::partner::Hosts;
 use crate::sizes;
 use std::f64::consts::PI;
-use tsubu_scene::plan::{GrainMotion, Plan, Shape, Signal, Start, Water};
+use tsubu_scene::plan::{GrainMotion, Plan, Shape, Start, Water};
 
 /// Time step of DEM [s]: told, or the shortest contact time at the scene's speed scale, and under the weight of the bed, over
 /// the wanted steps per contact; shorter where a bed's dashpots or the drag of water ask for it.
@@ -142,7 +144,7 @@ pub fn speed_scale(plan: &Plan, hosts: &Hosts) -> f64 {
             speed = speed.max((2.0 * gravity * height).sqrt());
         }
         if let Some(motion) = &wall.motion {
-            speed = speed.max(fastest(&motion.signal));
+            speed = speed.max(drive::usual_speed(&motion.signal));
         }
     }
     // In water grains soon fall no faster.
@@ -168,17 +170,15 @@ pub fn speed_scale(plan: &Plan, hosts: &Hosts) -> f64 {
     }
     for (host, built) in plan.hosts.values().zip(&hosts.list) {
         let w = built.natural_frequencies().first().map_or(0.0, |f| std::f64::consts::TAU * f);
-        if host.is_shaker() {
-            speed = speed.max(host.base.as_ref().map_or(0.0, fastest));
-        }
-        let gain = 0.5 / built.damping_ratio().max(1e-3);
+        let ratio = built.damping_ratio().max(1e-3);
         speed = speed.max(host.velocity.abs()).max(host.displacement.abs() * w);
-        let amplitude = host.base.as_ref().map_or(0.0, peak);
-        speed = speed.max(gain * w * amplitude);
+        if let Some(base) = &host.base {
+            let moved = if host.is_shaker() { drive::usual_speed(base) } else { drive::shaken_speed(base, w, ratio) };
+            speed = speed.max(moved);
+        }
         let stiffness = built.effective_mass() * w * w;
-        let force = host.force.as_ref().map_or(0.0, peak);
-        if stiffness > 0.0 {
-            speed = speed.max(gain * w * force / stiffness);
+        if let Some(force) = host.force.as_ref().filter(|_| stiffness > 0.0) {
+            speed = speed.max(drive::pushed_speed(force, w, ratio, stiffness));
         }
     }
     if speed > 0.0 { speed } else { 1.0 }
@@ -186,28 +186,4 @@ pub fn speed_scale(plan: &Plan, hosts: &Hosts) -> f64 {
 
 fn size(v: &[f64; 3]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-/// Largest absolute value of a signal.
-pub(crate) fn peak(signal: &Signal) -> f64 {
-    match signal {
-        Signal::Sine { amplitude, .. } | Signal::SineSweep { amplitude, .. } => amplitude.abs(),
-        Signal::Impact { peak, .. } => peak.abs(),
-        Signal::Steady { .. } => f64::INFINITY,
-        Signal::Table { value, .. } => value.iter().map(|v| v.abs()).fold(0.0, f64::max),
-    }
-}
-
-/// Largest rate of change of a signal.
-pub(crate) fn fastest(signal: &Signal) -> f64 {
-    match signal {
-        Signal::Sine { amplitude, frequency, .. } => (amplitude * frequency).abs() * std::f64::consts::TAU,
-        Signal::SineSweep { amplitude, from, to, .. } => amplitude.abs() * from.max(*to) * std::f64::consts::TAU,
-        Signal::Impact { peak, duration, .. } => (peak / duration).abs() * std::f64::consts::PI,
-        Signal::Steady { rate } => rate.abs(),
-        Signal::Table { time, value } => {
-            let slopes = time.windows(2).zip(value.windows(2)).map(|(t, v)| ((v[1] - v[0]) / (t[1] - t[0])).abs());
-            slopes.fold(0.0, f64::max)
-        }
-    }
 }

@@ -130,6 +130,7 @@ impl DemEngine {
             broken_bonds: self.contacts.bonds.broken(),
             walls,
             water,
+            hosts: &[],
         }
     }
 

@@ -10,6 +10,8 @@
 //! With DEM the structure moves by velocity Verlet in step with the grains (damping implicit, exact for any C); with the
 //! automaton by Runge-Kutta 4 under the force of the step.
 
+mod base_force;
+mod dwell;
 mod in_motion;
 mod interface;
 mod matrices;
@@ -18,11 +20,13 @@ mod shaker;
 mod state;
 mod steered;
 
+pub use dwell::Dwelling;
 pub use in_motion::Ballast;
 pub use interface::{Interface, Placed};
 
 use crate::ledger::{Account, Ledger};
 use crate::motion::value_and_rate;
+use dwell::Dwell;
 use matrices::{dot, inverse, matrices, multiply, quadratic};
 use steered::Piece;
 use tsubu_scene::plan::{self, Keep, Signal};
@@ -53,6 +57,7 @@ pub struct Host {
     /// Where its base goes, once somebody outside moves it.
     steered: Option<Piece>,
     force: Option<Signal>,
+    dwell: Option<Dwell>,
     /// Since when they drive it [s].
     driven_since: f64,
     q: Vec<f64>,
@@ -91,6 +96,7 @@ impl Host {
             base: plan.base.clone(),
             steered: None,
             force: plan.force.clone(),
+            dwell: None,
             driven_since: 0.0,
             q: seen.iter().map(|_| plan.displacement).collect(),
             v: seen.iter().map(|_| plan.velocity).collect(),
@@ -112,6 +118,7 @@ impl Host {
         };
         host.settle_acceleration(0.0);
         host.power = host.powers(host.drive(0.0));
+        host.begin_dwell(plan.dwell.as_ref());
         host
     }
 
@@ -228,6 +235,7 @@ impl Host {
     pub fn change(&mut self, plan: &plan::Host, time: f64) {
         if (&self.base, &self.force) != (&plan.base, &plan.force) {
             (self.base, self.force, self.driven_since) = (plan.base.clone(), plan.force.clone(), time);
+            self.begin_dwell(plan.dwell.as_ref());
         }
         // Of a pendulum gravity may have changed.
         if let (Some(weight), plan::Structure::Pendulum { moment, .. }) = (&mut self.weight, &plan.structure) {
@@ -285,6 +293,7 @@ impl Host {
         ledger.host_impulse += 0.5 * dt * (self.grain_force + grain_force);
         self.grain_force = grain_force;
         self.post(drive, dt, ledger);
+        self.follow_resonance(time, dt);
     }
 
     fn base(&self, time: f64) -> (f64, f64) {
@@ -300,7 +309,8 @@ impl Host {
         Drive { y, y_rate, applied: self.applied(time) }
     }
 
-    fn applied(&self, time: f64) -> f64 {
+    /// Applied force at `time` [s] [N].
+    pub fn applied(&self, time: f64) -> f64 {
         self.force.as_ref().map_or(0.0, |s| value_and_rate(s, time - self.driven_since).0)
     }
 

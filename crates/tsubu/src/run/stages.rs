@@ -191,7 +191,7 @@ impl Run<'_> {
         self.judge_stage();
         folder.write("check.txt", self.stages.verdicts.as_bytes())?;
         // What is there at the begin of the stage is looked at; the row of this moment has been written.
-        self.watches.look(&*self.engine)?;
+        self.watches.look(&*self.engine, &self.hosts)?;
         Ok(())
     }
 

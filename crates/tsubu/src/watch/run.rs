@@ -3,6 +3,7 @@
 use super::means::{Extremes, Means};
 use super::{Axes, Sheet, Trigger, Watch, axes, open, wall_load};
 use crate::engine::Engine;
+use crate::partner::Hosts;
 use crate::view::{View, Wants};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -199,12 +200,12 @@ impl Watches {
     }
 
     /// Lets all look whose time it is.
-    pub fn look(&mut self, engine: &dyn Engine) -> Result<(), FileError> {
+    pub fn look(&mut self, engine: &dyn Engine, hosts: &Hosts) -> Result<(), FileError> {
         let step = engine.steps();
         let due = |w: &Watched| w.trigger.due(step);
         let wants = self.list.iter().filter(|w| due(w)).map(|w| w.watch.wants()).reduce(Wants::and);
         let Some(wants) = wants else { return Ok(()) };
-        let view = engine.view(wants);
+        let view = View { hosts: &hosts.list, ..engine.view(wants) };
         self.list.iter_mut().filter(|w| w.trigger.due(step)).try_for_each(|w| w.look(&view))
     }
 

@@ -61,6 +61,7 @@ pub fn coupled(mut plan: Plan, base: f64, ratio: f64) -> Plan {
         at: None,
         base: Some(Signal::Sine { amplitude: base, frequency: ratio * natural, phase: 0.0 }),
         force: None,
+        dwell: None,
         displacement: 0.0,
         velocity: 0.0,
     };

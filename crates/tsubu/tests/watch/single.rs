@@ -102,7 +102,7 @@ track.ids = [0]
     let scene = Scene::parse("test", text, std::path::Path::new("."), &[]).unwrap();
     let mut watches = Watches::new(scene.plan(), &*engine);
     for _ in 0..(0.4 / engine.time_step()) as usize {
-        watches.look(&*engine).unwrap();
+        watches.look(&*engine, &hosts).unwrap();
         engine.advance(1, &mut hosts, &mut ledger).unwrap();
     }
     let mut summary = Summary::default();

@@ -17,6 +17,11 @@ impl Derive<'_> {
             self.beam(&name, host);
             self.pendulum(&name, host, gravity);
             self.interfaces(&name, host);
+            if let Some(dwell) = host.get_mut("dwell").and_then(Value::as_table_mut)
+                && !self.typed(&["hosts", &name, "dwell", "keep"])
+            {
+                dwell.insert("keep".into(), self.kept(&name));
+            }
         }
     }
 

@@ -1,5 +1,6 @@
 //! Signals given as tables: read from files, or typed.
 
+use super::table::OF_TIME;
 use super::{Derive, join, table, tables_in};
 use crate::complaint::{Complaint, Source};
 use crate::units::{ANGLE, Dimension, FORCE, LENGTH};
@@ -18,6 +19,7 @@ static PLACES: &[(&str, &[&str], &Dimension)] = &[
 impl Derive<'_> {
     /// Reads the files of all table signals and checks the tables that were typed.
     pub(super) fn signals(&mut self, resolved: &mut toml::Table) {
+        let seed = resolved.get("seed").and_then(Value::as_integer).unwrap_or_default();
         for (family, keys, dimension) in PLACES {
             for (name, owner) in tables_in(resolved, family) {
                 let mut path = vec![*family, name.as_str()];
@@ -32,6 +34,8 @@ impl Derive<'_> {
                 {
                     self.shaken(sine, &[&path[..], &["sine"]].concat());
                 }
+                self.random(signal, seed, dimension, &path);
+                self.sines(signal, &path);
                 let Some(table) = signal.get_mut("table").and_then(Value::as_table_mut) else { continue };
                 path.push("table");
                 match table.remove("file") {
@@ -69,10 +73,10 @@ impl Derive<'_> {
             Ok(text) => text,
             Err(wrong) => return self.file_is_wrong(wrong, &path),
         };
-        match table::read(&text, self.sources.len(), dimension) {
+        match table::read(&text, self.sources.len(), &OF_TIME, dimension) {
             Ok(columns) => {
                 let list = |numbers: Vec<f64>| Value::Array(numbers.into_iter().map(Value::Float).collect());
-                table.insert("time".into(), list(columns.time));
+                table.insert("time".into(), list(columns.axis));
                 table.insert("value".into(), list(columns.value));
             }
             Err(wrong) => {
@@ -111,10 +115,7 @@ impl Derive<'_> {
         if let Some(index) = time.windows(2).position(|pair| pair[0] >= pair[1]) {
             let item = (index + 1).to_string();
             let place = root.locate(&[path, &["time", &item]].concat());
-            self.complain(
-                Complaint::new(format!("time does not rise: {} s after {} s", time[index + 1], time[index]))
-                    .at(&place, "must be later than the one before"),
-            );
+            self.complain(OF_TIME.falls(time[index + 1], time[index]).at(&place, "must be later than the one before"));
         }
     }
 }

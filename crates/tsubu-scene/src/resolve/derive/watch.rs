@@ -1,6 +1,6 @@
 //! Watches: when they look, where, and at whom, if nobody says.
 
-use super::{Derive, groups_by_name, table_at, tables_in};
+use super::{Derive, groups_by_name, hosts, table_at, tables_in};
 use crate::complaint::Complaint;
 use crate::key::{self, Kind, Need};
 use crate::plan::Measure;
@@ -13,9 +13,10 @@ impl Derive<'_> {
         let groups: Vec<String> = groups_by_name(resolved).into_iter().map(|(name, _)| name.clone()).collect();
         let inside = inside_of_the_box(resolved);
         let walls = table_at(resolved, "walls").cloned().unwrap_or_default();
+        let hosts = hosts(resolved);
         for (name, watch) in tables_in(resolved, "watch") {
-            // Of hops the contact is to be seen, which is a few steps long.
-            if !watch.contains_key("hops")
+            // Of hops the contact is to be seen, which is a few steps long; of spectra the fastest vibration.
+            if !["hops", "spectrum"].iter().any(|kind| watch.contains_key(*kind))
                 && let Some(interval) = interval.clone()
                 && !self.typed(&["watch", &name, "every"])
             {
@@ -37,6 +38,17 @@ impl Derive<'_> {
             }
             if let Some(segregation) = watch.get_mut("segregation").and_then(Value::as_table_mut) {
                 self.groups(segregation, &["watch", &name, "segregation"], &groups);
+            }
+            for kind in ["spectrum", "resonance"] {
+                let Some(measure) = watch.get_mut(kind).and_then(Value::as_table_mut) else { continue };
+                let needs = format!("a {kind} is of a host");
+                self.only_host(
+                    measure,
+                    &hosts,
+                    &["watch", &name, kind],
+                    &needs,
+                    "add [hosts.NAME], or leave the watch out",
+                );
             }
             if let Some(load) = watch.get_mut("wall-load").and_then(Value::as_table_mut)
                 && load.contains_key("area")

@@ -111,9 +111,14 @@ pub(super) fn check_carrier(
             );
         }
     }
-    if casing.motion.is_some_and(|m| matches!(m.signal, Signal::Steady { .. })) {
+    let travels = |signal: &Signal| match signal {
+        Signal::Steady { .. } => Some("steady"),
+        Signal::Shock { .. } => Some("shock"),
+        _ => None,
+    };
+    if let Some(kind) = casing.motion.and_then(|motion| travels(&motion.signal)) {
         remarks.refuse(
-            format!("walls.{name}.motion.signal.steady"),
+            format!("walls.{name}.motion.signal.{kind}"),
             "the automaton's box cannot travel for ever; use `signal.table`, or `method = \"dem\"`",
         );
     }

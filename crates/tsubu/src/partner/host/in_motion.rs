@@ -137,6 +137,7 @@ mod tests {
             at: None,
             base: Some(Signal::Sine { amplitude: 1e-3, frequency: 1.0, phase: 0.4 }),
             force: None,
+            dwell: None,
             displacement: 0.0,
             velocity: 0.0,
         })

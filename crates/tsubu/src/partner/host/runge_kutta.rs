@@ -17,13 +17,14 @@ impl Host {
         }
         if self.n == 1 {
             self.runge_kutta_one(time, dt, grain_force, ledger);
-            return;
+            return self.follow_resonance(time + dt, dt);
         }
         let (q0, v0) = (self.q.clone(), self.v.clone());
         self.runge_kutta_many(time, dt, grain_force, &q0, &v0);
         self.grain_force = grain_force;
         self.settle_acceleration(time + dt);
         self.post(self.drive(time + dt), dt, ledger);
+        self.follow_resonance(time + dt, dt);
     }
 
     /// The common case, without a heap or a loop in sight: Komatsuzaki's single degree of freedom. An automaton's step is

@@ -21,6 +21,7 @@ impl Host {
             state.put_real(&format!("{name}.driven-since"), vec![self.driven_since]);
         }
         self.save_steered(name, state);
+        self.save_dwell(name, state);
     }
 
     /// Takes the state back.
@@ -49,6 +50,6 @@ impl Host {
             self.driven_since = since;
         }
         self.load_steered(name, state);
-        Ok(())
+        self.load_dwell(name, state)
     }
 }

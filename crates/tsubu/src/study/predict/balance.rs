@@ -113,6 +113,7 @@ mod tests {
             at: None,
             base: Some(Signal::Sine { amplitude: BASE, frequency, phase: 0.0 }),
             force: None,
+            dwell: None,
             displacement: 0.0,
             velocity: 0.0,
         })

@@ -18,6 +18,12 @@ pub struct Row {
     pub rms: [f64; 3],
     /// Largest displacement, mean over the seeds [m].
     pub peak: f64,
+    /// Amplitude of the acceleration at the driving frequency, mean over the seeds [m/s^2].
+    pub acceleration: f64,
+    /// Of a base that moves, the amplitude over its own; of a force, the force on the base over it; mean over the seeds [-].
+    pub transmissibility: f64,
+    /// Amplitude of the force on the base, mean over the seeds [N].
+    pub base_force: f64,
     /// Mass the grains add, mean over the seeds [kg].
     pub apparent_mass: f64,
     /// Loss per cycle, mean over the seeds [J].
@@ -162,6 +168,9 @@ fn row(ratio: f64, points: &[&Point]) -> Option<Row> {
         ratio,
         rms: [mean(&|p| p.rms), lowest, highest],
         peak: mean(&|p| p.peak),
+        acceleration: mean(&|p| p.amplitude * (std::f64::consts::TAU * p.frequency).powi(2)),
+        transmissibility: mean(&|p| p.transmissibility),
+        base_force: mean(&|p| p.base_force),
         apparent_mass: mean(&|p| p.apparent_mass),
         loss: mean(&|p| p.loss),
         flows: (0..first.flows.len()).map(|i| mean(&|p| p.flows[i])).collect(),

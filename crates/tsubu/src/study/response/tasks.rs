@@ -5,7 +5,7 @@ use crate::engine::{self, Engine, OpenError};
 use crate::interrupt::Interrupt;
 use crate::ledger::{Account, Ledger};
 use crate::methods;
-use crate::partner::Hosts;
+use crate::partner::{Host, Hosts};
 use crate::run::RunError;
 use crate::trial::unsettled;
 use crate::watch::Watches;
@@ -27,6 +27,10 @@ pub struct Point {
     pub peak: f64,
     /// Amplitude of the displacement at the driving frequency [m].
     pub amplitude: f64,
+    /// Of a base that moves, that over its amplitude there; of a force, the force on the base over it [-]. 0 where nothing drives.
+    pub transmissibility: f64,
+    /// Amplitude of the force of structure and grains on the base, there [N].
+    pub base_force: f64,
     /// Mean displacement [m].
     pub mean: f64,
     /// In-phase part of the grains' force over acceleration: the mass the grains add [kg].
@@ -181,8 +185,8 @@ impl World {
             }
             engine.advance(1, hosts, ledger)?;
             let phase = TAU * frequency * engine.time();
-            window.take(hosts.list[host].displacement(), hosts.list[host].grain_force(), phase, 2 * step >= count);
-            watches.look(&**engine)?;
+            window.take(&hosts.list[host], engine.time(), phase, 2 * step >= count);
+            watches.look(&**engine, hosts)?;
         }
         let periods = f64::from(wanted.measure_periods);
         let flows: Vec<f64> = Account::ALL.iter().zip(before).map(|(&a, b)| (ledger.flow(a) - b) / periods).collect();
@@ -245,18 +249,20 @@ struct Window {
     halves: [[f64; 3]; 2],
     highest: Option<f64>,
     lowest: Option<f64>,
-    /// Displacement and force times cosine and sine.
-    fourier: [[f64; 2]; 2],
+    /// Displacement, force of the grains, displacement of the base, force on it and applied force times cosine and sine.
+    fourier: [[f64; 2]; 5],
 }
 
 impl Window {
-    fn take(&mut self, z: f64, force: f64, phase: f64, second: bool) {
+    fn take(&mut self, host: &Host, time: f64, phase: f64, second: bool) {
+        let z = host.displacement();
         let half = &mut self.halves[usize::from(second)];
         *half = [half[0] + 1.0, half[1] + z, half[2] + z * z];
         self.highest = Some(self.highest.map_or(z, |h| h.max(z)));
         self.lowest = Some(self.lowest.map_or(z, |l| l.min(z)));
         let (sin, cos) = phase.sin_cos();
-        for (sums, value) in self.fourier.iter_mut().zip([z, force]) {
+        let values = [z, host.grain_force(), host.base_at(time)[0], host.base_force(time), host.applied(time)];
+        for (sums, value) in self.fourier.iter_mut().zip(values) {
             sums[0] += value * cos;
             sums[1] += value * sin;
         }
@@ -268,14 +274,18 @@ impl Window {
         let mean = (a[1] + b[1]) / n;
         let rms = |h: [f64; 3]| ((h[2] / h[0]) - (h[1] / h[0]).powi(2)).max(0.0).sqrt();
         let all = ((a[2] + b[2]) / n - mean * mean).max(0.0).sqrt();
-        let [z, f] = self.fourier.map(|s| [2.0 * s[0] / n, 2.0 * s[1] / n]);
+        let [z, f, base, below, applied] = self.fourier.map(|s| [2.0 * s[0] / n, 2.0 * s[1] / n]);
         let size = z[0] * z[0] + z[1] * z[1];
         let w = TAU * frequency;
+        let [base, below, applied] = [base, below, applied].map(|[cos, sin]| cos.hypot(sin));
+        let ratio = |answer: f64, drive: f64| if drive > 0.0 { answer / drive } else { 0.0 };
         Point {
             frequency,
             rms: all,
             peak: (self.highest.unwrap_or(mean) - mean).max(mean - self.lowest.unwrap_or(mean)),
             amplitude: size.sqrt(),
+            transmissibility: if base > 0.0 { ratio(size.sqrt(), base) } else { ratio(below, applied) },
+            base_force: below,
             mean,
             // F = -m a - c v: the part of F in phase with z is m w^2.
             apparent_mass: if size > 0.0 { (f[0] * z[0] + f[1] * z[1]) / (size * w * w) } else { 0.0 },

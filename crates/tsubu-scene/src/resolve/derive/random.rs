@@ -1,0 +1,149 @@
+//! Signals that are sums of sines: typed, or realised from a power spectral density.
+
+use super::table::{self, Columns, OF_FREQUENCY};
+use super::{Derive, join};
+use crate::complaint::{Complaint, Source};
+use crate::resolve::spectrum::{Sines, Spectrum};
+use crate::units::{ACCELERATION_DENSITY, Dimension, FORCE, FORCE_DENSITY};
+use std::f64::consts::TAU;
+use toml::{Table, Value};
+
+impl Derive<'_> {
+    /// Replaces a random vibration by the sines that it is: of displacements by those whose acceleration has the density. It begins at 0.
+    pub(super) fn random(&mut self, signal: &mut Table, scene_seed: i64, dimension: &Dimension, path: &[&str]) {
+        let Some(Value::Table(mut random)) = signal.remove("random") else { return };
+        let path = [path, &["random"]].concat();
+        let force = *dimension == FORCE;
+        let columns = match random.remove("file") {
+            Some(Value::String(file)) => {
+                self.filed_spectrum(&file, if force { &FORCE_DENSITY } else { &ACCELERATION_DENSITY }, &path)
+            }
+            _ => self.typed_spectrum(&random, &path),
+        };
+        let whole = |key: &str| random.get(key).and_then(Value::as_integer);
+        let (Some(Columns { axis: frequency, value: density }), Some(lines)) = (columns, whole("lines")) else {
+            return;
+        };
+        let lines = u32::try_from(lines).unwrap_or_default();
+        let spectrum = Spectrum { frequency: &frequency, density: &density };
+        let Sines { mut amplitude, frequency, phase } =
+            spectrum.sines(lines, whole("seed").unwrap_or(scene_seed).cast_unsigned());
+        if !force {
+            for (amplitude, frequency) in amplitude.iter_mut().zip(&frequency) {
+                *amplitude /= (TAU * frequency).powi(2);
+            }
+        }
+        // A displacement that jumps at time 0 would tear walls from where they were drawn; a force may.
+        let begin: f64 = amplitude.iter().zip(&phase).map(|(amplitude, phase)| amplitude * phase.sin()).sum();
+        let offset = if force { 0.0 } else { -begin };
+        let sines = [("amplitude", amplitude), ("frequency", frequency), ("phase", phase)];
+        let mut table: Table = sines.into_iter().map(|(key, numbers)| (key.to_owned(), list(numbers))).collect();
+        table.insert("offset".into(), Value::Float(offset));
+        signal.insert("sines".into(), Value::Table(table));
+    }
+
+    fn filed_spectrum(&mut self, file: &str, dimension: &Dimension, path: &[&str]) -> Option<Columns> {
+        let path: Vec<&str> = path.iter().copied().chain(["file"]).collect();
+        let text = match self.files.text(file, self.sources) {
+            Ok(text) => text,
+            Err(wrong) => {
+                self.file_is_wrong(wrong, &path);
+                return None;
+            }
+        };
+        let wrong = match table::read(&text, self.sources.len(), &OF_FREQUENCY, dimension) {
+            Ok(columns) => match unfit(&columns) {
+                None => return Some(columns),
+                Some(what) => vec![Complaint::new(what)],
+            },
+            Err(wrong) => {
+                self.sources.push(Source { name: file.to_string(), text, numbered: true });
+                wrong
+            }
+        };
+        self.file_is_wrong(wrong, &path);
+        None
+    }
+
+    fn typed_spectrum(&mut self, random: &Table, path: &[&str]) -> Option<Columns> {
+        let typed = |key: &str| self.typed(&[path, &[key]].concat());
+        if !typed("frequency") || !typed("psd") {
+            if !typed("file") {
+                self.complain(
+                    Complaint::new(format!("[{}] has no spectral density", path.join(".")))
+                        .at(&self.root.locate(path), "needs `file`, or `frequency` and `psd`")
+                        .hint("frequency = [\"20 Hz\", \"200 Hz\"] and psd = [\"0.04 g^2/Hz\", \"0.04 g^2/Hz\"]")
+                        .hint("or file = \"spectrum.csv\""),
+                );
+            }
+            return None;
+        }
+        let columns = Columns { axis: numbers(random, "frequency")?, value: numbers(random, "psd")? };
+        if columns.axis.len() != columns.value.len() {
+            let place = self.root.locate(&[path, &["psd"]].concat());
+            self.complain(
+                Complaint::new(format!("`{}` needs as many densities as frequencies", join(&path.join("."), "psd")))
+                    .at(&place, format!("{} densities for {} frequencies", columns.value.len(), columns.axis.len())),
+            );
+            return None;
+        }
+        if let Some(index) = columns.axis.windows(2).position(|pair| pair[0] >= pair[1]) {
+            let place = self.root.locate(&[path, &["frequency", &(index + 1).to_string()]].concat());
+            self.complain(
+                OF_FREQUENCY
+                    .falls(columns.axis[index + 1], columns.axis[index])
+                    .at(&place, "must be higher than the one before"),
+            );
+            return None;
+        }
+        if let Some(what) = unfit(&columns) {
+            self.complain(
+                Complaint::new(what).at(&self.root.locate(&[path, &["frequency"]].concat()), "a band has two ends"),
+            );
+            return None;
+        }
+        Some(columns)
+    }
+
+    /// Typed sines have as many of each; their phases may be left out.
+    pub(super) fn sines(&mut self, signal: &mut Table, path: &[&str]) {
+        let path = [path, &["sines"]].concat();
+        if !self.typed(&path) {
+            return;
+        }
+        let Some(sines) = signal.get_mut("sines").and_then(Value::as_table_mut) else { return };
+        let Some(count) = sines.get("amplitude").and_then(Value::as_array).map(Vec::len) else { return };
+        if !self.typed(&[&path[..], &["phase"]].concat()) {
+            sines.insert("phase".into(), list(vec![0.0; count]));
+        }
+        for key in ["frequency", "phase"] {
+            let Some(found) = sines.get(key).and_then(Value::as_array).map(Vec::len) else { continue };
+            if found != count {
+                let place = self.root.locate(&[&path[..], &[key]].concat());
+                self.complain(
+                    Complaint::new(format!("`{}` needs one for each amplitude", join(&path.join("."), key)))
+                        .at(&place, format!("{found} for {count} amplitudes")),
+                );
+            }
+        }
+    }
+}
+
+/// What is wrong with a spectrum whose frequencies rise.
+fn unfit(columns: &Columns) -> Option<&'static str> {
+    let positive = |numbers: &[f64]| numbers.iter().all(|x| *x > 0.0);
+    match (columns.axis.len(), positive(&columns.axis), positive(&columns.value)) {
+        (0 | 1, ..) => Some("a spectral density needs two frequencies or more"),
+        (_, false, _) => Some("a spectral density needs frequencies above 0"),
+        (.., false) => Some("a spectral density that is straight in logarithms is above 0"),
+        _ => None,
+    }
+}
+
+fn list(numbers: Vec<f64>) -> Value {
+    Value::Array(numbers.into_iter().map(Value::Float).collect())
+}
+
+fn numbers(table: &Table, key: &str) -> Option<Vec<f64>> {
+    table.get(key)?.as_array().map(|list| list.iter().filter_map(Value::as_float).collect())
+}

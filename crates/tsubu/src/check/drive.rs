@@ -1,0 +1,79 @@
+//! How far and how fast signals go, and what they drive.
+
+use std::f64::consts::{PI, TAU};
+use tsubu_scene::plan::Signal;
+
+/// A random sum is beyond so many times its root mean square for 6e-5 of the time.
+const USUAL: f64 = 4.0;
+
+/// Largest absolute value of a signal, or more.
+pub(crate) fn peak(signal: &Signal) -> f64 {
+    match signal {
+        Signal::Sine { amplitude, .. } | Signal::SineSweep { amplitude, .. } => amplitude.abs(),
+        Signal::Impact { peak, .. } => peak.abs(),
+        Signal::Sines { amplitude, offset, .. } => offset.abs() + amplitude.iter().map(|a| a.abs()).sum::<f64>(),
+        Signal::Shock { .. } | Signal::Steady { .. } => f64::INFINITY,
+        Signal::Table { value, .. } => value.iter().map(|v| v.abs()).fold(0.0, f64::max),
+    }
+}
+
+/// Largest rate of change of a signal, or more.
+pub(crate) fn fastest(signal: &Signal) -> f64 {
+    match signal {
+        Signal::Sine { amplitude, frequency, .. } => (amplitude * frequency).abs() * TAU,
+        Signal::SineSweep { amplitude, from, to, .. } => amplitude.abs() * from.max(*to) * TAU,
+        Signal::Impact { peak, duration, .. } => (peak / duration).abs() * PI,
+        Signal::Shock { acceleration, duration, .. } => gained(*acceleration, *duration),
+        Signal::Sines { amplitude, frequency, .. } => {
+            amplitude.iter().zip(frequency).map(|(a, f)| (a * f).abs() * TAU).sum()
+        }
+        Signal::Steady { rate } => rate.abs(),
+        Signal::Table { time, value } => {
+            let slopes = time.windows(2).zip(value.windows(2)).map(|(t, v)| ((v[1] - v[0]) / (t[1] - t[0])).abs());
+            slopes.fold(0.0, f64::max)
+        }
+    }
+}
+
+/// Rate of change that a signal hardly ever goes beyond.
+pub(super) fn usual_speed(signal: &Signal) -> f64 {
+    usual(signal, |w| w).unwrap_or(f64::INFINITY).min(fastest(signal))
+}
+
+/// Speed [m/s] of an oscillator of angular frequency `w` [rad/s] and damping ratio `ratio` on a base that moves so: at resonance, of many sines the usual one, after
+/// a shock no more than what the base gains and what an undamped oscillator answers, 1.77 a / w (Harris and Crede 1961).
+pub(super) fn shaken_speed(signal: &Signal, w: f64, ratio: f64) -> f64 {
+    let transmitted = |driven: f64| {
+        let r = driven / w;
+        driven * ((1.0 + (2.0 * ratio * r).powi(2)) / ((1.0 - r * r).powi(2) + (2.0 * ratio * r).powi(2))).sqrt()
+    };
+    match signal {
+        Signal::Shock { acceleration, duration, .. } => {
+            let gained = gained(*acceleration, *duration);
+            gained + gained.min(1.77 * acceleration.abs() / w)
+        }
+        _ => usual(signal, transmitted).unwrap_or_else(|| 0.5 / ratio * w * peak(signal)),
+    }
+}
+
+/// The same of an oscillator of `stiffness` [N/m] under such a force.
+pub(super) fn pushed_speed(signal: &Signal, w: f64, ratio: f64, stiffness: f64) -> f64 {
+    let answered = |driven: f64| {
+        let r = driven / w;
+        driven / ((1.0 - r * r).powi(2) + (2.0 * ratio * r).powi(2)).sqrt()
+    };
+    usual(signal, answered).unwrap_or_else(|| 0.5 / ratio * w * peak(signal)) / stiffness
+}
+
+/// What a sum of sines hardly ever goes beyond, of which each is multiplied with `gain` of its angular frequency [rad/s].
+fn usual(signal: &Signal, gain: impl Fn(f64) -> f64) -> Option<f64> {
+    let Signal::Sines { amplitude, frequency, .. } = signal else { return None };
+    let sizes = || amplitude.iter().zip(frequency).map(|(a, f)| (a * gain(TAU * f)).abs());
+    let square: f64 = sizes().map(|size| 0.5 * size * size).sum();
+    Some(sizes().sum::<f64>().min(USUAL * square.sqrt()))
+}
+
+/// Speed that a half-sine pulse of acceleration gives [m/s].
+fn gained(acceleration: f64, duration: f64) -> f64 {
+    2.0 / PI * acceleration.abs() * duration
+}
