@@ -171,7 +171,7 @@ fn by_lines(spheres: &[(Vector3<f64>, f64)]) -> Integrals {
 /// Points on a sphere of which those in no other one tell the surface of all.
 const POINTS: usize = 2000;
 
-/// Surface of a union of spheres, to about 1e-3: by points spread evenly over each (Vogel's spiral).
+/// Surface of a union of spheres, to about 5e-3: by points spread evenly over each (Vogel's spiral).
 pub(crate) fn surface(spheres: &[([f64; 3], f64)]) -> f64 {
     let spheres: Vec<(Vector3<f64>, f64)> = spheres.iter().map(|(centre, r)| (Vector3::from(*centre), *r)).collect();
     let golden = PI * (3.0 - 5.0_f64.sqrt());

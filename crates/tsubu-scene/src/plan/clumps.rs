@@ -58,7 +58,7 @@ pub struct PackingError {
 }
 
 impl Packing {
-    /// How well the spheres stand for the mesh; volume and inertia to about 1e-5, the surface to 1e-3.
+    /// How well the spheres stand for the mesh; volume and inertia to about 1e-5, the surface to 5e-3.
     pub fn error(&self) -> Option<PackingError> {
         let union = Solid::of(&self.spheres)?;
         let inertia = |solid: &Solid, k: usize| solid.volume * solid.moments[k];
