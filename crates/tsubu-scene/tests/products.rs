@@ -177,6 +177,7 @@ source = "theory"
 /// Nearly every key that only makes sense in space, or that the other one had no room for.
 pub const IN_SPACE: &str = r#"
 title = "in space"
+bond = [{ particles = ["bed", "wide"], at = "1 ms", gap = 0.02, radius = 0.5, young-modulus = "2 GPa", poisson-ratio = 0.2, damping = 0.1, tensile-strength = "3 MPa", shear-strength = "4 MPa", weibull-modulus = 5 }]
 dimension = 3
 duration = 1
 
@@ -186,18 +187,6 @@ density = "7800 kg/m^3"
 twisting-friction = 0.1
 surface-energy = "50 mJ/m^2"
 cohesion = "2 kPa"
-
-[[bond]]
-particles = ["bed", "wide"]
-at = "1 ms"
-gap = 0.02
-radius = 0.5
-young-modulus = "2 GPa"
-poisson-ratio = 0.2
-damping = 0.1
-tensile-strength = "3 MPa"
-shear-strength = "4 MPa"
-weibull-modulus = 5
 
 [[material-pair]]
 between = ["steel", "steel"]

@@ -102,10 +102,8 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
     let world = World { noun: "grains of lattice points", tilted: false, weightless: true, periodic: [false; 2] };
     remarks.world(plan, world);
     remarks.refusal().map_or(Ok(()), Err)?;
-    remarks.approximate(
-        "contact",
-        "no forces: grains move where there is room, whatever their stiffness, restitution and friction",
-    );
+    let forceless = "no forces: grains move where there is room, whatever their stiffness, restitution and friction";
+    remarks.approximate("contact", forceless);
     remarks.watches(watch, plan, OFFERED);
     let walls: Vec<Wall> =
         plan.walls.iter().map(|(name, wall)| Wall::new(name, wall, 2, hosts, DVec3::from_array(*gravity))).collect();

@@ -15,7 +15,7 @@ fragments  number of fragments, single grains counted                     [-]
 largest    share of the mass of all grains that the heaviest fragment has [-]",
     symbols: "",
     limits: "Grains that only touch are not together.",
-    reference: "",
+    reference: "Potyondy and Cundall 2004",
 };
 
 /// Counts fragments.
