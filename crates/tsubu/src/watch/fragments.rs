@@ -14,7 +14,7 @@ broken     number of bonds that have broken so far                        [-]
 fragments  number of fragments, single grains counted                     [-]
 largest    share of the mass of all grains that the heaviest fragment has [-]",
     symbols: "",
-    limits: "Grains that only touch are not together.",
+    limits: "Grains that only touch are not together; nor are the spheres of a clump, where no bond holds them.",
     reference: "Potyondy and Cundall 2004",
 };
 

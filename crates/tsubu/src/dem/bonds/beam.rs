@@ -119,9 +119,9 @@ impl Beam {
     fn damp(&mut self, grains: &Grains, e: DVec3, distance: f64) {
         let Stiffness { stretch, ends, bend, twist } = self.stiffness;
         let [i, j] = self.rows.map(|row| row as usize);
-        let closing = grains.velocity[j] - grains.velocity[i];
-        let turning = e.cross(closing) / distance;
-        let along = closing.dot(e);
+        let relative = grains.velocity[j] - grains.velocity[i];
+        let turning = e.cross(relative) / distance;
+        let along = relative.dot(e);
         let spins = [grains.spin[i], grains.spin[j]];
         let across = spins.map(|spin| spin - e * spin.dot(e) - turning);
         let bending = across[1] - across[0];
