@@ -189,12 +189,7 @@ fn meshes_that_are_no_body() {
         scene(&cube(), 0, &[]),
         scene(&cube(), 10, &["dimension=2", "particles.rods.start.random.region={low=[0,0],high=[1,1]}"]),
     ];
-    let told: Vec<String> = wrong
-        .into_iter()
-        .enumerate()
-        .map(|(i, wrong)| wrong.err().unwrap_or_else(|| panic!("number {i} is not refused")))
-        .collect();
-    insta::assert_snapshot!(told.join("\n\n"));
+    insta::assert_snapshot!(crate::refusals(wrong));
     // A hollow body is one: the inner surface turned towards the hole.
     let mut hole = cuboid([0.25; 3], [0.75; 3]);
     for triangle in &mut hole {

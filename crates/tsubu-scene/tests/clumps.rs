@@ -53,12 +53,7 @@ fn clumps_that_cannot_be() {
         read(two, &["water.density=1000", "water.viscosity=1e-3"]),
         read(two, &["particles.rods.material=acrylic"]),
     ];
-    let told: Vec<String> = wrong
-        .into_iter()
-        .enumerate()
-        .map(|(i, wrong)| wrong.err().unwrap_or_else(|| panic!("number {i} is not refused")))
-        .collect();
-    insta::assert_snapshot!(told.join("\n\n"));
+    insta::assert_snapshot!(crate::refusals(wrong));
 }
 
 pub(super) const HEAD: &str = "duration = 1\n[materials.glass]\nyoung-modulus = 1e9\ndensity = 2500\n[particles.rods]\nmaterial = \"glass\"\n\
@@ -115,10 +110,5 @@ fn clump_files_that_cannot_be() {
         with(TWO, &["dimension=3", "particles.rods.motion.frozen={}"]),
         with(TWO, &["dimension=3", "water.density=1000", "water.viscosity=1e-3"]),
     ];
-    let told: Vec<String> = wrong
-        .into_iter()
-        .enumerate()
-        .map(|(i, wrong)| wrong.err().unwrap_or_else(|| panic!("number {i} is not refused")))
-        .collect();
-    insta::assert_snapshot!(told.join("\n\n"));
+    insta::assert_snapshot!(crate::refusals(wrong));
 }

@@ -84,3 +84,10 @@ fn complaint(text: &str, changes: &[&str]) -> String {
         Err(complaints) => complaints.to_string(),
     }
 }
+
+/// What is said of scenes that must be refused, one after the other.
+fn refusals<T>(scenes: impl IntoIterator<Item = Result<T, String>>) -> String {
+    let refused =
+        |(i, scene): (usize, Result<T, String>)| scene.err().unwrap_or_else(|| panic!("number {i} is not refused"));
+    scenes.into_iter().enumerate().map(refused).collect::<Vec<_>>().join("\n\n")
+}

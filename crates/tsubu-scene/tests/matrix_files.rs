@@ -199,10 +199,5 @@ fn matrix_files_that_cannot_be() {
         read(desk.path(), &all, "node = 2"),
         read(desk.path(), &all, "node = 13, along = 0.1"),
     ];
-    let told: Vec<String> = wrong
-        .into_iter()
-        .enumerate()
-        .map(|(i, wrong)| wrong.err().unwrap_or_else(|| panic!("number {i} is not refused")))
-        .collect();
-    insta::assert_snapshot!(told.join("\n\n"));
+    insta::assert_snapshot!(crate::refusals(wrong));
 }

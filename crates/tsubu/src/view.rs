@@ -1,6 +1,6 @@
 //! What an engine shows to those who look on: grains, contacts, loads on walls.
 
-use crate::neighbours::grid::PeriodicBounds;
+use crate::neighbours::grid::{PeriodicBounds, wrapped};
 use crate::partner::Host;
 use crate::water::Water;
 use glam::DVec3;
@@ -166,13 +166,8 @@ impl View<'_> {
     }
 
     /// A point put between the periodic ends.
-    pub fn put(&self, mut p: DVec3) -> DVec3 {
-        for (axis, end) in self.periodic.iter().enumerate() {
-            if let Some([low, high]) = end {
-                p[axis] -= ((p[axis] - low) / (high - low)).floor() * (high - low);
-            }
-        }
-        p
+    pub fn put(&self, p: DVec3) -> DVec3 {
+        wrapped(&self.periodic, p)
     }
 
     /// Of every grain, whether it overlaps another grain or a wall.

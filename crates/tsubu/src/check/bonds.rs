@@ -33,12 +33,11 @@ fn of_smallest(plan: &Plan, bond: &Bond, group: &Particles) -> f64 {
     // Turned ends of a bond whose grains are shifted: each by the shift over the length.
     let shear = 2.0 * ends / (length * length);
     let turned = ends.max(ends + 2.0 * bend);
-    // Shares of directions along and across a bond.
-    let (neighbours, along) = if plan.dimension == 2 { (6.0, 1.0 / 2.0) } else { (12.0, 1.0 / 3.0) };
-    let (shaken, turned) = if plan.dimension == 2 {
-        (along * (stretch + shear), turned)
+    // Neighbours, and what of their bonds each direction has: shaking meets 1 / D along a bond and the rest across it, turning in the plane all of them.
+    let (neighbours, shaken, turned) = if plan.dimension == 2 {
+        (6.0, (stretch + shear) / 2.0, turned)
     } else {
-        (along * (stretch + 2.0 * shear), along * (2.0 * turned + 2.0 * twist))
+        (12.0, (stretch + 2.0 * shear) / 3.0, 2.0 * (turned + twist) / 3.0)
     };
     (neighbours * (2.0 * shaken / mass + turned / inertia)).sqrt()
 }

@@ -10,7 +10,7 @@ use super::bodies::Bodies;
 use super::contact_forces::BlockContacts;
 use super::orientation::Orientation;
 use crate::beam::Stiffness;
-use crate::neighbours::grid::PeriodicBounds;
+use crate::neighbours::grid::{PeriodicBounds, nearest_image};
 use crate::neighbours::lists::{BLOCK, shares};
 use crate::state::Grains;
 use crate::threads::each_in_parts;
@@ -33,7 +33,6 @@ pub(super) struct Bonds {
     made: Vec<bool>,
     seed: u64,
     plane: bool,
-    periodic: PeriodicBounds,
     /// Those that hold, in the order in which they were made.
     list: Vec<Beam>,
     /// How many have been made, and how many have broken.
@@ -128,11 +127,10 @@ impl Bonds {
     }
 
     /// Evaluates all at this moment.
-    pub fn evaluate(&mut self, grains: &Grains, attitudes: Attitudes) {
-        let (periodic, shares) = (self.periodic, shares(self.list.len()));
+    pub fn evaluate(&mut self, grains: &Grains, attitudes: Attitudes, periodic: &PeriodicBounds) {
+        let shares = shares(self.list.len());
         each_in_parts(&mut self.list, shares, &|bond: &mut Beam| {
-            let branch = nearest(&periodic, grains, bond.rows);
-            bond.evaluate(grains, branch, bond.grains.map(|id| attitudes.of(id)));
+            bond.evaluate(grains, branch(periodic, grains, bond.rows), bond.grains.map(|id| attitudes.of(id)));
         });
         self.stored = self.list.iter().map(|bond| bond.energy).sum();
         self.lost = self.list.iter().map(|bond| bond.lost).sum();
@@ -272,13 +270,7 @@ impl Bonds {
 }
 
 /// From the first to the second of two grains, across a periodic end where that is nearer [m].
-fn nearest(periodic: &PeriodicBounds, grains: &Grains, rows: [u32; 2]) -> DVec3 {
+fn branch(periodic: &PeriodicBounds, grains: &Grains, rows: [u32; 2]) -> DVec3 {
     let [i, j] = rows.map(|row| row as usize);
-    let mut branch = grains.position[j] - grains.position[i];
-    for (axis, end) in periodic.iter().enumerate() {
-        if let Some([low, high]) = end {
-            branch[axis] -= (branch[axis] / (high - low)).round() * (high - low);
-        }
-    }
-    branch
+    nearest_image(periodic, grains.position[j] - grains.position[i])
 }

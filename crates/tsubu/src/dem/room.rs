@@ -69,16 +69,6 @@ pub(super) fn periodic_bounds(plan: &Plan) -> PeriodicBounds {
     [plan.periodic.x, plan.periodic.y, plan.periodic.z]
 }
 
-/// The image of a point between the periodic ends.
-pub(super) fn wrapped(ends: &PeriodicBounds, mut p: DVec3) -> DVec3 {
-    for (axis, end) in ends.iter().enumerate() {
-        if let Some([low, high]) = *end {
-            p[axis] = low + (p[axis] - low).rem_euclid(high - low);
-        }
-    }
-    p
-}
-
 /// A point and its images within `margin` outside the periodic ends.
 pub(super) fn images(ends: &PeriodicBounds, p: DVec3, margin: f64) -> impl Iterator<Item = DVec3> {
     let mut images = vec![p];

@@ -3,11 +3,12 @@
 use super::engine::DemEngine;
 use super::fill::Occupied;
 use super::place::{direction, still};
-use super::room::{Clearance, Room, Side, images, periodic_bounds, sides, wrapped};
+use super::room::{Clearance, Room, Side, images, periodic_bounds, sides};
 use crate::contact::Table;
 use crate::engine::Engine;
 use crate::ledger::{Account, Ledger};
 use crate::motion::value_and_rate;
+use crate::neighbours::grid::wrapped;
 use crate::random::{Purpose, words};
 use crate::sizes;
 use crate::wall::Wall;

@@ -125,9 +125,9 @@ impl DemEngine {
 
     /// Adds what bonds do to the grains to what contacts do.
     fn add_bonds(&mut self) {
-        let Self { grains, contacts, orientation, integration, .. } = self;
+        let Self { grains, contacts, neighbours, orientation, integration, .. } = self;
         let ContactForces { bonds, blocks, .. } = contacts;
-        bonds.evaluate(grains, Attitudes { orientation, bodies: &integration.bodies });
+        bonds.evaluate(grains, Attitudes { orientation, bodies: &integration.bodies }, &neighbours.search.periodic);
         bonds.add(blocks);
     }
 

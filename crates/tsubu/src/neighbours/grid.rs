@@ -19,6 +19,26 @@ pub fn shift(periodic: &PeriodicBounds, image: u32) -> DVec3 {
     DVec3::new(times[0] * period[0], times[1] * period[1], times[2] * period[2])
 }
 
+/// The image of a point between the periodic ends.
+pub fn wrapped(periodic: &PeriodicBounds, mut point: DVec3) -> DVec3 {
+    for (axis, end) in periodic.iter().enumerate() {
+        if let Some([low, high]) = end {
+            point[axis] -= ((point[axis] - low) / (high - low)).floor() * (high - low);
+        }
+    }
+    point
+}
+
+/// The shortest of the vectors that lead from one point to another or to an image of it; `branch` is any of them.
+pub fn nearest_image(periodic: &PeriodicBounds, mut branch: DVec3) -> DVec3 {
+    for (axis, end) in periodic.iter().enumerate() {
+        if let Some([low, high]) = end {
+            branch[axis] -= (branch[axis] / (high - low)).round() * (high - low);
+        }
+    }
+    branch
+}
+
 /// How cells are numbered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Numbering {

@@ -1,10 +1,9 @@
 //! How bonds come to be, and how they go.
 
 use super::beam::Beam;
-use super::{Attitudes, Bonds, nearest};
+use super::{Attitudes, Bonds, branch};
 use crate::dem::engine::DemEngine;
 use crate::dem::history_transfer::HistorySnapshot;
-use crate::dem::room::periodic_bounds;
 use crate::engine::{Engine, Note, Refusal, Verdict};
 use crate::ledger::{Account, Ledger};
 use crate::random::{Purpose, unit, words};
@@ -29,7 +28,6 @@ impl Bonds {
             made: vec![false; plan.bond.len()],
             seed: plan.seed,
             plane: plan.dimension == 2,
-            periodic: periodic_bounds(plan),
             ..Self::default()
         }
     }
@@ -80,7 +78,7 @@ impl DemEngine {
         self.neighbours.rebuild(&self.grains, &self.walls);
         self.neighbours.search.reach = reach;
         let Self { grains, neighbours, contacts, orientation, integration, .. } = self;
-        let bonds = &mut contacts.bonds;
+        let (bonds, periodic) = (&mut contacts.bonds, &neighbours.search.periodic);
         let attitudes = Attitudes { orientation, bodies: &integration.bodies };
         let joins = |i: usize| bonds.joins[entry][grains.group[i] as usize];
         let mut pairs: Vec<([u32; 2], [u32; 2])> = Vec::new();
@@ -90,7 +88,7 @@ impl DemEngine {
                 let smaller = grains.radius[i].min(grains.radius[j]);
                 let limit = grains.radius[i] + grains.radius[j] + bond.gap * smaller;
                 let mut rows = [i as u32, j as u32];
-                if joins(i) && joins(j) && nearest(&bonds.periodic, grains, rows).length_squared() <= limit * limit {
+                if joins(i) && joins(j) && branch(periodic, grains, rows).length_squared() <= limit * limit {
                     rows.sort_unstable_by_key(|row| grains.id[*row as usize]);
                     pairs.push((rows.map(|row| grains.id[row as usize]), rows));
                 }
@@ -100,15 +98,11 @@ impl DemEngine {
         pairs.dedup();
         for (ids, rows) in pairs {
             let [i, j] = rows.map(|row| row as usize);
-            let branch = nearest(&bonds.periodic, grains, rows);
             let turned = ids.map(|id| attitudes.of(id));
             let smaller = grains.radius[i].min(grains.radius[j]);
             let mass = 1.0 / (grains.inverse_mass[i] + grains.inverse_mass[j]);
-            let mut beam = Beam::new((entry as u32, &bond), ids, branch, turned, bonds.plane).made_of(
-                &bond,
-                bond.radius * smaller,
-                mass,
-            );
+            let mut beam = Beam::new((entry as u32, &bond), ids, branch(periodic, grains, rows), turned, bonds.plane)
+                .made_of(&bond, bond.radius * smaller, mass);
             beam.strength = bonds.strength(&bond, bonds.counted);
             bonds.list.push(beam);
             bonds.counted += 1;
