@@ -35,7 +35,7 @@ fn of_smallest(plan: &Plan, bond: &Bond, group: &Particles) -> f64 {
     let turned = ends.max(ends + 2.0 * bend);
     // Neighbours, and what of their bonds each direction has: shaking meets 1 / D along a bond and the rest across it, turning in the plane all of them.
     let (neighbours, shaken, turned) = if plan.dimension == 2 {
-        (6.0, (stretch + shear) / 2.0, turned)
+        (6.0, 0.5 * stretch + 0.5 * shear, turned)
     } else {
         (12.0, (stretch + 2.0 * shear) / 3.0, 2.0 * (turned + twist) / 3.0)
     };
