@@ -4,6 +4,7 @@
 
 mod bonds;
 mod contact;
+mod design;
 mod fill;
 mod grains;
 mod host;
@@ -62,6 +63,7 @@ pub(crate) fn check(resolved: &toml::Table, root: &Node, files: &Files) -> Vec<C
     watch::check(&parts, &rooms, &mut complaints);
     contact::check(&parts, &mut complaints);
     bonds::check(&parts, &mut complaints);
+    design::check(&parts, &mut complaints);
     host::check(&parts, &mut complaints);
     water::check(&parts, &mut complaints);
     pairs(&parts, &mut complaints);

@@ -42,7 +42,7 @@ pub use methods::{
 pub use region::{Ball, Cylinder, Region};
 pub use sites::{GuttHaff, Heap, Savage, Split, Voids};
 pub use stage::{Stage, Until};
-pub use study::{Atlas, Calibrate, Claim, Design, Goal, Keep, Measured, Output, Path, Response, Sweep};
+pub use study::{Atlas, Calibrate, Claim, Cost, Design, Envelope, Goal, Keep, Measured, Output, Path, Response, Sweep};
 pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall, box_of_planes};
 pub use watch::{Axis, Bed, Face, Heading, Kernel, Measure, Quantity, Watch};
 pub use water::{Buoyancy, Directions, Drag, Flow, Fluctuation, Hindrance, Lid, Lift, StreamStart, Torque, Water};
@@ -233,6 +233,15 @@ impl Plan {
     /// Mass of all grains, those that come later included [kg].
     pub fn grain_mass(&self) -> f64 {
         self.particles.values().map(|group| group.mass * group.count as f64).sum()
+    }
+
+    /// Cost of all grains, those that come later included, by what the materials cost in `cost`; nothing where one of them is not there.
+    pub fn grain_cost(&self, cost: &BTreeMap<String, Cost>) -> Option<f64> {
+        let of_group = |group: &Particles| {
+            let cost = cost.get(&group.material)?;
+            Some(group.count as f64 * (cost.per_kilogram * group.mass + cost.per_grain))
+        };
+        self.particles.values().map(of_group).sum()
     }
 
     /// Number of the first grain of a group: groups follow each other in the order of their names, those of streams after the

@@ -62,6 +62,7 @@ dimensions! {
     TURN_DAMPING "a torque over a spin" "N m s" [2, 1, -1, 0] [1e-30, 1e20] ["N m s", "N mm s"] ["2 mN m s"]
         "Coefficients of viscous damping of a turning body."
     AREA "an area" "m^2" [2, 0, 0, 0] [1e-24, 1e18] ["m^2", "cm^2", "mm^2"] ["4 cm^2", "1e-4 m^2"] "Areas."
+    VOLUME "a volume" "m^3" [3, 0, 0, 0] [1e-36, 1e27] ["m^3", "L", "cm^3", "mm^3"] ["0.5 L", "300 cm^3"] "Volumes; a litre is L."
     INERTIA "a moment of inertia" "kg m^2" [2, 1, 0, 0] [1e-50, 1e30] ["kg m^2", "g cm^2", "g mm^2"] ["2 g cm^2"] "Moments of inertia."
     AREA_RATE "an area per time" "m^2/s" [2, 0, -1, 0] [1e-20, 1e12] ["m^2/s", "cm^2/s", "mm^2/s"] ["1e-6 m^2/s", "1 mm^2/s"]
         "Areas per time: kinematic viscosities, discharges per width."

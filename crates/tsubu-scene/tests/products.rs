@@ -141,6 +141,10 @@ goal = "band"
 levels = [0.5, 1.0]
 mass-limit = "15 g"
 stroke-limit = "5 mm"
+space-limit = "0.5 L"
+envelope = { width = "70 mm", height = 0.1 }
+cost-limit = 12
+cost = { a = { per-kilogram = 3.5 }, "b c" = { per-grain = 0.02 } }
 runs = 300
 within = 0.02
 seeds = 4

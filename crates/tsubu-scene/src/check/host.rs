@@ -14,7 +14,6 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
         );
     }
     atlas(parts, complaints);
-    design(parts, complaints);
     for (name, host) in &parts.hosts {
         let at = |keys: &[&str]| {
             let path: Vec<&str> = ["hosts", name.as_str(), "structure"].iter().chain(keys).copied().collect();
@@ -107,18 +106,6 @@ fn atlas(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
             Complaint::new(format!("no wall hangs on the host `{name}`, so there is no cavity to shake"))
                 .at(&place, "asked for here")
                 .hint(format!("add `host = \"{name}\"` to the walls of the cavity")),
-        );
-    }
-}
-
-/// What is designed for is the response.
-fn design(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
-    let asked = |study| parts.root.find(&[study]).is_some();
-    if asked("design") && !asked("response") {
-        complaints.push(
-            Complaint::new("a design is for a low response, and the scene has no `[response]`")
-                .at(&parts.root.locate(&["design"]), "asked for here")
-                .hint("add [response] with frequency-ratio = { from = 0.85, to = 1.15 }"),
         );
     }
 }

@@ -1,7 +1,7 @@
 //! Studies, output and claims.
 
 use super::{Family, Key, Kind, Word};
-use crate::units::{ACCELERATION, FREQUENCY, LENGTH, MASS, NUMBER, TIME};
+use crate::units::{ACCELERATION, FREQUENCY, LENGTH, MASS, NUMBER, TIME, VOLUME};
 
 pub(super) static KEEP: &[Word] = &[
     Word { name: "displacement", about: "The amplitude of the displacement" },
@@ -96,6 +96,21 @@ static GOAL: &[Word] = &[
     Word { name: "band", about: "The lowest root mean square over the frequencies of `response.frequency-ratio`" },
 ];
 
+static ENVELOPE: &[Key] = &[
+    Key::new("width", Kind::Quantity(&LENGTH), "Along x").above(0.0).optional(),
+    Key::new("depth", Kind::Quantity(&LENGTH), "Along y").above(0.0).optional(),
+    Key::new("height", Kind::Quantity(&LENGTH), "Along z").above(0.0).optional(),
+];
+
+static COST: &[Key] = &[
+    Key::new("per-kilogram", Kind::Quantity(&NUMBER), "Cost of a kilogram, in any one unit of money")
+        .default("0")
+        .at_least(0.0),
+    Key::new("per-grain", Kind::Quantity(&NUMBER), "Cost of a grain beside that, in the same unit")
+        .default("0")
+        .at_least(0.0),
+];
+
 pub(super) static DESIGN: &[Key] = &[
     Key::new(
         "vary",
@@ -114,6 +129,18 @@ pub(super) static DESIGN: &[Key] = &[
     Key::new("stroke-limit", Kind::Quantity(&LENGTH), "Displacement of the host from its mean, at most")
         .above(0.0)
         .optional(),
+    Key::new(
+        "space-limit",
+        Kind::Quantity(&VOLUME),
+        "Volume of the upright box that just holds the walls of the host, their thickness left out, at most",
+    )
+    .above(0.0)
+    .optional(),
+    Key::new("envelope", Kind::Table(ENVELOPE), "Sides of that box, at most").optional(),
+    Key::new("cost-limit", Kind::Quantity(&NUMBER), "Cost of all grains, at most, in the unit in which `cost` is told")
+        .above(0.0)
+        .optional(),
+    Key::new("cost", Kind::Named(COST, "What grains of a material cost, by its name"), "What grains cost").default("{}"),
     Key::new(
         "runs",
         Kind::Whole,

@@ -136,12 +136,43 @@ pub struct Design {
     pub mass_limit: Option<f64>,
     /// Displacement of the host from its mean, at most [m].
     pub stroke_limit: Option<f64>,
+    /// Volume of the upright box that just holds the walls of the host, at most [m^3].
+    pub space_limit: Option<f64>,
+    /// Sides of that box, at most.
+    pub envelope: Option<Envelope>,
+    /// Cost of all grains, at most, in the unit of `cost`.
+    pub cost_limit: Option<f64>,
+    /// What grains cost, by the name of their material.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub cost: BTreeMap<String, Cost>,
     /// Runs at one frequency each, at most.
     pub runs: u32,
     /// Expected gains below this share do not count: the search looks where nothing was measured instead [-].
     pub within: f64,
     /// Random seeds that confirm.
     pub seeds: u32,
+}
+
+/// Sides of an upright box, at most [m].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Envelope {
+    /// Along x.
+    pub width: Option<f64>,
+    /// Along y.
+    pub depth: Option<f64>,
+    /// Along z.
+    pub height: Option<f64>,
+}
+
+/// What grains of a material cost, in any one unit of money.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Cost {
+    /// Of a kilogram.
+    pub per_kilogram: f64,
+    /// Of a grain, beside that.
+    pub per_grain: f64,
 }
 
 /// What of a response is to be low.

@@ -49,6 +49,7 @@ static SYMBOLS: &[Symbol] = &[
     symbol("m", 0, [1, 0, 0, 0], "kcmun"),
     symbol("g", -3, [0, 1, 0, 0], "kmun"),
     symbol("t", 3, [0, 1, 0, 0], ""),
+    symbol("L", -3, [3, 0, 0, 0], "m"),
     symbol("s", 0, [0, 0, 1, 0], "mun"),
     odd("min", 60.0, [0, 0, 1, 0]),
     odd("h", 3600.0, [0, 0, 1, 0]),

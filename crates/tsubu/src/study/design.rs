@@ -6,7 +6,9 @@
 
 mod answer;
 mod candidates;
+mod limits;
 mod search;
+mod space;
 mod work;
 mod write;
 
@@ -154,15 +156,7 @@ impl<'a> Task<'a> {
         }
         let candidates = Candidates::new(scene, &wanted);
         if candidates.list.is_empty() {
-            let why = match (&candidates.first_wrong, wanted.mass_limit) {
-                (Some(wrong), _) if candidates.too_heavy == 0 => format!("each is wrong; the first, {wrong}"),
-                (_, Some(limit)) => format!(
-                    "the grains of the lightest weigh {} kg, more than `design.mass-limit` = {limit} kg",
-                    candidates.lightest
-                ),
-                _ => "there is none".to_owned(),
-            };
-            return Err(CasesError::Scene(format!("none of the {number} combinations of `design.vary` can be: {why}")));
+            return Err(CasesError::Scene(candidates.none(number)));
         }
         Ok(Self { wanted, reference, candidates, scene })
     }

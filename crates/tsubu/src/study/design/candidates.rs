@@ -1,5 +1,6 @@
 //! What a design may be: every combination of the values that it may take, within its limits.
 
+use super::limits::Limits;
 use crate::study::cases::{Case, cases};
 use rayon::prelude::*;
 use tsubu_scene::plan::Design;
@@ -12,13 +13,11 @@ pub(super) const MOST: usize = 20_000;
 pub(super) struct Candidates {
     /// Those within the limits.
     pub list: Vec<Candidate>,
-    /// How many are too heavy.
-    pub too_heavy: usize,
+    /// The limits, with those that are beyond them.
+    pub limits: Limits,
     /// How many are no scene, and what the first of them is told.
     pub wrong: usize,
     pub first_wrong: Option<String>,
-    /// Least mass of the grains of a combination that is a scene [kg].
-    pub lightest: f64,
     /// Numbers of values, key by key.
     pub values: Vec<usize>,
     /// Whether these have an order.
@@ -50,28 +49,17 @@ impl Candidates {
                 (index, case, plan.map_err(told))
             })
             .collect();
-        let mut candidates = Self {
-            list: Vec::new(),
-            too_heavy: 0,
-            wrong: 0,
-            first_wrong: None,
-            lightest: f64::INFINITY,
-            values,
-            ordered,
-        };
+        let mut candidates =
+            Self { list: Vec::new(), limits: Limits::new(wanted), wrong: 0, first_wrong: None, values, ordered };
         for (index, case, plan) in read {
-            match plan {
+            let known = plan.and_then(|plan| Ok((candidates.limits.needs(&case.name, &plan, wanted)?, plan)));
+            match known {
                 Err(told) => {
                     candidates.wrong += 1;
                     candidates.first_wrong.get_or_insert_with(|| format!("`{}`: {told}", case.name));
                 }
-                Ok(plan) => {
-                    let mass = plan.grain_mass();
-                    candidates.lightest = candidates.lightest.min(mass);
-                    if wanted.mass_limit.is_some_and(|limit| mass > limit * (1.0 + 1e-9)) {
-                        candidates.too_heavy += 1;
-                        continue;
-                    }
+                Ok((needs, _)) if !candidates.limits.hold(&needs) => candidates.limits.beyond.push(needs),
+                Ok((_, plan)) => {
                     let digits = digits(index, &candidates.values);
                     let place = place(&digits, &candidates.values, &candidates.ordered);
                     candidates.list.push(Candidate { case, plan, digits, place });
@@ -79,6 +67,17 @@ impl Candidates {
             }
         }
         candidates
+    }
+
+    /// Why none of so many combinations can be.
+    pub fn none(&self, number: usize) -> String {
+        let wrong = self.first_wrong.as_ref().map(|first| match self.limits.beyond.len() {
+            0 => format!("each is wrong; the first, {first}"),
+            _ => format!("{} are wrong, the first, {first}", self.wrong),
+        });
+        let beyond = (!self.limits.beyond.is_empty()).then(|| self.limits.told());
+        let why: Vec<String> = beyond.into_iter().chain(wrong).collect();
+        format!("none of the {number} combinations of `design.vary` can be: {}", why.join("; "))
     }
 
     /// Candidates with one key a value on; of a key whose values have no order, with any other.

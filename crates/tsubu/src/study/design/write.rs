@@ -1,5 +1,6 @@
 //! The files of a design.
 
+use super::limits;
 use super::work::{Found, Work};
 use super::{Measured, Standing};
 use crate::study::cases::value_text;
@@ -21,6 +22,9 @@ pub(super) fn write(
     let mut summary = begun(scene.plan(), status, wall_seconds);
     summary.give("runs", "-", f64::from(work.runs()));
     summary.give("candidates", "-", task.candidates.list.len() as f64);
+    for (limit, number) in task.candidates.limits.list.iter().zip(task.candidates.limits.left_out()) {
+        summary.give(format!("beyond {}", limit.key), "-", number as f64);
+    }
     let measured: Vec<usize> = work.values().into_iter().map(|(index, _)| index).collect();
     summary.give("candidates measured", "-", measured.len() as f64);
     let farthest = task.candidates.farthest(&measured).map_or(0.0, |(_, distance)| distance);
@@ -100,11 +104,13 @@ fn doubts(work: &Work<'_>, found: Option<&Found>, status: Status, summary: &mut 
             say("the peak of the best wanders from run to run; the highest that was seen stands for it".to_owned());
         }
     } else if status == Status::Failed {
-        let strokes = work.values().into_iter().filter_map(|(index, _)| work.standing(index)).map(|one| one.stroke);
-        let least = strokes.fold(f64::INFINITY, f64::min);
+        let strokes = work.values().into_iter().filter_map(|(index, _)| Some((index, work.standing(index)?.stroke)));
+        let strokes = strokes.min_by(|a, b| a.1.total_cmp(&b.1));
+        let least = strokes.map_or(f64::INFINITY, |(_, least)| least);
         say(match wanted.stroke_limit.filter(|_| least.is_finite()) {
             Some(limit) => format!(
-                "no candidate that was measured keeps within `design.stroke-limit` = {limit} m: the least displacement is {least:.4e} m"
+                "no candidate that was measured keeps within `design.stroke-limit` = {limit} m: the least displacement is {least:.4e} m, of `{}`",
+                strokes.map_or_else(String::new, |(index, _)| task.name(index))
             ),
             None => "no candidate could be measured".to_owned(),
         });
@@ -147,6 +153,8 @@ fn candidates(work: &Work<'_>, best: Option<usize>) -> Table {
     let keys = task.wanted.vary.keys().map(|key| format!("{key} [text]"));
     let numbers_of = [
         "grain mass [kg]",
+        "space [m^3]",
+        "grain cost [-]",
         "rms displacement [m]",
         "rms low [m]",
         "rms high [m]",
@@ -185,7 +193,7 @@ fn candidates(work: &Work<'_>, best: Option<usize>) -> Table {
         };
         let mut row = vec![Cell::Text(task.name(index))];
         row.extend(values(work, index));
-        row.push(Cell::Number(task.plan(index).grain_mass()));
+        row.extend(limits::measures(task.plan(index), &task.wanted).map(Cell::Number));
         row.extend(numbers(&standing));
         row.extend(
             [standing.stroke, standing.ratio, standing.seeds as f64, f64::from(standing.runs)].map(Cell::Number),
