@@ -1,6 +1,6 @@
 //! The report of a design: the response before and after, what was tried, how the search went.
 
-use tsubu_frame::Table;
+use tsubu_frame::{ResultValue, Summary, Table};
 
 use crate::claims::claims_table;
 use crate::figure::{Axis, Figure, Series, Style};
@@ -70,6 +70,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
         );
         report.cards.push(card(&format!("{label}, rms displacement"), value, &unit, note, Tone::Plain));
     }
+    report.headline += summary.as_ref().map_or("", ended_by);
     if let Some(summary) = &summary {
         report.cards.extend(summary_cards(summary).into_iter().filter(|card| card.label == "Computed in"));
         report.verdict = Some(ended(summary));
@@ -110,6 +111,17 @@ fn headline(candidates: &Candidates) -> String {
         _ => String::new(),
     };
     format!("The best is {}: {} rms{compared}.", candidates.names[best], spoken(candidates.rms[best], "m"))
+}
+
+/// What stopped it, where the scene asks for more than a number of runs.
+fn ended_by(summary: &Summary) -> &'static str {
+    match summary.results.get("ended by until") {
+        Some(ResultValue::Number(ended)) if *ended > 0.0 => {
+            " It ended because the best is known as well as asked and nothing better is expected."
+        }
+        Some(_) => " It ended because its runs were spent.",
+        None => "",
+    }
 }
 
 fn before_and_after(source: &mut Source) -> Vec<Block> {

@@ -19,8 +19,10 @@ mod world;
 use crate::attach;
 use crate::complaint::Complaint;
 use crate::files::Files;
-use crate::node::Node;
+use crate::node::{Entry, Node};
 use crate::plan::{Claim, Host, MaterialPair, Particles, Periodic, Signal, Wall};
+use crate::range;
+use crate::study;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 
@@ -64,6 +66,7 @@ pub(crate) fn check(resolved: &toml::Table, root: &Node, files: &Files) -> Vec<C
     contact::check(&parts, &mut complaints);
     bonds::check(&parts, &mut complaints);
     design::check(&parts, &mut complaints);
+    ranges(&parts, &mut complaints);
     host::check(&parts, &mut complaints);
     water::check(&parts, &mut complaints);
     pairs(&parts, &mut complaints);
@@ -162,6 +165,21 @@ fn claims(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
     }
 }
 
+/// A range without steps is for studies that vary a key continuously.
+fn ranges(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
+    for family in study::STUDIES.into_iter().filter(|family| !study::CONTINUOUS.contains(family)) {
+        let varied = parts.root.find(&[family, "vary"]).and_then(Node::table);
+        let table = |entry: &&Entry| entry.node.table().is_some_and(|range| range.entry("step").is_none());
+        for entry in varied.into_iter().flat_map(|varied| &varied.entries).filter(table) {
+            complaints.push(
+                Complaint::new(format!("the range of `{}` has no `step`", entry.key))
+                    .at(&entry.place, format!("[{family}] runs single values"))
+                    .hint("add `step`, or list the values"),
+            );
+        }
+    }
+}
+
 /// A range has two ends, and something that was measured.
 fn calibrate(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
     let Some(wanted) = parts.resolved.get("calibrate").and_then(toml::Value::as_table) else { return };
@@ -174,8 +192,9 @@ fn calibrate(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
             .push(Complaint::new("`calibrate.vary` names no key").at(&place, "which are not known?").hint(example));
     }
     for (key, ends) in varied.into_iter().flatten() {
-        let number = ends.as_array().map_or(0, Vec::len);
-        if number != 2 {
+        let values = ends.as_array().map_or(&[][..], Vec::as_slice);
+        let number = values.len();
+        if number != 2 && range::ends(values).is_none() {
             complaints.push(
                 Complaint::new(format!("`{key}` needs the least and the largest value"))
                     .at(&at(key), format!("{number} values here"))

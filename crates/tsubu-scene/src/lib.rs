@@ -51,6 +51,7 @@ mod mesh_file;
 mod node;
 mod packing;
 pub mod philox;
+pub mod range;
 mod reference;
 mod resolve;
 mod scene;

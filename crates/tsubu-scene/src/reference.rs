@@ -161,7 +161,7 @@ pub(crate) fn value(key: &Key) -> String {
         Kind::Named(..) | Kind::NamedChoice(..) => "named tables".to_string(),
         Kind::Many(_) => "list of tables".to_string(),
         Kind::Choice(variants) => format!("choice of {}", suggest::list(variants.iter().map(|variant| variant.name))),
-        Kind::Vary => "quoted keys with lists".to_string(),
+        Kind::Vary => "quoted keys with lists or `{ from, to, step }`".to_string(),
         Kind::Set => "scene keys with values".to_string(),
     }
 }

@@ -12,6 +12,7 @@ mod several;
 mod spectrum;
 mod table;
 mod value;
+mod vary;
 mod vector;
 
 pub(crate) use derive::derive;

@@ -7,6 +7,7 @@ use crate::complaint::{Complaint, Complaints, Source};
 use crate::files::{self, Files};
 use crate::node::{self, Node};
 use crate::plan::Plan;
+use crate::range;
 use crate::resolve::{self, Read};
 use crate::stage;
 use crate::study;
@@ -244,6 +245,9 @@ impl Work {
     fn try_varied(&mut self, plan: &Plan, typed: &Typed, files: &Files) {
         for (family, vary) in study::varied(plan) {
             for (path, values) in vary {
+                // Of what varies continuously the ends are tried.
+                let values = if study::CONTINUOUS.contains(&family) { range::ends(values) } else { None }
+                    .map_or_else(|| values.clone(), Vec::from);
                 for (index, value) in values.iter().enumerate() {
                     let mut case = typed.clone();
                     case.files = files.clone();

@@ -111,7 +111,17 @@ fn kind(key: &'static Key) -> Value {
         Kind::Choice(variants) => choice(variants),
         Kind::NamedChoice(variants, _) => json!({ "type": "object", "additionalProperties": choice(variants) }),
         Kind::Set => json!({ "type": "object" }),
-        Kind::Vary => json!({ "type": "object", "additionalProperties": { "type": "array", "minItems": 1 } }),
+        Kind::Vary => {
+            let ends = ["from", "to", "step"].map(|name| (name.to_owned(), json!({ "type": ["number", "string"] })));
+            let range = json!({
+                "type": "object",
+                "additionalProperties": false,
+                "required": ["from", "to"],
+                "properties": ends.into_iter().collect::<Map<String, Value>>(),
+            });
+            let list = json!({ "type": "array", "minItems": 1 });
+            json!({ "type": "object", "additionalProperties": { "anyOf": [list, range] } })
+        }
     }
 }
 

@@ -15,6 +15,9 @@ const LEADING: [&str; 2] = ["particles", "materials"];
 /// The studies that vary keys of a scene.
 pub(crate) const STUDIES: [&str; 5] = ["response", "atlas", "design", "calibrate", "sweep"];
 
+/// Those of them that may vary a key continuously.
+pub(crate) const CONTINUOUS: [&str; 2] = ["design", "calibrate"];
+
 /// What each study of a plan varies.
 pub(crate) fn varied(plan: &Plan) -> impl Iterator<Item = (&'static str, &BTreeMap<String, Vec<Value>>)> {
     let studies = [

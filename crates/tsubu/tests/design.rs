@@ -84,6 +84,68 @@ fn the_peak_is_that_of_the_closed_form() {
     assert!((standing.rms / peak(dampings[2]) - 1.0).abs() > 0.1);
 }
 
+/// The damping of an empty box varies continuously over a factor of 100. Damping lowers the resonance and lets more of the base through above
+/// sqrt 2, so that the root mean square over a band with both has its lowest value inside the range, which the closed form of the test above gives.
+/// Control: the best of the two ends alone is worse by a factor.
+#[test]
+fn a_range_is_searched_continuously() {
+    let ratios = [0.9, 1.0, 1.1, 2.0, 2.5, 3.0_f64];
+    let band = |damping: f64| {
+        let z = damping / (2.0 * (123.4_f64 * 0.086).sqrt());
+        let square = |r: f64| {
+            let loss = (2.0 * z * r).powi(2);
+            0.5e-3_f64.powi(2) / 2.0 * (1.0 + loss) / ((1.0 - r * r).powi(2) + loss)
+        };
+        let area = ratios.windows(2).map(|two| 0.5 * (square(two[0]) + square(two[1])) * (two[1] - two[0]));
+        (area.sum::<f64>() / 2.1).sqrt()
+    };
+    let lowest =
+        (0..=1000).map(|i| 0.2 * 100_f64.powf(f64::from(i) / 1000.0)).min_by(|a, b| band(*a).total_cmp(&band(*b)));
+    let lowest = lowest.expect("a thousand");
+    let found = |values: &str| {
+        let vary = format!("design.vary={{ \"hosts.spring.structure.oscillator.damping\" = {values} }}");
+        let ratios = format!("response.frequency-ratio={ratios:?}");
+        let scene = scene(&["particles.balls.count=0", "design.goal=\"band\"", "design.runs=300", &ratios, &vary]);
+        best(&scene).unwrap().expect("one is best")
+    };
+    let (name, standing) = found("{ from = \"0.2 N s/m\", to = \"20 N s/m\" }");
+    let damping: f64 = name.trim_start_matches("damping = ").trim_end_matches(" N s/m").parse().unwrap();
+    // It is better than its neighbours, a sixteenth of the range away.
+    assert!((damping / lowest).ln().abs() < 100_f64.ln() / 16.0, "{name}, {lowest}");
+    assert!((standing.rms / band(lowest) - 1.0).abs() < 0.01, "{} {}", standing.rms, band(lowest));
+    let (_, ends) = found("[\"0.2 N s/m\", \"20 N s/m\"]");
+    assert!(ends.rms > 1.1 * band(lowest), "{} {}", ends.rms, band(lowest));
+}
+
+/// A design ends when the best is known as well as asked and nothing better is expected, long before its runs are spent, and says so; with a
+/// narrower bound the best has more seeds. Control: a bound that nothing can reach is not said to be reached.
+#[test]
+fn a_design_ends_where_it_knows_enough() {
+    let desk = tempfile::tempdir().unwrap();
+    let vary = "design.vary={ \"particles.balls.count\" = { from = 20, to = 40, step = 5 } }";
+    let ended = |name: &str, until: &str, runs: u32| {
+        let changes = [vary, &format!("design.until={until}"), &format!("design.runs={runs}")];
+        into_folder(&scene(&changes), &desk.path().join(name), usize::MAX)
+    };
+    let seeds = |table: &str| {
+        let table = Table::parse(table).unwrap();
+        table.numbers("seeds").unwrap().into_iter().fold(0.0, f64::max)
+    };
+    let (wide, wide_table) = ended("wide", "0.1", 2000);
+    let (narrow, narrow_table) = ended("narrow", "0.01", 2000);
+    for (summary, until) in [(&wide, 0.1), (&narrow, 0.01)] {
+        assert_eq!(number(summary, "ended by until"), 1.0, "{:?}", summary.warnings);
+        assert!(number(summary, "half the interval over the best") <= until);
+        assert!(number(summary, "gain expected of others") < until);
+        assert!(number(summary, "runs") < 1500.0, "{}", number(summary, "runs"));
+    }
+    assert!(number(&wide, "runs") < number(&narrow, "runs"));
+    assert!(seeds(&wide_table) < seeds(&narrow_table), "{wide_table}{narrow_table}");
+    let (never, _) = ended("never", "0.0001", 60);
+    assert_eq!(number(&never, "ended by until"), 0.0);
+    assert!(never.warnings.iter().any(|said| said.contains("before `design.until` = 0.0001 was reached")));
+}
+
 /// Stopped on the way and gone on with, a design is the one that was not; its best runs as a scene of its own.
 #[test]
 fn a_design_goes_on_where_it_was() {

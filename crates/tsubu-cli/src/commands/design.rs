@@ -6,7 +6,7 @@ use crate::table;
 use clap::Args;
 use std::fmt::Write as _;
 use std::path::Path;
-use tsubu_frame::Table;
+use tsubu_frame::{ResultValue, Summary, Table};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -54,6 +54,14 @@ fn candidates(folder: &Path) -> Result<String, Failure> {
         rows.push(texts.into_iter().chain(numbers).chain([table::number(ratio[*row])]).collect());
     }
     let mut text = table::aligned(&rows);
+    let summary = Summary::read(&folder.join("summary.json")).ok();
+    match summary.as_ref().and_then(|summary| summary.results.get("ended by until")) {
+        Some(ResultValue::Number(ended)) if *ended > 0.0 => {
+            text.push_str("  ended by `until`: the best is known as well as asked, and nothing better is expected\n");
+        }
+        Some(_) => text.push_str("  ended by `runs`, before `until`\n"),
+        None => {}
+    }
     let scene = folder.join("best.toml");
     if scene.exists() {
         let _ = writeln!(text, "  the scene of the best: {}", scene.display());

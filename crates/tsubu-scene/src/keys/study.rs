@@ -157,6 +157,14 @@ pub(super) static DESIGN: &[Key] = &[
     .default("0.01")
     .at_least(1e-4)
     .at_most(1.0),
+    Key::new(
+        "until",
+        Kind::Quantity(&NUMBER),
+        "Ends before `runs` are spent: when no candidate is expected to be better by this share and half the 95 % interval of the best is within it; the best gets more seeds for that",
+    )
+    .at_least(1e-4)
+    .at_most(1.0)
+    .optional(),
     Key::new("seeds", Kind::Whole, "Number of random seeds that confirm the best candidate and its neighbours")
         .default("3")
         .at_least(2.0)

@@ -149,6 +149,8 @@ pub struct Design {
     pub runs: u32,
     /// Expected gains below this share do not count: the search looks where nothing was measured instead [-].
     pub within: f64,
+    /// It ends where nothing is expected to be better by this share and the best is known as well [-]; `None`: by `runs` alone.
+    pub until: Option<f64>,
     /// Random seeds that confirm.
     pub seeds: u32,
 }

@@ -359,32 +359,4 @@ impl Resolver<'_> {
         );
         None
     }
-
-    /// Only the form is checked here; whether the scene takes the values is tried once the scene itself is right.
-    fn vary(&mut self, key: &'static Key, node: &Node) -> Option<toml::Value> {
-        let mut varied = toml::Table::new();
-        for entry in &self.expect_table(key, node)?.entries {
-            let complaint = match &entry.node.value {
-                Value::List(items) if !items.is_empty() => {
-                    if let Some(list) = entry.node.plain() {
-                        varied.insert(entry.key.clone(), list);
-                        continue;
-                    }
-                    Complaint::new("a date is no value of any key")
-                        .at(&entry.node.place, "there is a date in this list")
-                }
-                Value::List(_) => {
-                    Complaint::new(format!("no values for `{}`", entry.key)).at(&entry.node.place, "the list is empty")
-                }
-                Value::Table(_) => Complaint::new("a varied key must be in quotes")
-                    .at(&entry.place, "without quotes the points make tables")
-                    .hint("for example \"particles.balls.count\" = [10, 30, 50]"),
-                _ => Complaint::new(format!("`{}` needs a list of values", entry.key))
-                    .at(&entry.node.place, format!("this is {}", entry.node.kind()))
-                    .hint("for example \"particles.balls.count\" = [10, 30, 50]"),
-            };
-            self.complain(complaint);
-        }
-        Some(varied.into())
-    }
 }

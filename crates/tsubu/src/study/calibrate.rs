@@ -6,16 +6,15 @@
 //! with other seeds check what was found. Every run has a folder of its own: a calibration that was stopped goes on where it was.
 
 mod posterior;
-mod ranges;
 mod write;
 
 use super::cases::{Case, CasesError};
+use super::ranges::Range;
 use super::surrogate::Surrogate;
 use super::sweep;
 use crate::interrupt::Watcher;
 use crate::scene_files;
 use posterior::{hypercube, sample};
-use ranges::Range;
 use rayon::prelude::*;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -85,7 +84,7 @@ impl<'a> Task<'a> {
                     .to_owned(),
             )
         })?;
-        let ranges = Range::all(&wanted).map_err(CasesError::Scene)?;
+        let ranges = Range::all("calibrate", &wanted.vary).map_err(CasesError::Scene)?;
         Ok(Self { scene, wanted, ranges })
     }
 

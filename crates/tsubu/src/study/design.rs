@@ -6,6 +6,7 @@
 
 mod answer;
 mod candidates;
+mod continuous;
 mod limits;
 mod search;
 mod space;
@@ -133,7 +134,7 @@ struct Task<'a> {
 impl<'a> Task<'a> {
     fn new(scene: &'a Scene) -> Result<Self, CasesError> {
         let plan = scene.plan();
-        let (Some(wanted), Some(response)) = (plan.design.clone(), &plan.response) else {
+        let (Some(mut wanted), Some(response)) = (plan.design.clone(), &plan.response) else {
             return Err(CasesError::Scene(
                 "the scene has no `[design]`: say what may vary, for example `vary = { \"particles.balls.count\" = [10, 30, 50] }`"
                     .to_owned(),
@@ -143,6 +144,7 @@ impl<'a> Task<'a> {
             return Err(CasesError::Scene("a design is of a scene of one stage: leave `[[stage]]` out".to_owned()));
         }
         let reference = tasks::reference_frequency(plan, &response.host).map_err(CasesError::Scene)?;
+        let strides = continuous::lay_out(&mut wanted.vary).map_err(CasesError::Scene)?;
         let number: usize = wanted.vary.values().map(Vec::len).product();
         if number < 2 {
             return Err(CasesError::Scene(
@@ -154,7 +156,7 @@ impl<'a> Task<'a> {
                 "`design.vary` has {number} combinations, more than the {MOST} that are looked through: list fewer values"
             )));
         }
-        let candidates = Candidates::new(scene, &wanted);
+        let candidates = Candidates::new(scene, &wanted, strides);
         if candidates.list.is_empty() {
             return Err(CasesError::Scene(candidates.none(number)));
         }

@@ -7,6 +7,7 @@ pub mod compare;
 pub mod design;
 mod journal;
 pub mod predict;
+mod ranges;
 pub mod response;
 pub mod ring_down;
 mod summary;

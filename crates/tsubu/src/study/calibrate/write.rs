@@ -1,9 +1,9 @@
 //! The files of a calibration.
 
-use super::ranges::Range;
 use super::{Found, Purpose, Ran, Work};
 use crate::student::interval_of_mean;
 use crate::study::cases::value_text;
+use crate::study::ranges::Range;
 use crate::study::summary::{begun, judge};
 use tsubu_frame::{Cell, FileError, RunFolder, Status, Summary, Table};
 use tsubu_scene::plan;

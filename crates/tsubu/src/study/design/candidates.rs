@@ -22,6 +22,8 @@ pub(super) struct Candidates {
     pub values: Vec<usize>,
     /// Whether these have an order.
     ordered: Vec<bool>,
+    /// How many values on a neighbour is, where they have one.
+    strides: Vec<usize>,
 }
 
 /// A combination.
@@ -36,7 +38,7 @@ pub(super) struct Candidate {
 
 impl Candidates {
     /// Reads all combinations of a scene.
-    pub fn new(scene: &Scene, wanted: &Design) -> Self {
+    pub fn new(scene: &Scene, wanted: &Design, strides: Vec<usize>) -> Self {
         let values: Vec<usize> = wanted.vary.values().map(Vec::len).collect();
         let ordered: Vec<bool> = wanted.vary.values().map(|list| list.iter().all(has_order)).collect();
         let read: Vec<(usize, Case, Result<Plan, String>)> = cases(&wanted.vary)
@@ -49,8 +51,15 @@ impl Candidates {
                 (index, case, plan.map_err(told))
             })
             .collect();
-        let mut candidates =
-            Self { list: Vec::new(), limits: Limits::new(wanted), wrong: 0, first_wrong: None, values, ordered };
+        let mut candidates = Self {
+            list: Vec::new(),
+            limits: Limits::new(wanted),
+            wrong: 0,
+            first_wrong: None,
+            values,
+            ordered,
+            strides,
+        };
         for (index, case, plan) in read {
             let known = plan.and_then(|plan| Ok((candidates.limits.needs(&case.name, &plan, wanted)?, plan)));
             match known {
@@ -80,22 +89,44 @@ impl Candidates {
         format!("none of the {number} combinations of `design.vary` can be: {}", why.join("; "))
     }
 
-    /// Candidates with one key a value on; of a key whose values have no order, with any other.
+    /// Candidates with one key a step on; of a key whose values have no order, with any other.
     pub fn neighbours(&self, of: usize) -> Vec<usize> {
         let own = &self.list[of].digits;
-        (0..self.list.len()).filter(|other| apart(own, &self.list[*other].digits, &self.ordered) == 1).collect()
+        let one_on = |other: &usize| {
+            let other = &self.list[*other].digits;
+            let mut differ = (0..own.len()).filter(|key| own[*key] != other[*key]);
+            let (Some(key), None) = (differ.next(), differ.next()) else { return false };
+            let (stride, last) = (self.strides[key], self.values[key] - 1);
+            // Beyond the end is the end.
+            let steps = [own[key].saturating_sub(stride), (own[key] + stride).min(last)];
+            !self.ordered[key] || steps.contains(&other[key])
+        };
+        (0..self.list.len()).filter(one_on).collect()
     }
 
-    /// The candidate that is farthest from all of these, with that distance [values]; of equals the first, and none where all are among
+    /// The candidate that is farthest from all of these, with that distance [steps]; of equals the first, and none where all are among
     /// these.
     pub fn farthest(&self, from: &[usize]) -> Option<(usize, f64)> {
         let nearest = |index: usize| {
             let own = &self.list[index].digits;
-            from.iter().map(|other| apart(own, &self.list[*other].digits, &self.ordered)).min().unwrap_or(usize::MAX)
+            let squares = from.iter().map(|other| self.apart(own, &self.list[*other].digits));
+            squares.fold(f64::INFINITY, f64::min)
         };
-        let open = (0..self.list.len()).map(|index| (index, nearest(index))).filter(|(_, near)| *near > 0);
+        let open = (0..self.list.len()).map(|index| (index, nearest(index))).filter(|(_, near)| *near > 0.0);
         let farthest = open.reduce(|most, one| if one.1 > most.1 { one } else { most });
-        farthest.map(|(index, square)| (index, (square as f64).sqrt()))
+        farthest.map(|(index, square)| (index, square.sqrt()))
+    }
+
+    /// Square of the distance of two combinations, in steps from one neighbour to the next; two names are one apart.
+    fn apart(&self, from: &[usize], to: &[usize]) -> f64 {
+        let of_key = |key: usize| {
+            if self.ordered[key] {
+                from[key].abs_diff(to[key]) as f64 / self.strides[key] as f64
+            } else {
+                f64::from(u8::from(from[key] != to[key]))
+            }
+        };
+        (0..from.len()).map(|key| of_key(key).powi(2)).sum()
     }
 
     /// So many candidates that lie far from each other, from the one in the middle on: each next is the farthest from those before.
@@ -141,13 +172,6 @@ fn digits(index: usize, values: &[usize]) -> Vec<usize> {
     digits
 }
 
-/// Square of the distance of two combinations, in values from one to the next; two names are one apart.
-fn apart(from: &[usize], to: &[usize], ordered: &[bool]) -> usize {
-    let of_key =
-        |((a, b), ordered): ((&usize, &usize), &bool)| if *ordered { a.abs_diff(*b) } else { usize::from(a != b) };
-    from.iter().zip(to).zip(ordered).map(of_key).map(|values| values * values).sum()
-}
-
 fn place(digits: &[usize], values: &[usize], ordered: &[bool]) -> Vec<f64> {
     let mut place = Vec::new();
     for ((digit, number), ordered) in digits.iter().zip(values).zip(ordered) {
@@ -171,8 +195,18 @@ mod tests {
         let all: Vec<Vec<usize>> = (0..6).map(|index| digits(index, &values)).collect();
         assert_eq!(all, [[0, 0], [0, 1], [0, 2], [1, 0], [1, 1], [1, 2]]);
         assert_eq!(place(&[1, 1], &values, &[true, true]), [1.0, 0.5]);
-        assert_eq!(apart(&[0, 2], &[2, 2], &[false, true]), 1);
-        assert_eq!(apart(&[0, 2], &[2, 1], &[true, true]), 5);
+        let candidates = |ordered: [bool; 2], strides: [usize; 2]| Candidates {
+            list: Vec::new(),
+            limits: Limits::default(),
+            wrong: 0,
+            first_wrong: None,
+            values: vec![3, 3],
+            ordered: ordered.to_vec(),
+            strides: strides.to_vec(),
+        };
+        assert_eq!(candidates([false, true], [1, 1]).apart(&[0, 2], &[2, 2]), 1.0);
+        assert_eq!(candidates([true, true], [1, 1]).apart(&[0, 2], &[2, 1]), 5.0);
+        assert_eq!(candidates([true, true], [2, 1]).apart(&[0, 2], &[2, 1]), 2.0);
         let corners = [0, 1].map(|digit| place(&[digit, 0], &values, &[false, true]));
         let apart: f64 = corners[0].iter().zip(&corners[1]).map(|(a, b)| (a - b).powi(2)).sum();
         assert!((apart - 1.0).abs() < 1e-12);

@@ -9,8 +9,7 @@ const FIRST_A_KEY: usize = 2;
 /// Candidates of a round: they run side by side, and what is measured must not depend on the number of threads.
 const ROUND: usize = 4;
 
-/// Those to begin with.
-pub(super) fn first(candidates: &Candidates) -> Vec<usize> {
+fn first(candidates: &Candidates) -> Vec<usize> {
     candidates.spread(FIRST + FIRST_A_KEY * candidates.values.len())
 }
 
@@ -26,6 +25,15 @@ pub(super) struct Round {
     pub chosen: Vec<usize>,
     /// Whether they are expected to be better than the best; otherwise they are to show what nobody expects.
     pub better: bool,
+    /// How many of the others are neighbours of the lowest.
+    pub beside: usize,
+}
+
+impl Round {
+    /// Those to begin with: far from each other.
+    pub fn first(candidates: &Candidates) -> Self {
+        Self { chosen: first(candidates), better: true, beside: 0 }
+    }
 }
 
 /// Those of a round: where the value is expected to fall farthest below the best, each as if those before it had come out as expected. Where
@@ -34,27 +42,41 @@ pub(super) struct Round {
 pub(super) fn next(candidates: &Candidates, known: &[(usize, f64)], closed: &[usize], within: f64) -> Round {
     let better = promising(candidates, known, closed, within);
     if !better.is_empty() {
-        return Round { chosen: better, better: true };
+        return Round { chosen: better, better: true, beside: 0 };
     }
     let lowest = known.iter().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| *index);
     let mut chosen = lowest.map_or_else(Vec::new, |lowest| candidates.neighbours(lowest));
     chosen.retain(|index| !closed.contains(index));
     chosen.truncate(ROUND);
+    let beside = chosen.len();
     while chosen.len() < ROUND {
         let seen: Vec<usize> = closed.iter().chain(&chosen).copied().collect();
         let Some((farthest, _)) = candidates.farthest(&seen) else { break };
         chosen.push(farthest);
     }
     // One value alone says nothing of the others.
-    Round { chosen, better: known.len() < 2 }
+    Round { chosen, better: known.len() < 2, beside }
+}
+
+/// By what share a candidate that is not closed is expected to fall below the best, at most.
+pub(super) fn gain(candidates: &Candidates, known: &[(usize, f64)], closed: &[usize]) -> f64 {
+    let Some(surrogate) = fit(candidates, known) else { return f64::NAN };
+    let best = lowest_expected(candidates, known, &surrogate);
+    let open = (0..candidates.list.len()).filter(|index| !closed.contains(index));
+    let gains = open.map(|index| expected_improvement(surrogate.at(&candidates.list[index].place), best));
+    gains.fold(0.0, f64::max)
+}
+
+/// The best as the surrogate has it: a lucky measurement is no mark to beat.
+fn lowest_expected(candidates: &Candidates, known: &[(usize, f64)], surrogate: &Surrogate) -> f64 {
+    let expected = known.iter().map(|(index, _)| surrogate.at(&candidates.list[*index].place)[0]);
+    expected.fold(f64::INFINITY, f64::min)
 }
 
 /// Those that are expected to fall below the best by the share `within`, or more.
 fn promising(candidates: &Candidates, known: &[(usize, f64)], closed: &[usize], within: f64) -> Vec<usize> {
     let Some(mut surrogate) = fit(candidates, known) else { return Vec::new() };
-    // The best as the surrogate has it: a lucky measurement is no mark to beat.
-    let expected = known.iter().map(|(index, _)| surrogate.at(&candidates.list[*index].place)[0]);
-    let best = expected.fold(f64::INFINITY, f64::min);
+    let best = lowest_expected(candidates, known, &surrogate);
     let mut chosen: Vec<usize> = Vec::new();
     while chosen.len() < ROUND {
         let open = (0..candidates.list.len()).filter(|index| !closed.contains(index) && !chosen.contains(index));
@@ -81,7 +103,7 @@ mod tests {
     fn grid() -> (Candidates, Vec<f64>) {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/damper-2003");
         let scene = Scene::read(&folder.join("design.toml"), &[]).expect("the study's scene");
-        let candidates = Candidates::new(&scene, scene.plan().design.as_ref().expect("it has a design"));
+        let candidates = Candidates::new(&scene, scene.plan().design.as_ref().expect("it has a design"), vec![1; 3]);
         let text = std::fs::read_to_string(folder.join("results/design/grid.csv")).expect("the study's grid");
         let table = Table::parse(&text).expect("a table");
         let names = table.texts("case").expect("names");
@@ -93,7 +115,7 @@ mod tests {
     /// The least that is found with so many candidates, or, where that is all that is wanted, before nothing better is expected.
     fn least(candidates: &Candidates, value: impl Fn(usize) -> f64, number: usize, expected_only: bool) -> f64 {
         let mut known: Vec<(usize, f64)> = Vec::new();
-        let mut round = Round { chosen: first(candidates), better: true };
+        let mut round = Round::first(candidates);
         while known.len() < number && (round.better || !expected_only) {
             known.extend(round.chosen.iter().map(|index| (*index, value(*index))));
             let closed: Vec<usize> = known.iter().map(|one| one.0).collect();

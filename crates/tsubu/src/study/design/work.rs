@@ -16,6 +16,9 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use tsubu_frame::State;
 use tsubu_scene::plan::Goal;
 
+/// Seeds that the best gets at a time until it is known well enough.
+const MORE_SEEDS: u32 = 4;
+
 /// What came of a design.
 pub(super) struct Found {
     pub best: usize,
@@ -23,6 +26,8 @@ pub(super) struct Found {
     pub confirmed: bool,
     /// Whether nothing better was expected when the search ended.
     pub searched: bool,
+    /// Whether it ended because the best is known as well as `until` asks and nothing better is expected.
+    pub ended_by_until: bool,
 }
 
 /// What came of a run.
@@ -47,25 +52,46 @@ impl<'a> Work<'a> {
 
     /// Searches, confirms, and draws the curves; nothing where it was interrupted or no candidate can be.
     pub fn design(&mut self) -> Result<Option<Found>, CasesError> {
-        let Some(searched) = self.search()? else { return Ok(None) };
-        let Some((best, confirmed)) = self.confirm()? else { return Ok(None) };
+        let mut share = 0.5;
+        let (best, confirmed, searched, ended_by_until) = loop {
+            let Some(searched) = self.search(share)? else { return Ok(None) };
+            let Some((best, confirmed)) = self.confirm()? else { return Ok(None) };
+            let Some(until) = self.task.wanted.until else { break (best, confirmed, searched, false) };
+            let (round, known) = (self.next(), self.doubt(best) <= until);
+            let expected = !round.chosen.is_empty() && (round.better || round.beside > 0);
+            let left = self.left(1.0);
+            if known && !expected || left < 1.0 {
+                break (best, confirmed, !expected, known && !expected);
+            }
+            // What is not known of the best comes first: seeds cost the least.
+            if !known {
+                let (first, number) = (self.seeds(best), left.floor().min(f64::from(MORE_SEEDS)) as u32);
+                let keys = self.answers(best, first + number).filter(|key| key.seed >= first).collect();
+                if !self.measure(keys)? {
+                    return Ok(None);
+                }
+            }
+            share = 1.0;
+        };
         if !self.curves(best)? {
             return Ok(None);
         }
-        Ok(Some(Found { best, confirmed, searched }))
+        Ok(Some(Found { best, confirmed, searched, ended_by_until }))
     }
 
-    /// Looks for the best with one seed each, until all are measured or half of the runs are spent. Says whether nothing better was
-    /// expected at the end; nothing where it was interrupted.
-    fn search(&mut self) -> Result<Option<bool>, CasesError> {
+    /// Looks for the best with one seed each, until all are measured or this share of the runs is spent, or nothing better is expected where the
+    /// scene asks no more. Says whether nothing better was expected at the end; nothing where it was interrupted.
+    fn search(&mut self, share: f64) -> Result<Option<bool>, CasesError> {
         let task = self.task;
-        let mut round = Round { chosen: search::first(&task.candidates), better: true };
+        let mut round = if self.expected.is_empty() { Round::first(&task.candidates) } else { self.next() };
         loop {
             // As many as the runs that are left allow.
-            let left = f64::from(task.wanted.runs) / 2.0 - f64::from(self.runs());
             let mut wanted = round.chosen;
+            if task.wanted.until.is_some() && !round.better {
+                wanted.truncate(round.beside);
+            }
             let all = wanted.is_empty();
-            wanted.truncate((left / self.runs_of_one()).floor().max(0.0) as usize);
+            wanted.truncate(self.left(share).floor().max(0.0) as usize);
             if wanted.is_empty() {
                 return Ok(Some(all || !round.better));
             }
@@ -76,9 +102,38 @@ impl<'a> Work<'a> {
             if !self.measure(keys)? {
                 return Ok(None);
             }
-            let closed: Vec<usize> = self.expected.iter().map(|(index, _)| *index).collect();
-            round = search::next(&task.candidates, &self.values(), &closed, task.wanted.within);
+            round = self.next();
         }
+    }
+
+    /// What would be measured next.
+    fn next(&self) -> Round {
+        let wanted = &self.task.wanted;
+        search::next(&self.task.candidates, &self.values(), &self.closed(), wanted.until.unwrap_or(wanted.within))
+    }
+
+    /// Candidates that were measured, or tried in vain.
+    pub fn closed(&self) -> Vec<usize> {
+        let tried = self.expected.iter().map(|one| one.0).chain(self.failures.keys().copied());
+        let all: BTreeSet<usize> = self.done.keys().map(|key| key.candidate).chain(tried).collect();
+        all.into_iter().filter(|index| *index < self.task.as_written()).collect()
+    }
+
+    /// Candidates that this share of the runs still allows.
+    fn left(&self, share: f64) -> f64 {
+        (f64::from(self.task.wanted.runs) * share - f64::from(self.runs())) / self.runs_of_one()
+    }
+
+    /// Seeds with which a candidate was measured.
+    fn seeds(&self, candidate: usize) -> u32 {
+        let seeds = self.done.keys().filter(|key| key.candidate == candidate).map(|key| key.seed + 1);
+        seeds.max().unwrap_or(0)
+    }
+
+    /// Half of a candidate's 95 % interval over its mean; 0 where all seeds give the same.
+    pub fn doubt(&self, candidate: usize) -> f64 {
+        let Some(standing) = self.standing(candidate) else { return f64::INFINITY };
+        standing.interval.map_or(0.0, |[low, high]| 0.5 * (high - low) / standing.rms)
     }
 
     /// Measures the best, its neighbours, and the lowest with all seeds, until it stays the best or the runs are spent; and the scene as it
@@ -158,7 +213,7 @@ impl<'a> Work<'a> {
         if !first.is_empty() || height(false) <= height(true) * (1.0 + wanted.within) {
             return first;
         }
-        (1..wanted.seeds).flat_map(of_seed).collect()
+        (1..self.seeds(candidate).max(wanted.seeds)).flat_map(of_seed).collect()
     }
 
     /// What is still missing of a curve: the frequencies that are asked for, then those where it bends.

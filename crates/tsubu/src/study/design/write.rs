@@ -1,6 +1,7 @@
 //! The files of a design.
 
 use super::limits;
+use super::search;
 use super::work::{Found, Work};
 use super::{Measured, Standing};
 use crate::study::cases::value_text;
@@ -38,6 +39,12 @@ pub(super) fn write(
         summary.particles = task.plan(found.best).grains() as u64;
         summary.give("mass of the grains", "kg", task.plan(found.best).grain_mass());
         tell(work, found, &mut summary);
+        let gain = search::gain(&task.candidates, &work.values(), &work.closed());
+        summary.give("gain expected of others", "-", gain);
+        summary.give("half the interval over the best", "-", work.doubt(found.best));
+        if task.wanted.until.is_some() {
+            summary.give("ended by until", "-", f64::from(u8::from(found.ended_by_until)));
+        }
     }
     doubts(work, found, status, &mut summary);
     summary.energy.residual_relative = work.done.values().map(Measured::residual).fold(0.0, f64::max);
@@ -88,7 +95,14 @@ fn doubts(work: &Work<'_>, found: Option<&Found>, status: Status, summary: &mut 
                 same.join("; ")
             ));
         }
-        if !found.searched {
+        if let (Some(until), false) = (wanted.until, found.ended_by_until) {
+            say(format!(
+                "the {} runs were spent before `design.until` = {until} was reached: half the interval of the best is {:.2} % of it, and {}",
+                wanted.runs,
+                100.0 * work.doubt(found.best),
+                if found.searched { "nothing better was expected" } else { "a better one was still expected" }
+            ));
+        } else if !found.searched {
             say(format!(
                 "half of the {} runs were spent while a better one was still expected: a larger `design.runs` may find it",
                 wanted.runs

@@ -1,7 +1,8 @@
 //! Ranges of keys: from a place between 0 and 1 along each to the values of a run.
 
 use crate::study::cases::{Case, name};
-use tsubu_scene::plan::Calibrate;
+use std::collections::BTreeMap;
+use tsubu_scene::range::{ends, number, value};
 
 /// Ends farther apart than this factor count by their logarithm.
 const DECADE: f64 = 10.0;
@@ -23,24 +24,26 @@ pub(super) struct Range {
 }
 
 impl Range {
-    /// All ranges of a calibration; in words why one is none.
-    pub fn all(wanted: &Calibrate) -> Result<Vec<Self>, String> {
-        wanted.vary.iter().map(|(key, ends)| Self::new(key, ends)).collect()
+    /// All ranges of a study; in words why one is none.
+    pub fn all(study: &str, vary: &BTreeMap<String, Vec<toml::Value>>) -> Result<Vec<Self>, String> {
+        vary.iter().map(|(key, ends)| Self::new(study, key, ends)).collect()
     }
 
-    fn new(key: &str, ends: &[toml::Value]) -> Result<Self, String> {
+    /// From two values, or from `[{ from, to }]`.
+    pub fn new(study: &str, key: &str, values: &[toml::Value]) -> Result<Self, String> {
+        let ends = ends(values).map_or_else(|| values.to_vec(), Vec::from);
         let example = "for example [0.2, 0.8] or [\"1 mm\", \"3 mm\"]";
         let numbers: Option<Vec<(f64, &str)>> = ends.iter().map(number).collect();
         let Some([(low, unit), (high, other)]) = numbers.as_deref() else {
-            return Err(format!("`calibrate.vary` needs two numbers for `{key}`, {example}"));
+            return Err(format!("`{study}.vary` needs two numbers for `{key}`, {example}"));
         };
         if unit != other {
             return Err(format!(
-                "`calibrate.vary` has two units for `{key}`, `{unit}` and `{other}`: write both ends in one"
+                "`{study}.vary` has two units for `{key}`, `{unit}` and `{other}`: write both ends in one"
             ));
         }
         if low >= high || !(high - low).is_finite() {
-            return Err(format!("`calibrate.vary` has no range for `{key}`: {low} is not less than {high}"));
+            return Err(format!("`{study}.vary` has no range for `{key}`: {low} is not less than {high}"));
         }
         let whole = ends.iter().all(toml::Value::is_integer);
         let logarithmic = *low > 0.0 && high / low >= DECADE;
@@ -66,13 +69,11 @@ impl Range {
         }
     }
 
-    fn typed(&self, place: f64) -> toml::Value {
-        let value = self.value(place);
-        if self.whole {
-            return toml::Value::Integer(value as i64);
-        }
-        let value: f64 = format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value);
-        if self.unit.is_empty() { value.into() } else { format!("{value} {}", self.unit).into() }
+    /// The same as it is typed.
+    pub fn typed(&self, place: f64) -> toml::Value {
+        let size = self.value(place);
+        let few = if self.whole { size } else { format!("{size:.*e}", DIGITS - 1).parse().unwrap_or(size) };
+        value(few, &self.unit, self.whole)
     }
 
     /// The case at a place, and the place that its values have, which are written with a few digits.
@@ -85,33 +86,20 @@ impl Range {
     }
 }
 
-/// A number, and what stands behind it.
-fn number(value: &toml::Value) -> Option<(f64, &str)> {
-    match value {
-        toml::Value::Integer(x) => Some((*x as f64, "")),
-        toml::Value::Float(x) => Some((*x, "")),
-        toml::Value::String(text) => {
-            let text = text.trim();
-            let end =
-                (1..=text.len()).rev().find(|end| text.get(..*end).is_some_and(|part| part.parse::<f64>().is_ok()))?;
-            Some((text[..end].parse().ok()?, text[end..].trim()))
-        }
-        _ => None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_place_has_a_value_and_back() {
-        let stiff = Range::new("a.stiffness", &["1 MPa".into(), "1e3 MPa".into()]).expect("a range");
+        let stiff = Range::new("calibrate", "a.stiffness", &["1 MPa".into(), "1e3 MPa".into()]).expect("a range");
         assert!((stiff.value(1.0 / 3.0) - 10.0).abs() < 1e-9, "equal steps are equal factors");
-        let count = Range::new("a.count", &[1.into(), 5.into()]).expect("a range");
+        let count = Range::new("calibrate", "a.count", &[1.into(), 5.into()]).expect("a range");
         let (case, place) = Range::case(&[stiff, count], &[0.123_456_789, 0.6]);
         assert_eq!(case.values[1].1, 3.into());
         assert_eq!(place[1], 0.5);
+        let table: toml::Table = "from = 1\nto = 5".parse().expect("a table");
+        assert_eq!(Range::new("design", "a.count", &[table.into()]).map(|range| range.typed(0.6)), Ok(3.into()));
         assert!((place[0] - 0.123_456_789).abs() < 1e-5 && case.name.ends_with("MPa, count = 3"), "{}", case.name);
     }
 
@@ -123,7 +111,7 @@ mod tests {
             ([true.into(), false.into()], "two numbers"),
             (["steel".into(), "glass".into()], "two numbers"),
         ] {
-            let told = Range::new("key", &ends).expect_err("no range");
+            let told = Range::new("calibrate", "key", &ends).expect_err("no range");
             assert!(told.contains(said), "{told}");
         }
     }
