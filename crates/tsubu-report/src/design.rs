@@ -17,6 +17,7 @@ struct Candidates {
     rms: Vec<f64>,
     low: Vec<f64>,
     high: Vec<f64>,
+    cheap: Vec<f64>,
     ratio: Vec<f64>,
     expected: [Vec<f64>; 3],
 }
@@ -33,6 +34,7 @@ impl Candidates {
             rms: column("rms displacement"),
             low: column("rms low"),
             high: column("rms high"),
+            cheap: column("cheap rms"),
             ratio: column("peak frequency ratio"),
             expected: ["expected rms", "expected low", "expected high"].map(column),
         }
@@ -78,6 +80,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     let curves = before_and_after(source);
     let tried = tried(source, &candidates);
     let course = course(source, &candidates);
+    let cheap = cheap(source, &candidates);
     let steps = if source.has("steps.csv") { source.table("steps.csv") } else { None };
     let mut remarks = source.note_blocks();
     remarks.extend(summary.iter().flat_map(|s| &s.warnings).map(|text| Block::Note(Tone::Warning, text.clone())));
@@ -86,6 +89,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     report.section("One step from the best", steps.iter().map(shown).collect());
     report.section("What was tried", tried);
     report.section("How the search went", course);
+    report.section("What the cheap method told", cheap);
     report.section("Candidates", vec![folded("All that were measured", vec![shown(&table)])]);
     if let Some(summary) = &summary {
         if !summary.claims.is_empty() {
@@ -195,4 +199,23 @@ fn course(source: &mut Source, candidates: &Candidates) -> Vec<Block> {
     let caption = "What was measured of each candidate, and what the Gaussian process had expected of it before, with its 95 % band. \
                    Where nothing better was expected, neighbours of the lowest were measured, then what was farthest from all others.";
     source.figure("course", &figure, caption).into_iter().collect()
+}
+
+/// What a cheap method gave beside what the scene's own did.
+fn cheap(source: &mut Source, candidates: &Candidates) -> Vec<Block> {
+    let both: Vec<(f64, f64)> =
+        candidates.cheap.iter().copied().zip(candidates.rms.iter().copied()).filter(|two| two.0.is_finite()).collect();
+    if both.is_empty() {
+        return Vec::new();
+    }
+    let ends = both.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), two| (low.min(two.0), high.max(two.0)));
+    let figure = Figure::new(
+        "",
+        Axis::new("rms displacement by the cheap method", "m"),
+        Axis::new("rms displacement by the scene's own", "m"),
+    )
+    .with(Series::line("equal", vec![(ends.0, ends.0), (ends.1, ends.1)]))
+    .with(Series::line("candidates", both).styled(Style::Points));
+    let caption = "Candidates that were measured both ways. What decides is how well the cheap method orders them, not whether it gives the same numbers.";
+    source.figure("cheap", &figure, caption).into_iter().collect()
 }

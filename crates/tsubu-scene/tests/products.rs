@@ -147,6 +147,7 @@ cost-limit = 12
 cost = { a = { per-kilogram = 3.5 }, "b c" = { per-grain = 0.02 } }
 runs = 300
 within = 0.02
+cheap = "lattice"
 until = 0.05
 seeds = 4
 vary = { "contact.attraction" = [false, true], "materials.a.friction" = { from = 0.1, to = 0.5 } }

@@ -132,14 +132,16 @@ fn a_design_ends_where_it_knows_enough() {
         table.numbers("seeds").unwrap().into_iter().fold(0.0, f64::max)
     };
     let (wide, wide_table) = ended("wide", "0.1", 2000);
-    let (narrow, narrow_table) = ended("narrow", "0.01", 2000);
-    for (summary, until) in [(&wide, 0.1), (&narrow, 0.01)] {
+    let (narrow, narrow_table) = ended("narrow", "0.001", 2000);
+    for (summary, until) in [(&wide, 0.1), (&narrow, 0.001)] {
         assert_eq!(number(summary, "ended by until"), 1.0, "{:?}", summary.warnings);
         assert!(number(summary, "half the interval over the best") <= until);
         assert!(number(summary, "gain expected of others") < until);
         assert!(number(summary, "runs") < 1500.0, "{}", number(summary, "runs"));
     }
-    assert!(number(&wide, "runs") < number(&narrow, "runs"));
+    let runs = [&wide, &narrow].map(|summary| number(summary, "runs"));
+    let doubts = [&wide, &narrow].map(|summary| number(summary, "half the interval over the best"));
+    assert!(runs[0] < runs[1], "{runs:?} {doubts:?}");
     assert!(seeds(&wide_table) < seeds(&narrow_table), "{wide_table}{narrow_table}");
     let (never, _) = ended("never", "0.0001", 60);
     assert_eq!(number(&never, "ended by until"), 0.0);
@@ -230,11 +232,46 @@ fn limits_of_space_and_cost_leave_out_what_is_beyond_them() {
     assert!(space.iter().any(|space| (space / 21.6e-6 - 1.0).abs() < 1e-9) && cost.contains(&10.0), "{candidates}");
     let endless = refused(&[
         "design.space-limit=\"1 L\"",
-        "walls.box.shape.cylinder={ point = [0, 0], radius = \"50 mm\" }",
-        "particles.balls.start.rows={ region.cylinder = { point = [0, 0], radius = \"40 mm\" } }",
+        "walls.box.shape.plane={ point = [0, 0], normal = [0, 1] }",
+        "particles.balls.start.rows={ region = { low = [0, 0], high = [0.02, 0.1] } }",
         "design.vary={ \"particles.balls.count\" = [5, 10] }",
     ]);
-    assert!(endless.contains("along y nothing ends the walls of the host `spring`"), "{endless}");
+    assert!(endless.contains("along x nothing ends the walls of the host `spring`"), "{endless}");
+}
+
+/// Without balls the automaton and DEM are the same oscillator: they agree to the error of the few runs, the factor between them is 1, and so many
+/// candidates as the cheap one has measured cost next to nothing or more as computing time says. Control: the two differ where the answers do, by
+/// a factor of two in the damping. Where the automaton cannot run the scene, or is its method, an error says so.
+#[test]
+fn a_cheap_method_is_held_against_the_own() {
+    let vary =
+        "design.vary={ \"hosts.spring.structure.oscillator.damping\" = { from = 0.08, to = 0.32, step = 0.02 } }";
+    let empty = ["method=dem", "particles.balls.count=0", "design.cheap=lattice", "design.runs=40", vary];
+    let desk = tempfile::tempdir().unwrap();
+    let (summary, candidates) = into_folder(&scene(&empty), &desk.path().join("design"), usize::MAX);
+    assert_eq!(number(&summary, "candidates measured cheaply"), 13.0);
+    for name in ["cheap: mean difference of logarithms", "cheap: deviation of the difference"] {
+        assert!(number(&summary, name).abs() < 0.01, "{name}: {}", number(&summary, name));
+    }
+    assert!(number(&summary, "cheap: correlation") > 0.999);
+    assert!((number(&summary, "cheap: factor") - 1.0).abs() < 0.11, "{}", number(&summary, "cheap: factor"));
+    let table = Table::parse(&candidates).unwrap();
+    let [own, cheap] = ["rms displacement", "cheap rms"].map(|name| table.numbers(name).unwrap());
+    let both: Vec<(f64, f64)> = own.into_iter().zip(cheap).filter(|two| two.1.is_finite()).collect();
+    assert!(both.len() >= 5 && both.iter().all(|(own, cheap)| (own / cheap - 1.0).abs() < 0.02), "{both:?}");
+    assert!((both[0].0 / both[1].1 - 1.0).abs() > 0.1, "{both:?}");
+    for (changes, said) in [
+        (
+            vec!["method=dem", "dimension=3", "design.cheap=lattice"],
+            "`design.cheap` = \"lattice\" cannot run this scene",
+        ),
+        (vec!["design.cheap=lattice"], "is the method of the scene itself"),
+    ] {
+        match best(&scene(&changes)) {
+            Err(CasesError::Scene(told)) => assert!(told.contains(said), "{told}"),
+            other => panic!("{:?}", other.map(|found| found.map(|(name, _)| name))),
+        }
+    }
 }
 
 mod patient {

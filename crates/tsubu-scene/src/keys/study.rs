@@ -111,6 +111,8 @@ static COST: &[Key] = &[
         .at_least(0.0),
 ];
 
+static CHEAP: &[Word] = &[Word { name: "lattice", about: "The automaton" }];
+
 pub(super) static DESIGN: &[Key] = &[
     Key::new(
         "vary",
@@ -149,6 +151,12 @@ pub(super) static DESIGN: &[Key] = &[
     .default("200")
     .at_least(20.0)
     .at_most(1e6),
+    Key::new(
+        "cheap",
+        Kind::OneOf(CHEAP),
+        "A method that is run for many candidates first, to tell where the scene's own is worth its time; its runs count by theirs",
+    )
+    .optional(),
     Key::new(
         "within",
         Kind::Quantity(&NUMBER),

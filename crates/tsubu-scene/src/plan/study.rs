@@ -147,6 +147,8 @@ pub struct Design {
     pub cost: BTreeMap<String, Cost>,
     /// Runs at one frequency each, at most.
     pub runs: u32,
+    /// The method that tells where the scene's own is worth its time.
+    pub cheap: Option<super::Method>,
     /// Expected gains below this share do not count: the search looks where nothing was measured instead [-].
     pub within: f64,
     /// It ends where nothing is expected to be better by this share and the best is known as well [-]; `None`: by `runs` alone.

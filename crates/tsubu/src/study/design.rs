@@ -6,7 +6,9 @@
 
 mod answer;
 mod candidates;
+mod cheap;
 mod continuous;
+mod known;
 mod limits;
 mod search;
 mod space;
@@ -19,13 +21,17 @@ use super::cases::CasesError;
 use super::journal::{self, Exact, Journal};
 use super::response::{Point, tasks};
 use crate::interrupt::{Interrupt, Watcher};
+use crate::methods;
+use crate::partner::Hosts;
+use crate::trial::unsettled;
 use candidates::{Candidates, MOST};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
 use tsubu_frame::{FileError, Status, Summary};
-use tsubu_scene::{Plan, Scene, plan};
+use tsubu_scene::plan::{self, Method};
+use tsubu_scene::{Plan, Scene};
 use work::Work;
 
 /// What a design writes beside what every study writes.
@@ -41,6 +47,16 @@ struct Key {
     seed: u32,
     /// Of a point of a curve, its frequency over the natural frequency.
     ratio: Option<Exact>,
+    /// Whether it is measured by the cheap method.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    cheap: bool,
+}
+
+impl Key {
+    /// The bed it begins from.
+    fn bed(&self) -> Self {
+        Self { ratio: None, ..*self }
+    }
 }
 
 /// What came of it.
@@ -63,6 +79,14 @@ impl Measured {
         match self {
             Self::Answer(answer) => answer.stroke,
             Self::Point(point) => point.peak,
+        }
+    }
+
+    /// Computing time of a run in the mean [s].
+    fn wall_of_run(&self) -> f64 {
+        match self {
+            Self::Answer(answer) => answer.wall / f64::from(answer.runs.max(1)),
+            Self::Point(point) => point.wall,
         }
     }
 
@@ -94,7 +118,7 @@ pub fn design(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) 
     let before = earlier.as_ref().and_then(|_| Summary::read(&folder.join("summary.json")).ok());
     let before = before.map_or(0.0, |summary| summary.wall_seconds);
     // A scene that its method refuses leaves nothing behind.
-    crate::methods::open(&crate::trial::unsettled(scene.plan()), &crate::partner::Hosts::new(&scene.plan().hosts))?;
+    methods::open(&unsettled(scene.plan()), &Hosts::new(&scene.plan().hosts))?;
     let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite, &FILES)?;
     let journal = Journal::append(&folder)?;
     let record = |key: &Key, measured: &Measured| journal.record(key, measured);
@@ -160,21 +184,54 @@ impl<'a> Task<'a> {
         if candidates.list.is_empty() {
             return Err(CasesError::Scene(candidates.none(number)));
         }
-        Ok(Self { wanted, reference, candidates, scene })
+        let task = Self { wanted, reference, candidates, scene };
+        task.check_cheap()?;
+        Ok(task)
+    }
+
+    /// The cheap method is another one than the scene's, and can run the scene.
+    fn check_cheap(&self) -> Result<(), CasesError> {
+        let Some(method) = self.wanted.cheap else { return Ok(()) };
+        let name = method.name();
+        if self.scene.plan().method == method {
+            return Err(CasesError::Scene(format!(
+                "`design.cheap` = \"{name}\" is the method of the scene itself: leave it out, or set `method = \"dem\"`"
+            )));
+        }
+        let plan = self.cheap_plan(self.as_written(), method);
+        match methods::open(&unsettled(&plan), &Hosts::new(&plan.hosts)) {
+            Ok(_) => Ok(()),
+            Err(error) => Err(CasesError::Scene(format!(
+                "`design.cheap` = \"{name}\" cannot run this scene, and tells nothing of it: {}; leave it out",
+                error.to_string().trim_end()
+            ))),
+        }
     }
 
     fn plan(&self, candidate: usize) -> &Plan {
         self.candidates.list.get(candidate).map_or_else(|| self.scene.plan(), |one| &one.plan)
     }
 
-    /// A candidate with its drive as strong as a level says.
-    fn driven(&self, candidate: usize, level: usize) -> Plan {
-        let mut plan = self.plan(candidate).clone();
+    /// A candidate by the cheap method; as it is where that does not read it, which the method is then told.
+    fn cheap_plan(&self, candidate: usize, method: Method) -> Plan {
+        let method = toml::Value::from(method.name());
+        let values = self.candidates.list.get(candidate).map_or(&[][..], |one| &one.case.values);
+        let changes = values.iter().map(|(key, value)| (key.as_str(), value)).chain([("method", &method)]);
+        let scene = self.scene.with(&changes.collect::<Vec<_>>());
+        scene.map_or_else(|_| self.plan(candidate).clone(), |scene| scene.plan().clone())
+    }
+
+    /// The plan that a key is measured with, its drive as strong as the level says.
+    fn driven(&self, key: &Key) -> Plan {
+        let mut plan = match self.wanted.cheap {
+            Some(method) if key.cheap => self.cheap_plan(key.candidate, method),
+            _ => self.plan(key.candidate).clone(),
+        };
         let host = plan.response.as_ref().and_then(|response| plan.hosts.get_mut(&response.host));
         let signals = host.into_iter().flat_map(|host| [&mut host.base, &mut host.force]);
         for signal in signals.flatten() {
             if let plan::Signal::Sine { amplitude, .. } = signal {
-                *amplitude *= self.wanted.levels[level];
+                *amplitude *= self.wanted.levels[key.level];
             }
         }
         plan

@@ -5,6 +5,7 @@ pub mod calibrate;
 pub mod cases;
 pub mod compare;
 pub mod design;
+pub mod fidelity;
 mod journal;
 pub mod predict;
 mod ranges;

@@ -78,7 +78,7 @@ impl Surrogate {
     }
 
     /// Logarithm of the likelihood, but for a constant.
-    fn likelihood(&self) -> f64 {
+    pub(super) fn likelihood(&self) -> f64 {
         let determinant: f64 = self.factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum();
         -0.5 * self.places.len() as f64 * self.variance.ln() - determinant
     }

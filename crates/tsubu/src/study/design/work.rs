@@ -1,12 +1,11 @@
 //! The work of a design: search, confirm, draw.
 
 use super::answer::answer;
-use super::search::{self, Round};
-use super::{Done, Key, Measured, Record, Standing, Task};
+use super::search::{self, Guess, Round};
+use super::{Done, Key, Measured, Record, Task};
 use crate::engine::OpenError;
 use crate::interrupt::{Interrupt, Watcher};
 use crate::run::RunError;
-use crate::student::interval_of_mean;
 use crate::study::cases::CasesError;
 use crate::study::journal::Exact;
 use crate::study::response::{measure, refine, tasks};
@@ -41,13 +40,27 @@ pub(super) struct Work<'a> {
     watcher: &'a Watcher<'a>,
     pub done: Done,
     pub failures: BTreeMap<usize, RunError>,
+    /// What was measured by the cheap method.
+    pub cheaply: Done,
+    /// Logarithm of what that is expected to give, with its deviation, candidate by candidate; empty before it is known.
+    pub cheap: Vec<[f64; 2]>,
     /// What the surrogate had expected of a candidate before it was measured, in the order of the search: logarithm and deviation.
     pub expected: Vec<(usize, Option<[f64; 2]>)>,
 }
 
 impl<'a> Work<'a> {
     pub fn new(task: &'a Task<'a>, known: Done, record: Record<'a>, watcher: &'a Watcher<'a>) -> Self {
-        Self { task, known, record, watcher, done: Done::new(), failures: BTreeMap::new(), expected: Vec::new() }
+        Self {
+            task,
+            known,
+            record,
+            watcher,
+            done: Done::new(),
+            failures: BTreeMap::new(),
+            cheaply: Done::new(),
+            cheap: Vec::new(),
+            expected: Vec::new(),
+        }
     }
 
     /// Searches, confirms, and draws the curves; nothing where it was interrupted or no candidate can be.
@@ -95,11 +108,15 @@ impl<'a> Work<'a> {
             if wanted.is_empty() {
                 return Ok(Some(all || !round.better));
             }
-            let surrogate = search::fit(&task.candidates, &self.values());
-            let place = |index: &usize| &task.candidates.list[*index].place;
-            self.expected.extend(wanted.iter().map(|one| (*one, surrogate.as_ref().map(|fit| fit.at(place(one))))));
+            let guess = Guess::fit(&task.candidates, &self.values(), &self.cheap);
+            let expected: Vec<_> =
+                wanted.iter().map(|one| (*one, guess.as_ref().map(|guess| guess.at(*one)))).collect();
+            self.expected.extend(expected);
             let keys = wanted.iter().flat_map(|index| self.answers(*index, 1)).collect();
             if !self.measure(keys)? {
+                return Ok(None);
+            }
+            if task.wanted.cheap.is_some() && self.cheap.is_empty() && !self.look_cheaply()? {
                 return Ok(None);
             }
             round = self.next();
@@ -109,14 +126,8 @@ impl<'a> Work<'a> {
     /// What would be measured next.
     fn next(&self) -> Round {
         let wanted = &self.task.wanted;
-        search::next(&self.task.candidates, &self.values(), &self.closed(), wanted.until.unwrap_or(wanted.within))
-    }
-
-    /// Candidates that were measured, or tried in vain.
-    pub fn closed(&self) -> Vec<usize> {
-        let tried = self.expected.iter().map(|one| one.0).chain(self.failures.keys().copied());
-        let all: BTreeSet<usize> = self.done.keys().map(|key| key.candidate).chain(tried).collect();
-        all.into_iter().filter(|index| *index < self.task.as_written()).collect()
+        let within = wanted.until.unwrap_or(wanted.within);
+        search::next(&self.task.candidates, &self.values(), &self.cheap, &self.closed(), within)
     }
 
     /// Candidates that this share of the runs still allows.
@@ -128,12 +139,6 @@ impl<'a> Work<'a> {
     fn seeds(&self, candidate: usize) -> u32 {
         let seeds = self.done.keys().filter(|key| key.candidate == candidate).map(|key| key.seed + 1);
         seeds.max().unwrap_or(0)
-    }
-
-    /// Half of a candidate's 95 % interval over its mean; 0 where all seeds give the same.
-    pub fn doubt(&self, candidate: usize) -> f64 {
-        let Some(standing) = self.standing(candidate) else { return f64::INFINITY };
-        standing.interval.map_or(0.0, |[low, high]| 0.5 * (high - low) / standing.rms)
     }
 
     /// Measures the best, its neighbours, and the lowest with all seeds, until it stays the best or the runs are spent; and the scene as it
@@ -218,7 +223,7 @@ impl<'a> Work<'a> {
 
     /// What is still missing of a curve: the frequencies that are asked for, then those where it bends.
     fn curve(&self, candidate: usize, level: usize, seed: u32) -> Vec<Key> {
-        let key = |ratio| Key { candidate, level, seed, ratio: Some(Exact(ratio)) };
+        let key = |ratio| Key { candidate, level, seed, ratio: Some(Exact(ratio)), cheap: false };
         let Some(response) = &self.task.plan(candidate).response else { return Vec::new() };
         if self.failures.contains_key(&candidate) {
             return Vec::new();
@@ -239,12 +244,14 @@ impl<'a> Work<'a> {
 
     fn answers(&self, candidate: usize, seeds: u32) -> impl Iterator<Item = Key> + use<> {
         let levels = self.task.wanted.levels.len();
-        (0..seeds).flat_map(move |seed| (0..levels).map(move |level| Key { candidate, level, seed, ratio: None }))
+        (0..seeds).flat_map(move |seed| {
+            (0..levels).map(move |level| Key { candidate, level, seed, ratio: None, cheap: false })
+        })
     }
 
-    /// Runs that were spent.
+    /// Runs that were spent, those of the cheap method by their computing time.
     pub fn runs(&self) -> u32 {
-        self.done.values().map(Measured::runs).sum()
+        self.done.values().map(Measured::runs).sum::<u32>() + self.cheap_cost().ceil() as u32
     }
 
     /// What a candidate takes with one seed, at all levels.
@@ -259,90 +266,22 @@ impl<'a> Work<'a> {
         one * self.task.wanted.levels.len() as f64
     }
 
-    /// What is known of a candidate.
-    pub fn standing(&self, candidate: usize) -> Option<Standing> {
+    /// The settled beds of these, each once: all points of a curve begin from one. A candidate whose grains do not settle is out; one that the cheap
+    /// method cannot begin with is not measured by it.
+    fn beds(&mut self, keys: &[Key]) -> Result<BTreeMap<Key, State>, CasesError> {
         let task = self.task;
-        // The highest of each seed and level, with where it is: of an answer, or of a whole curve.
-        let mut tops: BTreeMap<(u32, usize), (f64, f64)> = BTreeMap::new();
-        let (mut stroke, mut runs, mut found) = (0.0_f64, 0, true);
-        for (key, measured) in self.done.iter().filter(|(key, _)| key.candidate == candidate) {
-            (stroke, runs) = (stroke.max(measured.stroke()), runs + measured.runs());
-            let ratio = match (measured, key.ratio) {
-                (Measured::Answer(answer), _) => answer.ratio,
-                (Measured::Point(_), Some(ratio)) if task.wanted.goal == Goal::Peak => ratio.0,
-                (Measured::Point(_), _) => continue,
-            };
-            found &= if let Measured::Answer(answer) = measured { answer.found } else { true };
-            let rms = measured.rms() / task.wanted.levels[key.level];
-            let top = tops.entry((key.seed, key.level)).or_insert((rms, ratio));
-            if rms > top.0 {
-                *top = (rms, ratio);
-            }
-        }
-        let mut seeds: BTreeMap<u32, f64> = BTreeMap::new();
-        for ((seed, _), (rms, _)) in &tops {
-            let worst = seeds.entry(*seed).or_insert(0.0);
-            *worst = worst.max(*rms);
-        }
-        let ratio = tops.values().map(|top| top.1).sum::<f64>() / tops.len() as f64;
-        let each: Vec<f64> = seeds.into_values().collect();
-        let rms = each.iter().sum::<f64>() / each.len() as f64;
-        // Beds that are the same bit for bit are one bed.
-        let differ = each.windows(2).any(|two| two[0] != two[1]);
-        let interval = differ.then(|| interval_of_mean(&each));
-        (!each.is_empty()).then_some(Standing { rms, interval, stroke, ratio, seeds: each.len(), runs, found })
-    }
-
-    /// All candidates that are measured, with what is to be low.
-    pub fn values(&self) -> Vec<(usize, f64)> {
-        let measured: BTreeSet<usize> = self.done.keys().map(|key| key.candidate).collect();
-        let candidates = measured.into_iter().filter(|index| *index < self.task.as_written());
-        candidates
-            .filter(|index| !self.failures.contains_key(index))
-            .filter_map(|index| Some((index, self.standing(index)?.rms)))
-            .collect()
-    }
-
-    /// Whether a candidate keeps within what its host may move.
-    pub fn fits(&self, standing: &Standing) -> bool {
-        self.task.wanted.stroke_limit.is_none_or(|limit| standing.stroke <= limit)
-    }
-
-    /// The lowest that was measured within the limits.
-    fn lowest(&self) -> Option<usize> {
-        let fits = |index: usize| self.standing(index).is_some_and(|standing| self.fits(&standing));
-        let values = self.values().into_iter().filter(|(index, _)| fits(*index));
-        values.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
-    }
-
-    /// The best of those within the limits: by its seeds where it is confirmed, by the surrogate where it is not.
-    fn best(&self) -> Option<usize> {
-        let task = self.task;
-        let values = self.values();
-        let surrogate = search::fit(&task.candidates, &values);
-        let likely = |(index, value): &(usize, f64)| {
-            let standing = self.standing(*index)?;
-            let confirmed = standing.seeds >= task.wanted.seeds as usize;
-            let guess = surrogate.as_ref().map(|fit| fit.at(&task.candidates.list[*index].place)[0].exp());
-            let value = if confirmed { *value } else { guess.unwrap_or(*value) };
-            self.fits(&standing).then_some((*index, value))
-        };
-        values.iter().filter_map(likely).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
-    }
-
-    /// The settled beds of these, each once: all points of a curve begin from one. A candidate whose grains do not settle is out.
-    fn beds(&mut self, keys: &[Key]) -> Result<BTreeMap<(usize, usize, u32), State>, CasesError> {
-        let task = self.task;
-        let wanted: BTreeSet<_> = keys.iter().map(|key| (key.candidate, key.level, key.seed)).collect();
-        let settle =
-            |(candidate, level, seed)| ((candidate, level, seed), tasks::bed(&task.driven(candidate, level), seed));
-        let settled: Vec<_> = wanted.into_par_iter().map(settle).collect();
+        let wanted: BTreeSet<Key> = keys.iter().map(Key::bed).collect();
+        let settled: Vec<_> =
+            wanted.into_par_iter().map(|key| (key, tasks::bed(&task.driven(&key), key.seed))).collect();
         let mut beds = BTreeMap::new();
-        for (place, bed) in settled {
+        for (key, bed) in settled {
             match bed {
-                Ok(bed) => drop(beds.insert(place, bed)),
-                Err(error @ OpenError::Settling(_)) => drop(self.failures.entry(place.0).or_insert(error.into())),
-                Err(error) => return Err(CasesError::Run { case: task.name(place.0), error: error.into() }),
+                Ok(bed) => drop(beds.insert(key, bed)),
+                Err(_) if key.cheap => {}
+                Err(error @ OpenError::Settling(_)) => {
+                    self.failures.entry(key.candidate).or_insert(error.into());
+                }
+                Err(error) => return Err(CasesError::Run { case: task.name(key.candidate), error: error.into() }),
             }
         }
         Ok(beds)
@@ -350,24 +289,25 @@ impl<'a> Work<'a> {
 
     /// Measures all of these, side by side, but for what is known; says whether it came to the end. A candidate with a run that fails is
     /// out; the others go on.
-    fn measure(&mut self, keys: Vec<Key>) -> Result<bool, CasesError> {
+    pub(super) fn measure(&mut self, keys: Vec<Key>) -> Result<bool, CasesError> {
         let new: Vec<Key> = keys.iter().filter(|key| !self.known.contains_key(key)).copied().collect();
         for key in keys {
             if let Some(measured) = self.known.get(&key) {
-                self.done.insert(key, measured.clone());
+                self.keep(key, measured.clone());
             }
         }
         let (task, watcher, record) = (self.task, self.watcher, self.record);
         let counter = AtomicU32::new(self.runs());
         let beds = self.beds(&new)?;
         let run = |key: &Key| -> Result<Option<Ran>, CasesError> {
-            let bed = beds.get(&(key.candidate, key.level, key.seed));
+            let bed = beds.get(&key.bed());
             let Some(bed) = bed.filter(|_| !watcher.interrupt.asked()) else { return Ok(None) };
             match one(task, key, bed, watcher.interrupt) {
                 Ok(None) => Ok(None),
                 Ok(Some(measured)) => {
                     record(key, &measured)?;
-                    let done = counter.fetch_add(measured.runs(), Ordering::Relaxed) + measured.runs();
+                    let runs = if key.cheap { 0 } else { measured.runs() };
+                    let done = counter.fetch_add(runs, Ordering::Relaxed) + runs;
                     (watcher.progress)((f64::from(done) / f64::from(task.wanted.runs)).min(1.0));
                     Ok(Some((*key, Ok(measured))))
                 }
@@ -378,16 +318,22 @@ impl<'a> Work<'a> {
         let ran: Result<Vec<_>, CasesError> = new.par_iter().map(run).collect();
         for (key, came) in ran?.into_iter().flatten() {
             match came {
-                Ok(measured) => drop(self.done.insert(key, measured)),
+                Ok(measured) => self.keep(key, measured),
+                Err(_) if key.cheap => {}
                 Err(error) => drop(self.failures.entry(key.candidate).or_insert(error)),
             }
         }
         Ok(!watcher.interrupt.asked())
     }
+
+    fn keep(&mut self, key: Key, measured: Measured) {
+        let done = if key.cheap { &mut self.cheaply } else { &mut self.done };
+        done.insert(key, measured);
+    }
 }
 
 fn one(task: &Task<'_>, key: &Key, bed: &State, interrupt: &Interrupt) -> Result<Option<Measured>, RunError> {
-    let plan = task.driven(key.candidate, key.level);
+    let plan = task.driven(key);
     let Some(ratio) = key.ratio else {
         let found = answer(&plan, task.wanted.goal, task.reference, key.seed, bed, interrupt)?;
         return Ok(found.map(Measured::Answer));

@@ -30,6 +30,15 @@ pub(super) fn write(
     summary.give("candidates measured", "-", measured.len() as f64);
     let farthest = task.candidates.farthest(&measured).map_or(0.0, |(_, distance)| distance);
     summary.give("distance of the farthest from those", "-", farthest);
+    if let Some(two) = work.differences().filter(|_| task.wanted.cheap.is_some()) {
+        summary.give("candidates measured cheaply", "-", work.cheap_values() as f64);
+        summary.give("cost of these in runs", "-", work.cheap_cost());
+        summary.give("candidates measured both ways", "-", two.number as f64);
+        summary.give("cheap: mean difference of logarithms", "-", two.mean);
+        summary.give("cheap: deviation of the difference", "-", two.deviation);
+        summary.give("cheap: correlation", "-", two.correlation);
+        summary.give("cheap: factor", "-", two.factor);
+    }
     if let Some(found) = found {
         folder.write("steps.csv", steps(work, found.best).to_csv().as_bytes())?;
         folder.write("curves.csv", curves(work, found.best).to_csv().as_bytes())?;
@@ -39,7 +48,7 @@ pub(super) fn write(
         summary.particles = task.plan(found.best).grains() as u64;
         summary.give("mass of the grains", "kg", task.plan(found.best).grain_mass());
         tell(work, found, &mut summary);
-        let gain = search::gain(&task.candidates, &work.values(), &work.closed());
+        let gain = search::gain(&task.candidates, &work.values(), &work.cheap, &work.closed());
         summary.give("gain expected of others", "-", gain);
         summary.give("half the interval over the best", "-", work.doubt(found.best));
         if task.wanted.until.is_some() {
@@ -176,6 +185,7 @@ fn candidates(work: &Work<'_>, best: Option<usize>) -> Table {
         "peak frequency ratio [-]",
         "seeds [-]",
         "runs [-]",
+        "cheap rms [m]",
         "expected rms [m]",
         "expected low [m]",
         "expected high [m]",
@@ -212,6 +222,7 @@ fn candidates(work: &Work<'_>, best: Option<usize>) -> Table {
         row.extend(
             [standing.stroke, standing.ratio, standing.seeds as f64, f64::from(standing.runs)].map(Cell::Number),
         );
+        row.push(Cell::Number(work.cheap_value(index).unwrap_or(f64::NAN)));
         row.extend([0.0, -1.96, 1.96].map(|wide| Cell::Number((mean + wide * deviation).exp())));
         row.extend([word, if front.contains(&index) { "yes" } else { "no" }].map(|text| Cell::Text(text.to_owned())));
         table.push(row);
