@@ -19,7 +19,7 @@ mod world;
 use crate::attach;
 use crate::complaint::Complaint;
 use crate::files::Files;
-use crate::node::{Entry, Node};
+use crate::node::{Entry, Node, Table};
 use crate::plan::{Claim, Host, MaterialPair, Particles, Periodic, Signal, Wall};
 use crate::range;
 use crate::study;
@@ -169,7 +169,8 @@ fn claims(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
 fn ranges(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
     for family in study::STUDIES.into_iter().filter(|family| !study::CONTINUOUS.contains(family)) {
         let varied = parts.root.find(&[family, "vary"]).and_then(Node::table);
-        let table = |entry: &&Entry| entry.node.table().is_some_and(|range| range.entry("step").is_none());
+        let open = |range: &Table| range.entry("from").is_some() && range.entry("step").is_none();
+        let table = |entry: &&Entry| entry.node.table().is_some_and(open);
         for entry in varied.into_iter().flat_map(|varied| &varied.entries).filter(table) {
             complaints.push(
                 Complaint::new(format!("the range of `{}` has no `step`", entry.key))

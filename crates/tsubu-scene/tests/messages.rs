@@ -166,6 +166,32 @@ fn varied_values_that_the_scene_does_not_take() {
 }
 
 #[test]
+fn ranges_that_are_none() {
+    let sweep = r#"
+[sweep.vary]
+"particles.balls.count" = { from = 10, to = 30 }
+"particles.balls.diameter" = { from = "5 mm", to = "1 cm", step = "1 mm" }
+"materials.acrylic.friction" = { from = 0.5, to = 0.1, step = 0.1 }
+"#;
+    insta::assert_snapshot!(complaint(&format!("{GOOD}{sweep}"), &[]));
+}
+
+#[test]
+fn a_design_needs_what_its_limits_count() {
+    let design = r#"
+[response]
+frequency-ratio = { from = 0.9, to = 1.1 }
+[design]
+space-limit = "0.5 kg"
+cost-limit = 12
+cost = { steel = { per-kilogram = 3 } }
+vary = { "particles.balls.count" = { from = 10, to = 20, step = 5 } }
+"#;
+    insta::assert_snapshot!(complaint(&format!("{GOOD}{design}"), &[]));
+    insta::assert_snapshot!(complaint(&format!("{GOOD}{}", design.replace("kg\"", "L\"")), &[]));
+}
+
+#[test]
 fn varied_key_without_quotes() {
     insta::assert_snapshot!(complaint(&format!("{GOOD}\n[sweep.vary]\nparticles.balls.count = [10]\n"), &[]));
 }

@@ -150,7 +150,7 @@ within = 0.02
 cheap = "lattice"
 until = 0.05
 seeds = 4
-vary = { "contact.attraction" = [false, true], "materials.a.friction" = { from = 0.1, to = 0.5 } }
+vary = { "contact.attraction" = [false, true], "dem.skin" = { from = 0.1, to = 0.5 } }
 
 [calibrate]
 runs = 40
