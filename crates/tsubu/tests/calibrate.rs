@@ -83,7 +83,7 @@ fn mean_and_deviation_are_those_of_the_closed_form() {
 fn what_is_not_told_is_said() {
     let [height, time] = closed_form(0.7, 10_000.0);
     let blind = [
-        "calibrate.vary={ \"materials.quartz.restitution\" = [0.3, 0.95], \"materials.quartz.friction\" = [0.1, 0.9] }"
+        "calibrate.vary={ \"materials.quartz.restitution\" = { from = 0.3, to = 0.95 }, \"materials.quartz.friction\" = [0.1, 0.9] }"
             .to_owned(),
         "contact.normal.hooke.stiffness=\"100 N/cm\"".to_owned(),
     ];

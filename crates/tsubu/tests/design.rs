@@ -82,6 +82,12 @@ fn the_peak_is_that_of_the_closed_form() {
     assert_eq!(name, "damping = 0.32");
     assert!((standing.rms / peak(dampings[3]) - 1.0).abs() < 0.01, "{} {}", standing.rms, peak(dampings[3]));
     assert!((standing.rms / peak(dampings[2]) - 1.0).abs() > 0.1);
+    // The same at every level of the drive, over its factor; the stroke is that of the strongest, 2 sqrt 2 of it.
+    let (_, driven) =
+        best(&scene(&["particles.balls.count=0", vary, "design.levels=[0.5, 2.0]"])).unwrap().expect("one");
+    assert!((driven.rms / standing.rms - 1.0).abs() < 0.01, "{} {}", driven.rms, standing.rms);
+    let stroke = [standing.stroke, driven.stroke].map(|stroke| stroke / (8.0_f64.sqrt() * standing.rms));
+    assert!((stroke[1] - 1.0).abs() < 0.05 && (stroke[0] - 0.5).abs() < 0.05, "{stroke:?}");
 }
 
 /// The damping of an empty box varies continuously over a factor of 100. Damping lowers the resonance and lets more of the base through above
@@ -132,8 +138,8 @@ fn a_design_ends_where_it_knows_enough() {
         table.numbers("seeds").unwrap().into_iter().fold(0.0, f64::max)
     };
     let (wide, wide_table) = ended("wide", "0.1", 2000);
-    let (narrow, narrow_table) = ended("narrow", "0.001", 2000);
-    for (summary, until) in [(&wide, 0.1), (&narrow, 0.001)] {
+    let (narrow, narrow_table) = ended("narrow", "0.004", 2000);
+    for (summary, until) in [(&wide, 0.1), (&narrow, 0.004)] {
         assert_eq!(number(summary, "ended by until"), 1.0, "{:?}", summary.warnings);
         assert!(number(summary, "half the interval over the best") <= until);
         assert!(number(summary, "gain expected of others") < until);
@@ -230,6 +236,19 @@ fn limits_of_space_and_cost_leave_out_what_is_beyond_them() {
     let table = Table::parse(&candidates).unwrap();
     let [space, cost] = ["space", "grain cost"].map(|name| table.numbers(name).unwrap());
     assert!(space.iter().any(|space| (space / 21.6e-6 - 1.0).abs() < 1e-9) && cost.contains(&10.0), "{candidates}");
+    // The front of mass and response: nothing on it is beaten by a lighter and better one, everything else is.
+    let [mass, rms] = ["grain mass", "rms displacement"].map(|name| table.numbers(name).unwrap());
+    let [standing, front] = ["standing", "front"].map(|name| table.texts(name).unwrap());
+    let rows: Vec<usize> = (0..mass.len()).filter(|row| standing[*row] != "as written").collect();
+    for row in &rows {
+        let beats = |other: &usize| {
+            mass[*other] <= mass[*row]
+                && rms[*other] <= rms[*row]
+                && (mass[*other] < mass[*row] || rms[*other] < rms[*row])
+        };
+        assert_eq!(front[*row] == "yes", !rows.iter().any(beats), "{candidates}");
+    }
+    assert!(front.iter().any(|word| word == "yes") && rows.iter().any(|row| front[*row] == "no"), "{candidates}");
     let endless = refused(&[
         "design.space-limit=\"1 L\"",
         "walls.box.shape.plane={ point = [0, 0], normal = [0, 1] }",
