@@ -5,6 +5,8 @@
 //! uncertainty and that of the process (Kennedy and O'Hagan 2001, without their term for what a model cannot do). Fresh runs at samples
 //! with other seeds check what was found. Every run has a folder of its own: a calibration that was stopped goes on where it was.
 
+#[cfg(test)]
+mod coverage;
 mod posterior;
 mod write;
 
