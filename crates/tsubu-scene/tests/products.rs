@@ -21,6 +21,7 @@ seed = 9223372036854775807
 duration = 0.1
 gravity = ["1 mm/s^2", -9.81]
 speed-scale = "1 m/s"
+design = { goal = "band", levels = [0.5, 1.0], mass-limit = "15 g", stroke-limit = "5 mm", space-limit = "0.5 L", envelope = { width = "70 mm", height = 0.1 }, cost-limit = 12, cost = { a = { per-kilogram = 3.5 }, "b c" = { per-grain = 0.02 } }, runs = 300, within = 0.02, cheap = "lattice", until = 0.05, seeds = 4, vary = { "contact.attraction" = [false, true], "dem.skin" = { from = 0.1, to = 0.5 } } }
 material-pair = [{ between = ["a", "b c"], friction = 0.6, contact.normal.hooke.stiffness = "3 kN/m" }]
 
 [materials.a]
@@ -135,22 +136,6 @@ peak-within = 0.02
 discard-periods = 30
 discard-periods-empty = 50
 vary = { "particles.second.diameter" = ["3 mm", 0.0031], "contact.attraction" = [true, false] }
-
-[design]
-goal = "band"
-levels = [0.5, 1.0]
-mass-limit = "15 g"
-stroke-limit = "5 mm"
-space-limit = "0.5 L"
-envelope = { width = "70 mm", height = 0.1 }
-cost-limit = 12
-cost = { a = { per-kilogram = 3.5 }, "b c" = { per-grain = 0.02 } }
-runs = 300
-within = 0.02
-cheap = "lattice"
-until = 0.05
-seeds = 4
-vary = { "contact.attraction" = [false, true], "dem.skin" = { from = 0.1, to = 0.5 } }
 
 [calibrate]
 runs = 40
