@@ -3,6 +3,7 @@
 
 mod allocation;
 mod atlas;
+mod bench;
 mod book;
 mod calibrate;
 mod clca;
