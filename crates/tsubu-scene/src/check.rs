@@ -10,6 +10,7 @@ mod grains;
 mod host;
 mod overlap;
 mod place;
+mod rotor;
 mod shell;
 mod walls;
 mod watch;

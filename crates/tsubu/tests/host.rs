@@ -26,6 +26,8 @@ fn two_masses_have_their_two_frequencies() {
         mass: vec![vec![m, 0.0], vec![0.0, m]],
         damping: vec![vec![0.0; 2]; 2],
         stiffness: vec![vec![2.0 * k, -k], vec![-k, 2.0 * k]],
+        gyroscopic: None,
+        speed: 0.0,
         coordinate: 1,
         participation: vec![1.0; 2],
     };
@@ -84,6 +86,8 @@ fn books_of_two_masses_close_by_both_integrators() {
         mass: vec![vec![2.0, 0.0], vec![0.0, 1.0]],
         damping: vec![vec![0.6, -0.2], vec![-0.2, 0.4]],
         stiffness: vec![vec![100.0, -40.0], vec![-40.0, 60.0]],
+        gyroscopic: None,
+        speed: 0.0,
         coordinate: 1,
         participation: vec![1.0; 2],
     };
@@ -106,5 +110,63 @@ fn books_of_two_masses_close_by_both_integrators() {
         let (kinetic, spring) = host.energy(0.3);
         let missing = kinetic + spring - opening + ledger.flow(Account::HostDamping);
         assert!(missing.abs() < 1e-5 * opening, "verlet {verlet}: {missing:e} of {opening:e}");
+    }
+}
+
+/// A rigid symmetric rotor that tilts on its bearings, by the motion a = 0.3 m from its shaft: both tilts have the mass I_t / a^2, and its
+/// spin W puts -W I_p / a^2 times the rate of one on the other. With z = q_0 + i q_1 that is I_t z'' - i W I_p z' + k a^2 z = 0, so that
+/// it whirls at w with I_t w^2 -+ I_p W w - k a^2 = 0, forward and backward: Campbell's lines. Let go at z = z0 (1 + i) without a rate,
+/// z = z0 (1 + i) (w_b exp(i w_f t) + w_f exp(-i w_b t)) / (w_f + w_b). Control: the lines of half the polar inertia are refused.
+#[test]
+fn a_rotor_whirls_on_campbells_lines() {
+    let (transverse, polar, k) = (0.02 / 0.09, 0.03 / 0.09, 4e4);
+    let lines = |polar: f64, speed: f64| {
+        let root = ((polar * speed).powi(2) + 4.0 * transverse * k).sqrt();
+        [root - polar * speed, root + polar * speed].map(|twice| twice / (2.0 * transverse))
+    };
+    for speed in [0.0, 50.0, 300.0, 2000.0] {
+        let rotor = plan::Structure::Matrices {
+            mass: vec![vec![transverse, 0.0], vec![0.0, transverse]],
+            damping: vec![vec![0.0; 2]; 2],
+            stiffness: vec![vec![k, 0.0], vec![0.0, k]],
+            gyroscopic: Some(vec![vec![0.0, polar], vec![-polar, 0.0]]),
+            speed,
+            coordinate: 0,
+            participation: vec![0.0; 2],
+        };
+        let found = host(rotor.clone(), 0.0).natural_frequencies().into_iter().map(|f| f * std::f64::consts::TAU);
+        let misses = |polar: f64| {
+            let pairs = found.clone().zip(lines(polar, speed));
+            pairs.map(|(found, line)| (found / line - 1.0).abs()).fold(0.0, f64::max)
+        };
+        assert!(misses(polar) < 1e-9, "{speed}: {:e}", misses(polar));
+        assert!(speed == 0.0 || misses(0.5 * polar) > 1e-2);
+        let [backward, forward] = lines(polar, speed);
+        for verlet in [true, false] {
+            let mut host = host(rotor.clone(), 0.01);
+            let mut ledger = Ledger::default();
+            let (steps, dt) = (4000, 2.0 / (400.0 * forward));
+            for step in 1..=steps {
+                let time = dt * f64::from(step);
+                if verlet {
+                    host.before(time, dt);
+                    host.after(time, dt, &mut ledger);
+                } else {
+                    host.runge_kutta(time - dt, dt, 0.0, &mut ledger);
+                }
+            }
+            let t = dt * f64::from(steps);
+            let [(sin_f, cos_f), (sin_b, cos_b)] = [(forward * t).sin_cos(), (backward * t).sin_cos()];
+            let exact = 0.01 * (backward * (cos_f - sin_f) + forward * (cos_b + sin_b)) / (forward + backward);
+            assert!(
+                (host.displacement() - exact).abs() < 1e-4 * 0.01,
+                "{speed} {verlet}: {} {exact}",
+                host.displacement()
+            );
+            let (kinetic, spring) = host.energy(t);
+            let opening = k * 1e-4;
+            let missing = kinetic + spring - opening + ledger.flow(Account::HostDamping);
+            assert!(missing.abs() < 1e-4 * opening, "{speed} {verlet}: {missing:e} of {opening:e}");
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The matrices of hosts: sizes, symmetry, definiteness.
 
-use super::Parts;
+use super::{Parts, rotor};
 use crate::complaint::Complaint;
 use crate::plan::{Host, Signal, Structure};
 use crate::symmetric::{asymmetry, positive_definite};
@@ -37,8 +37,9 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
                     );
                 }
             }
-            Structure::Matrices { mass, damping, stiffness, coordinate, participation } => {
+            Structure::Matrices { mass, damping, stiffness, coordinate, participation, .. } => {
                 let size = mass.len();
+                rotor::check(parts, name, host, complaints);
                 for (key, matrix) in [("damping", damping), ("stiffness", stiffness)] {
                     if matrix.len() != size {
                         complaints.push(

@@ -4,8 +4,8 @@ use super::signals::{DISPLACEMENT, LOAD};
 use super::study::KEEP;
 use super::{Key, Kind, Variant, Word};
 use crate::units::{
-    ANGLE, CUBIC_STIFFNESS, DAMPING, DENSITY, FREQUENCY, INERTIA, LENGTH, MASS, NUMBER, PRESSURE, SPEED, STIFFNESS,
-    TURN_DAMPING, TURN_PER_LENGTH,
+    ANGLE, CUBIC_STIFFNESS, DAMPING, DENSITY, FREQUENCY, INERTIA, LENGTH, MASS, NUMBER, PRESSURE, SPEED, SPIN,
+    STIFFNESS, TURN_DAMPING, TURN_PER_LENGTH,
 };
 
 pub(super) static HOST: &[Key] = &[
@@ -102,6 +102,14 @@ static STRUCTURE: &[Variant] = &[
             Key::new("mass", Kind::Matrix(&MASS), "M, symmetric and positive definite"),
             Key::new("damping", Kind::Matrix(&DAMPING), "C, symmetric"),
             Key::new("stiffness", Kind::Matrix(&STIFFNESS), "K, symmetric and positive definite"),
+            Key::new(
+                "gyroscopic",
+                Kind::Matrix(&MASS),
+                "G of a rotor, skew: the force -speed G q' that its spin puts on coordinates that tilt it",
+            )
+            .optional(),
+            Key::new("speed", Kind::Quantity(&SPIN), "Spin of the rotor about its shaft; needs `gyroscopic`")
+                .default("0"),
             Key::new(
                 "coordinate",
                 Kind::Whole,

@@ -148,6 +148,12 @@ pub enum Structure {
         damping: Vec<Vec<f64>>,
         /// K [N/m].
         stiffness: Vec<Vec<f64>>,
+        /// G [kg] of a rotor, skew: its spin puts -speed G q' on the coordinates.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        gyroscopic: Option<Vec<Vec<f64>>>,
+        /// Spin of the rotor [rad/s].
+        #[serde(default)]
+        speed: f64,
         /// Index (from 0) of the coordinate that carries the walls and takes the force.
         coordinate: usize,
         /// How the motion of the base drives each coordinate [-].

@@ -1,6 +1,6 @@
 //! A vibrating structure that carries walls.
 //!
-//! M q'' + C (q' - r y') + K (q - r y) = w F(t) + F_grains
+//! M q'' + (C + speed G) (q' - r y') + K (q - r y) = w F(t) + F_grains
 //!
 //! q: generalised displacements [m], measured from the equilibrium without grains and with the structure's own weight
 //! carried; y: base displacement [m]; r: how the base drives each coordinate (ones for matrices, participation for modes);
@@ -19,6 +19,7 @@ mod runge_kutta;
 mod shaker;
 mod state;
 mod steered;
+mod whirl;
 
 pub use dwell::Dwelling;
 pub use in_motion::Ballast;
@@ -137,8 +138,11 @@ impl Host {
         self.grain_force
     }
 
-    /// Undamped natural frequencies [Hz], lowest first, of the structure without grains.
+    /// Undamped natural frequencies [Hz], lowest first, of the structure without grains; of a rotor those of its whirl at its speed.
     pub fn natural_frequencies(&self) -> Vec<f64> {
+        if let Some(whirl) = self.whirl() {
+            return whirl;
+        }
         self.undamped().into_iter().map(|(frequency, _)| frequency).collect()
     }
 

@@ -131,7 +131,15 @@ mod tests {
         let damping = vec![vec![0.6, -0.2], vec![-0.2, 0.3]];
         let stiffness = vec![vec![900.0, -300.0], vec![-300.0, 300.0]];
         Host::new(&plan::Host {
-            structure: Structure::Matrices { mass, damping, stiffness, coordinate: 1, participation: vec![1.0; 2] },
+            structure: Structure::Matrices {
+                mass,
+                damping,
+                stiffness,
+                gyroscopic: None,
+                speed: 0.0,
+                coordinate: 1,
+                participation: vec![1.0; 2],
+            },
             direction: [0.0, 0.0, 1.0],
             interface: std::collections::BTreeMap::new(),
             at: None,

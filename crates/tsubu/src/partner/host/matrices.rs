@@ -4,17 +4,22 @@ use tsubu_scene::plan::Structure;
 
 pub(super) type Matrices = (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>);
 
-/// M, C, K (row by row), w and r of a structure.
+/// M, C, K (row by row), w and r of a structure; C with the gyroscopic matrix of a rotor at its speed, its skew part.
 pub(super) fn matrices(structure: &Structure) -> Matrices {
     match structure {
         Structure::Shaker {} => (vec![f64::INFINITY], vec![0.0], vec![0.0], vec![1.0], vec![1.0]),
         Structure::Oscillator { mass, stiffness, damping, cubic_stiffness: _ } => {
             (vec![*mass], vec![*damping], vec![*stiffness], vec![1.0], vec![1.0])
         }
-        Structure::Matrices { mass, damping, stiffness, coordinate, participation } => {
+        Structure::Matrices { mass, damping, stiffness, gyroscopic, speed, coordinate, participation } => {
             let n = mass.len();
+            let mut rates = damping.concat();
+            // The base does not tilt a rotor (the scene reader refuses it), so that G may see q' - r y' as C does.
+            for (c, g) in rates.iter_mut().zip(gyroscopic.iter().flatten().flatten()) {
+                *c += speed * g;
+            }
             let seen = (0..n).map(|i| f64::from(u8::from(i == *coordinate))).collect();
-            (mass.concat(), damping.concat(), stiffness.concat(), seen, participation.clone())
+            (mass.concat(), rates, stiffness.concat(), seen, participation.clone())
         }
         Structure::Modes { mode } => {
             let n = mode.len();
