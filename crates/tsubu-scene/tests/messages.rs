@@ -191,6 +191,33 @@ vary = { "particles.balls.count" = { from = 10, to = 20, step = 5 } }
     insta::assert_snapshot!(complaint(&format!("{GOOD}{}", design.replace("kg\"", "L\"")), &[]));
 }
 
+/// What is no rotor: G that is not skew, or of another size; a spin without G; a base that would tilt it. Without a base it is one.
+#[test]
+fn a_rotor_needs_a_skew_matrix() {
+    let base = "base.sine = { amplitude = 0.001, frequency = 3 }";
+    let rotor = |gyroscopic: &str, base: &str| {
+        let text = format!(
+            "duration = 1\nmaterials.m = {{ young-modulus = 1e7, friction = 0.3 }}\n[particles.b]\nmaterial = \"m\"\ndiameter = 0.004\n\
+             mass = 0.001\nstart.at.position = [[0, 0.1]]\n[hosts.rotor]\n{base}\nstructure.matrices = {{ mass = [[2, 0], [0, 2]], \
+             damping = [[1, 0], [0, 1]], stiffness = [[9, 0], [0, 9]], {gyroscopic}, coordinate = 1 }}\n"
+        );
+        read(&text, &[]).map_err(|complaints| complaints.to_string())
+    };
+    for (gyroscopic, said) in [
+        ("speed = 3, gyroscopic = [[0, 0.5], [0.5, 0]]", "is not skew"),
+        ("speed = 3, gyroscopic = [[0.1, 0.5], [-0.5, 0]]", "row 1, column 1"),
+        ("speed = 3, gyroscopic = [[0]]", "another size than `mass`"),
+        ("speed = 3", "spins, but has no `gyroscopic` matrix"),
+    ] {
+        let told = rotor(gyroscopic, "").expect_err("no rotor");
+        assert!(told.contains(said), "{told}");
+    }
+    let right = "speed = 3, gyroscopic = [[0, 0.5], [-0.5, 0]]";
+    assert!(rotor(right, base).expect_err("its base tilts it").contains("a base shifts a rotor"));
+    assert!(rotor(&format!("{right}, participation = [0, 0]"), base).is_ok());
+    rotor(right, "").unwrap_or_else(|complaints| panic!("{complaints}"));
+}
+
 #[test]
 fn varied_key_without_quotes() {
     insta::assert_snapshot!(complaint(&format!("{GOOD}\n[sweep.vary]\nparticles.balls.count = [10]\n"), &[]));
