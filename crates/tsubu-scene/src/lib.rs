@@ -64,9 +64,9 @@ mod symmetric;
 mod templates;
 mod write;
 
-/// Meshes: what is wrong with one, or at least worth knowing.
+/// Meshes: where one ends; what is wrong with it, or at least worth knowing.
 pub mod mesh {
-    pub use crate::mesh_check::{Diagnosis, Found, diagnose};
+    pub use crate::mesh_check::{Diagnosis, Found, diagnose, ends};
 }
 
 pub use choices::{Choice, KeyText, choices, paths};

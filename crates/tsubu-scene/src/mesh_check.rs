@@ -105,8 +105,8 @@ fn middle(points: &[Vector]) -> Vector {
     [0, 1, 2].map(|i| points.iter().map(|point| point[i]).sum::<f64>() / points.len() as f64)
 }
 
-/// Smallest and largest coordinates of all that is finite.
-fn ends(triangles: &[[Vector; 3]]) -> [Vector; 2] {
+/// Smallest and largest coordinates of the corners of triangles [m], of all that are finite.
+pub fn ends(triangles: &[[Vector; 3]]) -> [Vector; 2] {
     let finite = triangles.iter().flatten().filter(|corner| corner.iter().all(|x| x.is_finite()));
     finite.fold(NO_ENDS, |ends, corner| wider(ends, *corner))
 }

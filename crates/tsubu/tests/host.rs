@@ -18,6 +18,19 @@ fn host(structure: plan::Structure, displacement: f64) -> Host {
     })
 }
 
+/// So many steps from time 0 by one of the integrators.
+fn move_on(host: &mut Host, verlet: bool, dt: f64, steps: u32, ledger: &mut Ledger) {
+    for step in 1..=steps {
+        let time = dt * f64::from(step);
+        if verlet {
+            host.before(time, dt);
+            host.after(time, dt, ledger);
+        } else {
+            host.runge_kutta(time - dt, dt, 0.0, ledger);
+        }
+    }
+}
+
 /// Two equal masses between three equal springs: frequencies sqrt(k/m) and sqrt(3 k/m), closed form.
 #[test]
 fn two_masses_have_their_two_frequencies() {
@@ -98,15 +111,7 @@ fn books_of_two_masses_close_by_both_integrators() {
         let opening = kinetic + spring;
         let dt = 1e-3;
         // Short of a whole decay, so that the power at the two ends differs.
-        for step in 1..=300 {
-            let time = dt * f64::from(step);
-            if verlet {
-                host.before(time, dt);
-                host.after(time, dt, &mut ledger);
-            } else {
-                host.runge_kutta(time - dt, dt, 0.0, &mut ledger);
-            }
-        }
+        move_on(&mut host, verlet, dt, 300, &mut ledger);
         let (kinetic, spring) = host.energy(0.3);
         let missing = kinetic + spring - opening + ledger.flow(Account::HostDamping);
         assert!(missing.abs() < 1e-5 * opening, "verlet {verlet}: {missing:e} of {opening:e}");
@@ -146,15 +151,7 @@ fn a_rotor_whirls_on_campbells_lines() {
             let mut host = host(rotor.clone(), 0.01);
             let mut ledger = Ledger::default();
             let (steps, dt) = (4000, 2.0 / (400.0 * forward));
-            for step in 1..=steps {
-                let time = dt * f64::from(step);
-                if verlet {
-                    host.before(time, dt);
-                    host.after(time, dt, &mut ledger);
-                } else {
-                    host.runge_kutta(time - dt, dt, 0.0, &mut ledger);
-                }
-            }
+            move_on(&mut host, verlet, dt, steps, &mut ledger);
             let t = dt * f64::from(steps);
             let [(sin_f, cos_f), (sin_b, cos_b)] = [(forward * t).sin_cos(), (backward * t).sin_cos()];
             let exact = 0.01 * (backward * (cos_f - sin_f) + forward * (cos_b + sin_b)) / (forward + backward);

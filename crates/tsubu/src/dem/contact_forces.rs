@@ -357,11 +357,33 @@ fn apply_law(input: &ForceInput, number: usize, batch: &mut ContactBatch, sums: 
 
 #[cfg(test)]
 mod tests {
-    use super::power;
+    use super::*;
+    use crate::dem::DemEngine;
+    use crate::engine::Engine as _;
+    use crate::ledger::Ledger;
+    use crate::partner::Hosts;
+    use std::path::Path;
+    use tsubu_scene::Scene;
 
     /// At a moment without a step the springs of contacts that have opened were posted over a time of zero: infinitely many watts.
     #[test]
-    fn what_goes_in_no_time_has_no_power() {
-        assert_eq!([power(3.0, 0.0), power(3.0, 2.0)], [0.0, 1.5]);
+    fn contacts_that_open_in_no_time_lose_no_power() {
+        let text = "duration = '1 ms'\n[materials.glass]\nyoung-modulus = '1 MPa'\nfriction = 0.5\n\
+                    [contact.tangential.mindlin]\n[particles.balls]\nmaterial = 'glass'\ndiameter = '2 mm'\nmass = '10 mg'\n\
+                    start.at = { position = [[0, '1 mm'], ['1.99 mm', '1.2 mm']], velocity = [[0.1, 0], [-0.1, 0]] }\n";
+        let scene = Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+        let mut engine = DemEngine::new(scene.plan(), &Hosts::default()).unwrap_or_else(|error| panic!("{error}"));
+        let stepped = engine.advance(10, &mut Hosts::default(), &mut Ledger::default());
+        assert!(stepped.is_ok() && engine.contacts.sums.stored > 0.0);
+        let energy = |engine: &DemEngine| {
+            let history = &engine.contacts.blocks[0].history[0].pairs;
+            history.stored_energy(0..history.keys.len(), &engine.laws.all()[0])
+        };
+        assert!(energy(&engine) > 0.0, "the tangential spring is stretched");
+        engine.grains.position[1].x += 1e-3;
+        let (mut contacts, input) = (std::mem::take(&mut engine.contacts), engine.force_input());
+        contacts.evaluate(&ForceInput { dt: 0.0, ..input });
+        assert_eq!(contacts.sums.contacts, 0);
+        assert_eq!(contacts.sums.lost, ContactLosses::default());
     }
 }

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 
 impl Host {
     /// Undamped frequencies of whirl [Hz], lowest first: (K + s W G + s^2 M) x = 0 with s = i w and the speed W. Nothing without
-    /// gyroscopic terms. Over speed they are the lines of Campbell's diagram (Genta 2005, Dynamics of Rotating Systems, 4.2).
+    /// gyroscopic terms. Over speed they are the lines of Campbell's diagram (Genta 2005, Dynamics of Rotating Systems).
     pub(super) fn whirl(&self) -> Option<Vec<f64>> {
         let n = self.n;
         let rates = DMatrix::from_row_slice(n, n, &self.damping);

@@ -57,12 +57,7 @@ impl Work<'_> {
 
     /// What the cheap method gives for a candidate: the worst of its levels, where all are measured.
     pub fn cheap_value(&self, candidate: usize) -> Option<f64> {
-        let levels = &self.task.wanted.levels;
-        let of_level = |level: usize| {
-            let key = Key { candidate, level, seed: 0, ratio: None, cheap: true };
-            Some(self.cheaply.get(&key)?.rms() / levels[level])
-        };
-        (0..levels.len()).map(of_level).try_fold(0.0, |worst, one| Some(f64::max(worst, one?)))
+        self.of_first_seed(candidate, true)
     }
 
     /// Candidates that were measured cheaply.
@@ -83,7 +78,7 @@ impl Work<'_> {
         let both: Vec<[f64; 2]> = self
             .values()
             .into_iter()
-            .filter_map(|(index, _)| Some([self.cheap_value(index)?.ln(), self.of_first_seed(index)?.ln()]))
+            .filter_map(|(index, _)| Some([self.cheap_value(index)?.ln(), self.of_first_seed(index, false)?.ln()]))
             .collect();
         if both.len() < 3 {
             return None;
@@ -105,12 +100,13 @@ impl Work<'_> {
         })
     }
 
-    /// What the few runs of the first seed gave, the worst of all levels.
-    fn of_first_seed(&self, candidate: usize) -> Option<f64> {
+    /// What the few runs of the first seed gave by one of the methods, the worst of all levels.
+    fn of_first_seed(&self, candidate: usize, cheap: bool) -> Option<f64> {
         let levels = &self.task.wanted.levels;
+        let done = if cheap { &self.cheaply } else { &self.done };
         let of_level = |level: usize| {
-            let key = Key { candidate, level, seed: 0, ratio: None, cheap: false };
-            Some(self.done.get(&key)?.rms() / levels[level])
+            let key = Key { candidate, level, seed: 0, ratio: None, cheap };
+            Some(done.get(&key)?.rms() / levels[level])
         };
         (0..levels.len()).map(of_level).try_fold(0.0, |worst, one| Some(f64::max(worst, one?)))
     }

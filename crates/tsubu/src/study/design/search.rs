@@ -10,10 +10,6 @@ const FIRST_A_KEY: usize = 2;
 /// Candidates of a round: they run side by side, and what is measured must not depend on the number of threads.
 const ROUND: usize = 4;
 
-fn first(candidates: &Candidates) -> Vec<usize> {
-    candidates.spread(FIRST + FIRST_A_KEY * candidates.values.len())
-}
-
 /// What is expected of candidates.
 #[derive(Clone)]
 pub(super) struct Guess<'a> {
@@ -65,7 +61,8 @@ pub(super) struct Round {
 impl Round {
     /// Those to begin with: far from each other.
     pub fn first(candidates: &Candidates) -> Self {
-        Self { chosen: first(candidates), better: true, beside: 0 }
+        let chosen = candidates.spread(FIRST + FIRST_A_KEY * candidates.values.len());
+        Self { chosen, better: true, beside: 0 }
     }
 }
 

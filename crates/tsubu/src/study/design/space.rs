@@ -1,7 +1,7 @@
 //! The room that a cavity takes: the upright box that just holds the walls of a host, their thickness left out.
 
-use tsubu_scene::Plan;
 use tsubu_scene::plan::{Shape, Vector, Wall};
+use tsubu_scene::{Plan, mesh};
 
 /// How far a plane may be from square to an axis and still be an end of the box.
 const SQUARE: f64 = 1e-9;
@@ -66,13 +66,8 @@ fn of_shape(shape: &Shape) -> Option<Ends> {
         }
         Shape::Sphere { centre, radius } => Some(centre.map(|x| [x - radius, x + radius])),
         Shape::Mesh { triangles, .. } => {
-            let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
-            for corner in triangles.iter().flatten() {
-                for (all, x) in ends.iter_mut().zip(corner) {
-                    *all = [all[0].min(*x), all[1].max(*x)];
-                }
-            }
-            Some(ends)
+            let [low, high] = mesh::ends(triangles);
+            Some([0, 1, 2].map(|axis| [low[axis], high[axis]]))
         }
     }
 }

@@ -162,8 +162,7 @@ impl<'a> Work<'a> {
                 .filter(|keys: &Vec<Key>| !keys.is_empty())
                 .collect();
             let confirmed = open.is_empty();
-            let mut left = (f64::from(task.wanted.runs) - f64::from(self.runs())) / self.runs_of_one()
-                * task.wanted.levels.len() as f64;
+            let mut left = self.left(1.0) * task.wanted.levels.len() as f64;
             // The best itself is always confirmed.
             let itself = open.first().is_some_and(|keys| keys[0].candidate == best);
             let mut keys = Vec::new();
