@@ -131,6 +131,7 @@ fn add_a_key(draw: &mut Draw, table: &mut Table) {
             homes.extend(named.keys().map(|name| (inner(name), *keys)));
         }
     }
+    homes.retain(|(_, keys)| !keys.is_empty());
     let (path, keys) = draw.pick(&homes);
     let key = draw.pick(keys);
     let value = fitting(draw, key);

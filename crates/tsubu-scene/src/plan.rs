@@ -34,7 +34,7 @@ pub use contact::{
 pub(crate) use contact::{READ_A_DENSITY, READ_A_FORCE, SLIP_LEVER};
 pub use gases::{BaxterBehringer, Fhp, FhpRules, GasWalls, KarolyiKertesz, PengHerrmann};
 pub use grains::{GrainMotion, GrainShape, GrainTable, Particles, Periodic, Removal, Size, Start, submerged};
-pub use hosts::{Dwell, Host, Interface, Mode, Signal, Structure};
+pub use hosts::{Dwell, Host, Interface, Mode, Scale, Signal, Structure};
 pub use methods::{
     Arithmetic, ClCa, ClCaRule, Collision, Dem, GrainPoints, GravitySwitch, Integrator, Lattice, LatticeMode,
     ObliqueGravity,

@@ -171,6 +171,46 @@ fn a_damping_matrix_keeps_the_coordinates() {
     assert!((a.abs() / b.abs() - 1.0).abs() < 1e-3, "{a} {b}");
 }
 
+/// M = 1 and K = [3, -1; -1, 3], whose modes have w^2 = 2 and 4: with C = alpha M + beta K the matrices get C itself and the modes of files the
+/// ratios alpha / 2 w + beta w / 2. Control: alpha and beta exchanged are told apart.
+#[test]
+fn rayleigh_damps_matrices_and_modes_alike() {
+    let matrix = "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 ";
+    let (mass, stiffness) = (format!("{matrix}1\n2 2 1\n2 1 0\n"), format!("{matrix}3\n2 2 3\n2 1 -1\n"));
+    let desk = tempfile::tempdir().expect("a folder of its own");
+    fs::write(desk.path().join("m"), mass).expect("written");
+    fs::write(desk.path().join("k"), stiffness).expect("written");
+    let tip = "translation = [[0, 0, 1], [0, 0, 0]]";
+    let files = |damping: &str| read(desk.path(), &format!(r#"{OTHERWISE}, units = "m-kg-s", {damping}"#), tip);
+    let ratios = |damping: &str| -> Vec<f64> {
+        let host = files(damping).unwrap_or_else(|complaint| panic!("{complaint}"));
+        modes(&host).iter().map(|mode| mode.damping_ratio).collect()
+    };
+    let (alpha, beta) = (0.02, 0.005);
+    let wrong = |found: &[f64]| {
+        let of = |w: f64| 0.5 * (alpha / w + beta * w);
+        found.iter().zip([2.0_f64.sqrt(), 2.0]).map(|(ratio, w)| (ratio / of(w) - 1.0).abs()).fold(0.0, f64::max)
+    };
+    assert!(wrong(&ratios(r#"rayleigh = { alpha = "0.02 1/s", beta = "5 ms" }"#)) < 1e-12);
+    assert!(wrong(&ratios(r#"rayleigh = { alpha = "0.005 1/s", beta = "20 ms" }"#)) > 0.1);
+    insta::assert_snapshot!(files("modes = 2").expect_err("no damping"));
+
+    let typed = |damping: &str| {
+        let text = format!(
+            "method = \"dem\"\ndimension = 2\nduration = 1\n[hosts.two]\n\
+             structure.matrices = {{ mass = [[1, 0], [0, 1]], stiffness = [[3, -1], [-1, 3]], {damping} }}\n"
+        );
+        let scene =
+            Scene::parse("scene.toml", &text, Path::new("."), &[]).map_err(|complaints| complaints.to_string())?;
+        let Structure::Matrices { damping, .. } = &scene.plan().hosts["two"].structure else { panic!("matrices") };
+        Ok::<_, String>(damping.clone())
+    };
+    let found =
+        typed(r#"rayleigh = { alpha = "0.02 1/s", beta = "5 ms" }"#).unwrap_or_else(|complaint| panic!("{complaint}"));
+    assert_eq!(found, typed("damping = [[0.035, -0.005], [-0.005, 0.035]]").expect("a structure"));
+    insta::assert_snapshot!(typed("coordinate = 0").expect_err("no damping"));
+}
+
 /// Each wrong structure is refused with its file, line and value.
 #[test]
 fn matrix_files_that_cannot_be() {

@@ -190,6 +190,21 @@ fn a_base_may_be_shaken_by_its_acceleration() {
     assert_eq!(kept("acceleration = \"2 g\", frequency = \"10 Hz\""), Some(Keep::Acceleration));
     assert_eq!(kept("velocity = \"0.1 m/s\", frequency = \"10 Hz\""), Some(Keep::Velocity));
     assert_eq!(kept("amplitude = \"1 mm\", frequency = \"10 Hz\""), Some(Keep::Displacement));
+    // So does a sweep, whose amplitude is that at its first frequency.
+    let swept = |keys: &str| {
+        let scene =
+            read(&base(keys).replace("base.sine ", "base.sine-sweep "), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+        let Some(Signal::SineSweep { amplitude, keep, .. }) = scene.plan().hosts["spring"].base else {
+            panic!("a sweep")
+        };
+        (amplitude, keep)
+    };
+    let sweep = |what: &str| swept(&format!("{what}, from = 2, to = 20, duration = 5"));
+    let w = std::f64::consts::TAU * 2.0;
+    assert_eq!(sweep("velocity = 0.1"), (0.1 / w, Keep::Velocity));
+    assert_eq!(sweep("acceleration = \"1 g\""), (9.80665 / w.powi(2), Keep::Acceleration));
+    assert_eq!(sweep("amplitude = 0.1"), (0.1, Keep::Displacement));
+    assert_eq!(sweep("amplitude = 0.1, keep = \"velocity\""), (0.1, Keep::Velocity));
     let wrong = [
         complaint(&base("frequency = \"10 Hz\""), &[]),
         complaint(&base("frequency = \"10 Hz\", amplitude = 0.1, acceleration = \"1 g\""), &[]),

@@ -45,7 +45,7 @@ start.rows = { spacing = 1.1 }
 [walls.box]
 material = "b c"
 shape.box = { width = 1, height = 0.7, floor-centre = [0.05, 0] }
-motion = { direction = [1, 2], signal.sine-sweep = { amplitude = 0.01, from = 1, to = 10, duration = 3 } }
+motion = { direction = [1, 2], signal.sine-sweep = { acceleration = "0.1 g", from = 1, to = 10, duration = 3, scale = "logarithmic" } }
 [walls.below]
 material = "a"
 host = "two"

@@ -4,8 +4,8 @@ use super::signals::{DISPLACEMENT, LOAD};
 use super::study::KEEP;
 use super::{Key, Kind, Variant, Word};
 use crate::units::{
-    ANGLE, CUBIC_STIFFNESS, DAMPING, DENSITY, FREQUENCY, INERTIA, LENGTH, MASS, NUMBER, PRESSURE, SPEED, SPIN,
-    STIFFNESS, TURN_DAMPING, TURN_PER_LENGTH,
+    ANGLE, CUBIC_STIFFNESS, DAMPING, DENSITY, FREQUENCY, INERTIA, LENGTH, MASS, NUMBER, PRESSURE, RATE, SPEED, SPIN,
+    STIFFNESS, TIME, TURN_DAMPING, TURN_PER_LENGTH,
 };
 
 pub(super) static HOST: &[Key] = &[
@@ -100,7 +100,12 @@ static STRUCTURE: &[Variant] = &[
         about: "n degrees of freedom by their matrices",
         keys: &[
             Key::new("mass", Kind::Matrix(&MASS), "M, symmetric and positive definite"),
-            Key::new("damping", Kind::Matrix(&DAMPING), "C, symmetric"),
+            Key::new("damping", Kind::Matrix(&DAMPING), "C, symmetric")
+                .derived("from `rayleigh`; one of the two is required")
+                .rivals(&["rayleigh"]),
+            Key::new("rayleigh", Kind::Table(RAYLEIGH), "C = alpha M + beta K, in place of `damping`")
+                .optional()
+                .rivals(&["damping"]),
             Key::new("stiffness", Kind::Matrix(&STIFFNESS), "K, symmetric and positive definite"),
             Key::new(
                 "gyroscopic",
@@ -144,9 +149,11 @@ static STRUCTURE: &[Variant] = &[
             Key::new("mass", Kind::Text, "File of M beside the scene, symmetric and positive definite"),
             Key::new("stiffness", Kind::Text, "File of K, symmetric and positive definite; it may be that of M"),
             Key::new("units", Kind::OneOf(UNITS), "Units that the files are in, which tell none themselves"),
-            Key::new("damping", Kind::Text, "File of C, symmetric: all coordinates are kept")
-                .optional()
-                .rivals(&["damping-ratio", "modes"]),
+            Key::new("damping", Kind::Text, "File of C, symmetric: all coordinates are kept").optional().rivals(&[
+                "damping-ratio",
+                "rayleigh",
+                "modes",
+            ]),
             Key::new(
                 "damping-ratio",
                 Kind::Quantity(&NUMBER),
@@ -154,8 +161,15 @@ static STRUCTURE: &[Variant] = &[
             )
             .at_least(0.0)
             .optional()
-            .rivals(&["damping"]),
-            Key::new("modes", Kind::Whole, "Number of modes that are kept, lowest first; needs `damping-ratio`")
+            .rivals(&["damping", "rayleigh"]),
+            Key::new(
+                "rayleigh",
+                Kind::Table(RAYLEIGH),
+                "Damping of each mode by alpha M + beta K, in place of `damping`",
+            )
+            .optional()
+            .rivals(&["damping", "damping-ratio"]),
+            Key::new("modes", Kind::Whole, "Number of modes that are kept, lowest first; not with `damping`")
                 .at_least(1.0)
                 .at_most(400.0)
                 .derived("10, or as many as there are")
@@ -208,6 +222,17 @@ static STRUCTURE: &[Variant] = &[
                 .default("0"),
         ],
     },
+];
+
+static RAYLEIGH: &[Key] = &[
+    Key::new(
+        "alpha",
+        Kind::Quantity(&RATE),
+        "Damping over mass: a mode of angular frequency w has the ratio alpha / 2 w + beta w / 2",
+    )
+    .default("0")
+    .at_least(0.0),
+    Key::new("beta", Kind::Quantity(&TIME), "Damping over stiffness").default("0").at_least(0.0),
 ];
 
 static UNITS: &[Word] = &[

@@ -1,12 +1,23 @@
 //! Signals against time: what drives hosts, walls and groups of grains.
 
-use super::{Key, Kind, Variant};
+use super::study::KEEP;
+use super::{Key, Kind, Variant, Word};
 use crate::units::{
     ACCELERATION, ACCELERATION_DENSITY, ANGLE, FORCE, FORCE_DENSITY, FREQUENCY, LENGTH, LOAD_RATE, SPEED, SPIN, TIME,
 };
 
 const FREQUENCY_OF_A_SINE: Key = Key::new("frequency", Kind::Quantity(&FREQUENCY), "Frequency").above(0.0);
 const PHASE: Key = Key::new("phase", Kind::Quantity(&ANGLE), "Phase at time 0").default("0");
+
+const FROM: Key = Key::new("from", Kind::Quantity(&FREQUENCY), "First frequency").above(0.0);
+const TO: Key = Key::new("to", Kind::Quantity(&FREQUENCY), "Last frequency, above or below the first").above(0.0);
+const DURATION: Key = Key::new("duration", Kind::Quantity(&TIME), "Length").above(0.0);
+const SCALE: Key = Key::new("scale", Kind::OneOf(SCALES), "How the frequency runs in time").default("'linear'");
+
+static SCALES: &[Word] = &[
+    Word { name: "linear", about: "So many Hz a second" },
+    Word { name: "logarithmic", about: "So many octaves a second, as shakers do" },
+];
 
 /// A sine, by its amplitude.
 macro_rules! sine {
@@ -15,31 +26,48 @@ macro_rules! sine {
     };
 }
 
-/// Displacements are known by their acceleration too.
-static SHAKEN: &[Key] = &[
-    Key::new("amplitude", Kind::Quantity(&LENGTH), "Amplitude")
-        .at_least(0.0)
-        .derived("from `velocity` or `acceleration`; one of the three is required")
-        .rivals(&["velocity", "acceleration"]),
+/// A sweep of constant amplitude.
+macro_rules! sweep {
+    ($what:expr) => {
+        &[Key::new("amplitude", Kind::Quantity($what), "Amplitude").at_least(0.0), FROM, TO, DURATION, SCALE]
+    };
+}
+
+// Displacements are known by their velocity and acceleration too.
+const AMPLITUDE: Key = Key::new("amplitude", Kind::Quantity(&LENGTH), "Amplitude")
+    .at_least(0.0)
+    .derived("from `velocity` or `acceleration`; one of the three is required")
+    .rivals(&["velocity", "acceleration"]);
+const VELOCITY: Key =
     Key::new("velocity", Kind::Quantity(&SPEED), "Amplitude of the velocity: amplitude 2 pi frequency")
         .at_least(0.0)
         .optional()
-        .rivals(&["amplitude", "acceleration"]),
-    Key::new(
-        "acceleration",
-        Kind::Quantity(&ACCELERATION),
-        "Amplitude of the acceleration: amplitude (2 pi frequency)^2; `g` is a unit",
-    )
-    .at_least(0.0)
-    .optional()
-    .rivals(&["amplitude", "velocity"]),
-    FREQUENCY_OF_A_SINE,
-    PHASE,
+        .rivals(&["amplitude", "acceleration"]);
+const ACCELERATION_OF_A_SINE: Key = Key::new(
+    "acceleration",
+    Kind::Quantity(&ACCELERATION),
+    "Amplitude of the acceleration: amplitude (2 pi frequency)^2; `g` is a unit",
+)
+.at_least(0.0)
+.optional()
+.rivals(&["amplitude", "velocity"]);
+
+static SHAKEN: &[Key] = &[AMPLITUDE, VELOCITY, ACCELERATION_OF_A_SINE, FREQUENCY_OF_A_SINE, PHASE];
+static SWEPT: &[Key] = &[
+    AMPLITUDE,
+    VELOCITY,
+    ACCELERATION_OF_A_SINE,
+    FROM,
+    TO,
+    DURATION,
+    SCALE,
+    Key::new("keep", Kind::OneOf(KEEP), "What stays the same at all frequencies; an `amplitude` is that at the first")
+        .derived("what it is given by: `amplitude`, `velocity` or `acceleration`"),
 ];
 
 /// The same signals for displacements, angles and forces.
 macro_rules! signals {
-    ($what:expr, $rate:expr, $sine:expr $(, $own:expr)*) => {
+    ($what:expr, $rate:expr, $sine:expr, $sweep:expr $(, $own:expr)*) => {
         [
             Variant {
                 name: "sine",
@@ -48,13 +76,8 @@ macro_rules! signals {
             },
             Variant {
                 name: "sine-sweep",
-                about: "Sine of constant amplitude whose frequency runs linearly in time; silent afterwards",
-                keys: &[
-                    Key::new("amplitude", Kind::Quantity($what), "Amplitude").at_least(0.0),
-                    Key::new("from", Kind::Quantity(&FREQUENCY), "First frequency").above(0.0),
-                    Key::new("to", Kind::Quantity(&FREQUENCY), "Last frequency").above(0.0),
-                    Key::new("duration", Kind::Quantity(&TIME), "Length").above(0.0),
-                ],
+                about: "Sine whose frequency runs from one to another; silent afterwards",
+                keys: $sweep,
             },
             Variant {
                 name: "impact",
@@ -141,9 +164,9 @@ macro_rules! random {
 
 /// Displacements against time.
 pub(super) static DISPLACEMENT: [Variant; 8] =
-    signals!(&LENGTH, &SPEED, SHAKEN, SHOCK, random!(&ACCELERATION_DENSITY, "the acceleration"));
+    signals!(&LENGTH, &SPEED, SHAKEN, SWEPT, SHOCK, random!(&ACCELERATION_DENSITY, "the acceleration"));
 /// Angles against time.
-pub(super) static TURN: [Variant; 6] = signals!(&ANGLE, &SPIN, sine!(&ANGLE));
+pub(super) static TURN: [Variant; 6] = signals!(&ANGLE, &SPIN, sine!(&ANGLE), sweep!(&ANGLE));
 /// Forces against time.
 pub(super) static LOAD: [Variant; 7] =
-    signals!(&FORCE, &LOAD_RATE, sine!(&FORCE), random!(&FORCE_DENSITY, "the force"));
+    signals!(&FORCE, &LOAD_RATE, sine!(&FORCE), sweep!(&FORCE), random!(&FORCE_DENSITY, "the force"));

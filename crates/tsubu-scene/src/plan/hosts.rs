@@ -17,9 +17,9 @@ pub enum Signal {
         /// Phase [rad].
         phase: f64,
     },
-    /// Sine of constant amplitude whose frequency runs linearly in time; silent afterwards.
+    /// Sine whose frequency runs from one to another; silent afterwards.
     SineSweep {
-        /// Amplitude [m] or [N].
+        /// Amplitude at the first frequency [m] or [N].
         amplitude: f64,
         /// First frequency [Hz].
         from: f64,
@@ -27,6 +27,11 @@ pub enum Signal {
         to: f64,
         /// Length [s].
         duration: f64,
+        /// How the frequency runs.
+        scale: Scale,
+        /// What of a displacement stays the same; angles and forces keep their amplitude.
+        #[serde(default = "amplitude")]
+        keep: Keep,
     },
     /// Half-sine pulse.
     Impact {
@@ -69,6 +74,20 @@ pub enum Signal {
         /// Values [m] or [N].
         value: Vec<f64>,
     },
+}
+
+fn amplitude() -> Keep {
+    Keep::Displacement
+}
+
+/// How the frequency of a sweep runs in time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Scale {
+    /// So many Hz a second.
+    Linear,
+    /// So many octaves a second.
+    Logarithmic,
 }
 
 /// A vibrating structure: M q'' + C (q' - r y') + K (q - r y) = w F(t) + w F_grains. The displacement that walls see is

@@ -5,6 +5,7 @@ mod grains;
 mod hosts;
 mod matrix_files;
 mod random;
+mod rayleigh;
 mod regions;
 mod signals;
 mod walls;

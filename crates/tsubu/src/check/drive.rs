@@ -9,7 +9,8 @@ const USUAL: f64 = 4.0;
 /// Largest absolute value of a signal, or more.
 pub(crate) fn peak(signal: &Signal) -> f64 {
     match signal {
-        Signal::Sine { amplitude, .. } | Signal::SineSweep { amplitude, .. } => amplitude.abs(),
+        Signal::Sine { amplitude, .. } => amplitude.abs(),
+        Signal::SineSweep { from, to, .. } => swept(signal, *from).max(swept(signal, *to)),
         Signal::Impact { peak, .. } => peak.abs(),
         Signal::Sines { amplitude, offset, .. } => offset.abs() + amplitude.iter().map(|a| a.abs()).sum::<f64>(),
         Signal::Shock { .. } | Signal::Steady { .. } => f64::INFINITY,
@@ -21,7 +22,14 @@ pub(crate) fn peak(signal: &Signal) -> f64 {
 pub(crate) fn fastest(signal: &Signal) -> f64 {
     match signal {
         Signal::Sine { amplitude, frequency, .. } => (amplitude * frequency).abs() * TAU,
-        Signal::SineSweep { amplitude, from, to, .. } => amplitude.abs() * from.max(*to) * TAU,
+        Signal::SineSweep { from, to, duration, keep, .. } => {
+            let change = match keep.power() {
+                0 => 0.0,
+                power => f64::from(power) * (to - from).abs() / (from.min(*to) * duration),
+            };
+            let rate = |frequency: f64| swept(signal, frequency) * (TAU * frequency + change);
+            rate(*from).max(rate(*to))
+        }
         Signal::Impact { peak, duration, .. } => (peak / duration).abs() * PI,
         Signal::Shock { acceleration, duration, .. } => gained(*acceleration, *duration),
         Signal::Sines { amplitude, frequency, .. } => {
@@ -52,7 +60,7 @@ pub(super) fn shaken_speed(signal: &Signal, w: f64, ratio: f64) -> f64 {
             let gained = gained(*acceleration, *duration);
             gained + gained.min(1.77 * acceleration.abs() / w)
         }
-        _ => usual(signal, transmitted).unwrap_or_else(|| 0.5 / ratio * w * peak(signal)),
+        _ => usual(signal, transmitted).unwrap_or_else(|| 0.5 / ratio * w * at_resonance(signal, w)),
     }
 }
 
@@ -62,7 +70,23 @@ pub(super) fn pushed_speed(signal: &Signal, w: f64, ratio: f64, stiffness: f64) 
         let r = driven / w;
         driven / ((1.0 - r * r).powi(2) + (2.0 * ratio * r).powi(2)).sqrt()
     };
-    usual(signal, answered).unwrap_or_else(|| 0.5 / ratio * w * peak(signal)) / stiffness
+    usual(signal, answered).unwrap_or_else(|| 0.5 / ratio * w * at_resonance(signal, w)) / stiffness
+}
+
+/// Amplitude of a sweep at one of its frequencies [Hz].
+fn swept(signal: &Signal, frequency: f64) -> f64 {
+    match signal {
+        Signal::SineSweep { amplitude, from, keep, .. } => amplitude.abs() * (from / frequency).powi(keep.power()),
+        _ => 0.0,
+    }
+}
+
+/// What drives an oscillator of angular frequency `w` [rad/s] at its resonance: of a sweep the amplitude as near to it as it comes.
+fn at_resonance(signal: &Signal, w: f64) -> f64 {
+    match signal {
+        Signal::SineSweep { from, to, .. } => swept(signal, (w / TAU).clamp(from.min(*to), from.max(*to))),
+        _ => peak(signal),
+    }
 }
 
 /// What a sum of sines hardly ever goes beyond, of which each is multiplied with `gain` of its angular frequency [rad/s].

@@ -1,10 +1,11 @@
 //! Motions and forces given in advance as functions of time.
 
-use tsubu_scene::plan::Signal;
+use tsubu_scene::plan::{Scale, Signal};
 
 /// Value and rate of change of a signal at time `t` [s].
 ///
-/// Sine: A sin(2 pi f t + p). Sine sweep: A sin(2 pi (f0 t + (f1 - f0) t^2 / (2 T))) for 0 <= t <= T, zero afterwards.
+/// Sine: A sin(2 pi f t + p). Sine sweep: A (f0 / f)^n sin(2 pi integral of f) for 0 <= t <= T, zero afterwards; n = 0, 1, 2 for a constant
+/// amplitude of displacement, velocity, acceleration.
 /// Impact: P sin(pi (t - t0) / T) for t0 <= t <= t0 + T, zero elsewhere. Shock: that as acceleration, from rest. Sines: c + sum of
 /// A sin(2 pi f t + p). Steady: r t. Table: straight lines, constant outside.
 pub fn value_and_rate(signal: &Signal, t: f64) -> (f64, f64) {
@@ -15,13 +16,20 @@ pub fn value_and_rate(signal: &Signal, t: f64) -> (f64, f64) {
             let (sin, cos) = (w * t + phase).sin_cos();
             (amplitude * sin, amplitude * w * cos)
         }
-        Signal::SineSweep { amplitude, from, to, duration } => {
+        Signal::SineSweep { amplitude, from, to, duration, scale, keep } => {
             if !(0.0..=*duration).contains(&t) {
                 return (0.0, 0.0);
             }
-            let slope = (to - from) / duration;
-            let (sin, cos) = (TAU * (from * t + 0.5 * slope * t * t)).sin_cos();
-            (amplitude * sin, amplitude * TAU * (from + slope * t) * cos)
+            let (turns, frequency, slope) = sweep(*scale, *from, *to, *duration, t);
+            let (sin, cos) = (TAU * turns).sin_cos();
+            match keep.power() {
+                0 => (amplitude * sin, amplitude * TAU * frequency * cos),
+                power => {
+                    let amplitude = amplitude * (from / frequency).powi(power);
+                    let shrinks = f64::from(power) * slope / frequency;
+                    (amplitude * sin, amplitude * (TAU * frequency * cos - shrinks * sin))
+                }
+            }
         }
         Signal::Impact { peak, duration, at } => {
             let phase = (t - at) / duration;
@@ -42,6 +50,21 @@ pub fn value_and_rate(signal: &Signal, t: f64) -> (f64, f64) {
         }
         Signal::Steady { rate } => (rate * t, *rate),
         Signal::Table { time, value } => table(time, value, t),
+    }
+}
+
+/// Turns, frequency [Hz] and its rate [Hz/s] at `t` [s]: f0 + (f1 - f0) t / T, or f0 (f1 / f0)^(t / T), and the integral from 0.
+fn sweep(scale: Scale, from: f64, to: f64, duration: f64, t: f64) -> (f64, f64, f64) {
+    let octaves = (to / from).ln() / duration;
+    match scale {
+        Scale::Logarithmic if octaves != 0.0 => {
+            let frequency = from * (octaves * t).exp();
+            (from * (octaves * t).exp_m1() / octaves, frequency, octaves * frequency)
+        }
+        _ => {
+            let slope = (to - from) / duration;
+            (from * t + 0.5 * slope * t * t, from + slope * t, slope)
+        }
     }
 }
 
@@ -77,14 +100,18 @@ fn table(time: &[f64], value: &[f64], t: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::value_and_rate;
-    use tsubu_scene::plan::Signal;
+    use tsubu_scene::plan::{Keep, Scale, Signal};
 
     /// The rate is the derivative of the value: central differences agree wherever the signal is smooth.
     #[test]
     fn rate_is_the_derivative() {
+        let sweep = |scale, keep| Signal::SineSweep { amplitude: 0.5, from: 2.0, to: 9.0, duration: 1.0, scale, keep };
         let signals = [
             Signal::Sine { amplitude: 0.5, frequency: 6.0, phase: 0.3 },
-            Signal::SineSweep { amplitude: 0.5, from: 2.0, to: 9.0, duration: 1.0 },
+            sweep(Scale::Linear, Keep::Displacement),
+            sweep(Scale::Logarithmic, Keep::Displacement),
+            sweep(Scale::Linear, Keep::Velocity),
+            sweep(Scale::Logarithmic, Keep::Acceleration),
             Signal::Impact { peak: 3.0, duration: 0.4, at: 0.1 },
             Signal::Shock { acceleration: 3.0, duration: 0.2, at: 0.2 },
             Signal::Sines { amplitude: vec![0.5, 0.1], frequency: vec![2.0, 7.3], phase: vec![0.3, -1.0], offset: 0.2 },
@@ -99,6 +126,29 @@ mod tests {
                 assert!((slope - rate).abs() < 1e-6 * rate.abs().max(1.0), "{signal:?} at {t}: {slope} {rate}");
             }
         }
+    }
+
+    /// A slow logarithmic sweep down from 50 to 10 Hz by 1 g: its acceleration has an amplitude of 1 g all the way, within what the slope of its frequency
+    /// takes, k / (pi f) for f' = k f. Halfway it is at the geometric mean. Control: with a constant amplitude the acceleration falls 25 times.
+    #[test]
+    fn a_sweep_keeps_its_acceleration() {
+        let (from, to, duration, g) = (50.0, 10.0, 20.0, 9.80665);
+        let amplitude = g / (std::f64::consts::TAU * from).powi(2);
+        let sweep = |keep| Signal::SineSweep { amplitude, from, to, duration, scale: Scale::Logarithmic, keep };
+        let highest = |signal: &Signal, begin: f64, period: f64| {
+            let slope = |t: f64| (value_and_rate(signal, t + 1e-6).1 - value_and_rate(signal, t - 1e-6).1) / 2e-6;
+            (0..2000).map(|k| slope(begin + period * f64::from(k) / 2000.0).abs()).fold(0.0, f64::max)
+        };
+        for (at, frequency) in [(0.1, 50.0), (10.0, (50.0_f64 * 10.0).sqrt()), (19.8, 10.0)] {
+            let off = highest(&sweep(Keep::Acceleration), at, 1.0 / frequency) / g - 1.0;
+            assert!(off.abs() < 0.081 / (std::f64::consts::PI * 10.0), "{off:e} at {at} s");
+        }
+        let fallen = highest(&sweep(Keep::Displacement), 19.8, 0.1) / g;
+        assert!((0.03..0.05).contains(&fallen), "{fallen}");
+        // Zeros of the sine, and so the phase: the integral of the frequency, (from - to) / k turns in all.
+        let turns = (from - to) / (from / to).ln() * duration;
+        let whole = super::sweep(Scale::Logarithmic, from, to, duration, duration).0;
+        assert!((whole / turns - 1.0).abs() < 1e-14);
     }
 
     /// The rate of a shock has the acceleration that was asked for as its derivative, and 2 a T / pi is gained. Control: the impact of the same

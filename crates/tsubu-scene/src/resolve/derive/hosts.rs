@@ -13,6 +13,7 @@ impl Derive<'_> {
         for (name, host) in tables_in(resolved, "hosts") {
             self.modal_table(&name, host);
             self.matrix_files(&name, host);
+            self.rayleigh(&name, host);
             participation(host);
             self.beam(&name, host);
             self.pendulum(&name, host, gravity);

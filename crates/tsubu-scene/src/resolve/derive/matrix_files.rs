@@ -2,6 +2,7 @@
 
 use super::Derive;
 use super::hosts::{taken, vector};
+use super::rayleigh::Rayleigh;
 use crate::complaint::{Complaint, Source};
 use crate::resolve::matrices::{self, Coordinate, Matrix, Role, Units};
 use crate::symmetric::asymmetry;
@@ -68,11 +69,12 @@ impl Derive<'_> {
                 self.read(file, &place, |text, source| matrices::read(text, source, role, names.as_deref()))?;
             read.insert(role, matrix);
         }
-        if !files.contains_key("damping") && !files.contains_key("damping-ratio") {
+        if !["damping", "damping-ratio", "rayleigh"].iter().any(|key| files.contains_key(*key)) {
             self.complain(
                 Complaint::new(format!("missing key `damping-ratio` in [{}]", path.join(".")))
-                    .at(&self.root.locate(path), "needs `damping-ratio` or `damping`")
+                    .at(&self.root.locate(path), "needs `damping-ratio`, `rayleigh` or `damping`")
                     .hint("`damping-ratio`: of each mode, for example 0.01")
+                    .hint("or `rayleigh`: C = alpha M + beta K, for example { alpha = \"0.5 1/s\", beta = \"20 us\" }")
                     .hint("or `damping`: the file of C"),
             );
             return None;
@@ -146,7 +148,8 @@ impl Derive<'_> {
             refuse("modes", "asks for too many", format!("it has {}", all.len()), "each coordinate gives one");
             return None;
         }
-        let ratio = files.get("damping-ratio").and_then(Value::as_float)?;
+        let rayleigh = files.get("rayleigh").and_then(Value::as_table).map(Rayleigh::of);
+        let typed = files.get("damping-ratio").and_then(Value::as_float);
         let coordinate = number("coordinate").unwrap_or_default();
         let pushed: Vec<f64> = mass.iter().map(|row| sum(row, base)).collect();
         let mut modes = Vec::new();
@@ -162,7 +165,7 @@ impl Derive<'_> {
             };
             let keys = [
                 ("frequency", mode.frequency),
-                ("damping-ratio", ratio),
+                ("damping-ratio", rayleigh.map_or(typed, |rayleigh| Some(rayleigh.ratio(mode.frequency)))?),
                 ("mass", 1.0),
                 ("shape", *shape),
                 ("participation", sum(&mode.shape, &pushed)),

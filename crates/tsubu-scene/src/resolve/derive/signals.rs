@@ -29,10 +29,12 @@ impl Derive<'_> {
                     signal = signal.and_then(|table| table.get_mut(*key)).and_then(Value::as_table_mut);
                 }
                 let Some(signal) = signal else { continue };
-                if let (true, Some(sine)) =
-                    (**dimension == LENGTH, signal.get_mut("sine").and_then(Value::as_table_mut))
-                {
-                    self.shaken(sine, &[&path[..], &["sine"]].concat());
+                for (kind, frequency) in [("sine", "frequency"), ("sine-sweep", "from")] {
+                    if let (true, Some(sine)) =
+                        (**dimension == LENGTH, signal.get_mut(kind).and_then(Value::as_table_mut))
+                    {
+                        self.shaken(sine, frequency, &[&path[..], &[kind]].concat());
+                    }
                 }
                 self.random(signal, seed, dimension, &path);
                 self.sines(signal, &path);
@@ -46,18 +48,22 @@ impl Derive<'_> {
         }
     }
 
-    /// The amplitude of a sine that is given by its acceleration.
-    fn shaken(&mut self, sine: &mut toml::Table, path: &[&str]) {
-        let frequency = sine.get("frequency").and_then(Value::as_float);
-        let mut given = false;
+    /// The amplitude of a sine that is given by its velocity or acceleration; a sweep keeps what it is given by.
+    fn shaken(&mut self, sine: &mut toml::Table, frequency: &str, path: &[&str]) {
+        let sweeps = frequency == "from";
+        let frequency = sine.get(frequency).and_then(Value::as_float);
+        let mut given = None;
         for (key, power) in [("velocity", 1), ("acceleration", 2)] {
             let rate = sine.remove(key).and_then(|value| value.as_float());
             if let (Some(rate), Some(frequency)) = (rate, frequency) {
                 sine.insert("amplitude".into(), Value::Float(rate / (TAU * frequency).powi(power)));
             }
-            given |= self.typed(&[path, &[key]].concat());
+            given = given.or(self.typed(&[path, &[key]].concat()).then_some(key));
         }
-        if !given && !self.typed(&[path, &["amplitude"]].concat()) {
+        if sweeps && !self.typed(&[path, &["keep"]].concat()) {
+            sine.insert("keep".into(), given.unwrap_or("displacement").into());
+        }
+        if given.is_none() && !self.typed(&[path, &["amplitude"]].concat()) {
             self.complain(
                 Complaint::new(format!("missing key `amplitude` in [{}]", path.join(".")))
                     .at(&self.root.locate(path), "needs `amplitude`, `velocity` or `acceleration`")

@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 use std::time::Instant;
 use tsubu_frame::State;
-use tsubu_scene::plan::{Atlas, Plan, Signal, Structure};
+use tsubu_scene::plan::{Atlas, Keep, Plan, Scale, Signal, Structure};
 
 /// Periods of a block: one that doubles its period twice is the same in each.
 const BLOCK: u32 = 4;
@@ -64,7 +64,9 @@ pub(super) fn shaken(plan: &Plan, atlas: &Atlas) -> Plan {
     if let Some(host) = plan.hosts.get_mut(&atlas.host) {
         host.structure = Structure::Shaker {};
         let amplitude = strong / (TAU * slow).powi(2);
-        host.base = Some(Signal::SineSweep { amplitude, from: 0.0, to: slow, duration: 1.0 / slow });
+        let (from, to, duration) = (0.0, slow, 1.0 / slow);
+        let (scale, keep) = (Scale::Linear, Keep::Displacement);
+        host.base = Some(Signal::SineSweep { amplitude, from, to, duration, scale, keep });
         (host.force, host.at, host.displacement, host.velocity) = (None, None, 0.0, 0.0);
         host.interface.clear();
     }
