@@ -139,9 +139,9 @@ fn draw_filmed(source: &mut Source, found: &[Snapshot], who: &str, drive: &str) 
 
 /// Heights at which the grains of a frame were in an earlier one [m]; not a number for those that were not there.
 pub(crate) fn heights(earlier: &Frame, frame: &Frame) -> Vec<f64> {
-    let began = Balls::of(earlier, &Look::default());
+    let began = earlier.vectors(Kind::Grain, "position").iter().map(|place| place[2]);
     let ids = earlier.integers(Kind::Grain, "id");
-    let heights: HashMap<i64, f64> = ids.iter().copied().zip(began.centres.iter().map(|c| c[1])).collect();
+    let heights: HashMap<i64, f64> = ids.iter().copied().zip(began).collect();
     frame.integers(Kind::Grain, "id").iter().map(|id| heights.get(id).copied().unwrap_or(f64::NAN)).collect()
 }
 
@@ -178,7 +178,7 @@ fn animated(source: &mut Source, found: &[Snapshot], periodic: bool, stem: &str)
         evenly(found, MOST_FRAMES)
     };
     let first = read_frame(&found[0].path)?;
-    let heights: Vec<f64> = Balls::of(&first, &Look::default()).centres.iter().map(|c| c[1]).collect();
+    let heights = heights(&first, &first);
     let mut look =
         Look { colour: ColourBy::Given("height at the start".into(), "m".into(), heights.clone()), ..Look::default() };
     let mut series = Vec::new();

@@ -17,6 +17,7 @@ mod grains;
 mod hosts;
 mod methods;
 mod region;
+mod share;
 mod sites;
 mod stage;
 mod study;

@@ -56,6 +56,7 @@ shape.plane = { point = [0, -1], normal = [0.1, 1] }
 structure.oscillator = { mass = 0.1, stiffness = 3, damping-ratio = 0.1 }
 base.sine = { amplitude = 0.001, frequency = 3, phase = "40 deg" }
 [hosts.two]
+copies = 2.5
 structure.matrices = { mass = [[2, 0], [0, 1]], damping = [[0.1, 0], [0, 0.1]], stiffness = [[3, -1], [-1, 2]], gyroscopic = [[0, 0.1], [-0.1, 0]], speed = "90 rpm", coordinate = 1 }
 force.impact = { peak = "3 N", duration = "2 ms" }
 at = "tip"

@@ -60,6 +60,7 @@ mod triaxial;
 mod twisting;
 mod voids;
 mod water;
+mod window;
 #[cfg(test)]
 mod without;
 

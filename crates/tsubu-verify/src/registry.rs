@@ -6,7 +6,7 @@ use crate::{
     cooling, damper_2003, drop, drum, drum_regimes, expansion, film, gdr_midi_2004, held, host, impact_damper,
     lattice_grain, lattice_review, lump, open_dem_benchmark, order, orifice, outlet, pile_stress, pile_twin, plastic,
     prediction, random_loads, rheology, rolling, sediment_2004, shapes, sieving, silo, spin_in_water, stack, triaxial,
-    twisting, voids, water,
+    twisting, voids, water, window,
 };
 
 /// All cases, in the order they are listed and run.
@@ -54,6 +54,7 @@ pub static CASES: &[Case] = &[
     case("loss-factor", "damper", 1, "the empty structure's loss factor by three ways", host::loss_factor),
     case("added-mass", "damper", 5, "a bed at rest is an added mass", host::added_mass),
     case("prediction", "damper", 600, "three structures by an atlas of their cavity", prediction::three_structures),
+    case("window", "damper", 600, "a periodic slice of a large cavity for the whole", window::window),
     case("ring-down", "damper", 10, "loss factor with balls, driven and ringing down", host::loss_factor_with_grains),
     case("figure-9", "damper-2003", 20, "shaken box, landing and lift-off (figures 9 and 10)", damper_2003::figure_9),
     case(

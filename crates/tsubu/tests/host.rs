@@ -1,7 +1,8 @@
 //! Hosts: several degrees of freedom, matrices and modes.
 
+use tsubu::engine::energies;
 use tsubu::ledger::{Account, Ledger};
-use tsubu::partner::Host;
+use tsubu::partner::{Host, Hosts};
 use tsubu_scene::plan;
 
 fn host(structure: plan::Structure, displacement: f64) -> Host {
@@ -10,6 +11,7 @@ fn host(structure: plan::Structure, displacement: f64) -> Host {
         direction: [0.0, 0.0, 1.0],
         interface: std::collections::BTreeMap::new(),
         at: None,
+        copies: 1.0,
         base: None,
         force: None,
         dwell: None,
@@ -166,4 +168,63 @@ fn a_rotor_whirls_on_campbells_lines() {
             assert!(missing.abs() < 1e-4 * opening, "{speed} {verlet}: {missing:e} of {opening:e}");
         }
     }
+}
+
+/// An oscillator on a shaken base, pushed as well, with as many balls between its floor and its ceiling, far from each other.
+fn balls(number: usize, copies: f64) -> plan::Plan {
+    let places: Vec<String> = (0..number).map(|index| format!("[{}, 0.004]", 0.5 * index as f64)).collect();
+    let text = format!(
+        r#"
+method = "dem"
+gravity = 9.81
+duration = 1
+[materials.steel]
+young-modulus = "200 MPa"
+poisson-ratio = 0.3
+restitution = 1
+friction = 0.3
+[particles.balls]
+material = "steel"
+diameter = 0.006
+mass = 0.01
+start.at.position = [{}]
+[walls.floor]
+material = "steel"
+host = "spring"
+shape.plane.normal = "z"
+[walls.ceiling]
+material = "steel"
+host = "spring"
+shape.plane = {{ point = [0, 0.02], normal = "-z" }}
+[hosts.spring]
+structure.oscillator = {{ mass = 0.4, stiffness = 600, damping-ratio = 0.02, cubic-stiffness = 1e5 }}
+base.sine = {{ amplitude = 0.001, frequency = 6 }}
+force.sine = {{ amplitude = 0.5, frequency = 6 }}
+copies = {copies}
+"#,
+        places.join(", ")
+    );
+    let scene = tsubu_scene::Scene::parse("scene.toml", &text, std::path::Path::new("."), &[]);
+    scene.unwrap_or_else(|complaints| panic!("{complaints}")).plan().clone()
+}
+
+/// A ball of which a structure has four copies moves it as four balls do: leaps of 0.3 s within 1e-6. (Their rebound loses nothing: four
+/// at once would not come back from one structure as asked, for each is told to rebound from it alone.) Its books hold. Control: one ball alone.
+#[test]
+fn copies_are_as_many_cavities() {
+    let moved = |plan: &plan::Plan| {
+        let mut hosts = Hosts::new(&plan.hosts);
+        let mut engine = tsubu::methods::open(plan, &hosts).unwrap_or_else(|error| panic!("{error}"));
+        let mut ledger = Ledger::open(energies(&*engine, &hosts), engine.momentum());
+        let steps = (0.3 / engine.time_step()) as u64;
+        engine.advance(steps, &mut hosts, &mut ledger).unwrap_or_else(|fault| panic!("{fault}"));
+        let residual = ledger.residual_relative(&energies(&*engine, &hosts));
+        assert!(residual.abs() < 1e-3, "{residual:e}");
+        [hosts.list[0].displacement(), engine.time_step()]
+    };
+    let [four, dt] = moved(&balls(4, 1.0));
+    let [copied, _] = moved(&balls(1, 4.0));
+    assert!((copied / four - 1.0).abs() < 1e-6, "{copied:e} {four:e}, {dt:e}");
+    let [alone, _] = moved(&balls(1, 1.0));
+    assert!((alone / four - 1.0).abs() > 0.01, "{alone:e} {four:e}");
 }

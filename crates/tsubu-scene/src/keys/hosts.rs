@@ -19,6 +19,14 @@ pub(super) static HOST: &[Key] = &[
     .default("{}"),
     Key::new("at", Kind::Text, "The interface whose displacement along `direction` is told, and where `force` acts")
         .derived("the only interface"),
+    Key::new(
+        "copies",
+        Kind::Quantity(&NUMBER),
+        "How many cavities like those of the scene it carries: the scene simulates one, or a periodic slice of a large one, and its share of the structure; \
+masses, forces and energies that are told are those of that share",
+    )
+    .default("1")
+    .at_least(1.0),
     Key::new("base", Kind::Choice(&DISPLACEMENT), "Displacement of the base against time").optional().may_change(),
     Key::new("force", Kind::Choice(&LOAD), "Applied force against time").optional().may_change(),
     Key::new("dwell", Kind::Table(DWELL), "Sine dwell: the frequency of the sine that drives it follows its resonance")

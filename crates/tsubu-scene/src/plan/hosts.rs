@@ -105,6 +105,9 @@ pub struct Host {
     pub interface: BTreeMap<String, Interface>,
     /// The interface whose displacement along `direction` is told, and where the force acts; `None` where there are none.
     pub at: Option<String>,
+    /// How many cavities like those of the scene it carries, all moving alike.
+    #[serde(default = "one")]
+    pub copies: f64,
     /// Base displacement y(t) [m].
     pub base: Option<Signal>,
     /// Applied force F(t) [N].
@@ -115,6 +118,10 @@ pub struct Host {
     pub displacement: f64,
     /// Velocity at time 0 of every coordinate [m/s].
     pub velocity: f64,
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 /// A sine whose frequency follows the resonance, by the phase of the answer.

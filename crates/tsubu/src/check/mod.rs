@@ -18,7 +18,7 @@ use crate::contact::Table;
 use crate::partner::Hosts;
 use crate::sizes;
 use std::f64::consts::PI;
-use tsubu_scene::plan::{GrainMotion, Plan, Shape, Start, Water};
+use tsubu_scene::plan::{self, GrainMotion, Plan, Shape, Start, Water};
 
 /// Time step of DEM [s]: told, or the shortest contact time at the scene's speed scale, and under the weight of the bed, over
 /// the wanted steps per contact; shorter where a bed's dashpots or the drag of water ask for it.
@@ -168,7 +168,7 @@ pub fn speed_scale(plan: &Plan, hosts: &Hosts) -> f64 {
             Start::Settled { .. } => {}
         }
     }
-    for (host, built) in plan.hosts.values().zip(&hosts.list) {
+    for (host, built) in plan.hosts.values().map(plan::Host::share).zip(&hosts.list) {
         let w = built.natural_frequencies().first().map_or(0.0, |f| std::f64::consts::TAU * f);
         let ratio = built.damping_ratio().max(1e-3);
         speed = speed.max(host.velocity.abs()).max(host.displacement.abs() * w);

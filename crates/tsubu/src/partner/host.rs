@@ -78,6 +78,7 @@ pub struct Host {
 impl Host {
     /// Builds a host at time 0, without grain forces.
     pub fn new(plan: &plan::Host) -> Self {
+        let plan = &plan.share();
         let (mass, damping, stiffness, mut seen, driven) = matrices(&plan.structure);
         let n = seen.len();
         let interfaces = Interface::all(plan, &mut seen);
@@ -237,6 +238,7 @@ impl Host {
 
     /// Another stage of a run begins at `time` [s]: from then on base and force are those of `plan`.
     pub fn change(&mut self, plan: &plan::Host, time: f64) {
+        let plan = &plan.share();
         if (&self.base, &self.force) != (&plan.base, &plan.force) {
             (self.base, self.force, self.driven_since) = (plan.base.clone(), plan.force.clone(), time);
             self.begin_dwell(plan.dwell.as_ref());

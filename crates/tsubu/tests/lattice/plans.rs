@@ -59,6 +59,7 @@ pub fn coupled(mut plan: Plan, base: f64, ratio: f64) -> Plan {
         direction: [0.0, 0.0, 1.0],
         interface: std::collections::BTreeMap::new(),
         at: None,
+        copies: 1.0,
         base: Some(Signal::Sine { amplitude: base, frequency: ratio * natural, phase: 0.0 }),
         force: None,
         dwell: None,

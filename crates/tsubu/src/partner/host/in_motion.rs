@@ -143,6 +143,7 @@ mod tests {
             direction: [0.0, 0.0, 1.0],
             interface: std::collections::BTreeMap::new(),
             at: None,
+            copies: 1.0,
             base: Some(Signal::Sine { amplitude: 1e-3, frequency: 1.0, phase: 0.4 }),
             force: None,
             dwell: None,

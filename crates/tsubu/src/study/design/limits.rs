@@ -62,11 +62,18 @@ impl Limits {
     /// What a combination needs; in words why that is not known.
     pub fn needs(&self, name: &str, plan: &Plan, wanted: &Design) -> Result<Needs, String> {
         let host = plan.response.as_ref().map_or("", |response| &response.host);
+        let copies = copies(plan);
         let value = |limit: &Limit| match limit.measure {
-            Measure::Mass => Ok(plan.grain_mass()),
-            Measure::Space => Ok(space::sides(plan, host)?.iter().product()),
+            Measure::Mass => Ok(copies * plan.grain_mass()),
+            Measure::Space => Ok(copies * space::sides(plan, host)?.iter().product::<f64>()),
+            Measure::Side(_) if copies != 1.0 => Err(format!(
+                "of `hosts.{host}.copies` = {copies} cavities the sides of all together are not known: use `design.space-limit`"
+            )),
             Measure::Side(axis) => Ok(space::sides(plan, host)?[axis]),
-            Measure::Cost => plan.grain_cost(&wanted.cost).ok_or_else(|| "a material has no `design.cost`".to_owned()),
+            Measure::Cost => plan
+                .grain_cost(&wanted.cost)
+                .map(|cost| copies * cost)
+                .ok_or_else(|| "a material has no `design.cost`".to_owned()),
         };
         let told = |limit: &Limit| value(limit).map_err(|why| format!("`design.{}`: {why}", limit.key));
         Ok(Needs { name: name.to_owned(), values: self.list.iter().map(told).collect::<Result<_, String>>()? })
@@ -122,7 +129,12 @@ pub(super) fn measures(plan: &Plan, wanted: &Design) -> [f64; 3] {
     let host = plan.response.as_ref().map_or("", |response| &response.host);
     let space = space::sides(plan, host).map_or(f64::NAN, |sides| sides.iter().product());
     let cost = if wanted.cost.is_empty() { None } else { plan.grain_cost(&wanted.cost) };
-    [plan.grain_mass(), space, cost.unwrap_or(f64::NAN)]
+    [plan.grain_mass(), space, cost.unwrap_or(f64::NAN)].map(|measure| copies(plan) * measure)
+}
+
+/// How many cavities like that of the scene the host carries.
+fn copies(plan: &Plan) -> f64 {
+    plan.response.as_ref().and_then(|response| plan.hosts.get(&response.host)).map_or(1.0, |host| host.copies)
 }
 
 /// The number with four digits that is not below this one.

@@ -46,7 +46,8 @@ pub(super) fn write(
             folder.write_editable("best.toml", best.resolved_toml().as_bytes())?;
         }
         summary.particles = task.plan(found.best).grains() as u64;
-        summary.give("mass of the grains", "kg", task.plan(found.best).grain_mass());
+        let [mass, ..] = limits::measures(task.plan(found.best), &task.wanted);
+        summary.give("mass of the grains", "kg", mass);
         tell(work, found, &mut summary);
         let gain = search::gain(&task.candidates, &work.values(), &work.cheap, &work.closed());
         summary.give("gain expected of others", "-", gain);
@@ -236,7 +237,7 @@ fn front(work: &Work<'_>) -> Vec<usize> {
         .values()
         .into_iter()
         .filter(|(index, _)| work.standing(*index).is_some_and(|standing| work.fits(&standing)))
-        .map(|(index, rms)| (index, work.task.plan(index).grain_mass(), rms))
+        .map(|(index, rms)| (index, limits::measures(work.task.plan(index), &work.task.wanted)[0], rms))
         .collect();
     let beaten = |one: &(usize, f64, f64)| {
         measured.iter().any(|other| other.1 <= one.1 && other.2 <= one.2 && (other.1 < one.1 || other.2 < one.2))

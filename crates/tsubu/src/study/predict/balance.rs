@@ -111,6 +111,7 @@ mod tests {
             direction: [0.0, 0.0, 1.0],
             interface: std::collections::BTreeMap::new(),
             at: None,
+            copies: 1.0,
             base: Some(Signal::Sine { amplitude: BASE, frequency, phase: 0.0 }),
             force: None,
             dwell: None,
