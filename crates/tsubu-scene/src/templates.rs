@@ -64,6 +64,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/agglomerate.toml"),
     },
     Template {
+        name: "rock-core",
+        about: "in space: a core of bonded grains is pressed between plates until it fails; its stress, its cracks and its fragments",
+        text: include_str!("../../../scenes/rock-core.toml"),
+    },
+    Template {
         name: "random-vibration",
         about: "a box of balls on a machine under random vibration: spectra of base and machine, and what is transmitted",
         text: include_str!("../../../scenes/random-vibration.toml"),

@@ -92,7 +92,7 @@ pub(super) fn window(_spoiler: f64) -> Result<Vec<Claim>, String> {
             source,
         )
     };
-    let mut claims: Vec<Claim> = RATIOS.into_iter().zip(over("window", 4.0, 6)?).map(judge).collect();
+    let mut claims: Vec<Claim> = RATIOS.into_iter().zip(over("window", 4.0, 12)?).map(judge).collect();
     let wrong: Vec<Claim> = RATIOS.into_iter().zip(over("half of the copies", 2.0, 3)?).map(judge).collect();
     claims.push(refused("half of the copies", &wrong, 3));
     Ok(claims)

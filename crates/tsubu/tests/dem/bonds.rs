@@ -186,32 +186,35 @@ fn a_contact_takes_over_from_a_broken_bond() {
     assert!(missing(&*engine, &hosts, &ledger) < 1e-3, "{}", missing(&*engine, &hosts, &ledger));
 }
 
+/// Chains of so many bonds side by side, one end held and the other pulled at such a rate that twice the mean strength comes after 4 ms.
+fn pulled(chains: u32, links: usize, scatter: &str) -> String {
+    let at = |x: usize| {
+        let places: Vec<String> =
+            (0..chains).map(|k| format!("[{}, {}]", x as f64 * LENGTH, f64::from(k) * 3.0 * LENGTH)).collect();
+        places.join(", ")
+    };
+    let between: Vec<String> = (1..links).map(at).collect();
+    let group = |name: &str, motion: &str, places: &str| {
+        format!("[particles.{name}]\nmaterial = 'rock'\ndiameter = '2 mm'\n{motion}\nstart.at.position = [{places}]\n")
+    };
+    // Mean strength over E is 1e-3.
+    let rate = 0.5 * links as f64 * LENGTH;
+    let pull = format!("motion.driven = {{ direction = 'x', signal.steady.rate = {rate} }}");
+    // Somebody must be free to move.
+    let free = if links > 1 { between.join(", ") } else { "[-1, 0]".to_owned() };
+    "duration = '1 s'\ngravity = 0\n[materials.rock]\nyoung-modulus = '1 GPa'\ndensity = '2500 kg/m^3'\n[contact]\nnormal.hertz = {}\n".to_owned()
+        + &group("a-held", "motion.frozen = {}", &at(0))
+        + &group("b-free", "", &free)
+        + &group("c-pulled", &pull, &at(links))
+        + &format!("[[bond]]\nyoung-modulus = {YOUNG}\ndamping = 0.5\ntensile-strength = {}\n{scatter}\n", 1e-3 * YOUNG)
+}
+
 /// 150 chains of n bonds each, pulled until their first bond breaks. The weakest of n breaks: in the mean strength n^(-1/m) by Weibull, for m = 3 half
 /// of one bond's with eight. Without scatter a chain would be as strong as a bond: the gate refuses it.
 #[test]
 fn a_long_chain_is_as_weak_as_weibull_says() {
     let mean = |links: usize, scatter: &str| {
-        let at = |x: usize| {
-            let places: Vec<String> =
-                (0..150).map(|k| format!("[{}, {}]", x as f64 * LENGTH, f64::from(k) * 3.0 * LENGTH)).collect();
-            places.join(", ")
-        };
-        let between: Vec<String> = (1..links).map(at).collect();
-        let group = |name: &str, motion: &str, places: &str| {
-            format!(
-                "[particles.{name}]\nmaterial = 'rock'\ndiameter = '2 mm'\n{motion}\nstart.at.position = [{places}]\n"
-            )
-        };
-        // Mean strength over E is 1e-3; pulled at such a rate that twice of it comes after 4 ms.
-        let rate = 0.5 * links as f64 * LENGTH;
-        let pull = format!("motion.driven = {{ direction = 'x', signal.steady.rate = {rate} }}");
-        // Somebody must be free to move.
-        let free = if links > 1 { between.join(", ") } else { "[-1, 0]".to_owned() };
-        let text = "duration = '1 s'\ngravity = 0\n[materials.rock]\nyoung-modulus = '1 GPa'\ndensity = '2500 kg/m^3'\n[contact]\nnormal.hertz = {}\n".to_owned()
-            + &group("a-held", "motion.frozen = {}", &at(0))
-            + &group("b-free", "", &free)
-            + &group("c-pulled", &pull, &at(links))
-            + &format!("[[bond]]\nyoung-modulus = {YOUNG}\ndamping = 0.5\ntensile-strength = {}\n{scatter}\n", 1e-3 * YOUNG);
+        let text = pulled(150, links, scatter);
         let (mut engine, mut hosts, mut ledger) = open_text(&text, &["dem.time-step='2 us'"]);
         let mut strength = vec![0.0; 150];
         let mut all = bonds(&*engine).0;
@@ -243,6 +246,34 @@ fn a_long_chain_is_as_weak_as_weibull_says() {
     assert!(gate(whole, 2.0) && gate(weakest, 8.0), "{whole} {weakest}");
     let alike = mean(8, "");
     assert!((alike - 1.0).abs() < 0.05 && !gate(alike, 8.0), "{alike}");
+}
+
+/// 1,500 chains of two bonds side by side, stretched alike: with Weibull's scatter of modulus m such a bundle carries at most (m e)^(-1/m) / Gamma(1 + 1/m)
+/// of the mean strength of its chains (Daniels 1945), 2^(-1/m) of a bond's, for those that hold on are the fewer the larger the stretch. The sample scatters
+/// by 2 %. Without scatter it would carry all: the gate refuses it.
+#[test]
+fn a_bundle_is_as_weak_as_daniels_says() {
+    let strength = |scatter: &str| {
+        let (mut engine, mut hosts, mut ledger) = open_text(&pulled(1500, 2, scatter), &["dem.time-step='2 us'"]);
+        let mut most: f64 = 0.0;
+        for step in 1..=1200 {
+            engine.advance(1, &mut hosts, &mut ledger).unwrap();
+            let stretch = 0.5 * 2e-6 * f64::from(step) / 1e-3;
+            // Of a chain that breaks one bond goes.
+            let (left, broken) = bonds(&*engine);
+            assert_eq!(left as u64 + broken, 3000);
+            most = most.max(stretch * (1.0 - broken as f64 / 1500.0));
+        }
+        most
+    };
+    let gate = |found: f64, m: f64| {
+        let bundle = (m * std::f64::consts::E).powf(-1.0 / m) / libm::tgamma(1.0 + 1.0 / m);
+        (found / (bundle * 2.0_f64.powf(-1.0 / m)) - 1.0).abs() < 0.06
+    };
+    let (wide, narrow) = (strength("weibull-modulus = 1.5"), strength("weibull-modulus = 6"));
+    assert!(gate(wide, 1.5) && gate(narrow, 6.0), "{wide} {narrow}");
+    let alike = strength("");
+    assert!((alike - 1.0).abs() < 0.02 && !gate(alike, 1.5) && !gate(alike, 6.0), "{alike}");
 }
 
 /// A block of 1,200 bonded grains that falls onto a floor, and breaks.
