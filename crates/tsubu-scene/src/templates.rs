@@ -64,6 +64,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/agglomerate.toml"),
     },
     Template {
+        name: "fibre",
+        about: "a fibre of bonded grains bends under its weight by 64 degrees, as the heavy elastica does",
+        text: include_str!("../../../scenes/fibre.toml"),
+    },
+    Template {
         name: "rock-core",
         about: "in space: a core of bonded grains is pressed between plates until it fails; its stress, its cracks and its fragments",
         text: include_str!("../../../scenes/rock-core.toml"),

@@ -22,7 +22,7 @@ fn scene(depth: f64, balls: usize, ends: &str, copies: f64) -> String {
     let half = 0.5e-3 * depth;
     let mut walls = wall("floor", [0.0; 3], "z") + &wall("ceiling", [0.0, 0.0, 0.06], "-z");
     walls += &(wall("left", [-0.018, 0.0, 0.0], "x") + &wall("right", [0.018, 0.0, 0.0], "-x"));
-    walls += &match ends {
+    let ends = match ends {
         "walls" => wall("front", [0.0, -half, 0.0], "y") + &wall("back", [0.0, half, 0.0], "-y"),
         _ => format!("[periodic]\ny = [{}, {half}]\n", -half),
     };
@@ -43,7 +43,7 @@ material = "steel"
 count = {balls}
 diameter = "6 mm"
 start.random.region = {{ low = [-0.018, {}, 0], high = [0.018, {half}, 0.06] }}
-{walls}
+{walls}{ends}
 [hosts.machine]
 copies = {copies}
 structure.oscillator = {{ mass = "12 kg", stiffness = "153.5 kN/m", damping = "27.14 N s/m" }}
