@@ -117,7 +117,7 @@ fn dwells_and_spectra_that_cannot_be() {
 fn drives_mean_the_same_when_read_again() {
     let drives = [
         FLAT.to_owned(),
-        "base.shock = { acceleration = \"50 g\", duration = \"11 ms\", at = 0.1 }".to_owned(),
+        "base.shock = { acceleration = \"50 g\", duration = \"11 ms\", at = 0.1, compensation = \"20 %\" }".to_owned(),
         format!("{SINE}\nforce.sines = {{ amplitude = [1, \"2 N\"], frequency = [3, 5] }}"),
         "base.sine-sweep = { acceleration = \"1 g\", from = 5, to = 50, duration = 9, scale = \"logarithmic\" }"
             .to_owned(),

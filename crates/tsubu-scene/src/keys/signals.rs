@@ -3,7 +3,8 @@
 use super::study::KEEP;
 use super::{Key, Kind, Variant, Word};
 use crate::units::{
-    ACCELERATION, ACCELERATION_DENSITY, ANGLE, FORCE, FORCE_DENSITY, FREQUENCY, LENGTH, LOAD_RATE, SPEED, SPIN, TIME,
+    ACCELERATION, ACCELERATION_DENSITY, ANGLE, FORCE, FORCE_DENSITY, FREQUENCY, LENGTH, LOAD_RATE, NUMBER, SPEED, SPIN,
+    TIME,
 };
 
 const FREQUENCY_OF_A_SINE: Key = Key::new("frequency", Kind::Quantity(&FREQUENCY), "Frequency").above(0.0);
@@ -122,11 +123,19 @@ macro_rules! signals {
 /// A shock as a table drops it: of displacements alone.
 const SHOCK: Variant = Variant {
     name: "shock",
-    about: "Half-sine pulse of acceleration; afterwards it goes on at the speed gained, 2 acceleration duration / pi",
+    about: "Half-sine pulse of acceleration; without compensation it goes on at the speed gained, 2 acceleration duration / pi",
     keys: &[
         Key::new("acceleration", Kind::Quantity(&ACCELERATION), "Peak of the acceleration; `g` is a unit"),
         Key::new("duration", Kind::Quantity(&TIME), "Length of the pulse").above(0.0),
         Key::new("at", Kind::Quantity(&TIME), "Begin").default("0").at_least(0.0),
+        Key::new(
+            "compensation",
+            Kind::Quantity(&NUMBER),
+            "Peak of two longer pulses of the other sign, before and after it, over its own: they bring the base back to rest where it was; 0: none",
+        )
+        .default("0")
+        .at_least(0.0)
+        .at_most(0.5),
     ],
 };
 

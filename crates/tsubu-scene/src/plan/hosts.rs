@@ -42,7 +42,7 @@ pub enum Signal {
         /// Begin [s].
         at: f64,
     },
-    /// Half-sine pulse of acceleration; afterwards it goes on at the speed gained.
+    /// Half-sine pulse of acceleration; afterwards it goes on at the speed gained, or two weaker pulses take that away.
     Shock {
         /// Peak of the acceleration [m/s^2].
         acceleration: f64,
@@ -50,6 +50,8 @@ pub enum Signal {
         duration: f64,
         /// Begin [s].
         at: f64,
+        /// Peak of a pulse of the other sign before it, and of one after it, over its own; 0: none.
+        compensation: f64,
     },
     /// offset + sum of amplitude sin(2 pi frequency t + phase). What a scene gives as `random` is realised as these.
     Sines {
