@@ -6,6 +6,7 @@
 
 mod commands;
 mod failure;
+mod launch;
 mod looked_at;
 mod machine;
 mod options;
