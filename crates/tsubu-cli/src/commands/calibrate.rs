@@ -2,6 +2,7 @@
 
 use super::points;
 use crate::failure::Failure;
+use crate::launch::LocalOnly;
 use crate::table;
 use clap::Args;
 use std::fmt::Write as _;
@@ -27,9 +28,13 @@ An interrupted calibration goes on where it was when the same command is typed a
 pub struct Options {
     #[command(flatten)]
     points: points::PointsOptions,
+    #[command(flatten)]
+    launch: LocalOnly,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
+    let why = "a calibration chooses its next runs by the results of those before";
+    options.launch.check("calibrate", why, "run it whole on one node, as one job")?;
     points::run("calibrate", "runs", &options.points, tsubu::study::calibrate::calibrate, told)
 }
 

@@ -2,6 +2,7 @@
 
 use super::points;
 use crate::failure::Failure;
+use crate::launch::LocalOnly;
 use crate::table;
 use clap::Args;
 use std::fmt::Write as _;
@@ -24,9 +25,13 @@ An interrupted design goes on where it was when the same command is typed again.
 pub struct Options {
     #[command(flatten)]
     points: points::PointsOptions,
+    #[command(flatten)]
+    launch: LocalOnly,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
+    let why = "a design chooses its next runs by the results of those before";
+    options.launch.check("design", why, "run it whole on one node, as one job")?;
     points::run("design", "runs", &options.points, tsubu::study::design::design, candidates)
 }
 

@@ -45,7 +45,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         session.needs_folder()?;
     }
     let Session { scene, folder, .. } = &session;
-    if !options.launch.is_here() {
+    if !options.launch.is_here()? {
         return apart(options, &session);
     }
     let overwrite = options.folder.overwrite;

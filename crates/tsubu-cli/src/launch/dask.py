@@ -15,7 +15,7 @@ def run(command):
 logs = pathlib.Path(LOGS)
 logs.mkdir(parents=True, exist_ok=True)
 first = sum(1 for _ in logs.glob("dask_*.txt"))
-client = Client(SCHEDULER or dask.config.get("scheduler-address"), set_as_default=False)
+client = Client(SCHEDULER or dask.config.get("scheduler-address"))
 futures = {client.submit(run, COMMAND + task, pure=False): task for task in TASKS}
 try:
     for done, future in enumerate(as_completed(futures), 1):

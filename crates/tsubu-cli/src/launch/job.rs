@@ -25,6 +25,8 @@ pub struct Job {
     pub folder: PathBuf,
     /// Names of runs, a list a task.
     pub tasks: Vec<Vec<String>>,
+    /// Runs of a task, where the user says how many.
+    pub per_task: Option<usize>,
     /// Threads of a task.
     pub threads: u16,
     /// What the longest run needs; none where that cannot be told soon.
@@ -37,7 +39,7 @@ impl Job {
     pub fn new(
         name: &'static str,
         folder: &Path,
-        missing: Vec<String>,
+        missing: &[String],
         per_task: Option<usize>,
         threads: u16,
         plans: Vec<(Plan, f64)>,
@@ -49,7 +51,7 @@ impl Job {
         let short = need.map_or(1, |need| (SHORTEST / need.seconds.max(1e-3)).round() as usize);
         let size = per_task.unwrap_or(short).clamp(1, missing.len().max(1)).max(missing.len().div_ceil(MOST));
         let tasks = missing.chunks(size).map(<[String]>::to_vec).collect();
-        Ok(Self { name, folder, tasks, threads, need, program: program() })
+        Ok(Self { name, folder, tasks, per_task, threads, need, program: program() })
     }
 
     /// Runs of all tasks.

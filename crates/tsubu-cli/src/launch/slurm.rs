@@ -30,7 +30,8 @@ pub fn script(job: &Job) -> String {
     let array = array(job);
     let mut text = format!(
         "#!/bin/bash\n\
-         # tsubu {}: {runs} runs in {tasks} tasks, and a last job that gathers what is there. By hand:\n\
+         # tsubu {}: {runs} runs in {tasks} tasks, and a last job that gathers what is there. By hand, where\n\
+         # an earlier launch or `tsubu {} SCENE -o DIR --gather` has made the folder:\n\
          #   job=$(sbatch --parsable {array} FILE) && sbatch --dependency=afterany:$job FILE\n\
          #SBATCH --job-name=tsubu-{}\n\
          #SBATCH --output=\"{}/%A_%a.txt\"\n\
@@ -41,6 +42,7 @@ pub fn script(job: &Job) -> String {
          #SBATCH --nodes=1\n\
          #SBATCH --ntasks=1\n\
          #SBATCH --cpus-per-task={}\n",
+        job.name,
         job.name,
         job.name,
         job.logs().display(),
@@ -66,8 +68,11 @@ pub fn script(job: &Job) -> String {
         let cases: Vec<String> = task.iter().map(|name| format!("--case {name}")).collect();
         let _ = writeln!(text, "  \"{}\"", cases.join(" "));
     }
-    text += ")\n\
-             if [ -z \"${SLURM_ARRAY_TASK_ID:-}\" ]; then\n  exec \"${tsubu[@]}\" --gather\nfi\n\
+    text += ")\nif [ -z \"${SLURM_ARRAY_TASK_ID:-}\" ]; then\n  exec \"${tsubu[@]}\" --gather --launcher slurm";
+    if let Some(per_task) = job.per_task {
+        let _ = write!(text, " --per-task {per_task}");
+    }
+    text += "\nfi\n\
              exec \"${tsubu[@]}\" ${tasks[$SLURM_ARRAY_TASK_ID]}\n";
     text
 }

@@ -167,18 +167,27 @@ impl Apart for Sweep<'_> {
 
 /// What an earlier run of this scene has left in its folder.
 fn earlier(scene: &Scene, folder: &Path) -> Option<Summary> {
-    let same = std::fs::read_to_string(folder.join("scene.toml")).is_ok_and(|text| text == scene.resolved_toml());
-    Summary::read(&folder.join("summary.json")).ok().filter(|_| same)
+    Summary::read(&folder.join("summary.json")).ok().filter(|_| is_of(scene, folder))
+}
+
+/// Whether the folder is of this scene. What else is varied in the sweep is nothing to a case.
+fn is_of(scene: &Scene, folder: &Path) -> bool {
+    let alone = |text: &str| {
+        let mut table: toml::Table = toml::from_str(text).ok()?;
+        table.remove("sweep");
+        Some(table)
+    };
+    let (there, here) = (std::fs::read_to_string(folder.join("scene.toml")), scene.resolved_toml());
+    there.is_ok_and(|there| there == here || alone(&there).is_some_and(|there| Some(there) == alone(&here)))
 }
 
 /// Runs a case into a folder of its own; one that is finished is kept, one that was cut goes on.
 pub(super) fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<Summary, CasesError> {
     let scene = case.scene(scene).map_err(CasesError::Complaints)?;
-    let same = std::fs::read_to_string(folder.join("scene.toml")).is_ok_and(|text| text == scene.resolved_toml());
     if let Some(summary) = earlier(&scene, folder).filter(|s| s.status == Status::Finished) {
         return Ok(summary);
     }
-    let cut = same && tsubu_frame::checkpoint::path(folder).exists();
+    let cut = is_of(&scene, folder) && tsubu_frame::checkpoint::path(folder).exists();
     let existing = if cut { Existing::Resume } else { Existing::Overwrite };
     let quiet = Watcher { interrupt: watcher.interrupt, progress: &|_| {} };
     match run::run_with(&scene, folder, existing, false, &quiet) {
