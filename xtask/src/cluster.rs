@@ -10,7 +10,8 @@ pub fn cluster(arguments: &[&str]) -> Result<(), String> {
     }
     let tests = root().join("crates/tsubu-cli/tests/cluster");
     let requirements = tests.join("requirements.txt");
-    let Some(python) = environment(&root().join("target/cluster-test"), &["-r", &requirements.to_string_lossy()]) else {
+    let Some(python) = environment(&root().join("target/cluster-test"), &["-r", &requirements.to_string_lossy()])
+    else {
         return skipped("Dask cannot be installed: is there a network?");
     };
     let mut test = command(&python.to_string_lossy(), &["-m", "pytest", "--quiet", "-rs", "-p", "no:cacheprovider"]);

@@ -93,7 +93,8 @@ fn verdict(table: &Table) -> Option<(Tone, String)> {
 /// What every case warns of; `sweep.csv` has the rest, case by case.
 fn common_warnings(source: &Source, table: &Table) -> Vec<String> {
     let folders = folders(table);
-    let mut read = folders.iter().filter_map(|folder| Summary::read(&source.dir.join(folder).join("summary.json")).ok());
+    let mut read =
+        folders.iter().filter_map(|folder| Summary::read(&source.dir.join(folder).join("summary.json")).ok());
     let (Some(first), Some(second)) = (read.next(), read.next()) else { return Vec::new() };
     let mut common = first.warnings;
     for other in [second].into_iter().chain(read) {

@@ -30,8 +30,9 @@ except (OSError, ValueError, ImportError) as error:
 pub fn ready(scheduler: Option<&str>) -> Result<(), Failure> {
     let done = Command::new("python3").args(["-c", READY, scheduler.unwrap_or_default()]).stdin(Stdio::null()).output();
     let install = "install it where `python3` finds it: pip install distributed";
-    let done = done
-        .map_err(|error| Failure::wrong(format!("there is no Dask here: `python3` does not start ({error})")).hint(install))?;
+    let done = done.map_err(|error| {
+        Failure::wrong(format!("there is no Dask here: `python3` does not start ({error})")).hint(install)
+    })?;
     if done.status.success() {
         return Ok(());
     }

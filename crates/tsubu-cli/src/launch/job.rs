@@ -44,9 +44,8 @@ impl Job {
         threads: u16,
         plans: Vec<(Plan, f64)>,
     ) -> Result<Self, Failure> {
-        let folder = std::path::absolute(folder).map_err(|error| {
-            Failure::wrong(format!("{} cannot be named from the root: {error}", folder.display()))
-        })?;
+        let folder = std::path::absolute(folder)
+            .map_err(|error| Failure::wrong(format!("{} cannot be named from the root: {error}", folder.display())))?;
         let need = soon(plans);
         let short = need.map_or(1, |need| (SHORTEST / need.seconds.max(1e-3)).round() as usize);
         let size = per_task.unwrap_or(short).clamp(1, missing.len().max(1)).max(missing.len().div_ceil(MOST));

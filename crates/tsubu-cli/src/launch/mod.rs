@@ -132,7 +132,8 @@ impl LaunchOptions {
                 return output::print(&lines.concat()).map(|()| Left::Nothing);
             }
             // What was asked for and is missing is not asked for again; a next round of runs is.
-            if missing.is_empty() || self.launcher == Launcher::Local || waited && asked_for(&session.folder, &missing) {
+            if missing.is_empty() || self.launcher == Launcher::Local || waited && asked_for(&session.folder, &missing)
+            {
                 return Ok(Left::Gather);
             }
             let plans = study.plans().map_err(broken)?;

@@ -116,7 +116,11 @@ fn a_sweep_runs_every_case_and_keeps_what_is_done() {
     let before = desk.read("out/balls-sweep/cases/restitution=0.7/summary.json");
     std::fs::remove_dir_all(desk.path("out/balls-sweep/cases/restitution=0.6")).unwrap();
     desk.done("sweep balls.toml -q --jobs 1");
-    assert_eq!(desk.read("out/balls-sweep/cases/restitution=0.7/summary.json"), before, "a finished case was run again");
+    assert_eq!(
+        desk.read("out/balls-sweep/cases/restitution=0.7/summary.json"),
+        before,
+        "a finished case was run again"
+    );
     assert!(desk.path("out/balls-sweep/cases/restitution=0.6/summary.json").exists());
 }
 

@@ -53,10 +53,7 @@ pub fn need(plans: &[(Plan, f64)]) -> Option<Need> {
 const LOOK: Duration = Duration::from_millis(500);
 
 /// Does what needs a folder as soon as nobody else holds it.
-pub(super) fn unlocked<T>(
-    watcher: &Watcher,
-    mut work: impl FnMut() -> Result<T, CasesError>,
-) -> Result<T, CasesError> {
+pub(super) fn unlocked<T>(watcher: &Watcher, mut work: impl FnMut() -> Result<T, CasesError>) -> Result<T, CasesError> {
     loop {
         match work() {
             Err(
