@@ -2,11 +2,13 @@
 
 use super::{claims, run::warnings};
 use crate::failure::Failure;
+use crate::launch::{LaunchOptions, Left, Logs};
 use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
 use crate::session::{Session, judge, resume};
 use clap::Args;
 use std::path::Path;
 use tsubu::interrupt::Watcher;
+use tsubu::study::apart::Gathered;
 use tsubu::study::cases::CasesError;
 use tsubu_frame::{Status, Summary};
 use tsubu_scene::Scene;
@@ -58,6 +60,22 @@ pub fn run(
     }
     let again = format!("the others are kept; `{}` tries those again that failed", command_to_resume());
     tell(&session, &summary, table, again)
+}
+
+/// The same where runs are done apart, or what is there of them is gathered.
+pub fn apart(
+    name: &'static str,
+    options: &PointsOptions,
+    launch: &LaunchOptions,
+    session: &Session,
+    study: &mut (impl Gathered + Send),
+    table: fn(&Path) -> Result<String, Failure>,
+) -> Result<(), Failure> {
+    let Left::Gather = launch.go(name, study, session, &options.folder, &options.work)? else { return Ok(()) };
+    let logs = Logs::read(&session.folder);
+    let gathered = study.gather(&|run| logs.why(run));
+    let summary = gathered.map_err(|error| Failure::of_cases(&error, &session.scene, &session.folder))?;
+    tell(session, &summary, table, "the same command as before does what is missing, and nothing else".to_owned())
 }
 
 /// Tells what came of it, and makes its page; `again` is what to do where some runs have no result.

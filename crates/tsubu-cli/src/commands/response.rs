@@ -2,7 +2,7 @@
 
 use super::points;
 use crate::failure::Failure;
-use crate::launch::{LaunchOptions, Left, Logs};
+use crate::launch::LaunchOptions;
 use crate::table;
 use clap::Args;
 use std::path::Path;
@@ -33,18 +33,11 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     points::run("response", "frequencies", &options.points, tsubu::study::response::response, cases)
 }
 
-/// The runs are done apart, or what is there of them is gathered.
 fn apart(Options { points, launch }: &Options) -> Result<(), Failure> {
     let session = points.session("response")?;
-    let broken = |error| Failure::of_cases(&error, &session.scene, &session.folder);
-    let mut runs = Runs::new(&session.scene, &session.folder).map_err(broken)?;
-    let Left::Gather = launch.go("response", &mut runs, &session, &points.folder, &points.work)? else {
-        return Ok(());
-    };
-    let logs = Logs::read(&session.folder);
-    let summary = runs.gather(&|name| logs.why(name)).map_err(broken)?;
-    let again = "the same command as before does what is missing, and nothing else".to_owned();
-    points::tell(&session, &summary, cases, again)
+    let runs = Runs::new(&session.scene, &session.folder);
+    let mut runs = runs.map_err(|error| Failure::of_cases(&error, &session.scene, &session.folder))?;
+    points::apart("response", points, launch, &session, &mut runs, cases)
 }
 
 /// Columns of `cases.csv` that fit on a terminal, with the factor to the unit shown.

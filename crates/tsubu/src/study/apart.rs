@@ -1,7 +1,7 @@
 //! A study whose runs are done apart: each by a process of its own, here or on another machine of a cluster.
 //!
 //! Whoever shares the runs out ([`Apart::missing`]) and whoever does one ([`Apart::run`]) meet in the folder alone. A run that
-//! is finished is kept, so each may be asked for as often as a cluster likes. The last one gathers, which every study does in its own way.
+//! is finished is kept, so each may be asked for as often as a cluster likes. The last one gathers.
 
 use super::cases::CasesError;
 use crate::interrupt::Watcher;
@@ -10,7 +10,7 @@ use crate::partner::Hosts;
 use crate::run::RunError;
 use crate::{memory, trial};
 use std::time::{Duration, Instant};
-use tsubu_frame::{FileError, Status};
+use tsubu_frame::{FileError, Status, Summary};
 use tsubu_scene::Plan;
 
 /// A study whose runs can be done apart.
@@ -26,6 +26,12 @@ pub trait Apart {
 
     /// What each run is of, with the time that is simulated in it [s].
     fn plans(&self) -> Result<Vec<(Plan, f64)>, CasesError>;
+}
+
+/// A study whose results are files and a summary, whatever its runs are.
+pub trait Gathered: Apart {
+    /// Makes them of what is there, and runs nothing. `why` tells of a run, by its name, why it has no result.
+    fn gather(&mut self, why: &dyn Fn(&str) -> String) -> Result<Summary, CasesError>;
 }
 
 /// What a run needs.

@@ -76,7 +76,13 @@ where
     P: Serialize + DeserializeOwned,
 {
     let journal = Journal::append(folder)?;
-    for (file, text) in parts(folder.path(), &mark(&scene.resolved_toml())) {
+    for (file, _) in parts(folder.path(), &mark(&scene.resolved_toml())) {
+        let part = OpenOptions::new().read(true).append(true).open(&file).map_err(FileError::write(&file))?;
+        // A worker that its cluster has given up may still be writing: what it leaves is read where it stands.
+        if let Err(TryLockError::WouldBlock) = part.try_lock() {
+            continue;
+        }
+        let text = std::fs::read_to_string(&file).map_err(FileError::read(&file))?;
         for (key, point) in lines::<K, P>(&text) {
             journal.record(&key, &point)?;
         }

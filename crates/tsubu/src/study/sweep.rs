@@ -170,6 +170,11 @@ fn earlier(scene: &Scene, folder: &Path) -> Option<Summary> {
     Summary::read(&folder.join("summary.json")).ok().filter(|_| is_of(scene, folder))
 }
 
+/// What an earlier run of this case has left in its folder.
+pub(super) fn kept(scene: &Scene, case: &Case, folder: &Path) -> Result<Option<Summary>, CasesError> {
+    Ok(earlier(&case.scene(scene).map_err(CasesError::Complaints)?, folder))
+}
+
 /// Whether the folder is of this scene. What else is varied in the sweep is nothing to a case.
 fn is_of(scene: &Scene, folder: &Path) -> bool {
     let alone = |text: &str| {

@@ -8,7 +8,7 @@ use super::{Beds, Done, FILES, Key, Point, Task, Way, write};
 use crate::interrupt::Watcher;
 use crate::methods;
 use crate::partner::Hosts;
-use crate::study::apart::{Apart, unlocked};
+use crate::study::apart::{Apart, Gathered, unlocked};
 use crate::study::cases::CasesError;
 use crate::study::journal::{self, Journal};
 use crate::trial;
@@ -33,31 +33,6 @@ impl<'a> Runs<'a> {
     pub fn new(scene: &'a Scene, folder: &Path) -> Result<Self, CasesError> {
         let (task, folder, beds) = (Task::new(scene)?, folder.to_owned(), Beds::new());
         Ok(Self { scene, task, folder, beds, unsettled: BTreeMap::new() })
-    }
-
-    /// The files of what is there, and no run. `why` tells of a run, by its name, why it has no result.
-    pub fn gather(&mut self, why: &dyn Fn(&str) -> String) -> Result<Summary, CasesError> {
-        let (done, lost) = self.known()?;
-        let mut rounds = Rounds::without(&self.task, Some(&done), lost.keys().copied().collect());
-        let told = |keys: &Vec<Key>| {
-            let name = self.name(keys[0]);
-            format!("{name} is missing: {}", why(&name))
-        };
-        let missing: Vec<String> = self.task.walks(&rounds).iter().map(told).collect();
-        rounds.end(Done::new());
-        let points = rounds.points;
-        let whole = points.len() == rounds.asked.len();
-        // A bed that did not settle says the same of each of its runs.
-        let lost: BTreeSet<String> = lost.into_values().collect();
-        let failures = lost.into_iter().chain(missing).collect();
-        let folder = journal::open_folder(&self.folder, true, self.scene, false, &FILES)?;
-        let results = self.task.results(&points);
-        if whole {
-            self.task.film(&results, &points, &mut self.beds, &folder)?;
-        }
-        let status = if whole { Status::Finished } else { Status::Failed };
-        let took = points.values().map(|point| point.wall).sum();
-        Ok(write::write(&folder, self.scene, &self.task.plans, &results, status, failures, took)?)
     }
 
     /// What is done, and what failed.
@@ -143,5 +118,31 @@ impl Apart for Runs<'_> {
         let (longest, all) = (each.clone().fold(0.0, f64::max), each.sum());
         let ways = self.task.plans.iter().zip(&self.task.ways);
         Ok(ways.map(|(plan, way)| (plan.clone(), if *way == Way::Apart { longest } else { all })).collect())
+    }
+}
+
+impl Gathered for Runs<'_> {
+    fn gather(&mut self, why: &dyn Fn(&str) -> String) -> Result<Summary, CasesError> {
+        let (done, lost) = self.known()?;
+        let mut rounds = Rounds::without(&self.task, Some(&done), lost.keys().copied().collect());
+        let told = |keys: &Vec<Key>| {
+            let name = self.name(keys[0]);
+            format!("{name} is missing: {}", why(&name))
+        };
+        let missing: Vec<String> = self.task.walks(&rounds).iter().map(told).collect();
+        rounds.end(Done::new());
+        let points = rounds.points;
+        let whole = points.len() == rounds.asked.len();
+        // A bed that did not settle says the same of each of its runs.
+        let lost: BTreeSet<String> = lost.into_values().collect();
+        let failures = lost.into_iter().chain(missing).collect();
+        let folder = journal::open_folder(&self.folder, true, self.scene, false, &FILES)?;
+        let results = self.task.results(&points);
+        if whole {
+            self.task.film(&results, &points, &mut self.beds, &folder)?;
+        }
+        let status = if whole { Status::Finished } else { Status::Failed };
+        let took = points.values().map(|point| point.wall).sum();
+        Ok(write::write(&folder, self.scene, &self.task.plans, &results, status, failures, took)?)
     }
 }
