@@ -212,6 +212,27 @@ def test_slurm_does_a_response_round_by_round(local, cluster, tmp_path):
     assert (out / "report.html").exists()
 
 
+DESIGN = """
+[design]
+runs = 30
+mass-limit = "6 g"
+vary = { "particles.balls.count" = [10, 20, 30, 40] }
+"""
+
+
+def test_slurm_does_a_design_round_by_round(cluster, tmp_path):
+    path, out = scene(tmp_path), tmp_path / "out"
+    text = path.read_text().replace("discard-periods = 2\n", "").replace("discard-periods-empty = 2\n", "")
+    text = text.replace("5 mm", "0.5 mm").replace("[0.9, 0.95, 1.0, 1.05]", "{ from = 0.9, to = 1.05 }")
+    path.write_text(text + DESIGN)
+    tsubu("design", path, "--set", "method=lattice", "-q", "-o", tmp_path / "local")
+    tsubu("design", path, "--set", "method=lattice", "-o", out, "--launcher", "slurm", env=cluster.environment)
+    slurm.wait(cluster.over, "the end of the rounds")
+    assert len(list((out / "launch").glob("*_last.txt"))) > 2, "it did not choose"
+    for file in ["design.csv", "curves.csv", "best.toml"]:
+        assert (out / file).read_text() == (tmp_path / "local" / file).read_text()
+
+
 class Dask:
     """A scheduler and three workers, one thread each; without a nanny, which would start them again."""
 
