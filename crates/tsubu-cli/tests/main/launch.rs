@@ -236,8 +236,8 @@ fn a_run_of_a_response_that_fails_is_told() {
     begun(&desk, "response");
     let names = missing(&desk, "response");
     assert_eq!(names.len(), 8);
-    let cases: String = names[1..].iter().map(|name| format!(" --case {name}")).collect();
-    let ended = desk.run(&format!("response out -o out -q{cases}"));
+    let cases = names[1..].join(" --case ");
+    let ended = desk.run(&format!("response out -o out -q --case {cases}"));
     assert!(ended.code == Some(3) && ended.stderr.contains("4 of 7 cases failed"), "{}", ended.stderr);
     let ended = desk.run("response out -o out --gather");
     assert_eq!(ended.code, Some(3), "{}", ended.stderr);
