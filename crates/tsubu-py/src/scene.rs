@@ -10,7 +10,7 @@ use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use tsubu::study;
-use tsubu::study::apart::Apart;
+use tsubu::study::apart::{Apart, Gathered};
 use tsubu::study::response::Runs;
 use tsubu::study::sweep::Sweep;
 use tsubu::study::variant::Variant;

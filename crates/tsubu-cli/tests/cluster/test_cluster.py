@@ -185,7 +185,7 @@ def test_slurm_does_what_is_missing_and_nothing_else(local, cluster, witness, tm
 
 
 def test_a_requeued_task_goes_on_from_its_checkpoint(cluster, tmp_path):
-    path, out = scene(tmp_path, duration="12 s", seeds=1), tmp_path / "out"
+    path, out = scene(tmp_path, duration="5 s", seeds=1), tmp_path / "out"
     case = "restitution=0.5,seed=1"
     changes = ["--set", "output.checkpoint-interval=0.2 s", "--set", "output.history-interval=0.01 s"]
     changes += ["--set", "sweep.vary.\"materials.acrylic.restitution\"=[0.5]"]
