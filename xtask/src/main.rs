@@ -7,6 +7,7 @@ mod blocks;
 mod book;
 mod check;
 mod claims;
+mod cluster;
 #[cfg(test)]
 mod file_lengths;
 mod fmu;
@@ -38,13 +39,15 @@ cargo xtask CHORE
   gen [--check]       write the generated pages and tables, or only say which are out of date
   spelling            look for misspelt words in all texts, where there is a Python 3
   book                build the book, where there is an mdbook
-  optional            what needs more than Rust and a C compiler: the book, the pages in a browser, units for co-simulation, the
-                      Python package
+  optional            what needs more than Rust and a C compiler: the book, the pages in a browser, units for co-simulation,
+                      Slurm and Dask, the Python package
   python [ARGUMENT]...
                       build the wheel, install it into a bare environment, and run its tests, where there is a Python 3.10 or later
                       and a network; arguments go to pytest
   fmu [ARGUMENT]...   pack units for co-simulation, and let FMPy validate and move them, where there is a Python 3.10 or later and a
                       network; arguments go to pytest
+  cluster [ARGUMENT]...
+                      start Slurm and Dask on this machine, run studies over them, and kill their workers; arguments go to pytest
   claims [NAME]...    run verification cases (without names all of up to a minute) and keep what they claim
   claims --from DIR   keep what `tsubu verify --controls -o DIR` has found, and run nothing
   mutants [WORDS]...  change a constant of the engines by 5 %, or leave a rule out, one after the other, and keep which verification
@@ -85,6 +88,7 @@ fn main() -> ExitCode {
         ["optional"] => optional::optional(),
         ["python", rest @ ..] => python::python(rest),
         ["fmu", rest @ ..] => fmu::fmu(rest),
+        ["cluster", rest @ ..] => cluster::cluster(rest),
         ["mutants", names @ ..] => mutants::mutants(names),
         ["chaotic"] => mutants::chaotic(),
         ["fuzz", rest @ ..] => guard::guard("fuzz", rest),

@@ -1,9 +1,9 @@
-//! What needs more than Rust and a C compiler: the book, the browser, units for co-simulation, Python. What is missing is said and skipped; `.ci/install`
+//! What needs more than Rust and a C compiler: the book, the browser, units for co-simulation, Slurm and Dask, Python. What is missing is said and skipped; `.ci/install`
 //! installs it.
 
 use crate::shell::cargo;
 use crate::test::has_nextest;
-use crate::{book, fmu, python};
+use crate::{book, cluster, fmu, python};
 
 /// All optional parts.
 pub fn optional() -> Result<(), String> {
@@ -15,5 +15,6 @@ pub fn optional() -> Result<(), String> {
         cargo(&["test", "--package", "tsubu-view"])?;
     }
     fmu::fmu(&[])?;
+    cluster::cluster(&[])?;
     python::python(&[])
 }

@@ -141,6 +141,7 @@ impl Failure {
                     .hint("start again with `--overwrite` in place of `--resume`")
             }
             RunError::Checkpoint(error) => Self::wrong(error.to_string()),
+            RunError::Elsewhere(_) => Self::of(FAILED, error),
             RunError::NoStep { .. } | RunError::NotThisScene(_) | RunError::Start(_) => Self::of(WRONG, error),
             RunError::Fault(fault) => {
                 Self::of(FAILED, fault).hint(format!("what was computed so far is kept in {}", folder.display()))

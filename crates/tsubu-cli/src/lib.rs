@@ -6,6 +6,7 @@
 
 mod commands;
 mod failure;
+mod launch;
 mod looked_at;
 mod machine;
 mod options;
@@ -19,6 +20,7 @@ mod table;
 pub use commands::check::judged;
 pub use commands::verify::runner::claims;
 pub use failure::Failure;
+pub use launch::Logs;
 pub use stream::allow_colour;
 
 use clap::{CommandFactory, Parser};

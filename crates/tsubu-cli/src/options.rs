@@ -93,7 +93,12 @@ pub struct WorkOptions {
 const MOST: usize = 16;
 
 impl WorkOptions {
-    /// Whether the user has named a number of threads.
+    /// The number of threads that the user has named.
+    pub fn told(&self) -> Option<u16> {
+        self.threads
+    }
+
+    /// Whether the user has named one.
     pub fn is_told(&self) -> bool {
         self.threads.is_some()
     }
@@ -130,8 +135,15 @@ pub fn command_to_resume() -> String {
     words.join(" ")
 }
 
+/// This program, to be started again: its file, or from Python the script that has its name.
+pub fn program() -> PathBuf {
+    let own = std::env::current_exe().ok().filter(|file| file.file_stem().is_some_and(|stem| stem == "tsubu"));
+    let typed = || PathBuf::from(TYPED.get().and_then(|words| words.first()).map_or("tsubu", String::as_str));
+    own.unwrap_or_else(typed)
+}
+
 /// A word as a shell wants it.
-fn quoted(word: &str) -> String {
+pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()

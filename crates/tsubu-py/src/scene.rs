@@ -10,8 +10,11 @@ use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use tsubu::study;
+use tsubu::study::apart::{Apart, Gathered};
+use tsubu::study::response::Runs;
+use tsubu::study::sweep::Sweep;
 use tsubu::study::variant::Variant;
-use tsubu_cli::Failure;
+use tsubu_cli::{Failure, Logs};
 use tsubu_frame::{Existing, Status};
 use tsubu_scene::Complaints;
 
@@ -163,6 +166,40 @@ impl Scene {
             work(py, threads, progress, |watcher| study::response::response(&self.scene, &folder, overwrite, watcher))?;
         done.value.map_err(|error| error::of(py, &Failure::of_cases(&error, &self.scene, &folder)))?;
         not_raised(py, done.raised, &folder)
+    }
+
+    /// The names of the runs of a sweep or a response (`study`) that are missing in a folder, for whoever hands them out; `begin` makes the
+    /// folder, or takes one that was begun.
+    fn missing(
+        &self,
+        py: Python<'_>,
+        study: &str,
+        folder: PathBuf,
+        begin: bool,
+        overwrite: bool,
+    ) -> PyResult<Vec<String>> {
+        let names = |study: &mut dyn Apart| {
+            if begin {
+                study.begin(overwrite)?;
+            }
+            study.missing()
+        };
+        let names = py.detach(|| match study {
+            "sweep" => names(&mut Sweep::new(&self.scene, &folder)?),
+            _ => names(&mut Runs::new(&self.scene, &folder)?),
+        });
+        names.map_err(|error| error::of(py, &Failure::of_cases(&error, &self.scene, &folder)))
+    }
+
+    /// Makes the tables of what is there of a sweep or a response (`study`).
+    fn gather(&self, py: Python<'_>, study: &str, folder: PathBuf) -> PyResult<()> {
+        let logs = Logs::read(&folder);
+        let why = |name: &str| logs.why(name);
+        let gathered = py.detach(|| match study {
+            "sweep" => Sweep::new(&self.scene, &folder)?.gather(&why).map(drop),
+            _ => Runs::new(&self.scene, &folder)?.gather(&why).map(drop),
+        });
+        gathered.map_err(|error| error::of(py, &Failure::of_cases(&error, &self.scene, &folder)))
     }
 
     /// Runs it by several methods into a folder.

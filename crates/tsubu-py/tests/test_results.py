@@ -151,6 +151,23 @@ def test_a_sweep_is_a_table(balls, tmp_path):
         tsubu.sweep(tsubu.template("drop"), tmp_path / "none", progress=False)
 
 
+
+def test_a_client_of_dask_does_the_runs(tmp_path, balls):
+    """Bit for bit what this process does alone; with the client's workers in processes of their own."""
+    distributed = pytest.importorskip("distributed")
+    balls.set("sweep.vary", {"seed": [1, 2, 3]})
+    alone = tsubu.sweep(balls, tmp_path / "alone", progress=False)
+    cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
+    with cluster, distributed.Client(cluster) as client:
+        table = tsubu.sweep(balls, tmp_path / "dask", progress=False, client=client)
+        hashes = {path.parent.name: path.stat().st_mtime_ns for path in (tmp_path / "dask").rglob("summary.json")}
+        tsubu.sweep(balls, tmp_path / "dask", progress=False, client=client)
+    again = {path.parent.name: path.stat().st_mtime_ns for path in (tmp_path / "dask").rglob("summary.json")}
+    assert hashes == again and len(again) == 3
+    cost = ["wall seconds"]
+    assert table.drop(columns=cost).equals(alone.drop(columns=cost))
+
+
 def test_a_response_is_a_table(tmp_path):
     scene = tsubu.template("damper").set("method", "lattice")
     scene.set("response.vary", {"particles.balls.count": [0, 10]})

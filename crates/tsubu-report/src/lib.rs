@@ -109,7 +109,7 @@ fn gather(dir: &Path) -> Result<(Report, Source), ReportError> {
         atlas::build(&mut source)
     } else if source.has("design.csv") {
         design::build(&mut source)
-    } else if source.has("posterior.csv") {
+    } else if source.has("posterior.csv") || source.has("runs.csv") {
         calibration::build(&mut source)
     } else if source.has("prediction.csv") {
         prediction::build(&mut source)

@@ -1,6 +1,7 @@
 //! The report of a parameter sweep.
 
 use std::collections::BTreeSet;
+use std::path::{Component, Path};
 
 use serde::Deserialize;
 use tsubu_frame::summary::{mean_beside, read_json};
@@ -46,7 +47,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     };
     let charts = sweep.charts(source);
     let mut remarks = source.note_blocks();
-    remarks.extend(common_warnings(source, table.rows.len()).into_iter().map(|text| Block::Note(Tone::Warning, text)));
+    remarks.extend(common_warnings(source, &table).into_iter().map(|text| Block::Note(Tone::Warning, text)));
     report.section("To be noted", remarks);
     report.section("Results over what varied", charts);
     report.section("Over the seeds", sweep.repeated().into_iter().collect());
@@ -78,33 +79,40 @@ fn headline(source: &mut Source, table: &Table) -> String {
 fn verdict(table: &Table) -> Option<(Tone, String)> {
     let status = table.texts("status")?;
     let count = |word: &str| status.iter().filter(|status| *status == word).count();
-    let (failed, all) = (count("failed"), count("finished") == status.len());
-    Some(match failed {
-        0 if all => (Tone::Good, "finished".into()),
-        0 => (Tone::Warning, "unfinished".into()),
-        1 => (Tone::Bad, "1 case failed".into()),
-        _ => (Tone::Bad, format!("{failed} cases failed")),
+    let (failed, missing, all) = (count("failed"), count("missing"), count("finished") == status.len());
+    let cases = |n: usize| if n == 1 { "1 case".to_owned() } else { format!("{n} cases") };
+    Some(match (failed, missing) {
+        (0, 0) if all => (Tone::Good, "finished".into()),
+        (0, 0) => (Tone::Warning, "unfinished".into()),
+        (_, 0) => (Tone::Bad, format!("{} failed", cases(failed))),
+        (0, _) => (Tone::Bad, format!("{} missing", cases(missing))),
+        _ => (Tone::Bad, format!("{} failed, {missing} missing", cases(failed))),
     })
 }
 
 /// What every case warns of; `sweep.csv` has the rest, case by case.
-fn common_warnings(source: &Source, cases: usize) -> Vec<String> {
-    let read = |i: usize| Summary::read(&source.dir.join(format!("cases/{i:04}/summary.json"))).ok();
-    let Some(first) = read(0).filter(|_| cases > 1) else { return Vec::new() };
+fn common_warnings(source: &Source, table: &Table) -> Vec<String> {
+    let folders = folders(table);
+    let mut read =
+        folders.iter().filter_map(|folder| Summary::read(&source.dir.join(folder).join("summary.json")).ok());
+    let (Some(first), Some(second)) = (read.next(), read.next()) else { return Vec::new() };
     let mut common = first.warnings;
-    for i in 1..cases {
-        if common.is_empty() {
-            break;
-        }
-        let Some(other) = read(i) else { return Vec::new() };
+    for other in [second].into_iter().chain(read) {
         common.retain(|warning| other.warnings.contains(warning));
     }
     common.into_iter().map(|warning| format!("Every case: {warning}")).collect()
 }
 
+/// Where the runs of the cases are; a table that was altered leads nowhere else.
+fn folders(table: &Table) -> Vec<String> {
+    let inside = |folder: &String| Path::new(folder).components().all(|part| matches!(part, Component::Normal(_)));
+    let folders = table.texts("folder").unwrap_or_default();
+    folders.into_iter().map(|folder| if inside(&folder) { folder } else { String::new() }).collect()
+}
+
 impl<'a> Sweep<'a> {
     fn of(table: &'a Table) -> Self {
-        let own = ["case", "status", "remark", "wall seconds", "energy residual"];
+        let own = ["case", "status", "remark", "folder", "wall seconds", "energy residual"];
         let (mut keys, mut results) = (Vec::new(), Vec::new());
         for (column, header) in table.header.iter().enumerate() {
             match split_unit(header) {
@@ -227,7 +235,7 @@ impl<'a> Sweep<'a> {
         if let Block::Table(grid) = &mut block {
             for (i, (tone, _)) in grid.rows.iter_mut().enumerate() {
                 *tone = match (status.get(i).map(String::as_str), remark.get(i).map(String::as_str)) {
-                    (Some("failed"), _) => Tone::Bad,
+                    (Some("failed" | "missing"), _) => Tone::Bad,
                     (Some("interrupted"), _) => Tone::Warning,
                     (_, Some(remark)) if !remark.is_empty() => Tone::Warning,
                     _ => Tone::Plain,
@@ -270,13 +278,14 @@ impl Point {
     }
 }
 
-/// Strips of the cases that kept snapshots; `cases/` numbers them as the table does.
+/// Strips of the cases that kept snapshots.
 fn picture_blocks(source: &mut Source, table: &Table) -> Vec<Block> {
     const MOST: usize = 6;
     let names = table.texts("case").unwrap_or_default();
     let mut blocks = Vec::new();
-    for (i, name) in names.iter().enumerate() {
-        let mut case = source.inside(&format!("cases/{i:04}"));
+    let folders = folders(table);
+    for (i, (name, folder)) in names.iter().zip(&folders).enumerate() {
+        let mut case = source.inside(folder);
         if blocks.len() >= 2 * MOST || !case.has("frames") {
             continue;
         }

@@ -70,6 +70,16 @@ pub fn check(
     Ok(verdict)
 }
 
+/// Seconds of work that a step costs on this machine once the grains lie: the dearer of now and of a settled bed. `None` where the
+/// scene does not open, or fails at once.
+pub(crate) fn step_cost(plan: &Plan) -> Option<f64> {
+    let mut hosts = Hosts::new(&plan.hosts);
+    let mut engine = methods::open(&unsettled(plan), &hosts).ok()?;
+    let total = plan.duration / engine.time_step();
+    let now = cost::trial(&mut *engine, &mut hosts, total).ok()?;
+    Some(cost::of_a_bed(plan).map_or(now, |bed| bed.max(now)))
+}
+
 /// The longest run [s] that is not worth a warning: a month.
 const LONGEST: f64 = 30.0 * 86_400.0;
 

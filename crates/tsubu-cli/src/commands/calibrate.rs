@@ -2,10 +2,12 @@
 
 use super::points;
 use crate::failure::Failure;
+use crate::launch::LaunchOptions;
 use crate::table;
 use clap::Args;
 use std::fmt::Write as _;
 use std::path::Path;
+use tsubu::study::calibrate::Runs;
 use tsubu_frame::{Table, unit::for_people};
 
 #[derive(Args)]
@@ -14,6 +16,7 @@ Examples:
   tsubu calibrate calibrate.toml                         into out/calibrate-calibrate
   tsubu calibrate calibrate.toml --set calibrate.runs=200
   tsubu run out/calibrate-calibrate/best.toml            the scene with the most likely values
+  tsubu calibrate calibrate.toml --launcher slurm        round by round, each an array job
 
 The scene says what is not known, with its least and largest value, and what was measured:
   [calibrate]
@@ -27,15 +30,31 @@ An interrupted calibration goes on where it was when the same command is typed a
 pub struct Options {
     #[command(flatten)]
     points: points::PointsOptions,
+    #[command(flatten)]
+    launch: LaunchOptions,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
+    if !options.launch.is_here()? {
+        return apart(options);
+    }
     points::run("calibrate", "runs", &options.points, tsubu::study::calibrate::calibrate, told)
+}
+
+fn apart(Options { points, launch }: &Options) -> Result<(), Failure> {
+    let session = points.session("calibrate")?;
+    let runs = Runs::new(&session.scene, &session.folder);
+    let mut runs = runs.map_err(|error| Failure::of_cases(&error, &session.scene, &session.folder))?;
+    points::apart("calibrate", points, launch, &session, &mut runs, told)
 }
 
 /// What is known of each key, and each measured result beside what fresh runs gave.
 fn told(folder: &Path) -> Result<String, Failure> {
     let read = |name: &str| Table::read(&folder.join(name)).map_err(|error| Failure::of_file(&error, folder));
+    if !folder.join("parameters.csv").exists() {
+        // Some of the runs are missing, and nothing is known yet.
+        return Ok(String::new());
+    }
     let parameters = read("parameters.csv")?;
     let mut rows =
         vec![["", "mean", "deviation", "95 % from", "to", "range from", "to", ""].map(str::to_owned).to_vec()];

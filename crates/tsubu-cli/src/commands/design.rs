@@ -2,10 +2,12 @@
 
 use super::points;
 use crate::failure::Failure;
+use crate::launch::LaunchOptions;
 use crate::table;
 use clap::Args;
 use std::fmt::Write as _;
 use std::path::Path;
+use tsubu::study::design::Runs;
 use tsubu_frame::{ResultValue, Summary, Table};
 
 #[derive(Args)]
@@ -14,6 +16,7 @@ Examples:
   tsubu design damper.toml                              into out/damper-design
   tsubu design damper.toml --set design.runs=400        search longer
   tsubu run out/damper-design/best.toml                 the best, as a scene of its own
+  tsubu design damper.toml --launcher slurm             round by round, each an array job
 
 The scene says what may vary, and within which limits:
   [design]
@@ -24,10 +27,22 @@ An interrupted design goes on where it was when the same command is typed again.
 pub struct Options {
     #[command(flatten)]
     points: points::PointsOptions,
+    #[command(flatten)]
+    launch: LaunchOptions,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
+    if !options.launch.is_here()? {
+        return apart(options);
+    }
     points::run("design", "runs", &options.points, tsubu::study::design::design, candidates)
+}
+
+fn apart(Options { points, launch }: &Options) -> Result<(), Failure> {
+    let session = points.session("design")?;
+    let runs = Runs::new(&session.scene, &session.folder);
+    let mut runs = runs.map_err(|error| Failure::of_cases(&error, &session.scene, &session.folder))?;
+    points::apart("design", points, launch, &session, &mut runs, candidates)
 }
 
 /// Candidates that are shown.

@@ -2,11 +2,13 @@
 
 use super::{claims, run::warnings};
 use crate::failure::Failure;
+use crate::launch::{LaunchOptions, Left, Logs};
 use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
 use crate::session::{Session, judge, resume};
 use clap::Args;
 use std::path::Path;
 use tsubu::interrupt::Watcher;
+use tsubu::study::apart::Gathered;
 use tsubu::study::cases::CasesError;
 use tsubu_frame::{Status, Summary};
 use tsubu_scene::Scene;
@@ -14,14 +16,25 @@ use tsubu_scene::Scene;
 #[derive(Args)]
 pub struct PointsOptions {
     #[command(flatten)]
-    scene: SceneOptions,
+    pub scene: SceneOptions,
     #[command(flatten)]
-    folder: FolderOptions,
+    pub folder: FolderOptions,
     /// Go on where it stopped; this happens anyway
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
     #[command(flatten)]
-    work: WorkOptions,
+    pub work: WorkOptions,
+}
+
+impl PointsOptions {
+    /// Scene, folder and threads of the study `name`.
+    pub fn session(&self, name: &'static str) -> Result<Session, Failure> {
+        let session = Session::begin(name, &format!("-{name}"), &self.scene, &self.folder, &self.work)?;
+        if self.resume {
+            session.needs_folder()?;
+        }
+        Ok(session)
+    }
 }
 
 /// A study as the library has it: scene, folder, whether to overwrite.
@@ -35,10 +48,7 @@ pub fn run(
     study: Study,
     table: fn(&Path) -> Result<String, Failure>,
 ) -> Result<(), Failure> {
-    let session = Session::begin(name, &format!("-{name}"), &options.scene, &options.folder, &options.work)?;
-    if options.resume {
-        session.needs_folder()?;
-    }
+    let session = options.session(name)?;
     let Session { scene, folder, .. } = &session;
     let overwrite = options.folder.overwrite;
     let work = |watcher: &Watcher| study(scene, folder, overwrite, watcher);
@@ -48,13 +58,39 @@ pub fn run(
         let message = format!("interrupted; the finished {points} are in {}", folder.display());
         return Err(Failure::interrupted(message).hint(resume()));
     }
+    let again = format!("the others are kept; `{}` tries those again that failed", command_to_resume());
+    tell(&session, &summary, table, again)
+}
+
+/// The same where runs are done apart, or what is there of them is gathered.
+pub fn apart(
+    name: &'static str,
+    options: &PointsOptions,
+    launch: &LaunchOptions,
+    session: &Session,
+    study: &mut (impl Gathered + Send),
+    table: fn(&Path) -> Result<String, Failure>,
+) -> Result<(), Failure> {
+    let Left::Gather = launch.go(name, study, session, &options.folder, &options.work)? else { return Ok(()) };
+    let logs = Logs::read(&session.folder);
+    let gathered = study.gather(&|run| logs.why(run));
+    let summary = gathered.map_err(|error| Failure::of_cases(&error, &session.scene, &session.folder))?;
+    tell(session, &summary, table, "the same command as before does what is missing, and nothing else".to_owned())
+}
+
+/// Tells what came of it, and makes its page; `again` is what to do where some runs have no result.
+pub fn tell(
+    session: &Session,
+    summary: &Summary,
+    table: fn(&Path) -> Result<String, Failure>,
+    again: String,
+) -> Result<(), Failure> {
+    let folder = &session.folder;
     let page = session.page()?;
     let claims: String = summary.claims.iter().map(claims::line).collect();
     session.show(&(table(folder)? + &claims + &warnings(&summary.warnings)), Some(&page))?;
     if summary.status == Status::Failed {
-        let again = command_to_resume();
-        return Err(Failure::failed("some of the runs failed; the warnings above name them")
-            .hint(format!("the others are kept; `{again}` tries those again that failed")));
+        return Err(Failure::failed("some of the runs failed; the warnings above name them").hint(again));
     }
     judge(&summary.claims)
 }

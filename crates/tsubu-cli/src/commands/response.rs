@@ -2,10 +2,12 @@
 
 use super::points;
 use crate::failure::Failure;
+use crate::launch::LaunchOptions;
 use crate::table;
 use clap::Args;
 use std::path::Path;
 use tsubu::check::human_time;
+use tsubu::study::response::Runs;
 use tsubu_frame::Table;
 
 #[derive(Args)]
@@ -14,15 +16,28 @@ Examples:
   tsubu response damper.toml                            into out/damper-response
   tsubu response damper.toml --set method=lattice       the cellular automaton: coarser, far faster
   tsubu response damper.toml --set response.seeds=3     mean and spread over three beds
+  tsubu response damper.toml --launcher slurm           a task for some frequencies, and a last job that gathers
 
 An interrupted response goes on where it was when the same command is typed again.")]
 pub struct Options {
     #[command(flatten)]
     points: points::PointsOptions,
+    #[command(flatten)]
+    launch: LaunchOptions,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
+    if !options.launch.is_here()? {
+        return apart(options);
+    }
     points::run("response", "frequencies", &options.points, tsubu::study::response::response, cases)
+}
+
+fn apart(Options { points, launch }: &Options) -> Result<(), Failure> {
+    let session = points.session("response")?;
+    let runs = Runs::new(&session.scene, &session.folder);
+    let mut runs = runs.map_err(|error| Failure::of_cases(&error, &session.scene, &session.folder))?;
+    points::apart("response", points, launch, &session, &mut runs, cases)
 }
 
 /// Columns of `cases.csv` that fit on a terminal, with the factor to the unit shown.

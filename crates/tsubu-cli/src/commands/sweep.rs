@@ -2,6 +2,7 @@
 
 use super::run::warnings;
 use crate::failure::Failure;
+use crate::launch::{LaunchOptions, Left, Logs};
 use crate::options::{FolderOptions, SceneOptions, WorkOptions};
 use crate::session::{Session, judge, resume};
 use crate::table;
@@ -9,6 +10,7 @@ use clap::Args;
 use std::fmt::Write as _;
 use std::path::Path;
 use tsubu::interrupt::Watcher;
+use tsubu::study::sweep::{Outcome, Sweep};
 use tsubu_frame::{Status, Summary, Table, csv::split_unit, unit::for_people};
 
 #[derive(Args)]
@@ -16,6 +18,7 @@ use tsubu_frame::{Status, Summary, Table, csv::split_unit, unit::for_people};
 Examples:
   tsubu sweep scene.toml --jobs 2
   tsubu sweep studies/my-study                  a folder with one scene.toml
+  tsubu sweep scene.toml --launcher slurm       an array job, and a last one that gathers
 
 The scene says what varies:
   [sweep]
@@ -32,6 +35,8 @@ pub struct Options {
     resume: bool,
     #[command(flatten)]
     work: WorkOptions,
+    #[command(flatten)]
+    launch: LaunchOptions,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
@@ -40,6 +45,9 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         session.needs_folder()?;
     }
     let Session { scene, folder, .. } = &session;
+    if !options.launch.is_here()? {
+        return apart(options, &session);
+    }
     let overwrite = options.folder.overwrite;
     let work = |watcher: &Watcher| tsubu::study::sweep::sweep(scene, folder, overwrite, watcher);
     let (done, interrupt) = session.work(&format!("interrupted; {}", resume()), work);
@@ -48,7 +56,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         let message = format!("interrupted; finished cases and checkpoints are in {}", folder.display());
         return Err(Failure::interrupted(message).hint(resume()));
     }
-    session.show(&told(folder, &summaries)?, None)?;
+    session.show(&told(folder, summaries.iter().all(is_whole))?, None)?;
     let broken = summaries.iter().filter(|summary| summary.status == Status::Failed).count();
     if broken > 0 {
         let message = format!("{broken} of {} cases failed; the others are whole", summaries.len());
@@ -57,17 +65,45 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     judge(summaries.iter().flat_map(|summary| &summary.claims))
 }
 
+fn is_whole(summary: &Summary) -> bool {
+    summary.status == Status::Finished
+}
+
+/// The cases are done apart, or what is there of them is gathered.
+fn apart(options: &Options, session: &Session) -> Result<(), Failure> {
+    let Session { scene, folder, .. } = session;
+    let broken = |error| Failure::of_cases(&error, scene, folder);
+    let mut sweep = Sweep::new(scene, folder).map_err(broken)?;
+    let Left::Gather = options.launch.go("sweep", &mut sweep, session, &options.folder, &options.work)? else {
+        return Ok(());
+    };
+    let logs = Logs::read(folder);
+    let outcomes = sweep.gather(&|name| logs.why(name)).map_err(broken)?;
+    let page = session.page()?;
+    let all = outcomes.len();
+    let summaries: Vec<Summary> = outcomes.into_iter().filter_map(Outcome::summary).collect();
+    let whole = summaries.iter().filter(|summary| is_whole(summary)).count();
+    session.show(&told(folder, whole == all)?, Some(&page))?;
+    if whole < all {
+        let message = format!("{} of {all} cases failed or are missing; the others are whole", all - whole);
+        return Err(Failure::failed(message)
+            .hint("the remarks above and in sweep.csv say why")
+            .hint("the same command as before does what is missing, and nothing else"));
+    }
+    judge(summaries.iter().flat_map(|summary| &summary.claims))
+}
+
 /// Results that fit beside the case's name.
 const SHOWN: usize = 6;
 
-fn told(folder: &Path, summaries: &[Summary]) -> Result<String, Failure> {
+fn told(folder: &Path, whole: bool) -> Result<String, Failure> {
     let sweep = Table::read(&folder.join("sweep.csv")).map_err(|error| Failure::of_file(&error, folder))?;
     let unit = |c: usize| split_unit(&sweep.header[c]).1.unwrap_or("-");
     let known = |c: &usize| ["wall seconds [s]", "energy residual [-]"].contains(&sweep.header[*c].as_str());
     let (cost, results): (Vec<usize>, Vec<usize>) =
         (0..sweep.header.len()).filter(|&c| unit(c) != "text").partition(known);
     let mut shown = sweep.index("case [text]").into_iter().collect::<Vec<_>>();
-    if summaries.iter().any(|summary| summary.status != Status::Finished) {
+    if !whole {
         shown.extend(sweep.index("status [text]"));
     }
     shown.extend(results.iter().chain(&cost).take(SHOWN));

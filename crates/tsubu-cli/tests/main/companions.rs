@@ -117,9 +117,9 @@ fn sweeps_and_comparisons_run_again_too() {
     desk.done("sweep balls.toml -q -o sweep");
     desk.done("compare balls.toml -q -o compare --methods dem");
     forget(&desk);
-    for folder in ["sweep", "sweep/cases/0001", "compare", "compare/dem"] {
+    for folder in ["sweep", "sweep/cases/restitution=0.8", "compare", "compare/dem"] {
         desk.done(&format!("run {folder}/scene.toml -q -o again --overwrite"));
     }
     desk.done("sweep sweep/scene.toml -q -o other");
-    assert_eq!(desk.hash("sweep/cases/0001"), desk.hash("other/cases/0001"));
+    assert_eq!(desk.hash("sweep/cases/restitution=0.8"), desk.hash("other/cases/restitution=0.8"));
 }

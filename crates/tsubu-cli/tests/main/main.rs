@@ -14,6 +14,8 @@ mod companions;
 mod folder;
 /// Signals, locks, and intervals that would never end.
 mod interrupts;
+/// Runs of a study done apart, as a cluster does them.
+mod launch;
 mod live;
 /// What is said when something is wrong.
 mod messages;

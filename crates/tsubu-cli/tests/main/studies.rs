@@ -112,12 +112,16 @@ fn a_sweep_runs_every_case_and_keeps_what_is_done() {
     assert!(shown.contains("restitution = 0.5"), "{shown}");
     assert_eq!(desk.read("out/balls-sweep/sweep.csv").lines().count(), 5);
     let hash = |case: &str| desk.hash(&format!("out/balls-sweep/cases/{case}"));
-    assert_ne!(hash("0000"), hash("0003"));
-    let before = desk.read("out/balls-sweep/cases/0002/summary.json");
-    std::fs::remove_dir_all(desk.path("out/balls-sweep/cases/0001")).unwrap();
+    assert_ne!(hash("restitution=0.5"), hash("restitution=0.8"));
+    let before = desk.read("out/balls-sweep/cases/restitution=0.7/summary.json");
+    std::fs::remove_dir_all(desk.path("out/balls-sweep/cases/restitution=0.6")).unwrap();
     desk.done("sweep balls.toml -q --jobs 1");
-    assert_eq!(desk.read("out/balls-sweep/cases/0002/summary.json"), before, "a finished case was run again");
-    assert!(desk.path("out/balls-sweep/cases/0001/summary.json").exists());
+    assert_eq!(
+        desk.read("out/balls-sweep/cases/restitution=0.7/summary.json"),
+        before,
+        "a finished case was run again"
+    );
+    assert!(desk.path("out/balls-sweep/cases/restitution=0.6/summary.json").exists());
 }
 
 /// Results stood in the order of the alphabet, in the unit `[SI]`: a calibration showed eight densities, and no heap angle.
@@ -135,7 +139,7 @@ fn a_sweep_tells_results_as_the_scene_asks_for_them() {
     assert!(!header.contains("[SI]"), "{header}");
     let first = shown.lines().next().unwrap();
     assert!(first.contains("bed rattlers final") && first.contains("zone angle [°]"), "{shown}");
-    let summary = desk.summary("out/balls-sweep/cases/0000");
+    let summary = desk.summary("out/balls-sweep/cases/restitution=0.5");
     assert_eq!(summary["units"]["zone angle final"], "rad");
     assert_eq!(summary["units"]["host spring rms displacement"], "m");
     assert!(desk.read("out/balls-sweep/sweep.json").contains("wall_seconds"));

@@ -9,11 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Union
 
 from tsubu import _tables, _tsubu
+from tsubu._dask import hand_over
 from tsubu._progress import Progress, Shown
 from tsubu._scene import Scene
 
 if TYPE_CHECKING:
     import pandas as pd
+    from distributed import Client
 
 Folder = Union[str, "os.PathLike[str]"]
 AnyScene = Union[Scene, Folder]
@@ -35,16 +37,21 @@ def sweep(
     overwrite: bool = False,
     threads: int | None = None,
     progress: Progress = True,
+    client: Client | None = None,
 ) -> pd.DataFrame:
     """Runs every case of a scene's `[sweep]`, side by side, and gives a table with a row a case: what was varied, and the results.
 
     The folder is `out/NAME-sweep` unless told; an interrupted sweep goes on where it was when the same call is made again. Units are in
-    `attrs["units"]`; `tsubu.load(folder).runs` has the runs.
+    `attrs["units"]`; `tsubu.load(folder).runs` has the runs. With a `distributed.Client` each case is a task of Dask's workers, with `threads`
+    threads (one unless told); they need this package, and the folder under the same path.
     """
     scene = _scene(scene)
     path = scene._out(folder, "-sweep")
     with Shown("sweep", progress) as shown:
-        scene._core.sweep(path, overwrite, threads or 0, shown)
+        if client is None:
+            scene._core.sweep(path, overwrite, threads or 0, shown)
+        else:
+            hand_over("sweep", scene, path, overwrite, threads or 1, client, shown)
     return _table(path, "sweep")
 
 
@@ -54,17 +61,22 @@ def response(
     overwrite: bool = False,
     threads: int | None = None,
     progress: Progress = True,
+    client: Client | None = None,
 ) -> pd.DataFrame:
     """The frequency response of a scene's `[response]`: a row for each case and frequency, with `rms displacement` and
     `peak displacement` [m].
 
     The folder is `out/NAME-response` unless told; an interrupted response goes on where it was when the same call is made again.
-    `tsubu.load(folder).tables["cases"]` has peaks, damping and apparent masses.
+    `tsubu.load(folder).tables["cases"]` has peaks, damping and apparent masses. With a `distributed.Client` the runs are tasks of Dask's
+    workers, as in :func:`sweep`.
     """
     scene = _scene(scene)
     path = scene._out(folder, "-response")
     with Shown("response", progress) as shown:
-        scene._core.response(path, overwrite, threads or 0, shown)
+        if client is None:
+            scene._core.response(path, overwrite, threads or 0, shown)
+        else:
+            hand_over("response", scene, path, overwrite, threads or 1, client, shown)
     return _table(path, "response")
 
 

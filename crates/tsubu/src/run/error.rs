@@ -30,6 +30,9 @@ pub enum RunError {
     /// The run that this one is to start from does not fit, or cannot be read.
     #[error("{0}")]
     Start(String),
+    /// The run was done by another process and has no result, for the reason that it gave.
+    #[error("{0}")]
+    Elsewhere(String),
     /// The run went wrong; what was computed so far is in the folder.
     #[error("{0}")]
     Fault(#[from] Fault),
@@ -40,7 +43,7 @@ impl Advise for RunError {
         match self {
             Self::Open(error) => error.hints(),
             Self::File(error) => error.hints(),
-            Self::Checkpoint(_) => Vec::new(),
+            Self::Checkpoint(_) | Self::Elsewhere(_) => Vec::new(),
             Self::NoStep { .. } => vec!["raise `duration`, or shorten the time step".into()],
             Self::NotThisScene(_) => vec!["run without `--resume` into another folder, or with `--overwrite`".into()],
             Self::Start(_) => vec!["make the scene as it was there, and say in stages what changes".into()],

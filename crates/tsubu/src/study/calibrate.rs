@@ -5,10 +5,13 @@
 //! uncertainty and that of the process (Kennedy and O'Hagan 2001, without their term for what a model cannot do). Fresh runs at samples
 //! with other seeds check what was found. Every run has a folder of its own: a calibration that was stopped goes on where it was.
 
+mod apart;
 #[cfg(test)]
 mod coverage;
 mod posterior;
 mod write;
+
+pub use apart::Runs;
 
 use super::cases::{Case, CasesError};
 use super::ranges::Range;
@@ -18,10 +21,11 @@ use crate::interrupt::Watcher;
 use crate::scene_files;
 use posterior::{hypercube, sample};
 use rayon::prelude::*;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
-use tsubu_frame::{Existing, ResultValue, RunFolder, Status, Summary};
+use tsubu_frame::{Existing, FileError, ResultValue, RunFolder, Status, Summary};
 use tsubu_scene::{Scene, plan};
 
 /// What a calibration writes beside its scene.
@@ -51,24 +55,35 @@ pub fn calibrate(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watche
     let task = Task::new(scene)?;
     // A scene that its method refuses leaves nothing behind.
     crate::methods::open(&crate::trial::unsettled(scene.plan()), &crate::partner::Hosts::new(&scene.plan().hosts))?;
-    let same = || std::fs::read_to_string(folder.join("scene.toml")).is_ok_and(|text| text == scene.resolved_toml());
-    let existing = match folder.join(RUNS).is_dir() && same() {
-        _ if overwrite => Existing::Overwrite,
-        true => Existing::Resume,
-        false => Existing::Refuse,
-    };
+    let existing = existing(scene, folder, overwrite);
     let before = Summary::read(&folder.join("summary.json")).ok().filter(|_| existing == Existing::Resume);
     let before = before.map_or(0.0, |summary| summary.wall_seconds);
-    let names: Vec<String> = scene_files::names(scene).into_iter().chain(FILES.map(str::to_owned)).collect();
-    let folder = RunFolder::create(folder, existing, &names)?;
-    folder.claim(&names)?;
-    scene_files::write(&folder, scene)?;
-    let mut work = Work { task: &task, folder: &folder, watcher, ran: Vec::new() };
+    let folder = open(scene, folder, existing)?;
+    let mut work = Work { task: &task, runs: folder.file(RUNS), watcher, ran: Vec::new(), apart: None };
     let found = work.calibrate()?;
     let _held = watcher.interrupt.hold();
     let status = if found.is_some() { Status::Finished } else { Status::Interrupted };
     let took = before + begun.elapsed().as_secs_f64();
-    Ok(write::write(&folder, &work, found.as_ref(), status, took)?)
+    Ok(write::write(&folder, &work, found.as_ref(), status, took, Vec::new())?)
+}
+
+/// What is done with what is in the folder.
+fn existing(scene: &Scene, folder: &Path, overwrite: bool) -> Existing {
+    let same = || std::fs::read_to_string(folder.join("scene.toml")).is_ok_and(|text| text == scene.resolved_toml());
+    match folder.join(RUNS).is_dir() && same() {
+        _ if overwrite => Existing::Overwrite,
+        true => Existing::Resume,
+        false => Existing::Refuse,
+    }
+}
+
+/// The folder with the scene in it.
+fn open(scene: &Scene, folder: &Path, existing: Existing) -> Result<RunFolder, FileError> {
+    let names: Vec<String> = scene_files::names(scene).into_iter().chain(FILES.map(str::to_owned)).collect();
+    let folder = RunFolder::create(folder, existing, &names)?;
+    folder.claim(&names)?;
+    scene_files::write(&folder, scene)?;
+    Ok(folder)
 }
 
 /// What is to be calibrated.
@@ -138,9 +153,26 @@ struct Found {
 /// A calibration on its way.
 struct Work<'a> {
     task: &'a Task<'a>,
-    folder: &'a RunFolder,
+    /// The folder of the runs' folders.
+    runs: PathBuf,
     watcher: &'a Watcher<'a>,
     ran: Vec<Ran>,
+    /// Where runs are done apart, which.
+    apart: Option<Share>,
+}
+
+/// What a process does of a round whose runs are done apart.
+#[derive(Default)]
+struct Share {
+    /// The run that is done here, if any.
+    only: Option<usize>,
+    /// All that the round asks for and has no result.
+    asked: Vec<usize>,
+}
+
+/// The folder of a run, and its name where it is done apart.
+fn numbered(run: usize) -> String {
+    format!("{run:04}")
 }
 
 impl Work<'_> {
@@ -179,7 +211,8 @@ impl Work<'_> {
         let (task, watcher, before) = (self.task, self.watcher, self.ran.len());
         let all = f64::from(task.wanted.runs + task.wanted.checks);
         let counter = AtomicUsize::new(before);
-        let folder = self.folder.file(RUNS);
+        let only = self.apart.as_ref().map(|share| share.only);
+        let asked = Mutex::new(Vec::new());
         let one = |(index, place): (usize, &Vec<f64>)| -> Result<Option<Ran>, CasesError> {
             if watcher.interrupt.asked() {
                 return Ok(None);
@@ -188,8 +221,19 @@ impl Work<'_> {
             let seed = task.seed().wrapping_add((before + index) as u64) & i64::MAX as u64;
             let mut seeded = case.clone();
             seeded.values.push(("seed".to_owned(), (seed as i64).into()));
-            let at = folder.join(format!("{:04}", before + index));
-            let summary = sweep::one(task.scene, &seeded, &at, watcher)?;
+            let at = self.runs.join(numbered(before + index));
+            let kept = || sweep::kept(task.scene, &seeded, &at);
+            let summary = match only.map(|only| Ok::<_, CasesError>((only, kept()?))).transpose()? {
+                Some((_, Some(summary))) if summary.status != Status::Interrupted => summary,
+                Some((only, _)) => {
+                    asked.lock().unwrap_or_else(PoisonError::into_inner).push(before + index);
+                    if only == Some(before + index) {
+                        sweep::one(task.scene, &seeded, &at, watcher)?;
+                    }
+                    return Ok(None);
+                }
+                None => sweep::one(task.scene, &seeded, &at, watcher)?,
+            };
             let result = |measured: &plan::Measured| match summary.results.get(&measured.result) {
                 Some(ResultValue::Number(value)) if summary.status == Status::Finished => *value,
                 _ => f64::NAN,
@@ -200,7 +244,14 @@ impl Work<'_> {
         };
         let ran: Vec<Option<Ran>> = places.par_iter().enumerate().map(one).collect::<Result<_, _>>()?;
         self.ran.extend(ran.into_iter().flatten());
-        Ok(!watcher.interrupt.asked())
+        let mut asked = asked.into_inner().unwrap_or_else(PoisonError::into_inner);
+        asked.sort_unstable();
+        // The round ends here where it waits for others.
+        let waits = !asked.is_empty();
+        if let Some(share) = &mut self.apart {
+            share.asked = asked;
+        }
+        Ok(!waits && !watcher.interrupt.asked())
     }
 
     /// A Gaussian process for each measured result.

@@ -1,7 +1,7 @@
 //! Every combination of the values that a study varies.
 
 use crate::engine::OpenError;
-use crate::run::RunError;
+use crate::run::{RunError, scene_hash};
 use std::collections::BTreeMap;
 use toml::Value;
 use tsubu_frame::FileError;
@@ -47,7 +47,22 @@ impl Case {
         let changes: Vec<(&str, &Value)> = self.values.iter().map(|(path, value)| (path.as_str(), value)).collect();
         scene.with(&changes)
     }
+
+    /// The name as a folder may have it, `count=30,friction=0.6`: the same case has the same folder, whatever stands beside it. A
+    /// name that not every file system takes, or a shell would take apart, is altered, and has its hash behind it.
+    pub fn folder(&self) -> String {
+        if self.name.is_empty() {
+            return "scene".to_owned();
+        }
+        let short = self.name.replace(" = ", "=").replace(", ", ",");
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-._=,+".contains(c);
+        let tame: String = short.chars().map(|c| if plain(c) { c } else { '_' }).take(LONGEST).collect();
+        if tame == short { tame } else { format!("{tame}-{}", &scene_hash(&self.name)[..8]) }
+    }
 }
+
+/// Characters of a folder's name before its hash.
+const LONGEST: usize = 80;
 
 /// All combinations; the last key varies fastest.
 pub fn cases(vary: &BTreeMap<String, Vec<Value>>) -> Vec<Case> {
@@ -89,4 +104,27 @@ pub(super) fn name(values: &[(String, Value)]) -> String {
         })
         .collect();
     parts.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Folders were numbered: a value put before the others gave every case the folder of another.
+    #[test]
+    fn a_case_has_the_folder_of_what_is_in_it() {
+        let folders = |text: &str| -> Vec<String> {
+            let vary: BTreeMap<String, Vec<Value>> = toml::from_str(text).expect("a table of lists");
+            cases(&vary).iter().map(Case::folder).collect()
+        };
+        let many = folders("\"a.count\" = [5, 10]\n\"b.friction\" = [0.5]");
+        assert_eq!(many, ["count=5,friction=0.5", "count=10,friction=0.5"]);
+        assert_eq!(folders("\"a.count\" = [10]\n\"b.friction\" = [0.5]")[0], many[1]);
+        let odd = folders("\"a.b\" = [\"6 mm\", \"6_mm\", \"../6\", \"6:mm\"]");
+        assert!(odd[0].starts_with("b=6_mm-") && odd[1] == "b=6_mm" && odd[0] != odd[3], "{odd:?}");
+        assert!(odd.iter().all(|name| !name.contains(['/', ' ', ':'])), "{odd:?}");
+        let long = folders(&format!("\"a.b\" = [\"{}\"]", "x".repeat(300)));
+        assert!(long[0].len() < 100);
+        assert_eq!(folders(""), ["scene"]);
+    }
 }

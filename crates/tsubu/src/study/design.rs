@@ -5,6 +5,7 @@
 //! best is none of its neighbours and nowhere on its whole curve higher. A design that was stopped goes on where it was.
 
 mod answer;
+mod apart;
 mod candidates;
 mod cheap;
 mod continuous;
@@ -16,6 +17,7 @@ mod work;
 mod write;
 
 pub use answer::Answer;
+pub use apart::Runs;
 
 use super::cases::CasesError;
 use super::journal::{self, Exact, Journal};

@@ -1,5 +1,6 @@
 //! Studies: many runs that answer one question.
 
+pub mod apart;
 pub mod atlas;
 pub mod calibrate;
 pub mod cases;

@@ -5,6 +5,7 @@
 //! periods). Frequencies are measured in rounds: those that were asked for, then more where the curves bend. A run that fails is said,
 //! and missing in its curve. A response that was stopped goes on where it was.
 
+mod apart;
 mod curve;
 pub(super) mod refine;
 mod rounds;
@@ -12,6 +13,7 @@ pub(super) mod tasks;
 pub(super) mod transient;
 mod write;
 
+pub use apart::Runs;
 pub use curve::{CaseResult, Hysteresis, Peak, peak};
 pub use tasks::{Point, measure};
 

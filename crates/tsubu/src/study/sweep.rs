@@ -1,6 +1,14 @@
-//! A parameter sweep: every case is a run of its own.
+//! A parameter sweep: every case is a run of its own, in a folder of its own.
+//!
+//! Cases know nothing of each other. They run side by side here ([`sweep`]), or each in a process of its own, on whatever
+//! machine ([`Sweep::run`]); [`Sweep::gather`] makes the tables of what is there.
 
-use super::cases::{Case, CasesError, cases, value_text};
+mod table;
+
+pub use table::Outcome;
+
+use super::apart::{Apart, unlocked};
+use super::cases::{Case, CasesError, cases};
 use crate::interrupt::Watcher;
 use crate::methods;
 use crate::partner::Hosts;
@@ -9,12 +17,12 @@ use crate::scene_files;
 use crate::trial;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use tsubu_frame::summary::read_json;
-use tsubu_frame::{Advise, Cell, Existing, ResultValue, RunFolder, Status, Summary, Table};
-use tsubu_scene::Scene;
+use tsubu_frame::{Advise, Existing, RunFolder, Status, Summary};
+use tsubu_scene::{Plan, Scene};
 
 /// What a sweep took as a whole, interruptions left out: its cases run side by side, their times add up to more.
 #[derive(Debug, Serialize, Deserialize)]
@@ -29,123 +37,184 @@ struct Took {
 /// ones go on from their checkpoint; one that goes wrong says so in its row. Writes `sweep.csv`, and `sweep.json` with what
 /// it took.
 pub fn sweep(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Vec<Summary>, CasesError> {
-    let wanted = scene.plan().sweep.as_ref().ok_or_else(|| {
-        CasesError::Scene("the scene has no `[sweep]`: say what varies, for example `vary = { \"particles.balls.count\" = [10, 20] }`".to_owned())
-    })?;
-    let list = cases(&wanted.vary);
-    // A case that its method refuses must say so before the others have run, and leave nothing behind.
-    for case in &list {
-        let scene = case.scene(scene).map_err(CasesError::Complaints)?;
-        let plan = trial::unsettled(scene.plan());
-        let open = methods::open(&plan, &Hosts::new(&plan.hosts)).map_err(RunError::from);
-        open.and_then(|engine| run::steps(&plan, &*engine))
-            .map_err(|error| CasesError::Run { case: case.name.clone(), error })?;
-    }
-    let existing = match folder.join("cases").is_dir() {
-        _ if overwrite => Existing::Overwrite,
-        true => Existing::Resume,
-        false => Existing::Refuse,
-    };
-    let names = scene_files::names(scene).into_iter().chain(["sweep.csv", "sweep.json", CASES].map(str::to_owned));
-    let names: Vec<String> = names.collect();
-    let folder = RunFolder::create(folder, existing, &names)?;
-    folder.claim(&names)?;
-    scene_files::write(&folder, scene)?;
+    let sweep = Sweep::new(scene, folder)?;
+    let folder = sweep.open(overwrite)?;
     let begun = Instant::now();
     let finished = AtomicUsize::new(0);
-    let summaries: Vec<Option<Summary>> = list
+    let outcomes: Vec<Option<Outcome>> = sweep
+        .cases
         .par_iter()
-        .enumerate()
-        .map(|(index, case)| {
+        .map(|case| {
             if watcher.interrupt.asked() {
                 return Ok(None);
             }
-            let summary = one(scene, case, &folder.file(CASES).join(format!("{index:04}")), watcher)?;
+            let summary = one(scene, case, &sweep.place(case), watcher)?;
             let done = finished.fetch_add(1, Ordering::Relaxed) + 1;
-            (watcher.progress)(done as f64 / list.len() as f64);
-            Ok(Some(summary))
+            (watcher.progress)(done as f64 / sweep.cases.len() as f64);
+            Ok(Some(Outcome::Told(Box::new(summary))))
         })
         .collect::<Result<_, CasesError>>()?;
-    let done: Vec<(&Case, &Summary)> =
-        list.iter().zip(&summaries).filter_map(|(c, s)| Some((c, s.as_ref()?))).collect();
-    folder.write("sweep.csv", table(&done).to_csv().as_bytes())?;
+    let (cases, outcomes): (Vec<&Case>, Vec<Outcome>) =
+        sweep.cases.iter().zip(outcomes).filter_map(|(case, outcome)| Some((case, outcome?))).unzip();
+    folder.write("sweep.csv", table::of(&cases, &outcomes).to_csv().as_bytes())?;
     let earlier = read_json::<Took>(&folder.file("sweep.json")).map_or(0.0, |took| took.wall_seconds);
     let wall_seconds = earlier + begun.elapsed().as_secs_f64();
     folder.write_json("sweep.json", &Took { wall_seconds, jobs: rayon::current_num_threads() })?;
     folder.sync()?;
-    Ok(summaries.into_iter().flatten().collect())
+    Ok(outcomes.into_iter().filter_map(Outcome::summary).collect())
 }
 
 /// The folder of the cases' folders.
 const CASES: &str = "cases/";
 
+/// The cases of a scene's `[sweep]`, and where they are.
+pub struct Sweep<'a> {
+    scene: &'a Scene,
+    cases: Vec<Case>,
+    folder: PathBuf,
+}
+
+impl<'a> Sweep<'a> {
+    /// Lists them; nothing is written yet.
+    pub fn new(scene: &'a Scene, folder: &Path) -> Result<Self, CasesError> {
+        let wanted = scene.plan().sweep.as_ref().ok_or_else(|| {
+            CasesError::Scene("the scene has no `[sweep]`: say what varies, for example `vary = { \"particles.balls.count\" = [10, 20] }`".to_owned())
+        })?;
+        Ok(Self { scene, cases: cases(&wanted.vary), folder: folder.to_owned() })
+    }
+
+    /// The folder, with the scene in it; refused where a method refuses a case.
+    fn open(&self, overwrite: bool) -> Result<RunFolder, CasesError> {
+        // A case that its method refuses must say so before the others have run, and leave nothing behind.
+        for case in &self.cases {
+            let scene = case.scene(self.scene).map_err(CasesError::Complaints)?;
+            let plan = trial::unsettled(scene.plan());
+            let open = methods::open(&plan, &Hosts::new(&plan.hosts)).map_err(RunError::from);
+            open.and_then(|engine| run::steps(&plan, &*engine))
+                .map_err(|error| CasesError::Run { case: case.name.clone(), error })?;
+        }
+        let existing = match self.folder.join("cases").is_dir() {
+            _ if overwrite => Existing::Overwrite,
+            true => Existing::Resume,
+            false => Existing::Refuse,
+        };
+        self.take(existing)
+    }
+
+    fn take(&self, existing: Existing) -> Result<RunFolder, CasesError> {
+        let own = ["sweep.csv", "sweep.json", CASES].map(str::to_owned);
+        let names: Vec<String> = scene_files::names(self.scene).into_iter().chain(own).collect();
+        let folder = RunFolder::create(&self.folder, existing, &names)?;
+        folder.claim(&names)?;
+        scene_files::write(&folder, self.scene)?;
+        Ok(folder)
+    }
+
+    fn place(&self, case: &Case) -> PathBuf {
+        self.folder.join(CASES).join(case.folder())
+    }
+
+    /// Makes `sweep.csv` of what is there, and runs nothing. `why` tells of a case, by its name, why it has no result.
+    pub fn gather(&self, why: &dyn Fn(&str) -> String) -> Result<Vec<Outcome>, CasesError> {
+        let folder = self.take(Existing::Resume)?;
+        let told = |case: &Case| -> Result<Outcome, CasesError> {
+            Ok(match earlier(&case.scene(self.scene).map_err(CasesError::Complaints)?, &self.place(case)) {
+                Some(summary) => Outcome::Told(Box::new(summary)),
+                None => Outcome::Missing(why(&case.folder())),
+            })
+        };
+        let outcomes = self.cases.iter().map(told).collect::<Result<Vec<_>, _>>()?;
+        let cases: Vec<&Case> = self.cases.iter().collect();
+        folder.write("sweep.csv", table::of(&cases, &outcomes).to_csv().as_bytes())?;
+        folder.sync()?;
+        Ok(outcomes)
+    }
+}
+
+impl Apart for Sweep<'_> {
+    fn begin(&mut self, overwrite: bool) -> Result<(), CasesError> {
+        let folder = self.open(overwrite)?;
+        // What is begun is gone on with, even where no case has come to anything.
+        let cases = folder.file(CASES);
+        std::fs::create_dir_all(&cases).map_err(tsubu_frame::FileError::write(&cases))?;
+        Ok(folder.sync()?)
+    }
+
+    fn missing(&mut self) -> Result<Vec<String>, CasesError> {
+        let mut names = Vec::new();
+        for case in &self.cases {
+            let scene = case.scene(self.scene).map_err(CasesError::Complaints)?;
+            if earlier(&scene, &self.place(case)).is_none_or(|summary| summary.status != Status::Finished) {
+                names.push(case.folder());
+            }
+        }
+        Ok(names)
+    }
+
+    fn run(&mut self, name: &str, watcher: &Watcher) -> Result<Status, CasesError> {
+        let case = self.cases.iter().find(|case| case.folder() == name).ok_or_else(|| {
+            CasesError::Scene(format!("the sweep has no case `{name}`: `tsubu sweep SCENE --dry-run` names all"))
+        })?;
+        // Whoever holds it may be a worker that its cluster has given up: what it does is not done twice.
+        unlocked(watcher, || one(self.scene, case, &self.place(case), watcher)).map(|summary| summary.status)
+    }
+
+    fn plans(&self) -> Result<Vec<(Plan, f64)>, CasesError> {
+        let plans = super::cases::case_plans(self.scene, &self.cases)?;
+        Ok(plans.into_iter().map(|plan| (plan.duration, plan)).map(|(seconds, plan)| (plan, seconds)).collect())
+    }
+}
+
+/// What an earlier run of this scene has left in its folder.
+fn earlier(scene: &Scene, folder: &Path) -> Option<Summary> {
+    Summary::read(&folder.join("summary.json")).ok().filter(|_| is_of(scene, folder))
+}
+
+/// What an earlier run of this case has left in its folder.
+pub(super) fn kept(scene: &Scene, case: &Case, folder: &Path) -> Result<Option<Summary>, CasesError> {
+    Ok(earlier(&case.scene(scene).map_err(CasesError::Complaints)?, folder))
+}
+
+/// Whether the folder is of this scene. What else is varied in the sweep is nothing to a case.
+fn is_of(scene: &Scene, folder: &Path) -> bool {
+    let alone = |text: &str| {
+        let mut table: toml::Table = toml::from_str(text).ok()?;
+        table.remove("sweep");
+        Some(table)
+    };
+    let (there, here) = (std::fs::read_to_string(folder.join("scene.toml")), scene.resolved_toml());
+    there.is_ok_and(|there| there == here || alone(&there).is_some_and(|there| Some(there) == alone(&here)))
+}
+
 /// Runs a case into a folder of its own; one that is finished is kept, one that was cut goes on.
 pub(super) fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<Summary, CasesError> {
     let scene = case.scene(scene).map_err(CasesError::Complaints)?;
-    let same = std::fs::read_to_string(folder.join("scene.toml")).is_ok_and(|text| text == scene.resolved_toml());
-    let earlier = Summary::read(&folder.join("summary.json")).ok().filter(|_| same);
-    if let Some(summary) = earlier.filter(|s| s.status == Status::Finished) {
+    if let Some(summary) = earlier(&scene, folder).filter(|s| s.status == Status::Finished) {
         return Ok(summary);
     }
-    let cut = same && tsubu_frame::checkpoint::path(folder).exists();
+    let cut = is_of(&scene, folder) && tsubu_frame::checkpoint::path(folder).exists();
     let existing = if cut { Existing::Resume } else { Existing::Overwrite };
     let quiet = Watcher { interrupt: watcher.interrupt, progress: &|_| {} };
     match run::run_with(&scene, folder, existing, false, &quiet) {
         Ok(summary) => Ok(summary),
         // One case that goes wrong leaves the others their results.
-        Err(RunError::Fault(fault)) => Ok(failed(folder, &fault.told())),
+        Err(RunError::Fault(fault)) => Ok(failed(&scene, folder, &fault.told())?),
         Err(error) => Err(CasesError::Run { case: case.name.clone(), error }),
     }
 }
 
-/// What a case that went wrong has left; one whose grains would not settle leaves nothing.
-fn failed(folder: &Path, fault: &str) -> Summary {
+/// What a case that went wrong has left; one whose grains would not settle has left nothing, and is written down here.
+fn failed(scene: &Scene, folder: &Path, fault: &str) -> Result<Summary, tsubu_frame::FileError> {
     let left = Summary::read(&folder.join("summary.json")).ok();
     let of_this = |s: &Summary| s.status == Status::Failed && s.warnings.last().is_some_and(|last| last == fault);
-    left.filter(of_this).unwrap_or_else(|| Summary {
-        status: Status::Failed,
-        warnings: vec![fault.to_owned()],
-        ..Summary::default()
-    })
-}
-
-/// One row a case: what varied, how it ended, what it cost, what came out, what is to be noted of it alone.
-fn table(done: &[(&Case, &Summary)]) -> Table {
-    let mut results: Vec<(&str, &str)> = Vec::new();
-    for (_, summary) in done {
-        for (name, value) in summary.results_in_order() {
-            if matches!(value, ResultValue::Number(_)) && !results.iter().any(|(known, _)| *known == name) {
-                results.push((name, summary.unit(name)));
-            }
-        }
+    if let Some(summary) = left.filter(of_this) {
+        return Ok(summary);
     }
-    let keys: Vec<&str> =
-        done.first().map_or_else(Vec::new, |(case, _)| case.values.iter().map(|(k, _)| k.as_str()).collect());
-    let header = ["case [text]".to_owned()]
-        .into_iter()
-        .chain(keys.iter().map(|k| format!("{k} [text]")))
-        .chain(["status [text]", "wall seconds [s]", "energy residual [-]"].map(str::to_owned))
-        .chain(results.iter().map(|(name, unit)| format!("{name} [{unit}]")))
-        .chain(["remark [text]".to_owned()]);
-    let mut table = Table::new(header);
-    for (case, summary) in done {
-        let mut row = vec![Cell::Text(case.name.clone())];
-        row.extend(case.values.iter().map(|(_, v)| Cell::Text(value_text(v))));
-        row.push(summary.status.word().into());
-        row.extend([Cell::Number(summary.wall_seconds), Cell::Number(summary.energy.residual_relative)]);
-        row.extend(results.iter().map(|(name, _)| match summary.results.get(name) {
-            Some(ResultValue::Number(value)) => Cell::Number(*value),
-            _ => Cell::Number(f64::NAN),
-        }));
-        row.push(Cell::Text(remark(summary, done)));
-        table.push(row);
-    }
-    table
-}
-
-/// Warnings of a case that not every case has: what the method says of the scene belongs to all of them.
-fn remark(summary: &Summary, done: &[(&Case, &Summary)]) -> String {
-    let common = |warning: &String| done.len() > 1 && done.iter().all(|(_, other)| other.warnings.contains(warning));
-    let own = summary.warnings.iter().filter(|warning| !common(warning));
-    own.filter_map(|warning| warning.lines().next()).collect::<Vec<_>>().join("; ")
+    let summary = Summary { status: Status::Failed, warnings: vec![fault.to_owned()], ..Summary::default() };
+    let names: Vec<String> = scene_files::names(scene).into_iter().chain(["summary.json".to_owned()]).collect();
+    let folder = RunFolder::create(folder, Existing::Overwrite, &names)?;
+    scene_files::write(&folder, scene)?;
+    folder.write_json("summary.json", &summary)?;
+    folder.sync()?;
+    Ok(summary)
 }

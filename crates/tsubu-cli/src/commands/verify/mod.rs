@@ -5,6 +5,7 @@ pub mod runner;
 
 use super::{claims, origins};
 use crate::failure::Failure;
+use crate::launch::LocalOnly;
 use crate::options::WorkOptions;
 use crate::output;
 use crate::session;
@@ -66,9 +67,13 @@ pub struct Options {
     resume: bool,
     #[command(flatten)]
     work: WorkOptions,
+    #[command(flatten)]
+    launch: LocalOnly,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
+    let why = "one process holds the folder that keeps all of its cases";
+    options.launch.check("verify", why, "make each case a job of its own: tsubu verify NAME -o out/NAME")?;
     let mut chosen = verify::chosen(&options.names, options.all || options.list).map_err(Failure::wrong)?;
     if options.list {
         return if options.origins { output::print(&origins::list(&chosen)) } else { list(&chosen) };

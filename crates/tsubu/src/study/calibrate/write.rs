@@ -25,6 +25,7 @@ pub(super) fn write(
     found: Option<&Found>,
     status: Status,
     wall_seconds: f64,
+    missing: Vec<String>,
 ) -> Result<Summary, FileError> {
     let task = work.task;
     folder.write("runs.csv", runs(work).to_csv().as_bytes())?;
@@ -54,6 +55,7 @@ pub(super) fn write(
         not_told_apart(work, &correlations, &mut summary);
     }
     failures(work, &mut summary);
+    summary.warnings.extend(missing);
     summary.energy.residual_relative =
         work.ran.iter().map(|ran| ran.summary.energy.residual_relative).fold(0.0, f64::max);
     // What the scene claims is claimed of a run.

@@ -46,6 +46,19 @@ pub(super) struct Work<'a> {
     pub cheap: Vec<[f64; 2]>,
     /// What the surrogate had expected of a candidate before it was measured, in the order of the search: logarithm and deviation.
     pub expected: Vec<(usize, Option<[f64; 2]>)>,
+    /// Where runs are done apart, which.
+    pub apart: Option<Share>,
+}
+
+/// What a process does of a round whose runs are done apart.
+#[derive(Default)]
+pub(super) struct Share {
+    /// Runs that failed elsewhere, and what was said of them.
+    pub lost: BTreeMap<Key, String>,
+    /// The run that is done here, if any.
+    pub only: Option<Key>,
+    /// All that the round asks for and has no result.
+    pub asked: Vec<Key>,
 }
 
 impl<'a> Work<'a> {
@@ -60,6 +73,7 @@ impl<'a> Work<'a> {
             cheaply: Done::new(),
             cheap: Vec::new(),
             expected: Vec::new(),
+            apart: None,
         }
     }
 
@@ -289,11 +303,16 @@ impl<'a> Work<'a> {
     /// Measures all of these, side by side, but for what is known; says whether it came to the end. A candidate with a run that fails is
     /// out; the others go on.
     pub(super) fn measure(&mut self, keys: Vec<Key>) -> Result<bool, CasesError> {
-        let new: Vec<Key> = keys.iter().filter(|key| !self.known.contains_key(key)).copied().collect();
+        let mut new: Vec<Key> = keys.iter().filter(|key| !self.known.contains_key(key)).copied().collect();
         for key in keys {
             if let Some(measured) = self.known.get(&key) {
                 self.keep(key, measured.clone());
             }
+        }
+        // The round ends here where it waits for others.
+        let waits = self.share(&mut new);
+        if new.is_empty() {
+            return Ok(!waits);
         }
         let (task, watcher, record) = (self.task, self.watcher, self.record);
         let counter = AtomicU32::new(self.runs());
@@ -322,7 +341,22 @@ impl<'a> Work<'a> {
                 Err(error) => drop(self.failures.entry(key.candidate).or_insert(error)),
             }
         }
-        Ok(!watcher.interrupt.asked())
+        Ok(!waits && !watcher.interrupt.asked())
+    }
+
+    /// Leaves of these what is to be run here; says whether the round waits for runs that are done apart.
+    fn share(&mut self, new: &mut Vec<Key>) -> bool {
+        let Some(share) = &mut self.apart else { return false };
+        new.retain(|key| {
+            let Some(told) = share.lost.get(key) else { return true };
+            if !key.cheap {
+                self.failures.entry(key.candidate).or_insert_with(|| RunError::Elsewhere(told.clone()));
+            }
+            false
+        });
+        share.asked.clone_from(new);
+        new.retain(|key| share.only == Some(*key));
+        !share.asked.is_empty()
     }
 
     fn keep(&mut self, key: Key, measured: Measured) {

@@ -10,6 +10,8 @@ use std::collections::BTreeSet;
 pub(super) struct Rounds<'a> {
     /// Points of an earlier, interrupted response.
     earlier: Option<&'a Done>,
+    /// Runs that failed elsewhere: they are not tried again, and not waited for.
+    given_up: BTreeSet<Key>,
     /// All that was asked for.
     pub asked: BTreeSet<Key>,
     /// What is still to be measured of the last round, long runs first, so that no core is left with one at the end.
@@ -22,8 +24,13 @@ pub(super) struct Rounds<'a> {
 
 impl<'a> Rounds<'a> {
     pub fn new(task: &Task, earlier: Option<&'a Done>) -> Self {
-        let mut rounds =
-            Self { earlier, asked: BTreeSet::new(), missing: Vec::new(), points: Done::new(), fresh: Done::new() };
+        Self::without(task, earlier, BTreeSet::new())
+    }
+
+    /// The same without runs that are given up.
+    pub fn without(task: &Task, earlier: Option<&'a Done>, given_up: BTreeSet<Key>) -> Self {
+        let (asked, missing) = (BTreeSet::new(), Vec::new());
+        let mut rounds = Self { earlier, given_up, asked, missing, points: Done::new(), fresh: Done::new() };
         let cases = 0..task.plans.len();
         let first = cases.flat_map(|case| task.wanted.frequency_ratio.iter().map(move |ratio| (case, *ratio)));
         rounds.ask(task, first.collect());
@@ -70,6 +77,7 @@ impl<'a> Rounds<'a> {
                 Some(point) => {
                     self.fresh.insert(*key, point.clone());
                 }
+                None if self.given_up.contains(key) => {}
                 None => self.missing.push(*key),
             }
         }

@@ -1,0 +1,84 @@
+//! What is handed to a cluster: tasks of runs, and what a task needs.
+
+use crate::failure::Failure;
+use crate::options::program;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc;
+use std::time::Duration;
+use tsubu::study::apart::{Need, need};
+use tsubu_scene::Plan;
+
+/// Tasks shorter than this [s] keep a cluster busier with starting them than with them.
+const SHORTEST: f64 = 60.0;
+
+/// Tasks of a job at most: an array of Slurm has 1001 places unless its administrator says more.
+const MOST: usize = 1000;
+
+/// How long a user waits for an estimate.
+const PATIENCE: Duration = Duration::from_secs(9);
+
+/// The runs of a study that are missing, shared out.
+pub struct Job {
+    /// The command.
+    pub name: &'static str,
+    /// The folder of results, from the root.
+    pub folder: PathBuf,
+    /// Names of runs, a list a task.
+    pub tasks: Vec<Vec<String>>,
+    /// Runs of a task, where the user says how many.
+    pub per_task: Option<usize>,
+    /// Threads of a task.
+    pub threads: u16,
+    /// What the longest run needs; none where that cannot be told soon.
+    pub need: Option<Need>,
+    program: PathBuf,
+}
+
+impl Job {
+    /// Shares the runs out, `per_task` each unless what they take says how many.
+    pub fn new(
+        name: &'static str,
+        folder: &Path,
+        missing: &[String],
+        per_task: Option<usize>,
+        threads: u16,
+        plans: Vec<(Plan, f64)>,
+    ) -> Result<Self, Failure> {
+        let folder = std::path::absolute(folder)
+            .map_err(|error| Failure::wrong(format!("{} cannot be named from the root: {error}", folder.display())))?;
+        let need = soon(plans);
+        let short = need.map_or(1, |need| (SHORTEST / need.seconds.max(1e-3)).round() as usize);
+        let size = per_task.unwrap_or(short).clamp(1, missing.len().max(1)).max(missing.len().div_ceil(MOST));
+        let tasks = missing.chunks(size).map(<[String]>::to_vec).collect();
+        Ok(Self { name, folder, tasks, per_task, threads, need, program: program() })
+    }
+
+    /// Runs of all tasks.
+    pub fn runs(&self) -> usize {
+        self.tasks.iter().map(Vec::len).sum()
+    }
+
+    /// Runs of the longest task.
+    pub fn longest(&self) -> usize {
+        self.tasks.iter().map(Vec::len).max().unwrap_or_default()
+    }
+
+    /// The command of a task, but for its cases. The scene is the one in the folder: what a user edits meanwhile is not run.
+    pub fn command(&self) -> Vec<String> {
+        let folder = self.folder.display().to_string();
+        let words = [self.name, &folder, "-o", &folder, "--quiet", "--threads"].map(str::to_owned);
+        [self.program.display().to_string()].into_iter().chain(words).chain([self.threads.to_string()]).collect()
+    }
+
+    /// The folder of what tasks have said.
+    pub fn logs(&self) -> PathBuf {
+        self.folder.join(super::logs::FOLDER)
+    }
+}
+
+/// The estimate, if it is there before a user loses patience.
+fn soon(plans: Vec<(Plan, f64)>) -> Option<Need> {
+    let (send, told) = mpsc::channel();
+    std::thread::spawn(move || _ = send.send(need(&plans)));
+    told.recv_timeout(PATIENCE).ok().flatten()
+}

@@ -1,0 +1,175 @@
+//! Where the runs of a study are done: in this process, as an array job of Slurm, or by workers of Dask.
+//!
+//! A cluster starts this very program, once a task: `tsubu sweep DIR -o DIR --case NAME` does one run into its folder, and
+//! `--gather` makes the tables and the page of what is there. All that is known of a run is in the folder, so that this is all
+//! that any other scheduler needs.
+
+mod cases;
+mod dask;
+mod job;
+mod logs;
+mod slurm;
+
+pub use logs::Logs;
+
+use crate::failure::Failure;
+use crate::options::{FolderOptions, WorkOptions};
+use crate::output;
+use crate::session::Session;
+use clap::{Args, ValueEnum};
+use job::Job;
+use std::collections::BTreeSet;
+use std::path::Path;
+use tsubu::study::apart::Apart;
+
+/// Who starts the runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Launcher {
+    /// This process
+    #[default]
+    Local,
+    /// An array job of Slurm, and a last job that gathers
+    Slurm,
+    /// Workers of Dask
+    Dask,
+}
+
+#[derive(Args)]
+#[command(next_help_heading = "Many machines")]
+pub struct LaunchOptions {
+    /// Who starts the runs
+    #[arg(long, value_enum, default_value_t, value_name = "WHO")]
+    launcher: Launcher,
+    /// Print the job script, and start nothing; with the launcher `local`, the names of the runs that are missing
+    #[arg(long, conflicts_with = "overwrite")]
+    dry_run: bool,
+    /// Runs that a task does one after the other [default: what takes a minute]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    per_task: Option<u32>,
+    /// Address of Dask's scheduler, as tcp://node:8786 [default: DASK_SCHEDULER_ADDRESS]
+    #[arg(long, value_name = "ADDRESS")]
+    scheduler: Option<String>,
+    /// Do this run alone, as a task does; may be repeated
+    #[arg(long = "case", value_name = "NAME", conflicts_with_all = ["launcher", "dry_run", "gather", "overwrite"])]
+    cases: Vec<String>,
+    /// Make tables and page of what is there, and run nothing; a launcher is handed the next round of runs, where there is one
+    #[arg(long, conflicts_with_all = ["dry_run", "overwrite"])]
+    gather: bool,
+}
+
+/// Of a study whose runs cannot be done apart.
+#[derive(Args)]
+pub struct LocalOnly {
+    /// Who starts the runs; `local` alone
+    #[arg(long, value_enum, default_value_t, value_name = "WHO", hide_possible_values = true)]
+    launcher: Launcher,
+}
+
+impl LocalOnly {
+    /// Refuses other launchers, and says why, and what else to do.
+    pub fn check(&self, name: &str, why: &str, instead: &'static str) -> Result<(), Failure> {
+        if self.launcher == Launcher::Local {
+            return Ok(());
+        }
+        let who = if self.launcher == Launcher::Slurm { "slurm" } else { "dask" };
+        Err(Failure::wrong(format!("`tsubu {name}` has no `--launcher {who}`: {why}")).hint(instead))
+    }
+}
+
+/// What is left to do for the command itself.
+pub enum Left {
+    /// Nothing: tasks were started, done, or printed.
+    Nothing,
+    /// No run is to be waited for: tables and page.
+    Gather,
+}
+
+impl LaunchOptions {
+    /// Whether this process does the whole study. An option of another launcher is refused.
+    pub fn is_here(&self) -> Result<bool, Failure> {
+        let local = self.launcher == Launcher::Local;
+        if self.per_task.is_some() && local {
+            return Err(Failure::wrong("`--per-task` is for `--launcher slurm` or `dask`"));
+        }
+        if self.scheduler.is_some() && self.launcher != Launcher::Dask {
+            return Err(Failure::wrong("`--scheduler` is for `--launcher dask`"));
+        }
+        Ok(local && !self.dry_run && !self.gather && self.cases.is_empty())
+    }
+
+    /// Does what was asked for with the runs of a study; `name` is that of the command.
+    pub fn go(
+        &self,
+        name: &'static str,
+        study: &mut (dyn Apart + Send),
+        session: &Session,
+        folder: &FolderOptions,
+        work: &WorkOptions,
+    ) -> Result<Left, Failure> {
+        if !self.cases.is_empty() {
+            return cases::cases(study, session, &self.cases).map(|()| Left::Nothing);
+        }
+        let scheduler = self.scheduler.as_deref();
+        let broken = |error| Failure::of_cases(&error, &session.scene, &session.folder);
+        if !self.dry_run && !self.gather {
+            // What cannot be started leaves nothing behind.
+            match self.launcher {
+                Launcher::Local => {}
+                Launcher::Slurm => slurm::ready(&session.folder)?,
+                Launcher::Dask => dask::ready(scheduler)?,
+            }
+            study.begin(folder.overwrite).map_err(broken)?;
+        }
+        if self.gather && !session.folder.exists() {
+            // So begins who starts the tasks by other means.
+            study.begin(false).map_err(broken)?;
+        }
+        let mut waited = self.gather;
+        loop {
+            let missing = study.missing().map_err(broken)?;
+            if self.dry_run && (missing.is_empty() || self.launcher == Launcher::Local) {
+                let lines: Vec<&str> = missing.iter().flat_map(|name| [name.as_str(), "\n"]).collect();
+                return output::print(&lines.concat()).map(|()| Left::Nothing);
+            }
+            // What was asked for and is missing is not asked for again; a next round of runs is.
+            if missing.is_empty() || self.launcher == Launcher::Local || waited && asked_for(&session.folder, &missing)
+            {
+                return Ok(Left::Gather);
+            }
+            let plans = study.plans().map_err(broken)?;
+            let per_task = self.per_task.map(|n| n as usize);
+            let job = Job::new(name, &session.folder, &missing, per_task, work.told().unwrap_or(1), plans)?;
+            match (self.launcher, self.dry_run) {
+                (Launcher::Dask, true) => return output::print(&dask::script(&job, scheduler)).map(|()| Left::Nothing),
+                (_, true) => return output::print(&slurm::script(&job)).map(|()| Left::Nothing),
+                (Launcher::Dask, false) => {
+                    ask_for(&job)?;
+                    dask::run(&job, scheduler)?;
+                    waited = true;
+                }
+                (_, false) => {
+                    ask_for(&job)?;
+                    return slurm::submit(&job).map(|()| Left::Nothing);
+                }
+            }
+        }
+    }
+}
+
+/// File with the names of the runs that were asked for last.
+const RUNS: &str = "runs";
+
+/// Keeps what is asked for.
+fn ask_for(job: &Job) -> Result<(), Failure> {
+    let logs = job.logs();
+    let names: Vec<&str> = job.tasks.iter().flatten().map(String::as_str).collect();
+    let kept = std::fs::create_dir_all(&logs).and_then(|()| std::fs::write(logs.join(RUNS), names.join("\n") + "\n"));
+    kept.map_err(|error| Failure::failed(format!("cannot write into {}: {error}", logs.display())))
+}
+
+/// Whether any of these was asked for before.
+fn asked_for(folder: &Path, names: &[String]) -> bool {
+    let asked = std::fs::read_to_string(folder.join(logs::FOLDER).join(RUNS)).unwrap_or_default();
+    let asked: BTreeSet<&str> = asked.lines().collect();
+    asked.is_empty() || names.iter().any(|name| asked.contains(name.as_str()))
+}

@@ -1,0 +1,26 @@
+//! Many runs on real clusters: Slurm and Dask are started on this machine, and their workers killed.
+
+use crate::python::{environment, recent};
+use crate::shell::{command, program, root, run};
+
+/// Starts them and tests; says so where there is no Python or no network. Where there is no Slurm, its tests say that they are skipped.
+pub fn cluster(arguments: &[&str]) -> Result<(), String> {
+    if !recent() {
+        return skipped("there is no Python 3.10 or later with `venv`");
+    }
+    let tests = root().join("crates/tsubu-cli/tests/cluster");
+    let requirements = tests.join("requirements.txt");
+    let Some(python) = environment(&root().join("target/cluster-test"), &["-r", &requirements.to_string_lossy()])
+    else {
+        return skipped("Dask cannot be installed: is there a network?");
+    };
+    let mut test = command(&python.to_string_lossy(), &["-m", "pytest", "--quiet", "-rs", "-p", "no:cacheprovider"]);
+    test.env("TSUBU", program("tsubu")?).args(arguments).arg(tests);
+    run(test)
+}
+
+#[expect(clippy::unnecessary_wraps, reason = "how the chore ends there")]
+fn skipped(why: &str) -> Result<(), String> {
+    eprintln!("\nSKIPPED: runs over Slurm and Dask are not tested, for {why}");
+    Ok(())
+}
