@@ -11,6 +11,7 @@
 
 mod bonds;
 mod clumps;
+mod superellipsoid;
 mod contact;
 mod gases;
 mod grains;
@@ -28,6 +29,7 @@ mod water;
 
 pub use bonds::Bond;
 pub use clumps::{Clump, ClumpOrientation, Packing, PackingError};
+pub use superellipsoid::Superellipsoid;
 pub use contact::{
     Cohesion, Contact, Damping, Film, Material, MaterialPair, MindlinForm, Normal, Rolling, SlipLever, Strength,
     Tangential, Twisting,

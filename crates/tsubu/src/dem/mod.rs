@@ -21,6 +21,7 @@ mod overlaps;
 mod place;
 mod room;
 mod settle;
+mod shapes;
 mod sources;
 mod stage;
 mod start;

@@ -7,8 +7,9 @@ use crate::neighbours::joined::NO_BODY;
 use crate::random::{Purpose, unit, words};
 use crate::sizes;
 use crate::state::{Grain, Grains};
+use crate::superellipsoid::Superellipsoid;
 use glam::{DMat3, DQuat, DVec3};
-use tsubu_scene::plan::{Clump, ClumpOrientation, Integrator, Particles, Plan, Start};
+use tsubu_scene::plan::{Clump, ClumpOrientation, GrainShape, Integrator, Particles, Plan, Shape, Start};
 
 /// What scenes with clumps cannot have yet.
 pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
@@ -19,10 +20,22 @@ pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
     let mut refuse =
         |key: String, text: &str| notes.push(Note { key, verdict: Verdict::Refused, text: text.to_owned() });
     if plan.dem.integrator != Integrator::VelocityVerlet {
-        refuse("dem.integrator".to_owned(), "clumps are moved by `velocity-verlet` alone; leave the key out");
+        refuse("dem.integrator".to_owned(), "bodies that are no spheres are moved by `velocity-verlet` alone; leave the key out");
     }
     if !plan.contact.rotation {
-        refuse("contact.rotation".to_owned(), "clumps turn; leave the key out");
+        refuse("contact.rotation".to_owned(), "bodies that are no spheres turn; leave the key out");
+    }
+    if plan.particles.values().any(|group| matches!(group.shape, GrainShape::Superellipsoid { .. })) {
+        let other = plan.walls.iter().filter(|(_, wall)| !matches!(wall.shape, Shape::Plane { .. } | Shape::Box { .. }));
+        for (name, _) in other {
+            let text = "superellipsoids touch planes and boxes alone yet; build the wall of these, or write shape.clump for the grains";
+            refuse(format!("walls.{name}.shape"), text);
+        }
+    }
+    for (name, _) in plan.particles.iter().filter(|(name, group)| {
+        matches!(group.shape, GrainShape::Superellipsoid { .. }) && plan.bond.iter().any(|bond| bond.joins(name))
+    }) {
+        refuse(format!("particles.{name}.shape"), "bonds hold spheres and clumps together, no superellipsoids yet");
     }
     if notes.is_empty() { Ok(()) } else { Err(Refusal { method: "dem", notes }) }
 }
@@ -57,6 +70,7 @@ impl Bodies {
                 }
             }
         }
+        bodies.shaped = bodies.list.iter().any(|body| body.superellipsoid.is_some());
         bodies.find(grains);
         bodies.show(grains);
         bodies
@@ -68,6 +82,11 @@ impl Bodies {
         self.list.push(Body {
             mass,
             moments: DVec3::from_array(clump.moments) * (mass * diameter * diameter),
+            superellipsoid: clump.superellipsoid.map(|shape| Superellipsoid {
+                semi_axes: DVec3::from_array(shape.semi_axes) * diameter,
+                exponents: shape.exponents,
+                reach: 0.5 * diameter,
+            }),
             pieces: 0..0,
             centre: DVec3::ZERO,
             velocity: DVec3::ZERO,

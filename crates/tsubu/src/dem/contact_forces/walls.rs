@@ -5,8 +5,10 @@ use crate::contact::chunk::{Chunk, ROWS};
 use crate::dem::contact_batch::ContactBatch;
 use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns, WallKey};
 use crate::neighbours::lists::BlockList;
+use crate::dem::shapes::WallShape;
 use crate::view::WallLoad;
 use crate::wall::{self, Wall};
+use glam::DVec3;
 
 /// Walks the grain-wall candidates of a block, law by law; `visit` sees every finished batch.
 pub(super) fn evaluate(
@@ -49,10 +51,15 @@ fn evaluate_law(
         if several && input.laws.table.law(material) != number {
             continue;
         }
-        let Scratch { elements, touching, .. } = scratch;
+        let Scratch { elements, touching, wall_shapes, .. } = scratch;
         elements.clear();
         elements.extend(near.iter().map(|candidate| candidate.element));
-        wall.touching(elements, g.position[i], g.radius[i] + input.laws.reaches[number], touching);
+        let reach = input.laws.reaches[number];
+        wall.touching(elements, g.position[i], g.radius[i] + reach, touching);
+        let outline = if input.bodies.shaped() { input.bodies.outline(i) } else { None };
+        if let Some(outline) = &outline {
+            wall_shapes.find(outline, touching, reach);
+        }
         if remembers {
             let before = WallKey { own, wall: k, patch: 0 };
             let opened = skip(&history.walls.keys, &mut cursor, |key| *key < before);
@@ -66,7 +73,10 @@ fn evaluate_law(
         let mut t = 0;
         while t < scratch.touching.len() {
             let wall::Touch { element, nearest, .. } = scratch.touching[t];
-            let overlap = g.radius[i] - nearest.distance;
+            let WallShape { overlap, radius, shift } = match outline {
+                Some(_) => scratch.wall_shapes.of(t),
+                None => WallShape { overlap: g.radius[i] - nearest.distance, radius: g.radius[i], shift: DVec3::ZERO },
+            };
             let batch = &mut scratch.batches[number];
             let r = batch.chunk.len;
             scratch.keys.push(WallKey { own, wall: k, patch: wall.key(element) });
@@ -77,16 +87,19 @@ fn evaluate_law(
             batch.second[r] = k;
             batch.chunk.overlap[r] = overlap;
             Chunk::set(&mut batch.chunk.normal, r, normal);
-            batch.chunk.effective_radius[r] = g.radius[i];
+            batch.chunk.effective_radius[r] = radius;
             batch.chunk.effective_mass[r] = 1.0 / (g.inverse_mass[i] + wall.inverse_mass);
-            batch.lever_arm[0][r] = g.radius[i] - input.laws.lever_share * overlap;
+            batch.lever_arm[0][r] = radius - input.laws.lever_share * overlap;
             batch.lever_arm[1][r] = 0.0;
             batch.material_pair[r] = material;
-            Chunk::set(
-                &mut batch.relative_velocity,
-                r,
-                g.velocity[i] - wall.velocity_at(g.position[i] + normal * batch.lever_arm[0][r]),
-            );
+            let (mut centre, mut velocity) = (g.position[i], g.velocity[i]);
+            batch.shifted = input.bodies.shaped();
+            if batch.shifted {
+                (centre, velocity) = (centre + shift, velocity + g.spin[i].cross(shift));
+                batch.set_shift(0, r, shift);
+            }
+            let contact = centre + normal * batch.lever_arm[0][r];
+            Chunk::set(&mut batch.relative_velocity, r, velocity - wall.velocity_at(contact));
             Chunk::set(&mut batch.spin[0], r, g.spin[i]);
             Chunk::set(&mut batch.spin[1], r, wall.pose.spin);
             batch.chunk.len = r + 1;
@@ -179,6 +192,9 @@ pub(super) fn scatter(
         load.dissipative += Chunk::vector(&batch.dissipative, r).as_vec3();
         if input.laws.rotation {
             load.torque += torque;
+        }
+        if batch.shifted {
+            load.torque += batch.shift(0, r).cross(force);
         }
         let k = batch.second[r] as usize;
         let wall = &input.walls[k];

@@ -1,0 +1,139 @@
+//! Contacts of superellipsoids.
+//!
+//! Neighbour lists and the narrow phase see the sphere that holds a body. What touches there is looked at again: where the surfaces meet, and how
+//! round each is. The law then gets two spheres that are as round, with the centres that such spheres have; forces and torques on these are
+//! carried over to the bodies. Scenes without superellipsoids pass all of this by.
+
+use super::contact_batch::ContactBatch;
+use super::contact_forces::ForceInput;
+use super::narrow_phase::{Spheres, TouchingPair, TouchingPairs};
+use crate::contact::chunk::Chunk;
+use crate::neighbours::lists::BlockList;
+use crate::superellipsoid::Outline;
+use crate::superellipsoid::touch::{Touch, touch};
+use crate::wall;
+use glam::DVec3;
+
+/// A pair of which one at least is no sphere.
+#[derive(Clone, Copy, Debug)]
+struct Shaped {
+    /// Number in the neighbour list.
+    pair: u32,
+    touch: Touch,
+}
+
+/// The pairs of a block of which one at least is no sphere, in the order of the list.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PairShapes {
+    found: Vec<Shaped>,
+    outlines: Vec<Option<Outline>>,
+}
+
+impl PairShapes {
+    /// Looks at the pairs whose spheres touch, and leaves out those whose bodies are apart by more than a law reaches.
+    pub fn find(&mut self, pairs: &mut TouchingPairs, input: &ForceInput, list: &BlockList, spheres: &Spheres) {
+        self.found.clear();
+        if !input.bodies.shaped() {
+            return;
+        }
+        let own = list.first..list.first + list.own;
+        let halo = list.halo.iter().map(|halo| halo.grain as usize);
+        self.outlines.clear();
+        self.outlines.extend(own.chain(halo).map(|i| input.bodies.outline(i)));
+        let Self { found, outlines } = self;
+        pairs.keep(|pair| {
+            let second = list.pairs[pair.pair as usize].second;
+            let Some(touch) = pair_touch(outlines, spheres, [pair.first, second], input.laws.reach()) else { return true };
+            found.extend(touch.map(|touch| Shaped { pair: pair.pair, touch }));
+            touch.is_some()
+        });
+    }
+
+    /// Leaves out what is beyond the reach of its own law.
+    pub fn part(&self, pairs: &mut TouchingPairs, reaches: &[f64]) {
+        if !self.found.is_empty() {
+            pairs.keep_by_law(|law, pair| self.of(pair).is_none_or(|touch| touch.overlap > -reaches[law]));
+        }
+    }
+
+    /// Where a pair touches; `None`: both are spheres.
+    pub fn of(&self, pair: &TouchingPair) -> Option<&Touch> {
+        let k = self.found.binary_search_by_key(&pair.pair, |shaped| shaped.pair).ok()?;
+        Some(&self.found[k].touch)
+    }
+
+    /// Puts the spheres that stand for bodies into the rows of a batch.
+    pub fn gather(&self, batch: &mut ContactBatch, touching: &[TouchingPair]) {
+        batch.shifted = !self.found.is_empty();
+        if !batch.shifted {
+            return;
+        }
+        for (r, pair) in touching.iter().enumerate() {
+            let Some(Touch { normal, overlap, points, radii, .. }) = self.of(pair) else {
+                (0..2).for_each(|body| batch.set_shift(body, r, DVec3::ZERO));
+                continue;
+            };
+            let shifts = [points[0] - *normal * radii[0], points[1] + *normal * radii[1]];
+            let spin = [0, 1].map(|body| Chunk::vector(&batch.spin[body], r));
+            let relative = Chunk::vector(&batch.relative_velocity, r);
+            let relative = relative + spin[0].cross(shifts[0]) - spin[1].cross(shifts[1]);
+            Chunk::set(&mut batch.relative_velocity, r, relative);
+            Chunk::set(&mut batch.branch, r, *normal * (radii[0] + radii[1] - overlap));
+            for body in 0..2 {
+                batch.radius[body][r] = radii[body];
+                batch.set_shift(body, r, shifts[body]);
+            }
+        }
+    }
+}
+
+/// Where a pair touches, if it does; nothing where both are spheres.
+fn pair_touch(outlines: &[Option<Outline>], spheres: &Spheres, pair: [u32; 2], reach: f64) -> Option<Option<Touch>> {
+    let [a, b] = pair.map(|local| outlines[local as usize]);
+    if a.is_none() && b.is_none() {
+        return None;
+    }
+    let [p, q] = pair.map(|local| spheres.at(local));
+    let [a, b] = [(a, p), (b, q)].map(|(outline, sphere)| outline.unwrap_or_else(|| Outline::sphere(sphere[3])));
+    Some(touch([&a, &b], DVec3::new(q[0] - p[0], q[1] - p[1], q[2] - p[2]), reach))
+}
+
+/// Where a body that is no sphere touches a wall.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WallShape {
+    pub overlap: f64,
+    pub radius: f64,
+    /// Centre of the sphere that stands for the body, from that of the body [m].
+    pub shift: DVec3,
+}
+
+/// Where one grain touches the elements of a wall.
+#[derive(Clone, Debug, Default)]
+pub(super) struct WallShapes {
+    found: Vec<WallShape>,
+}
+
+impl WallShapes {
+    /// Of all that the sphere of a body touches, keeps what the body touches within `reach` [m].
+    pub fn find(&mut self, outline: &Outline, touching: &mut Vec<wall::Touch>, reach: f64) {
+        self.found.clear();
+        touching.retain(|touch| {
+            let shape = against_plane(outline, touch);
+            let near = shape.overlap > -reach;
+            self.found.extend(near.then_some(shape));
+            near
+        });
+    }
+
+    /// Of the touch with that number.
+    pub fn of(&self, touch: usize) -> WallShape {
+        self.found[touch]
+    }
+}
+
+/// Against a plane, which is as far from the centre of the body as the touch of its sphere says.
+fn against_plane(outline: &Outline, touch: &wall::Touch) -> WallShape {
+    let normal = -touch.nearest.normal;
+    let (point, radius) = outline.farthest(normal);
+    WallShape { overlap: normal.dot(point) - touch.nearest.distance, radius, shift: point - normal * radius }
+}

@@ -1,0 +1,149 @@
+//! Where two convex bodies touch.
+//!
+//! They overlap by the least, over all directions n, of
+//!
+//! ```text
+//! f(n) = h1(n) + h2(-n) - n . d        d: from the first centre to the second
+//! ```
+//!
+//! which is how far one must be moved for them to be apart; at the least n is normal to both surfaces. The search is Newton's on the sphere of
+//! directions, from the line of centres, with a line search that ends where the slope has become small. Whatever the direction, the bodies are
+//! apart by -f(n) at least, so most pairs that do not touch are seen at the first look. The number of looks has an end: what is found by then counts.
+//! Nothing is random and nothing is remembered, so the bits depend on the two bodies alone.
+
+use super::{Outline, Support};
+use glam::DVec3;
+
+/// Most directions that are looked at for a pair. Of 200,000 random pairs of exponents 2, 4, 6 and 8 the mean is 5, 7, 10 and 13; the worst of
+/// those up to 6 takes 76, and 57 of those with 8 have not ended at 80, their overlap within 2e-7 of a semi-axis.
+const LOOKS: usize = 100;
+
+/// Longest step over the sphere [rad].
+const LONGEST: f64 = 0.5;
+
+/// Where two bodies touch.
+#[derive(Clone, Copy, Debug)]
+pub struct Touch {
+    /// Unit normal from the first to the second.
+    pub normal: DVec3,
+    /// Overlap, below 0 where there is a gap [m].
+    pub overlap: f64,
+    /// Of each the farthest point along the normal, from its centre [m]; both lie on one line along the normal.
+    pub points: [DVec3; 2],
+    /// How round each is there, see [`Outline::farthest`] [m].
+    pub radii: [f64; 2],
+    /// How many directions were looked at.
+    pub looks: usize,
+}
+
+/// A direction that was looked at.
+#[derive(Clone, Copy)]
+struct Look {
+    normal: DVec3,
+    supports: [Support; 2],
+    /// From the farthest point of the second body to that of the first [m].
+    between: DVec3,
+    overlap: f64,
+}
+
+impl Look {
+    fn at(normal: DVec3, pair: &Pair) -> Self {
+        let supports = [pair.bodies[0].support(normal), pair.bodies[1].support(-normal)];
+        let between = supports[0].point - supports[1].point - pair.apart;
+        Self { normal, supports, between, overlap: normal.dot(between) }
+    }
+
+    /// How far the two points lie beside each other: the slope of the overlap over the sphere.
+    fn beside(&self) -> DVec3 {
+        self.between - self.normal * self.overlap
+    }
+}
+
+struct Pair<'a> {
+    bodies: [&'a Outline; 2],
+    apart: DVec3,
+    /// Length scale [m].
+    size: f64,
+}
+
+/// A way down.
+struct Descent<'a> {
+    leads: &'a Outline,
+    way: DVec3,
+    /// Slope at its beginning, below 0 [m].
+    slope: f64,
+}
+
+impl Pair<'_> {
+    /// Newton's step from a direction; nothing where it has arrived.
+    fn descent(&self, from: &Look) -> Option<Descent<'_>> {
+        let (t, s) = from.normal.any_orthonormal_pair();
+        let [first, second] = from.supports.map(|support| support.across((t, s)));
+        let [mut tt, ts, mut ss] = [0, 1, 2].map(|k| first[k] + second[k]);
+        (tt, ss) = (tt - from.overlap, ss - from.overlap);
+        // Bodies deep in each other may have no least there; then less of a step goes down all the same.
+        let least = 0.5 * (tt + ss - ((tt - ss) * (tt - ss) + 4.0 * ts * ts).sqrt());
+        let lift = (1e-3 * self.size - least).max(0.0);
+        (tt, ss) = (tt + lift, ss + lift);
+        let slope = [t.dot(from.between), s.dot(from.between)];
+        let determinant = tt * ss - ts * ts;
+        let way = (t * (ts * slope[1] - ss * slope[0]) + s * (ts * slope[0] - tt * slope[1])) / determinant;
+        let length = way.length();
+        let way = if length > LONGEST { way * (LONGEST / length) } else { way };
+        let slope = way.dot(from.between);
+        if -slope <= 1e-24 * self.size || length < 1e-14 {
+            return None;
+        }
+        // The flatter body has the say: its point runs fastest.
+        let leads = self.bodies[usize::from(second[0] + second[2] > first[0] + first[2])];
+        Some(Descent { leads, way, slope })
+    }
+}
+
+/// Where two bodies touch whose centres are `apart` [m]; nothing where the gap is `reach` [m] or more.
+pub fn touch(bodies: [&Outline; 2], apart: DVec3, reach: f64) -> Option<Touch> {
+    let distance = apart.length();
+    let start = if distance > 0.0 { apart / distance } else { DVec3::Z };
+    let pair = Pair { bodies, apart, size: distance };
+    let mut at = Look::at(start, &pair);
+    let mut looks = 1;
+    while at.overlap > -reach
+        && looks < LOOKS
+        && let Some(Descent { leads, way, slope }) = pair.descent(&at)
+    {
+        // Near the end rounding hides the fall of the overlap; its slope still tells, and no step is worth a second try.
+        let last = -slope <= 1e-12 * pair.size;
+        let mut share = 1.0;
+        let next = loop {
+            let (to, rate) = leads.walk(at.normal, way, share);
+            let length = to.length();
+            let look = Look::at(to / length, &pair);
+            looks += 1;
+            let along = rate.dot(look.beside()) / length;
+            let better = if last {
+                look.beside().length() < 0.9 * at.beside().length()
+            } else {
+                look.overlap <= at.overlap + 1e-2 * share * slope && along <= -0.3 * slope
+            };
+            if better || look.overlap <= -reach {
+                break Some(look);
+            }
+            if last || share < 1e-8 || looks >= LOOKS {
+                break None;
+            }
+            // Where it goes up again, to where a straight line between both slopes would have none.
+            share *= if along > 0.0 { (slope / (slope - along)).clamp(0.1, 0.9) } else { 0.5 };
+        };
+        let Some(next) = next else { break };
+        at = next;
+    }
+    if at.overlap <= -reach {
+        return None;
+    }
+    let across = at.normal.any_orthonormal_pair();
+    let radii = [0, 1].map(|k| bodies[k].roundness(&at.supports[k], across));
+    // Both points belong on one line; the flatter body knows its own less well.
+    let (beside, share) = (at.beside(), radii[0] / (radii[0] + radii[1]));
+    let points = [at.supports[0].point - beside * share, at.supports[1].point + beside * (1.0 - share)];
+    Some(Touch { normal: at.normal, overlap: at.overlap, points, radii, looks })
+}
