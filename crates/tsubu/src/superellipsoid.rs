@@ -17,6 +17,9 @@ use glam::{DMat3, DVec3};
 /// Radii of curvature end at so many times the farthest reach of a body: flat places have none.
 pub const FLATTEST: f64 = 10.0;
 
+/// Over which angle the curvature of bodies with flat places is blurred [rad].
+const BLUR: f64 = 0.25;
+
 /// Straight along an axis a flat place would have infinite radii: directions are this far from it.
 const OFF_AXIS: f64 = 1e-14;
 
@@ -42,8 +45,8 @@ pub struct Outline {
 #[derive(Clone, Copy, Debug)]
 enum Form {
     Sphere(f64),
-    /// Sum over the axes of the squared semi-axis times the dyad of its direction [m^2].
-    Ellipsoid(DMat3),
+    /// Sum over the axes of the squared semi-axis times the dyad of its direction [m^2], and the product of the semi-axes [m^3].
+    Ellipsoid(DMat3, f64),
     /// With the directions of its axes.
     Superellipsoid(Superellipsoid, DMat3),
 }
@@ -62,11 +65,37 @@ impl Superellipsoid {
     pub fn turned(&self, axes: &DMat3) -> Outline {
         let form = if self.exponents == [2.0; 2] {
             let squared = DMat3::from_diagonal(self.semi_axes * self.semi_axes);
-            Form::Ellipsoid(*axes * squared * axes.transpose())
+            Form::Ellipsoid(*axes * squared * axes.transpose(), self.semi_axes.element_product())
         } else {
             Form::Superellipsoid(*self, *axes)
         };
         Outline { form, flattest: FLATTEST * self.reach }
+    }
+
+    /// See [`Outline::roundness`], in the frame of the body and without its ends.
+    fn roundness(&self, u: DVec3) -> (f64, DVec3) {
+        let [q, s] = self.exponents.map(conjugate);
+        let reach = self.semi_axes * u.abs();
+        let squared = reach * reach + DVec3::splat(BLUR * BLUR * reach.length_squared());
+        let blurred = squared.map(f64::sqrt);
+        let (equator, [ex, ey], _) = norm(blurred.x, blurred.y, s);
+        let sharp = reach.max(DVec3::splat(OFF_AXIS * reach.max_element()));
+        let (sharp_equator, [fx, fy], _) = norm(sharp.x, sharp.y, s);
+        let (whole, [he, hz], _) = norm(sharp_equator, sharp.z, q);
+        let flat = (blurred.x * blurred.y).powf(0.5 * s - 1.0) * blurred.z.powf(0.5 * q - 1.0);
+        let product = self.semi_axes.element_product() * ((q - 1.0) * (s - 1.0)).sqrt();
+        let radius = product * flat * equator.powf(q - s) * whole.powf(1.0 - 1.5 * q);
+        // Logarithmic slopes over the blurred reaches, and by them over the reaches.
+        let inner = (q - s) / equator;
+        let by = DVec3::new(
+            (0.5 * s - 1.0) / blurred.x + inner * ex,
+            (0.5 * s - 1.0) / blurred.y + inner * ey,
+            (0.5 * q - 1.0) / blurred.z,
+        ) / blurred;
+        let slopes = reach * (by + DVec3::splat(BLUR * BLUR * by.element_sum()))
+            + DVec3::new(he * fx, he * fy, hz) * ((1.0 - 1.5 * q) / whole);
+        let sign = self.semi_axes * u.map(|x| 1.0_f64.copysign(x));
+        (radius, slopes * sign * radius)
     }
 
     /// What reaches farthest along a unit direction, in the frame of the body.
@@ -120,7 +149,7 @@ impl Outline {
     pub fn support(&self, u: DVec3) -> Support {
         match &self.form {
             Form::Sphere(radius) => Support { point: *radius * u, second: DMat3::from_diagonal(DVec3::splat(*radius)) },
-            Form::Ellipsoid(squared) => {
+            Form::Ellipsoid(squared, _) => {
                 let along = *squared * u;
                 let reach = u.dot(along).sqrt();
                 let point = along / reach;
@@ -134,19 +163,32 @@ impl Outline {
         }
     }
 
-    /// The farthest point along a unit direction, from the centre [m], and how round the body is there: the geometric mean of both radii of
-    /// curvature, at most [`FLATTEST`] times its reach [m].
-    pub fn farthest(&self, u: DVec3) -> (DVec3, f64) {
-        let support = self.support(u);
-        (support.point, self.roundness(&support, u.any_orthonormal_pair()))
-    }
-
-    fn roundness(&self, support: &Support, across: (DVec3, DVec3)) -> f64 {
-        if let Form::Sphere(radius) = self.form {
-            return radius;
+    /// How round the body is where it reaches farthest along a unit direction: the geometric mean of both radii of curvature, at most
+    /// [`FLATTEST`] times its reach [m]; and how that changes with the direction, across it [m].
+    ///
+    /// Of an ellipsoid a b c / h^2. Of any other, with X = a |ux|, Y and Z alike, and E the inner norm, squared
+    /// (a b c)^2 (q - 1) (s - 1) (X Y)^(s-2) Z^(q-2) E^(2q-2s) h^(2-3q). Straight along an axis that is infinite, and near it changes within
+    /// thousandths of a radian, faster than steps in time resolve. So X, Y and Z in it, but not in h, are blurred: sqrt(X^2 + e^2 (X^2 + Y^2 + Z^2))
+    /// with e = 1/4.
+    pub fn roundness(&self, u: DVec3) -> (f64, DVec3) {
+        let (radius, slope) = match &self.form {
+            Form::Sphere(radius) => return (*radius, DVec3::ZERO),
+            Form::Ellipsoid(squared, product) => {
+                let along = *squared * u;
+                let reach = u.dot(along);
+                (product / reach, along * (-2.0 * product / (reach * reach)))
+            }
+            Form::Superellipsoid(body, axes) => {
+                let (radius, slope) = body.roundness(axes.transpose() * u);
+                (radius, *axes * slope)
+            }
+        };
+        let least = 1e-6 * self.flattest;
+        if radius < self.flattest && radius > least {
+            (radius, slope - u * u.dot(slope))
+        } else {
+            (if radius > least { self.flattest } else { least }, DVec3::ZERO)
         }
-        let [tt, ts, ss] = support.across(across);
-        (tt * ss - ts * ts).max(0.0).sqrt().clamp(1e-6 * self.flattest, self.flattest)
     }
 
     /// A way over the sphere of directions that sets out from `u` along `way`: where it is after a share of it, and how fast it goes there.

@@ -79,6 +79,12 @@ impl Clump {
         [radii().fold(f64::INFINITY, f64::min), radii().fold(0.0, f64::max)]
     }
 
+    /// Radii that a contact can have, the smallest and the largest that matter: of spheres theirs, of a superellipsoid that of its flattest place,
+    /// where a contact is stiffest.
+    pub fn contact_radii(&self) -> [f64; 2] {
+        self.superellipsoid.map_or_else(|| self.radii(), |body| [body.flattest(); 2])
+    }
+
     /// The mass over the smallest that it shows to an impact anywhere: 1 + (r x n) . I^-1 (r x n) m, of the worst arm r and normal n.
     pub fn lightness(&self) -> f64 {
         if let Some(body) = &self.superellipsoid {

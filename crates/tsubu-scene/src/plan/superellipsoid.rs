@@ -83,6 +83,14 @@ impl Superellipsoid {
         [0, 1, 2].map(|k| self.semi_axes[k] * parts[k])
     }
 
+    /// The greatest radius of curvature that contacts are given: of an ellipsoid a b c over the square of the shortest, at most ten times the radius of
+    /// the sphere that holds it, which every flat place has.
+    pub(super) fn flattest(&self) -> f64 {
+        let shortest = self.semi_axes.iter().copied().fold(f64::INFINITY, f64::min);
+        let round = self.semi_axes.iter().product::<f64>() / (shortest * shortest);
+        if self.exponents == [2.0; 2] { round.min(5.0) } else { 5.0 }
+    }
+
     /// The mass over the smallest that it shows to an impact anywhere: 1 + (r x n) . I^-1 (r x n) m, of the worst of many normals n and the point r
     /// there; to about 1 %.
     pub(super) fn lightness(&self) -> f64 {

@@ -16,7 +16,7 @@ use crate::ledger::Energies;
 use crate::neighbours::joined::NO_BODY;
 use crate::neighbours::lists::{BlockList, shares};
 use crate::state::Grains;
-use crate::superellipsoid::Outline;
+use crate::superellipsoid::{Outline, Superellipsoid};
 use crate::threads::each_in_parts;
 use body::{Body, Felt};
 use glam::{DQuat, DVec3};
@@ -58,7 +58,12 @@ impl Bodies {
         self.shaped
     }
 
-    /// The superellipsoid that stands for a grain, as it is turned; `None`: it is a sphere.
+    /// The superellipsoid that a grain is; `None`: it is a sphere.
+    pub fn superellipsoid(&self, i: usize) -> Option<&Superellipsoid> {
+        self.list.get(self.sorted.get(i)?.body as usize)?.superellipsoid.as_ref()
+    }
+
+    /// The same as it is turned.
     pub fn outline(&self, i: usize) -> Option<Outline> {
         let body = self.list.get(self.sorted.get(i)?.body as usize)?;
         Some(body.superellipsoid?.turned(&body.axes))

@@ -7,10 +7,11 @@
 use super::contact_batch::ContactBatch;
 use super::contact_forces::ForceInput;
 use super::narrow_phase::{Spheres, TouchingPair, TouchingPairs};
-use crate::contact::chunk::Chunk;
+use crate::contact::Law;
+use crate::contact::chunk::{Chunk, Column};
 use crate::neighbours::lists::BlockList;
 use crate::superellipsoid::Outline;
-use crate::superellipsoid::touch::{Touch, touch};
+use crate::superellipsoid::touch::{Rounding, Touch, touch};
 use crate::wall;
 use glam::DVec3;
 
@@ -87,6 +88,31 @@ impl PairShapes {
     }
 }
 
+impl PairShapes {
+    /// After the law: adds what moves and turns bodies to where they are less round, see [`Rounding`].
+    pub fn round(&self, batch: &mut ContactBatch, touching: &[TouchingPair], law: &Law) {
+        if !batch.shifted {
+            return;
+        }
+        for (r, pair) in touching.iter().enumerate() {
+            let Some(Touch { rounding: Rounding { force, torques }, .. }) = self.of(pair) else { continue };
+            let slope = law.energy_slope(&batch.chunk, r);
+            // The torque of this force about the centre of the body is in the torque already.
+            let torques =
+                [torques[0] - batch.shift(0, r).cross(*force), torques[1] + batch.shift(1, r).cross(*force)];
+            add(&mut batch.force, r, *force * slope);
+            for (column, torque) in batch.torque.iter_mut().zip(torques) {
+                add(column, r, torque * slope);
+            }
+        }
+    }
+}
+
+fn add(column: &mut [Column; 3], r: usize, more: DVec3) {
+    let sum = Chunk::vector(column, r) + more;
+    Chunk::set(column, r, sum);
+}
+
 /// Where a pair touches, if it does; nothing where both are spheres.
 fn pair_touch(outlines: &[Option<Outline>], spheres: &Spheres, pair: [u32; 2], reach: f64) -> Option<Option<Touch>> {
     let [a, b] = pair.map(|local| outlines[local as usize]);
@@ -105,12 +131,16 @@ pub(super) struct WallShape {
     pub radius: f64,
     /// Centre of the sphere that stands for the body, from that of the body [m].
     pub shift: DVec3,
+    /// Torque on the body, its opposite on the wall, for each unit of the slope of energy over radius [m]; see [`Rounding`].
+    pub rounding: DVec3,
 }
 
 /// Where one grain touches the elements of a wall.
 #[derive(Clone, Debug, Default)]
 pub(super) struct WallShapes {
     found: Vec<WallShape>,
+    /// [`WallShape::rounding`] of the rows of a batch.
+    rounding: Vec<DVec3>,
 }
 
 impl WallShapes {
@@ -129,11 +159,41 @@ impl WallShapes {
     pub fn of(&self, touch: usize) -> WallShape {
         self.found[touch]
     }
+
+    /// Takes a row of a batch.
+    pub fn push(&mut self, batch: &mut ContactBatch, r: usize, shape: &WallShape) {
+        batch.set_shift(0, r, shape.shift);
+        self.rounding.push(shape.rounding);
+    }
+
+    /// After the law: adds what turns bodies to where they are less round.
+    pub fn round(&mut self, batch: &mut ContactBatch, law: &Law) {
+        if batch.shifted {
+            for (r, rounding) in self.rounding.drain(..).enumerate() {
+                let torque = rounding * law.energy_slope(&batch.chunk, r);
+                add(&mut batch.torque[0], r, torque);
+                // The wall hears of the torques of the law.
+                add(&mut batch.chunk.torque, r, torque);
+            }
+        }
+    }
+}
+
+impl WallShape {
+    /// Of a sphere.
+    pub fn sphere(radius: f64, distance: f64) -> Self {
+        Self { overlap: radius - distance, radius, shift: DVec3::ZERO, rounding: DVec3::ZERO }
+    }
 }
 
 /// Against a plane, which is as far from the centre of the body as the touch of its sphere says.
 fn against_plane(outline: &Outline, touch: &wall::Touch) -> WallShape {
     let normal = -touch.nearest.normal;
-    let (point, radius) = outline.farthest(normal);
-    WallShape { overlap: normal.dot(point) - touch.nearest.distance, radius, shift: point - normal * radius }
+    let (point, (radius, slope)) = (outline.support(normal).point, outline.roundness(normal));
+    WallShape {
+        overlap: normal.dot(point) - touch.nearest.distance,
+        radius,
+        shift: point - normal * radius,
+        rounding: normal.cross(slope),
+    }
 }

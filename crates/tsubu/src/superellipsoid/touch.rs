@@ -30,10 +30,25 @@ pub struct Touch {
     pub overlap: f64,
     /// Of each the farthest point along the normal, from its centre [m]; both lie on one line along the normal.
     pub points: [DVec3; 2],
-    /// How round each is there, see [`Outline::farthest`] [m].
+    /// How round each is there, see [`Outline::roundness`] [m].
     pub radii: [f64; 2],
+    /// What moves and turns the bodies to where they are less round together, see [`Rounding`].
+    pub rounding: Rounding,
     /// How many directions were looked at.
     pub looks: usize,
+}
+
+/// Force on the first body, its opposite on the second, and torques about the centres of both, for each unit of the slope dU/dR of the stored
+/// energy over the effective radius R = R1 R2 / (R1 + R2).
+///
+/// The energy of a Hertzian contact grows with R. While bodies roll on each other R changes, and with it the energy: these forces are what makes
+/// that energy come from the motion.
+#[derive(Clone, Copy, Debug)]
+pub struct Rounding {
+    /// Of the radius [-].
+    pub force: DVec3,
+    /// The same [m].
+    pub torques: [DVec3; 2],
 }
 
 /// A direction that was looked at.
@@ -75,8 +90,8 @@ struct Descent<'a> {
 }
 
 impl Pair<'_> {
-    /// Newton's step from a direction; nothing where it has arrived.
-    fn descent(&self, from: &Look) -> Option<Descent<'_>> {
+    /// How far directions go in answer to `pushed` [m], which may have a part along the normal; and how flat each body is [m].
+    fn newton(&self, from: &Look, pushed: DVec3) -> (DVec3, [f64; 2]) {
         let (t, s) = from.normal.any_orthonormal_pair();
         let [first, second] = from.supports.map(|support| support.across((t, s)));
         let [mut tt, ts, mut ss] = [0, 1, 2].map(|k| first[k] + second[k]);
@@ -85,9 +100,29 @@ impl Pair<'_> {
         let least = 0.5 * (tt + ss - ((tt - ss) * (tt - ss) + 4.0 * ts * ts).sqrt());
         let lift = (1e-3 * self.size - least).max(0.0);
         (tt, ss) = (tt + lift, ss + lift);
-        let slope = [t.dot(from.between), s.dot(from.between)];
+        let (x, y) = (t.dot(pushed), s.dot(pushed));
         let determinant = tt * ss - ts * ts;
-        let way = (t * (ts * slope[1] - ss * slope[0]) + s * (ts * slope[0] - tt * slope[1])) / determinant;
+        let way = (t * (ss * x - ts * y) + s * (tt * y - ts * x)) / determinant;
+        (way, [first[0] + first[2], second[0] + second[2]])
+    }
+
+    /// See [`Rounding`]. When the direction n goes by dn and body i turns by w, its radius changes by g . (dn - w x n), g its slope; dn follows from
+    /// that the slope of the overlap stays zero.
+    fn rounding(&self, at: &Look, [(r1, g1), (r2, g2)]: [(f64, DVec3); 2]) -> Rounding {
+        let (n, [first, second]) = (at.normal, &at.supports);
+        let share = |r: f64| (1.0 / (1.0 + r)).powi(2);
+        let (g1, g2) = (g1 * share(r1 / r2), g2 * share(r2 / r1));
+        let (force, _) = self.newton(at, g1 + g2);
+        let torques = [
+            first.point.cross(force) + n.cross(g1 - first.second * force),
+            n.cross(g2 - second.second * force) - second.point.cross(force),
+        ];
+        Rounding { force, torques }
+    }
+
+    /// Newton's step from a direction; nothing where it has arrived.
+    fn descent(&self, from: &Look) -> Option<Descent<'_>> {
+        let (way, [first, second]) = self.newton(from, -from.between);
         let length = way.length();
         let way = if length > LONGEST { way * (LONGEST / length) } else { way };
         let slope = way.dot(from.between);
@@ -95,7 +130,7 @@ impl Pair<'_> {
             return None;
         }
         // The flatter body has the say: its point runs fastest.
-        let leads = self.bodies[usize::from(second[0] + second[2] > first[0] + first[2])];
+        let leads = self.bodies[usize::from(second > first)];
         Some(Descent { leads, way, slope })
     }
 }
@@ -140,10 +175,17 @@ pub fn touch(bodies: [&Outline; 2], apart: DVec3, reach: f64) -> Option<Touch> {
     if at.overlap <= -reach {
         return None;
     }
-    let across = at.normal.any_orthonormal_pair();
-    let radii = [0, 1].map(|k| bodies[k].roundness(&at.supports[k], across));
+    let round = bodies.map(|body| body.roundness(at.normal));
+    let radii = round.map(|(radius, _)| radius);
     // Both points belong on one line; the flatter body knows its own less well.
     let (beside, share) = (at.beside(), radii[0] / (radii[0] + radii[1]));
     let points = [at.supports[0].point - beside * share, at.supports[1].point + beside * (1.0 - share)];
-    Some(Touch { normal: at.normal, overlap: at.overlap, points, radii, looks })
+    Some(Touch {
+        normal: at.normal,
+        overlap: at.overlap,
+        points,
+        radii,
+        rounding: pair.rounding(&at, round),
+        looks,
+    })
 }

@@ -49,6 +49,7 @@ pub(super) fn evaluate(
                 history.pairs.gather(&old[..touching.len()], &mut batch.chunk.history);
             }
             apply_law(input, number, batch, sums);
+            shapes.round(batch, touching, law);
             if width > 0 {
                 next.pairs.keys.extend(touching.iter().map(|touching| touching.pair));
                 next.pairs.append(touching.len(), &batch.chunk.history);

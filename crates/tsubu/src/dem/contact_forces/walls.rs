@@ -8,7 +8,6 @@ use crate::neighbours::lists::BlockList;
 use crate::dem::shapes::WallShape;
 use crate::view::WallLoad;
 use crate::wall::{self, Wall};
-use glam::DVec3;
 
 /// Walks the grain-wall candidates of a block, law by law; `visit` sees every finished batch.
 pub(super) fn evaluate(
@@ -73,10 +72,11 @@ fn evaluate_law(
         let mut t = 0;
         while t < scratch.touching.len() {
             let wall::Touch { element, nearest, .. } = scratch.touching[t];
-            let WallShape { overlap, radius, shift } = match outline {
+            let shape = match outline {
                 Some(_) => scratch.wall_shapes.of(t),
-                None => WallShape { overlap: g.radius[i] - nearest.distance, radius: g.radius[i], shift: DVec3::ZERO },
+                None => WallShape::sphere(g.radius[i], nearest.distance),
             };
+            let WallShape { overlap, radius, shift, .. } = shape;
             let batch = &mut scratch.batches[number];
             let r = batch.chunk.len;
             scratch.keys.push(WallKey { own, wall: k, patch: wall.key(element) });
@@ -96,7 +96,7 @@ fn evaluate_law(
             batch.shifted = input.bodies.shaped();
             if batch.shifted {
                 (centre, velocity) = (centre + shift, velocity + g.spin[i].cross(shift));
-                batch.set_shift(0, r, shift);
+                scratch.wall_shapes.push(batch, r, &shape);
             }
             let contact = centre + normal * batch.lever_arm[0][r];
             Chunk::set(&mut batch.relative_velocity, r, velocity - wall.velocity_at(contact));
@@ -156,7 +156,7 @@ fn finish(
     sums: &mut ContactSums,
     visit: &mut impl FnMut(&ContactBatch),
 ) {
-    let Scratch { batches, next, old, keys, .. } = scratch;
+    let Scratch { batches, next, old, keys, wall_shapes, .. } = scratch;
     let (batch, next) = (&mut batches[number], &mut next[number]);
     let remembers = input.laws.all()[number].width() > 0;
     let n = batch.chunk.rows();
@@ -166,6 +166,7 @@ fn finish(
         history.walls.gather(&old[..n], &mut batch.chunk.history);
     }
     apply_law(input, number, batch, sums);
+    wall_shapes.round(batch, &input.laws.all()[number]);
     if remembers {
         next.walls.keys.extend_from_slice(keys);
         next.walls.append(n, &batch.chunk.history);
