@@ -55,9 +55,8 @@ impl Solid {
     /// ((|x/a|^r + |y/b|^r)^(p/r) + |z/c|^p)^(1/p) at a point from the centre, 1 on the surface, and its slope.
     fn level(&self, at: [f64; 3]) -> (f64, [f64; 3]) {
         let [p, r] = self.exponents;
-        let own: [f64; 3] = std::array::from_fn(|k| {
-            (0..3).map(|i| self.axes[k][i] * at[i]).sum::<f64>() / self.semi_axes[k]
-        });
+        let own: [f64; 3] =
+            std::array::from_fn(|k| (0..3).map(|i| self.axes[k][i] * at[i]).sum::<f64>() / self.semi_axes[k]);
         let [x, y, z] = own.map(|part| part.abs().max(1e-12));
         let equator = (x.powf(r) + y.powf(r)).powf(1.0 / r);
         let level = (equator.powf(p) + z.powf(p)).powf(1.0 / p);

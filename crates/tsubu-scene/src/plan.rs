@@ -11,7 +11,6 @@
 
 mod bonds;
 mod clumps;
-mod superellipsoid;
 mod contact;
 mod gases;
 mod grains;
@@ -22,6 +21,7 @@ mod share;
 mod sites;
 mod stage;
 mod study;
+mod superellipsoid;
 mod typed_order;
 mod walls;
 pub mod watch;
@@ -29,7 +29,6 @@ mod water;
 
 pub use bonds::Bond;
 pub use clumps::{Clump, ClumpOrientation, Packing, PackingError};
-pub use superellipsoid::Superellipsoid;
 pub use contact::{
     Cohesion, Contact, Damping, Film, Material, MaterialPair, MindlinForm, Normal, Rolling, SlipLever, Strength,
     Tangential, Twisting,
@@ -46,6 +45,7 @@ pub use region::{Ball, Cylinder, Region};
 pub use sites::{GuttHaff, Heap, Savage, Split, Voids};
 pub use stage::{Stage, Until};
 pub use study::{Atlas, Calibrate, Claim, Cost, Design, Envelope, Goal, Keep, Measured, Output, Path, Response, Sweep};
+pub use superellipsoid::Superellipsoid;
 pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall, box_of_planes};
 pub use watch::{Axis, Bed, Face, Heading, Kernel, Measure, Quantity, Watch};
 pub use water::{Buoyancy, Directions, Drag, Flow, Fluctuation, Hindrance, Lid, Lift, StreamStart, Torque, Water};

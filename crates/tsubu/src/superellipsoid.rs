@@ -210,7 +210,8 @@ impl Outline {
             let power = root.abs().powf(p - 2.0);
             (root * power, (p - 1.0) * power * rate)
         };
-        let ((x, dx), (y, dy), (z, dz)) = (one(u.x, way.x, equator), one(u.y, way.y, equator), one(u.z, way.z, profile));
+        let ((x, dx), (y, dy), (z, dz)) =
+            (one(u.x, way.x, equator), one(u.y, way.y, equator), one(u.z, way.z, profile));
         (*axes * DVec3::new(x, y, z), *axes * DVec3::new(dx, dy, dz))
     }
 }

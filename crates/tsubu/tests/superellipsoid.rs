@@ -159,9 +159,8 @@ fn rounding_is_the_slope_of_the_effective_radius() {
             for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
                 // The first body goes forward: the second is nearer by as much.
                 let moved = with(&|pair, by| pair.apart -= axis * by);
-                let turned = [0, 1].map(|k| {
-                    with(&|pair, by| pair.bodies[k].1 = DQuat::from_axis_angle(axis, by) * pair.bodies[k].1)
-                });
+                let turned = [0, 1]
+                    .map(|k| with(&|pair, by| pair.bodies[k].1 = DQuat::from_axis_angle(axis, by) * pair.bodies[k].1));
                 let scale = rounding.force.length() + rounding.torques[0].length() + rounding.torques[1].length();
                 let near = |found: f64, expected: f64| (found - expected).abs() < 1e-4 * (scale + 1.0);
                 assert!(near(-moved, rounding.force.dot(axis)), "{moved} {}", rounding.force);

@@ -16,8 +16,7 @@ pub(crate) static PARTICLES: &[Key] = &[
     Key::new("mass", Kind::Quantity(&MASS), "Mass of a grain of that diameter; others scale with their volume")
         .above(0.0)
         .derived("sphere or disc of the material's density"),
-    Key::new("shape", Kind::Choice(SHAPE), "What a grain is")
-        .default("{ sphere = {} }"),
+    Key::new("shape", Kind::Choice(SHAPE), "What a grain is").default("{ sphere = {} }"),
     Key::new("size", Kind::Choice(SIZE), "How the diameters are distributed").default("{ equal = {} }"),
     Key::new("start", Kind::Choice(START), "Where the grains begin").default("{ settled = {} }"),
     Key::new("motion", Kind::Choice(MOTION), "Who moves the grains").default("{ free = {} }"),

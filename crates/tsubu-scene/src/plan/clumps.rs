@@ -135,6 +135,14 @@ impl GrainShape {
         }
     }
 
+    /// Diameter of what a grain of that diameter fills however it is turned: of a superellipsoid twice its shortest semi-axis. How deep it begins in
+    /// something the engine says.
+    pub fn sure(&self, diameter: f64) -> f64 {
+        let Self::Superellipsoid { .. } = self else { return diameter };
+        let body = self.clump().and_then(|body| body.superellipsoid);
+        body.map_or(diameter, |body| 2.0 * diameter * body.semi_axes.iter().copied().fold(0.5, f64::min))
+    }
+
     /// The packing in place of a mesh.
     pub fn packing(&self) -> Option<&Packing> {
         if let Self::ClumpMesh { packing, .. } = self { Some(packing) } else { None }

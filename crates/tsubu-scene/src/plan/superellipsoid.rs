@@ -48,11 +48,7 @@ impl Superellipsoid {
         let volume = 4.0 * size * beta(0.5 * e + 1.0, e) * beta(0.5 * f, 0.5 * f);
         let across = size * beta(1.5 * f, 0.5 * f) * beta(0.5 * e, 2.0 * e + 1.0);
         let along = 4.0 * size * beta(0.5 * f, 0.5 * f + 1.0) * beta(1.5 * e, e + 1.0);
-        let moments = [
-            b * b * across + c * c * along,
-            a * a * across + c * c * along,
-            (a * a + b * b) * across,
-        ];
+        let moments = [b * b * across + c * c * along, a * a * across + c * c * along, (a * a + b * b) * across];
         (volume, moments.map(|moment| moment / volume))
     }
 

@@ -7,8 +7,9 @@
 
 mod assemble;
 mod body;
+mod refused;
 
-pub(super) use assemble::refused;
+pub(super) use refused::refused;
 
 use super::contact_batch::ContactBatch;
 use crate::contact::chunk::Chunk;

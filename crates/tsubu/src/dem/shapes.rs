@@ -44,7 +44,9 @@ impl PairShapes {
         let Self { found, outlines } = self;
         pairs.keep(|pair| {
             let second = list.pairs[pair.pair as usize].second;
-            let Some(touch) = pair_touch(outlines, spheres, [pair.first, second], input.laws.reach()) else { return true };
+            let Some(touch) = pair_touch(outlines, spheres, [pair.first, second], input.laws.reach()) else {
+                return true;
+            };
             found.extend(touch.map(|touch| Shaped { pair: pair.pair, touch }));
             touch.is_some()
         });
@@ -98,8 +100,7 @@ impl PairShapes {
             let Some(Touch { rounding: Rounding { force, torques }, .. }) = self.of(pair) else { continue };
             let slope = law.energy_slope(&batch.chunk, r);
             // The torque of this force about the centre of the body is in the torque already.
-            let torques =
-                [torques[0] - batch.shift(0, r).cross(*force), torques[1] + batch.shift(1, r).cross(*force)];
+            let torques = [torques[0] - batch.shift(0, r).cross(*force), torques[1] + batch.shift(1, r).cross(*force)];
             add(&mut batch.force, r, *force * slope);
             for (column, torque) in batch.torque.iter_mut().zip(torques) {
                 add(column, r, torque * slope);

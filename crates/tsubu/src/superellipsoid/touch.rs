@@ -180,12 +180,5 @@ pub fn touch(bodies: [&Outline; 2], apart: DVec3, reach: f64) -> Option<Touch> {
     // Both points belong on one line; the flatter body knows its own less well.
     let (beside, share) = (at.beside(), radii[0] / (radii[0] + radii[1]));
     let points = [at.supports[0].point - beside * share, at.supports[1].point + beside * (1.0 - share)];
-    Some(Touch {
-        normal: at.normal,
-        overlap: at.overlap,
-        points,
-        radii,
-        rounding: pair.rounding(&at, round),
-        looks,
-    })
+    Some(Touch { normal: at.normal, overlap: at.overlap, points, radii, rounding: pair.rounding(&at, round), looks })
 }

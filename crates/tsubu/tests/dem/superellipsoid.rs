@@ -75,19 +75,21 @@ fn what_is_asked_comes_back_at_the_place_of_contact() {
     let back = |tilt: f64, shape: &str| {
         let n = [tilt.sin(), 0.0, tilt.cos()];
         let wall = format!("shape.plane = {{ point = [0, 0, 0], normal = {n:?} }}");
-        let start = format!(
-            "start.at = {{ position = [[{}, 0, {}]], velocity = [[{}, 0, {}]] }}",
-            2.5e-3 * n[0],
-            2.5e-3 * n[2],
-            -0.5 * n[0],
-            -0.5 * n[2]
-        );
-        let (mut engine, mut hosts, mut ledger) = open_text(&scene(shape, &start, &wall), &[]);
         // Where it touches: what of the ellipsoid 2 mm x 1.2 mm x 1 mm reaches farthest towards the plane.
         let [a, c] = [2e-3, 1e-3];
         let reach = (a * a * n[0] * n[0] + c * c * n[2] * n[2]).sqrt();
         let arm = [-a * a * n[0] / reach, -c * c * n[2] / reach];
-        let steps = (6e-3 / engine.time_step()) as u64;
+        let away = reach + 1e-4;
+        let start = format!(
+            "start.at = {{ position = [[{}, 0, {}]], velocity = [[{}, 0, {}]] }}",
+            away * n[0],
+            away * n[2],
+            -0.5 * n[0],
+            -0.5 * n[2]
+        );
+        let (mut engine, mut hosts, mut ledger) = open_text(&scene(shape, &start, &wall), &[]);
+        // Long enough for the impact, too short for the other end to come round.
+        let steps = (1e-3 / engine.time_step()) as u64;
         engine.advance(steps, &mut hosts, &mut ledger).unwrap();
         let (v, w) = (vectors(&*engine, "velocity")[0], vectors(&*engine, "spin")[0][1]);
         let there = [v[0] + w * arm[1], v[2] - w * arm[0]];
@@ -124,25 +126,25 @@ friction = 0.4
 material = "glass"
 count = 100
 diameter = "3 mm"
-start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "60 mm"] }, velocity = [0, 0, -1], speed = 0.5 }
+start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "60 mm"] }, velocity = [0, 0, -4], speed = 0.5 }
 [particles.boxes]
 material = "glass"
 count = 100
 diameter = "5 mm"
 shape.superellipsoid = { semi-axes = [1, 1.2, 0.8], exponents = [5, 4] }
-start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "60 mm"] }, velocity = [0, 0, -1], speed = 0.5 }
+start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "60 mm"] }, velocity = [0, 0, -4], speed = 0.5 }
 [particles.pairs]
 material = "glass"
 count = 60
 diameter = "4 mm"
 shape.clump = { centre = [[-1, 0, 0], [1, 0, 0]], diameter = [2, 2] }
-start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "60 mm"] }, velocity = [0, 0, -1], speed = 0.5 }
+start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "60 mm"] }, velocity = [0, 0, -4], speed = 0.5 }
 [particles.seeds]
 material = "glass"
 count = 200
 diameter = "5 mm"
 shape.superellipsoid.semi-axes = [3, 2, 1.5]
-start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "60 mm"] }, velocity = [0, 0, -1], speed = 0.5 }
+start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "60 mm"] }, velocity = [0, 0, -4], speed = 0.5 }
 [walls.floor]
 material = "glass"
 shape.plane = { point = [0, 0, 0], normal = [0, 0, 1] }
@@ -222,5 +224,6 @@ fn what_superellipsoids_cannot_have_is_refused() {
     let drum = "shape.cylinder = { point = [0, 0, 0], axis = [0, 0, 1], radius = 1, length = 1 }";
     refused(drum, &[], "walls.floor.shape");
     refused(FLOOR, &["dem.integrator=forward-euler"], "dem.integrator");
+    refused(FLOOR, &["watch.height.profile={region={low=[-1,-1,-1],high=[1,1,1]}}"], "watch.height");
     refused(FLOOR, &["method=lattice"], "particles.seeds.shape");
 }

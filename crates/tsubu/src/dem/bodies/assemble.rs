@@ -2,43 +2,13 @@
 
 use super::body::Body;
 use super::{Bodies, Piece};
-use crate::engine::{Note, Refusal, Verdict};
 use crate::neighbours::joined::NO_BODY;
 use crate::random::{Purpose, unit, words};
 use crate::sizes;
 use crate::state::{Grain, Grains};
 use crate::superellipsoid::Superellipsoid;
 use glam::{DMat3, DQuat, DVec3};
-use tsubu_scene::plan::{Clump, ClumpOrientation, GrainShape, Integrator, Particles, Plan, Shape, Start};
-
-/// What scenes with clumps cannot have yet.
-pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
-    if !plan.particles.values().any(|group| group.shape.is_clump()) {
-        return Ok(());
-    }
-    let mut notes = Vec::new();
-    let mut refuse =
-        |key: String, text: &str| notes.push(Note { key, verdict: Verdict::Refused, text: text.to_owned() });
-    if plan.dem.integrator != Integrator::VelocityVerlet {
-        refuse("dem.integrator".to_owned(), "bodies that are no spheres are moved by `velocity-verlet` alone; leave the key out");
-    }
-    if !plan.contact.rotation {
-        refuse("contact.rotation".to_owned(), "bodies that are no spheres turn; leave the key out");
-    }
-    if plan.particles.values().any(|group| matches!(group.shape, GrainShape::Superellipsoid { .. })) {
-        let other = plan.walls.iter().filter(|(_, wall)| !matches!(wall.shape, Shape::Plane { .. } | Shape::Box { .. }));
-        for (name, _) in other {
-            let text = "superellipsoids touch planes and boxes alone yet; build the wall of these, or write shape.clump for the grains";
-            refuse(format!("walls.{name}.shape"), text);
-        }
-    }
-    for (name, _) in plan.particles.iter().filter(|(name, group)| {
-        matches!(group.shape, GrainShape::Superellipsoid { .. }) && plan.bond.iter().any(|bond| bond.joins(name))
-    }) {
-        refuse(format!("particles.{name}.shape"), "bonds hold spheres and clumps together, no superellipsoids yet");
-    }
-    if notes.is_empty() { Ok(()) } else { Err(Refusal { method: "dem", notes }) }
-}
+use tsubu_scene::plan::{Clump, ClumpOrientation, Particles, Plan, Start};
 
 impl Bodies {
     /// Puts the spheres of clumps in the place of the grains that stand for them, which get numbers one after the other; those of streams

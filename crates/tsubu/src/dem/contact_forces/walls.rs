@@ -4,8 +4,8 @@ use super::{ContactSums, ForceInput, Load, Scratch, apply_law, power, skip};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::dem::contact_batch::ContactBatch;
 use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns, WallKey};
-use crate::neighbours::lists::BlockList;
 use crate::dem::shapes::WallShape;
+use crate::neighbours::lists::BlockList;
 use crate::view::WallLoad;
 use crate::wall::{self, Wall};
 
