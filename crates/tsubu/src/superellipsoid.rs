@@ -38,6 +38,8 @@ pub struct Superellipsoid {
 #[derive(Clone, Copy, Debug)]
 pub struct Outline {
     form: Form,
+    /// Sum over the axes of the squared semi-axis times the dyad of its direction [m^2].
+    squared: DMat3,
     /// Radii of curvature end here [m].
     flattest: f64,
 }
@@ -45,8 +47,8 @@ pub struct Outline {
 #[derive(Clone, Copy, Debug)]
 enum Form {
     Sphere(f64),
-    /// Sum over the axes of the squared semi-axis times the dyad of its direction [m^2], and the product of the semi-axes [m^3].
-    Ellipsoid(DMat3, f64),
+    /// With the product of the semi-axes [m^3].
+    Ellipsoid(f64),
     /// With the directions of its axes.
     Superellipsoid(Superellipsoid, DMat3),
 }
@@ -63,13 +65,13 @@ pub struct Support {
 impl Superellipsoid {
     /// The body, turned so that its axes have these directions.
     pub fn turned(&self, axes: &DMat3) -> Outline {
+        let squared = *axes * DMat3::from_diagonal(self.semi_axes * self.semi_axes) * axes.transpose();
         let form = if self.exponents == [2.0; 2] {
-            let squared = DMat3::from_diagonal(self.semi_axes * self.semi_axes);
-            Form::Ellipsoid(*axes * squared * axes.transpose(), self.semi_axes.element_product())
+            Form::Ellipsoid(self.semi_axes.element_product())
         } else {
             Form::Superellipsoid(*self, *axes)
         };
-        Outline { form, flattest: FLATTEST * self.reach }
+        Outline { form, squared, flattest: FLATTEST * self.reach }
     }
 
     /// See [`Outline::roundness`], in the frame of the body and without its ends.
@@ -142,19 +144,20 @@ fn norm(x: f64, y: f64, q: f64) -> (f64, [f64; 2], [f64; 3]) {
 impl Outline {
     /// A sphere of a radius [m].
     pub fn sphere(radius: f64) -> Self {
-        Self { form: Form::Sphere(radius), flattest: f64::INFINITY }
+        let squared = DMat3::from_diagonal(DVec3::splat(radius * radius));
+        Self { form: Form::Sphere(radius), squared, flattest: f64::INFINITY }
     }
 
     /// What reaches farthest along a unit direction.
     pub fn support(&self, u: DVec3) -> Support {
         match &self.form {
             Form::Sphere(radius) => Support { point: *radius * u, second: DMat3::from_diagonal(DVec3::splat(*radius)) },
-            Form::Ellipsoid(squared, _) => {
-                let along = *squared * u;
+            Form::Ellipsoid(_) => {
+                let along = self.squared * u;
                 let reach = u.dot(along).sqrt();
                 let point = along / reach;
                 let dyad = DMat3::from_cols(point * point.x, point * point.y, point * point.z);
-                Support { point, second: (*squared - dyad) * (1.0 / reach) }
+                Support { point, second: (self.squared - dyad) * (1.0 / reach) }
             }
             Form::Superellipsoid(body, axes) => {
                 let own = body.support(axes.transpose() * u);
@@ -173,8 +176,8 @@ impl Outline {
     pub fn roundness(&self, u: DVec3) -> (f64, DVec3) {
         let (radius, slope) = match &self.form {
             Form::Sphere(radius) => return (*radius, DVec3::ZERO),
-            Form::Ellipsoid(squared, product) => {
-                let along = *squared * u;
+            Form::Ellipsoid(product) => {
+                let along = self.squared * u;
                 let reach = u.dot(along);
                 (product / reach, along * (-2.0 * product / (reach * reach)))
             }
