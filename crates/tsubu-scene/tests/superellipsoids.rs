@@ -1,14 +1,13 @@
 //! Grains that are superellipsoids.
 
-use super::GOOD;
+use super::clumps::HEAD;
 use std::f64::consts::PI;
 use std::path::Path;
 use tsubu_scene::Scene;
 use tsubu_scene::plan::Clump;
 
 fn read(shape: &str, changes: &[&str]) -> Result<Scene, String> {
-    let group = format!("[particles.seeds]\nmaterial = \"glass\"\ncount = 3\ndiameter = 0.004\n{shape}\n[particles.");
-    let text = GOOD.replacen("[particles.", &group, 1);
+    let text = format!("{HEAD}{shape}\n");
     let mut changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
     if !changes.iter().any(|change| change.starts_with("dimension")) {
         changes.push("dimension=3".to_owned());
@@ -18,11 +17,11 @@ fn read(shape: &str, changes: &[&str]) -> Result<Scene, String> {
 
 fn body(shape: &str) -> Clump {
     let scene = read(&format!("shape.superellipsoid = {shape}"), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
-    let group = &scene.plan().particles["seeds"];
+    let group = &scene.plan().particles["rods"];
     let body = group.shape.clump().expect("a body");
     assert!((group.mass / (2500.0 * body.volume * 0.004_f64.powi(3)) - 1.0).abs() < 1e-12);
     let again = Scene::parse("scene.toml", &scene.resolved_toml(), Path::new("."), &[]).expect("the same scene");
-    assert_eq!(again.plan().particles["seeds"], *group);
+    assert_eq!(again.plan().particles["rods"], *group);
     body
 }
 
