@@ -89,7 +89,7 @@ fn superellipsoid(parts: &Parts<'_>, name: &str, group: &Particles, complaints: 
     let [short, long] = [f64::min, f64::max].map(|pick| semi_axes.iter().copied().fold(semi_axes[0], pick));
     if short > 0.0 && long > MOST_SLENDER * short {
         complaints.push(
-            Complaint::new(format!("the superellipsoid `{name}` is {:.4} times as long as it is thick", long / short))
+            Complaint::new(format!("the superellipsoid `{name}` is {:.1} times as long as it is thick", long / short))
                 .at(&at(&["semi-axes"]), format!("at most {MOST_SLENDER}"))
                 .hint("for longer bodies write shape.clump"),
         );

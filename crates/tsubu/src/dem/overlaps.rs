@@ -28,7 +28,7 @@ pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
             let (mut overlap, mut normal) = (a + b - branch.length(), branch.normalize_or_zero());
             let first = list.first + touching.first as usize;
             let mut arm = normal * (a - 0.5 * overlap);
-            if let Some(touch) = shapes.of(touching) {
+            if let Some(touch) = shapes.of(touching.pair) {
                 (overlap, normal) = (touch.overlap, touch.normal);
                 arm = touch.points[0] - normal * (0.5 * overlap);
             }

@@ -44,9 +44,9 @@ impl PairShapes {
         let Self { found, outlines } = self;
         pairs.keep(|pair| {
             let second = list.pairs[pair.pair as usize].second;
-            let Some(touch) = pair_touch(outlines, spheres, [pair.first, second], input.laws.reach()) else {
-                return true;
-            };
+            let Some([a, b]) = pair_outlines(outlines, spheres, [pair.first, second]) else { return true };
+            let [p, q] = [pair.first, second].map(|local| spheres.at(local));
+            let touch = touch([&a, &b], DVec3::new(q[0] - p[0], q[1] - p[1], q[2] - p[2]), input.laws.reach());
             found.extend(touch.map(|touch| Shaped { pair: pair.pair, touch }));
             touch.is_some()
         });
@@ -55,13 +55,13 @@ impl PairShapes {
     /// Leaves out what is beyond the reach of its own law.
     pub fn part(&self, pairs: &mut TouchingPairs, reaches: &[f64]) {
         if !self.found.is_empty() {
-            pairs.keep_by_law(|law, pair| self.of(pair).is_none_or(|touch| touch.overlap > -reaches[law]));
+            pairs.keep_by_law(|law, pair| self.of(pair.pair).is_none_or(|touch| touch.overlap > -reaches[law]));
         }
     }
 
-    /// Where a pair touches; `None`: both are spheres.
-    pub fn of(&self, pair: &TouchingPair) -> Option<&Touch> {
-        let k = self.found.binary_search_by_key(&pair.pair, |shaped| shaped.pair).ok()?;
+    /// Where a pair of the list touches; `None`: both are spheres.
+    pub fn of(&self, pair: u32) -> Option<&Touch> {
+        let k = self.found.binary_search_by_key(&pair, |shaped| shaped.pair).ok()?;
         Some(&self.found[k].touch)
     }
 
@@ -72,7 +72,7 @@ impl PairShapes {
             return;
         }
         for (r, pair) in touching.iter().enumerate() {
-            let Some(Touch { normal, overlap, points, radii, .. }) = self.of(pair) else {
+            let Some(Touch { normal, overlap, points, radii, .. }) = self.of(pair.pair) else {
                 (0..2).for_each(|body| batch.set_shift(body, r, DVec3::ZERO));
                 continue;
             };
@@ -97,7 +97,7 @@ impl PairShapes {
             return;
         }
         for (r, pair) in touching.iter().enumerate() {
-            let Some(Touch { rounding: Rounding { force, torques }, .. }) = self.of(pair) else { continue };
+            let Some(Touch { rounding: Rounding { force, torques }, .. }) = self.of(pair.pair) else { continue };
             let slope = law.energy_slope(&batch.chunk, r);
             // The torque of this force about the centre of the body is in the torque already.
             let torques = [torques[0] - batch.shift(0, r).cross(*force), torques[1] + batch.shift(1, r).cross(*force)];
@@ -114,15 +114,11 @@ fn add(column: &mut [Column; 3], r: usize, more: DVec3) {
     Chunk::set(column, r, sum);
 }
 
-/// Where a pair touches, if it does; nothing where both are spheres.
-fn pair_touch(outlines: &[Option<Outline>], spheres: &Spheres, pair: [u32; 2], reach: f64) -> Option<Option<Touch>> {
-    let [a, b] = pair.map(|local| outlines[local as usize]);
-    if a.is_none() && b.is_none() {
-        return None;
-    }
-    let [p, q] = pair.map(|local| spheres.at(local));
-    let [a, b] = [(a, p), (b, q)].map(|(outline, sphere)| outline.unwrap_or_else(|| Outline::sphere(sphere[3])));
-    Some(touch([&a, &b], DVec3::new(q[0] - p[0], q[1] - p[1], q[2] - p[2]), reach))
+/// What both grains of a pair are; nothing where both are spheres.
+fn pair_outlines(outlines: &[Option<Outline>], spheres: &Spheres, pair: [u32; 2]) -> Option<[Outline; 2]> {
+    let either = pair.iter().any(|local| outlines[*local as usize].is_some());
+    let outline = |local: u32| outlines[local as usize].unwrap_or_else(|| Outline::sphere(spheres.at(local)[3]));
+    either.then(|| pair.map(outline))
 }
 
 /// Where a body that is no sphere touches a wall.
