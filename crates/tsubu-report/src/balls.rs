@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use tsubu_frame::{Frame, Kind, Values};
 
 use crate::compass::Compass;
+use crate::solid::Solid;
 
 /// What the colour of a grain tells.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -61,6 +62,8 @@ pub struct Balls {
     pub shape: Vec<i64>,
     /// Outlines by number: corners round the centre [m], turned like it.
     pub shapes: BTreeMap<i64, Vec<[f64; 3]>>,
+    /// Superellipsoids, one for each grain, `None` for a sphere; empty where all are.
+    pub solids: Vec<Option<Solid>>,
     /// Velocities, turned like the centres [m/s].
     pub velocities: Vec<[f64; 3]>,
     /// Values behind the colours.
@@ -113,6 +116,7 @@ impl Balls {
             radii,
             shape: frame.integers(Kind::Grain, "shape").to_vec(),
             shapes: shapes(frame, &turn),
+            solids: Solid::all(frame, &turn),
             velocities: velocity.iter().map(|v| turn(*v)).collect(),
             values,
             quantity,

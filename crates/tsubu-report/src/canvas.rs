@@ -1,5 +1,7 @@
 //! What grains are drawn on: pixels with a depth.
 
+use crate::solid::Solid;
+
 /// What is drawn on: pixels finer than those of the picture.
 pub(crate) struct Canvas {
     /// Pixels across.
@@ -74,6 +76,28 @@ impl Canvas {
                 if z > self.depth[at] {
                     self.depth[at] = z;
                     self.colours[at] = lit(base, dx, -dy, dz);
+                }
+            }
+        }
+    }
+
+    /// A shaded superellipsoid that a sphere of a radius holds.
+    pub fn solid(&mut self, centre: &[f64; 3], radius: f64, solid: &Solid, base: [u8; 3]) {
+        let [x, y, front] = self.place(centre);
+        let r = radius * self.scale;
+        if r < 1.0 {
+            return self.sphere(centre, radius, base);
+        }
+        for row in span(y, r, self.height) {
+            let up = (y - row as f64 - 0.5) / self.scale;
+            for column in span(x, r, self.width) {
+                let right = (column as f64 + 0.5 - x) / self.scale;
+                let Some((near, [nx, ny, nz])) = solid.seen(right, up, radius) else { continue };
+                let z = (front + near * self.scale) as f32;
+                let at = row * self.width + column;
+                if z > self.depth[at] {
+                    self.depth[at] = z;
+                    self.colours[at] = lit(base, nx, ny, nz);
                 }
             }
         }

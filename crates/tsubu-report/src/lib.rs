@@ -30,6 +30,7 @@ mod prediction;
 pub mod raster;
 mod response;
 mod run;
+mod solid;
 mod source;
 mod steady;
 pub mod strip;

@@ -144,9 +144,10 @@ pub fn spheres(balls: &Balls, look: &Look, width: u32, height: u32) -> Image {
     for (i, (c, r)) in balls.centres.iter().zip(&balls.radii).enumerate() {
         if c.iter().all(|x| x.is_finite()) && r.is_finite() {
             let base = colour::at(balls.shade(i, range));
-            match balls.outline(i) {
-                Some(line) => canvas.flat(line, *r, base),
-                None => canvas.sphere(c, *r, base),
+            match (balls.outline(i), balls.solids.get(i)) {
+                (Some(line), _) => canvas.flat(line, *r, base),
+                (None, Some(Some(solid))) => canvas.solid(c, *r, solid, base),
+                (None, _) => canvas.sphere(c, *r, base),
             }
         }
     }

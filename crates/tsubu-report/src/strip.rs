@@ -150,7 +150,7 @@ fn draw(out: &mut String, balls: &Balls, look: &Look, range: (f64, f64), place: 
             "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"none\" stroke=\"{FAINT}\"/>"
         );
     }
-    if balls.space || balls.centres.len() > MOST_SHAPES {
+    if balls.space || !balls.solids.is_empty() || balls.centres.len() > MOST_SHAPES {
         let look = Look { range: Some(range), ..look.clone() };
         let png = raster::spheres(balls, &look, (2.0 * w) as u32, (2.0 * h) as u32).to_png();
         let data = crate::page::base64(&png);

@@ -35,7 +35,10 @@ pub(crate) fn shape(shape: &mut GrainShape, files: &Files, space: bool) {
                 *packing = known;
             }
         }
-        GrainShape::Sphere {} | GrainShape::Disc { .. } | GrainShape::Clump { .. } => {}
+        GrainShape::Sphere {}
+        | GrainShape::Disc { .. }
+        | GrainShape::Clump { .. }
+        | GrainShape::Superellipsoid { .. } => {}
     }
 }
 

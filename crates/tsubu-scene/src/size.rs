@@ -42,7 +42,8 @@ fn sieve_mean(diameter: &[f64], passing: &[f64], shape: &GrainShape) -> Option<f
             GrainShape::Sphere {}
             | GrainShape::Clump { .. }
             | GrainShape::ClumpFile { .. }
-            | GrainShape::ClumpMesh { .. } => {
+            | GrainShape::ClumpMesh { .. }
+            | GrainShape::Superellipsoid { .. } => {
                 number += share * square;
                 moment += share * inverse;
             }
@@ -82,7 +83,7 @@ impl GrainShape {
     pub fn mass(&self, density: f64, diameter: f64) -> f64 {
         match self {
             Self::Sphere {} => density * std::f64::consts::PI / 6.0 * diameter.powi(3),
-            Self::Clump { .. } | Self::ClumpFile { .. } | Self::ClumpMesh { .. } => {
+            Self::Clump { .. } | Self::ClumpFile { .. } | Self::ClumpMesh { .. } | Self::Superellipsoid { .. } => {
                 density * self.clump().map_or(std::f64::consts::PI / 6.0, |clump| clump.volume) * diameter.powi(3)
             }
             Self::Disc { thickness } => density * std::f64::consts::PI / 4.0 * diameter.powi(2) * thickness,

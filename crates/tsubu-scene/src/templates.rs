@@ -84,6 +84,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/rods.toml"),
     },
     Template {
+        name: "ellipsoids",
+        about: "in space: ellipsoids, pills and dice with round edges fall into a box beside balls",
+        text: include_str!("../../../scenes/ellipsoids.toml"),
+    },
+    Template {
         name: "heap",
         about: "a hopper empties onto a floor and a heap grows: watches count, weigh and measure; the scene claims what comes out",
         text: include_str!("../../../scenes/heap.toml"),

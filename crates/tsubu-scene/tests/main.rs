@@ -28,6 +28,7 @@ mod products;
 mod robust;
 /// Stages of a run.
 mod stages;
+mod superellipsoids;
 /// Watches.
 mod watches;
 /// Water and slopes.

@@ -31,6 +31,7 @@ pub(crate) mod sizes;
 pub mod state;
 pub mod student;
 pub mod study;
+pub mod superellipsoid;
 pub mod threads;
 pub mod trial;
 pub mod view;

@@ -18,6 +18,7 @@ mod lattice;
 mod outside;
 mod response;
 mod stages;
+mod superellipsoid;
 mod triaxial;
 mod wall;
 mod watch;

@@ -5,6 +5,9 @@ use crate::complaint::Complaint;
 use crate::grain_file::{How, clump::MOST_PIECES};
 use crate::plan::{GrainMotion, GrainShape, Particles, Size, Start, Vector};
 
+/// Longest semi-axis of a superellipsoid over its shortest; the search for contacts has been tried so far.
+const MOST_SLENDER: f64 = 10.0;
+
 pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
     for (name, group) in &parts.particles {
         let at = |keys: &[&str]| parts.root.locate(&[&["particles", name.as_str()], keys].concat());
@@ -16,6 +19,7 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
             );
         }
         clump(parts, name, group, complaints);
+        superellipsoid(parts, name, group, complaints);
         sizes_and_places(parts, name, group, complaints);
         held(parts, name, group, complaints);
         complaints.extend(density(parts, name, group));
@@ -36,7 +40,7 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
 fn clump(parts: &Parts<'_>, name: &str, group: &Particles, complaints: &mut Vec<Complaint>) {
     if group.shape.clump_key().is_some() && !matches!(group.motion, GrainMotion::Free {}) {
         complaints.push(
-            Complaint::new(format!("the clumps `{name}` must be free to move"))
+            Complaint::new(format!("the {} `{name}` must be free to move", group.shape.plural()))
                 .at(&parts.root.locate(&["particles", name, "motion"]), "spheres and discs may be held or driven")
                 .hint("build a rough floor or a moving part of spheres, or as a wall"),
         );
@@ -56,6 +60,38 @@ fn clump(parts: &Parts<'_>, name: &str, group: &Particles, complaints: &mut Vec<
         complaints.push(
             Complaint::new(format!("the clump `{name}` has {} spheres", centre.len()))
                 .at(&at("centre"), format!("at most {MOST_PIECES}")),
+        );
+    }
+}
+
+/// A superellipsoid is a body in space with three semi-axes.
+fn superellipsoid(parts: &Parts<'_>, name: &str, group: &Particles, complaints: &mut Vec<Complaint>) {
+    let GrainShape::Superellipsoid { semi_axes, exponents, .. } = &group.shape else { return };
+    let at = |keys: &[&str]| parts.root.locate(&[&["particles", name, "shape", "superellipsoid"], keys].concat());
+    if !parts.space() {
+        complaints.push(
+            Complaint::new(format!("the grains `{name}` are superellipsoids, which only space has"))
+                .at(&at(&[]), "the scene has dimension 2")
+                .hint("set dimension = 3, or write shape.disc or shape.clump"),
+        );
+    } else if let Some(axis) = semi_axes.iter().find(|axis| **axis <= 0.0) {
+        complaints.push(
+            Complaint::new(format!("the superellipsoid `{name}` has no thickness"))
+                .at(&at(&["semi-axes"]), format!("{axis} is not above 0")),
+        );
+    }
+    if exponents.len() != 2 {
+        complaints.push(
+            Complaint::new(format!("the superellipsoid `{name}` has {} exponents", exponents.len()))
+                .at(&at(&["exponents"]), "needs two: of the profile and of the equator"),
+        );
+    }
+    let [short, long] = [f64::min, f64::max].map(|pick| semi_axes.iter().copied().fold(semi_axes[0], pick));
+    if short > 0.0 && long > MOST_SLENDER * short {
+        complaints.push(
+            Complaint::new(format!("the superellipsoid `{name}` is {:.1} times as long as it is thick", long / short))
+                .at(&at(&["semi-axes"]), format!("at most {MOST_SLENDER}"))
+                .hint("for longer bodies write shape.clump"),
         );
     }
 }

@@ -72,7 +72,7 @@ pub(super) fn check(parts: &Parts<'_>, rooms: &[Room<'_>], complaints: &mut Vec<
                     group: name,
                     index,
                     line: None,
-                    diameter: group.diameter,
+                    diameter: group.shape.sure(group.diameter),
                     position: *position,
                     held,
                 }));
@@ -84,7 +84,7 @@ pub(super) fn check(parts: &Parts<'_>, rooms: &[Room<'_>], complaints: &mut Vec<
                     group: name,
                     index,
                     line: Some(*line),
-                    diameter: table.diameter.get(index).copied().unwrap_or(group.diameter),
+                    diameter: group.shape.sure(table.diameter.get(index).copied().unwrap_or(group.diameter)),
                     position: *position,
                     held,
                 }));

@@ -24,10 +24,13 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
         }
         if let Some(clump) = group.shape.clump_key() {
             complaints.push(
-                Complaint::new(format!("the grains `{name}` are clumps; drag and buoyancy are those of spheres"))
-                    .at(&parts.root.locate(&["particles", name, "shape", clump]), "not in water")
-                    .also(&at(&[]), "there is water")
-                    .hint("write shape.sphere = {}"),
+                Complaint::new(format!(
+                    "the grains `{name}` are {}; drag and buoyancy are those of spheres",
+                    group.shape.plural()
+                ))
+                .at(&parts.root.locate(&["particles", name, "shape", clump]), "not in water")
+                .also(&at(&[]), "there is water")
+                .hint("write shape.sphere = {}"),
             );
             continue;
         }

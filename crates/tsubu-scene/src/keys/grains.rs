@@ -16,8 +16,7 @@ pub(crate) static PARTICLES: &[Key] = &[
     Key::new("mass", Kind::Quantity(&MASS), "Mass of a grain of that diameter; others scale with their volume")
         .above(0.0)
         .derived("sphere or disc of the material's density"),
-    Key::new("shape", Kind::Choice(SHAPE), "What a grain is; its contacts are those of spheres")
-        .default("{ sphere = {} }"),
+    Key::new("shape", Kind::Choice(SHAPE), "What a grain is").default("{ sphere = {} }"),
     Key::new("size", Kind::Choice(SIZE), "How the diameters are distributed").default("{ equal = {} }"),
     Key::new("start", Kind::Choice(START), "Where the grains begin").default("{ settled = {} }"),
     Key::new("motion", Kind::Choice(MOTION), "Who moves the grains").default("{ free = {} }"),
@@ -74,6 +73,22 @@ static SHAPE: &[Variant] = &[
             TURNED,
         ],
     },
+    Variant {
+        name: "superellipsoid",
+        about: "(|x/a|^r + |y/b|^r)^(p/r) + |z/c|^p = 1, scaled so that it just fits a sphere of the grain's `diameter`; only in space, between walls of planes and boxes. A contact is that of two spheres as round as the bodies are there, sqrt(R1 R2) of both radii of curvature, at most ten times half the `diameter` where a place is flat; the place of contact of two flat faces is not unique",
+        keys: &[
+            Key::new("semi-axes", Kind::Vector(&NUMBER), "Semi-axes a, b and c, in any unit"),
+            Key::new(
+                "exponents",
+                Kind::Quantities(&NUMBER),
+                "Exponents p of the profile and r of the equator; [2, 2] is an ellipsoid, [8, 2] nearly a cylinder about z, [8, 8] nearly a box",
+            )
+            .default("[2, 2]")
+            .at_least(2.0)
+            .at_most(8.0),
+            TURNED,
+        ],
+    },
 ];
 
 const TURNED: Key =
@@ -85,7 +100,7 @@ const FINGERPRINT: Key =
 
 static ORIENTATION: &[Word] = &[
     Word { name: "random", about: "any orientation as likely as another; in the plane any angle" },
-    Word { name: "as-drawn", about: "as the centres say" },
+    Word { name: "as-drawn", about: "as the centres say, or a, b and c along x, y and z" },
 ];
 
 const CUT: Key = Key::new("cut", Kind::Quantity(&NUMBER), "Where the tails are cut on both sides, in deviations")

@@ -1,32 +1,34 @@
-//! Clumps: grains that are several spheres.
+//! Clumps: grains that are several spheres; and what they have in common with other bodies that are no spheres.
 
-use super::{GrainShape, Vector};
+use super::{GrainShape, Superellipsoid, Vector};
 use crate::clump::{Solid, surface};
 use serde::{Deserialize, Serialize};
 
-/// How the grains of a group of clumps are turned at first.
+/// How the grains of a group that are no spheres are turned at first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ClumpOrientation {
     /// Any orientation as likely as another.
     Random,
-    /// As the centres say.
+    /// As the centres, or semi-axes along x, y and z, say.
     AsDrawn,
 }
 
-/// The spheres of a clump of diameter 1, and how its mass is spread.
+/// The spheres of a clump of diameter 1, or the one that holds a superellipsoid, and how its mass is spread.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clump {
     /// Centres from the centre of mass, along the principal axes, and radii.
     pub pieces: Vec<(Vector, f64)>,
     /// Volume; what overlaps counts once.
     pub volume: f64,
-    /// Principal moments of inertia over the mass, smallest first.
+    /// Principal moments of inertia over the mass; of a clump the smallest first.
     pub moments: Vector,
     /// Directions of the principal axes as drawn.
     pub axes: [Vector; 3],
     /// How each grain is turned at first.
     pub orientation: ClumpOrientation,
+    /// What is in the place of its one sphere.
+    pub superellipsoid: Option<Superellipsoid>,
 }
 
 /// Spheres within a closed mesh, and the mesh that they stand for, in the unit of its file.
@@ -77,8 +79,17 @@ impl Clump {
         [radii().fold(f64::INFINITY, f64::min), radii().fold(0.0, f64::max)]
     }
 
+    /// Radii that a contact can have, the smallest and the largest that matter: of spheres theirs, of a superellipsoid that of its flattest place,
+    /// where a contact is stiffest.
+    pub fn contact_radii(&self) -> [f64; 2] {
+        self.superellipsoid.map_or_else(|| self.radii(), |body| [body.flattest(); 2])
+    }
+
     /// The mass over the smallest that it shows to an impact anywhere: 1 + (r x n) . I^-1 (r x n) m, of the worst arm r and normal n.
     pub fn lightness(&self) -> f64 {
+        if let Some(body) = &self.superellipsoid {
+            return body.lightness();
+        }
         // Of I^-1 across the arm the larger of two eigenvalues, from its trace and that of its square.
         let worst = |(arm, _): &(Vector, f64)| {
             let squared: f64 = arm.iter().map(|x| x * x).sum();
@@ -96,17 +107,23 @@ impl Clump {
 }
 
 impl GrainShape {
-    /// Of a clump, the name of its choice in a scene.
+    /// Of a body that is no sphere, the name of its choice in a scene.
     pub fn clump_key(&self) -> Option<&'static str> {
         match self {
             Self::Sphere {} | Self::Disc { .. } => None,
             Self::Clump { .. } => Some("clump"),
             Self::ClumpFile { .. } => Some("clump-file"),
             Self::ClumpMesh { .. } => Some("clump-mesh"),
+            Self::Superellipsoid { .. } => Some("superellipsoid"),
         }
     }
 
-    /// Whether it is a body of several spheres: [`GrainShape::clump`] without the work of its mass.
+    /// What bodies that are no spheres are called.
+    pub fn plural(&self) -> &'static str {
+        if matches!(self, Self::Superellipsoid { .. }) { "superellipsoids" } else { "clumps" }
+    }
+
+    /// Whether it is a body that is no sphere: [`GrainShape::clump`] without the work of its mass.
     pub fn is_clump(&self) -> bool {
         match self {
             Self::Sphere {} | Self::Disc { .. } => false,
@@ -114,7 +131,16 @@ impl GrainShape {
             Self::ClumpFile { spheres, .. } => spheres.len() > 1,
             // Even one sphere has the mass and inertia of the mesh.
             Self::ClumpMesh { packing, .. } => !packing.spheres.is_empty(),
+            Self::Superellipsoid { .. } => true,
         }
+    }
+
+    /// Diameter of what a grain of that diameter fills however it is turned: of a superellipsoid twice its shortest semi-axis. How deep it begins in
+    /// something the engine says.
+    pub fn sure(&self, diameter: f64) -> f64 {
+        let Self::Superellipsoid { .. } = self else { return diameter };
+        let body = self.clump().and_then(|body| body.superellipsoid);
+        body.map_or(diameter, |body| 2.0 * diameter * body.semi_axes.iter().copied().fold(0.5, f64::min))
     }
 
     /// The packing in place of a mesh.
@@ -122,7 +148,7 @@ impl GrainShape {
         if let Self::ClumpMesh { packing, .. } = self { Some(packing) } else { None }
     }
 
-    /// The clump, if it is one of several spheres; of one sphere it is a sphere.
+    /// The clump, if it is one of several spheres (of one sphere it is a sphere), or the superellipsoid.
     pub fn clump(&self) -> Option<Clump> {
         if !self.is_clump() {
             return None;
@@ -140,6 +166,10 @@ impl GrainShape {
             Self::ClumpMesh { packing, orientation, .. } => {
                 Some(scaled(&packing.spheres, &packing.solid, packing.reach, *orientation))
             }
+            Self::Superellipsoid { semi_axes, exponents, orientation } => {
+                let exponents = <[f64; 2]>::try_from(&exponents[..]).ok()?;
+                Some(Superellipsoid::new(*semi_axes, exponents).body(*orientation))
+            }
         }
     }
 }
@@ -156,5 +186,6 @@ fn scaled(spheres: &[(Vector, f64)], solid: &Solid, reach: f64, orientation: Clu
         moments: solid.moments.map(|moment| moment * unit * unit),
         axes: solid.axes,
         orientation,
+        superellipsoid: None,
     }
 }

@@ -16,7 +16,7 @@ pub struct Particles {
     pub diameter: f64,
     /// Mass of a grain of that diameter [kg]: given, or from density and diameter. Others scale with their volume.
     pub mass: f64,
-    /// Sphere, disc or clump.
+    /// Sphere, disc, clump or superellipsoid.
     pub shape: GrainShape,
     /// How the diameters are distributed.
     pub size: Size,
@@ -26,7 +26,7 @@ pub struct Particles {
     pub motion: GrainMotion,
 }
 
-/// What a grain is; its contacts are those of spheres.
+/// What a grain is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]
 pub enum GrainShape {
@@ -57,6 +57,15 @@ pub enum GrainShape {
         /// Centre and radius of each, in the unit of the file.
         #[serde(skip)]
         spheres: Arc<Vec<(Vector, f64)>>,
+    },
+    /// A convex body that is round or nearly a box, scaled so that it just fits a sphere of the grain's diameter.
+    Superellipsoid {
+        /// Semi-axes along x, y and z, in any unit.
+        semi_axes: Vector,
+        /// Exponents of the profile and of the equator [-]; 2 and 2: an ellipsoid.
+        exponents: Vec<f64>,
+        /// How each grain is turned at first.
+        orientation: ClumpOrientation,
     },
     /// Spheres within a closed mesh, with the mass and inertia of what it encloses; the diameter is that of the sphere about its centre of mass
     /// which just holds the mesh.

@@ -87,7 +87,8 @@ pub fn bodies(plan: &Plan, table: &Table, hosts: &Hosts) -> Bodies {
         let (smallest, largest) = (group.smallest_diameter(), group.largest_diameter());
         let free = matches!(group.motion, GrainMotion::Free {});
         let clump = group.shape.clump();
-        let ([thin, thick], lightness) = clump.map_or(([0.5; 2], 1.0), |clump| (clump.radii(), clump.lightness()));
+        let ([thin, thick], lightness) =
+            clump.map_or(([0.5; 2], 1.0), |clump| (clump.contact_radii(), clump.lightness()));
         kinds.push(Kind {
             name: name.clone(),
             group: Some(name.clone()),

@@ -43,6 +43,11 @@ impl Part for Hertz {
     fn apply(&self, chunk: &mut Chunk, _at: usize, _dt: f64) {
         rows(chunk);
     }
+
+    /// The energy goes with the root of the radius.
+    fn energy_slope(&self, chunk: &Chunk, row: usize) -> f64 {
+        0.2 * chunk.secant_stiffness[row] * chunk.overlap[row].powi(2) / chunk.effective_radius[row]
+    }
 }
 
 #[multiversion(targets = "simd")]

@@ -81,6 +81,11 @@ impl Law {
         }
     }
 
+    /// Slope of the stored energy of a row over its effective radius [N].
+    pub fn energy_slope(&self, chunk: &Chunk, row: usize) -> f64 {
+        self.parts.iter().map(|part| part.energy_slope(chunk, row)).sum()
+    }
+
     /// Energy [J] that a contact's history still holds when it opens.
     pub fn held(&self, history: &[f64]) -> f64 {
         self.parts.iter().zip(&self.at).map(|(part, at)| part.held(&history[*at..])).sum()

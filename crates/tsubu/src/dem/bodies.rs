@@ -7,8 +7,9 @@
 
 mod assemble;
 mod body;
+mod refused;
 
-pub(super) use assemble::refused;
+pub(super) use refused::refused;
 
 use super::contact_batch::ContactBatch;
 use crate::contact::chunk::Chunk;
@@ -16,6 +17,7 @@ use crate::ledger::Energies;
 use crate::neighbours::joined::NO_BODY;
 use crate::neighbours::lists::{BlockList, shares};
 use crate::state::Grains;
+use crate::superellipsoid::{Outline, Superellipsoid};
 use crate::threads::each_in_parts;
 use body::{Body, Felt};
 use glam::{DQuat, DVec3};
@@ -43,11 +45,29 @@ pub(super) struct Bodies {
     places: Vec<u32>,
     /// Whether all stay in the plane: what rounding would bring out of it is an exact zero.
     plane: bool,
+    /// Whether some are superellipsoids.
+    shaped: bool,
 }
 
 impl Bodies {
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
+    }
+
+    /// Whether there are superellipsoids; otherwise all pieces are spheres.
+    pub fn shaped(&self) -> bool {
+        self.shaped
+    }
+
+    /// The superellipsoid that a grain is; `None`: it is a sphere.
+    pub fn superellipsoid(&self, i: usize) -> Option<&Superellipsoid> {
+        self.list.get(self.sorted.get(i)?.body as usize)?.superellipsoid.as_ref()
+    }
+
+    /// The same as it is turned.
+    pub fn outline(&self, i: usize) -> Option<Outline> {
+        let body = self.list.get(self.sorted.get(i)?.body as usize)?;
+        Some(body.superellipsoid?.turned(&body.axes))
     }
 
     /// The body of every grain by its id; nothing where there are none.
@@ -160,9 +180,9 @@ impl Bodies {
         }
         for r in 0..batch.chunk.rows() {
             let normal = Chunk::vector(&batch.chunk.normal, r);
-            let mut more = self.turning(list.first + batch.first[r] as usize, normal);
+            let mut more = self.turning(list.first + batch.first[r] as usize, batch.shift(0, r), normal);
             if !wall {
-                more += self.turning(list.grain_at[batch.second[r] as usize] as usize, normal);
+                more += self.turning(list.grain_at[batch.second[r] as usize] as usize, batch.shift(1, r), normal);
             }
             if more > 0.0 {
                 batch.chunk.effective_mass[r] = 1.0 / (1.0 / batch.chunk.effective_mass[r] + more);
@@ -170,11 +190,11 @@ impl Bodies {
         }
     }
 
-    /// How much a body gives way by turning, to a push along a normal on a piece of it [1/kg].
-    fn turning(&self, i: usize, normal: DVec3) -> f64 {
+    /// How much a body gives way by turning, to a push along a normal on a piece of it, or on what is `shift` [m] beside that [1/kg].
+    fn turning(&self, i: usize, shift: DVec3, normal: DVec3) -> f64 {
         let piece = &self.sorted[i];
         let Some(body) = self.list.get(piece.body as usize) else { return 0.0 };
-        let lever = body.arm(piece, self.plane).cross(normal);
+        let lever = (body.arm(piece, self.plane) + shift).cross(normal);
         lever.dot(body.inverse_inertia * lever)
     }
 

@@ -26,6 +26,10 @@ pub(super) struct ContactBatch {
     pub relative_velocity: [Column; 3],
     /// Spins [rad/s].
     pub spin: [[Column; 3]; 2],
+    /// Whether some rows are of bodies that are no spheres.
+    pub shifted: bool,
+    /// Where the spheres that stand for both bodies have their centres, from those of the bodies [m]; looked at where rows are shifted.
+    shifts: [[Column; 3]; 2],
     /// Lever arms [m].
     pub lever_arm: [Column; 2],
     /// Result: force on the first body [N].
@@ -52,6 +56,8 @@ impl ContactBatch {
             inverse_mass: ZERO,
             relative_velocity: V,
             spin: [V; 2],
+            shifted: false,
+            shifts: [V; 2],
             lever_arm: [ZERO; 2],
             force: V,
             dissipative: V,
@@ -120,7 +126,25 @@ impl ContactBatch {
 
     /// Point of contact of row `i`, from the centre of the first body [m].
     pub fn contact_point(&self, i: usize) -> DVec3 {
-        Chunk::vector(&self.chunk.normal, i) * self.lever_arm[0][i]
+        let point = Chunk::vector(&self.chunk.normal, i) * self.lever_arm[0][i];
+        if self.shifted { point + self.shift(0, i) } else { point }
+    }
+
+    /// From the centre of the first body of row `i` to that of the second [m].
+    pub fn between_centres(&self, i: usize) -> DVec3 {
+        let branch = Chunk::vector(&self.branch, i);
+        if self.shifted { branch + self.shift(0, i) - self.shift(1, i) } else { branch }
+    }
+
+    /// From the centre of a body of row `i` to that of the sphere that stands for it [m].
+    #[inline]
+    pub fn shift(&self, body: usize, i: usize) -> DVec3 {
+        if self.shifted { Chunk::vector(&self.shifts[body], i) } else { DVec3::ZERO }
+    }
+
+    /// Puts the centre of the sphere that stands for a body of row `i` beside that of the body.
+    pub fn set_shift(&mut self, body: usize, i: usize, shift: DVec3) {
+        Chunk::set(&mut self.shifts[body], i, shift);
     }
 }
 

@@ -18,6 +18,7 @@ use super::history_transfer::HistorySnapshot;
 use super::immersion::{BlockImmersion, WaterAtTime};
 use super::narrow_phase::{Spheres, TouchingPairs};
 use super::outside::Outside;
+use super::shapes::{PairShapes, WallShapes};
 use super::sweep::{Direction, sweep};
 use crate::check;
 use crate::contact::chunk::ROWS;
@@ -214,6 +215,8 @@ struct Scratch {
     keys: Vec<WallKey>,
     spheres: Spheres,
     touching_pairs: TouchingPairs,
+    shapes: PairShapes,
+    wall_shapes: WallShapes,
     elements: Vec<u32>,
     touching: Vec<wall::Touch>,
     went_on: Vec<u32>,
@@ -229,6 +232,8 @@ impl Scratch {
             keys: Vec::with_capacity(ROWS),
             spheres: Spheres::default(),
             touching_pairs: TouchingPairs::default(),
+            shapes: PairShapes::default(),
+            wall_shapes: WallShapes::default(),
             elements: Vec::with_capacity(64),
             touching: Vec::with_capacity(64),
             went_on: Vec::with_capacity(64),

@@ -68,6 +68,24 @@ impl TouchingPairs {
         self.count = touching(&list.pairs, &spheres.spheres, reach, &mut self.room);
     }
 
+    /// Leaves out what `touches` says does not touch after all.
+    pub fn keep(&mut self, mut touches: impl FnMut(&TouchingPair) -> bool) {
+        let mut kept = 0;
+        for k in 0..self.count {
+            let pair = self.room[k];
+            self.room[kept] = pair;
+            kept += usize::from(touches(&pair));
+        }
+        self.count = kept;
+    }
+
+    /// The same of what was parted by the law of the pair.
+    pub fn keep_by_law(&mut self, mut touches: impl FnMut(usize, &TouchingPair) -> bool) {
+        for (law, pairs) in self.by_law.iter_mut().enumerate() {
+            pairs.retain(|pair| touches(law, pair));
+        }
+    }
+
     /// Parts what was found by the law of the pair. What is beyond the reach of its own law goes: laws that end with the overlap
     /// are not asked about pairs that do not touch.
     pub fn group_by_law(

@@ -6,7 +6,7 @@ use crate::partner::Hosts;
 use crate::sections;
 use crate::state::Grains;
 use crate::view::{Columns, Contact, Contacts, View, Wants};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use std::collections::BTreeMap;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, Kind, State};
@@ -32,13 +32,20 @@ impl DemEngine {
         frame.scalar(Kind::Grain, "mass", "kg", scalars(&self.grains.mass));
         let contacts = if told || self.immersion.is_some() { self.contact_list() } else { Vec::new() };
         let force = self.contact_forces(&contacts);
+        let shaped = self.integration.bodies.shaped();
         let turned: Option<Vec<_>> = order
             .iter()
             .map(|&i| self.grains.id[i])
-            .map(|id| self.orientation.of(id).map(|turned| self.integration.bodies.orientation(id).unwrap_or(turned)))
+            .map(|id| match self.integration.bodies.orientation(id) {
+                Some(turned) if shaped || self.orientation.of(id).is_some() => Some(turned),
+                _ => self.orientation.of(id).or(shaped.then_some(DQuat::IDENTITY)),
+            })
             .collect();
         if let Some(turned) = turned {
             frame.quaternion(Kind::Grain, "orientation", turned.iter().map(|q| [q.w, q.x, q.y, q.z]).collect());
+        }
+        if shaped {
+            self.tell_shapes(&order, &mut frame);
         }
         frame.vector(Kind::Grain, "contact force", "N", vectors(&force));
         if self.immersion.is_some() {
@@ -49,6 +56,20 @@ impl DemEngine {
         }
         self.draw_surroundings(&mut frame);
         frame
+    }
+
+    /// What superellipsoids are; a sphere is one, too.
+    fn tell_shapes(&self, order: &[usize], frame: &mut Frame) {
+        let shapes: Vec<_> = order
+            .iter()
+            .map(|&i| {
+                let sphere = (DVec3::splat(self.grains.radius[i]), [2.0; 2]);
+                self.integration.bodies.superellipsoid(i).map_or(sphere, |body| (body.semi_axes, body.exponents))
+            })
+            .collect();
+        frame.vector(Kind::Grain, "semi-axes", "m", shapes.iter().map(|(axes, _)| axes.to_array()).collect());
+        frame.scalar(Kind::Grain, "profile exponent", "-", shapes.iter().map(|(_, [p, _])| *p).collect());
+        frame.scalar(Kind::Grain, "equator exponent", "-", shapes.iter().map(|(_, [_, r])| *r).collect());
     }
 
     fn list_contacts(&self, contacts: &[Contact], frame: &mut Frame) {

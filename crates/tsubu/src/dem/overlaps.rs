@@ -5,12 +5,14 @@
 
 use super::contact_forces::ForceInput;
 use super::narrow_phase::{Spheres, TouchingPairs};
+use super::shapes::{PairShapes, WallShapes};
 use crate::view::Contact;
 use glam::DVec3;
 
 /// All pairs that overlap, of grains and of grains with walls, in the order of the list of contacts.
 pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
     let (mut spheres, mut pairs) = (Spheres::default(), TouchingPairs::default());
+    let (mut shapes, mut wall_shapes) = (PairShapes::default(), WallShapes::default());
     let mut touches = Vec::new();
     let mut elements = Vec::new();
     let mut contacts = Vec::new();
@@ -18,18 +20,23 @@ pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
     for list in &input.neighbours.lists {
         spheres.load(g, list, &input.neighbours.shifts);
         pairs.find(list, &spheres, 0.0);
+        shapes.find(&mut pairs, input, list, &spheres);
         for touching in pairs.under(0) {
             let second = list.pairs[touching.pair as usize].second;
             let ([ax, ay, az, a], [bx, by, bz, b]) = (spheres.at(touching.first), spheres.at(second));
             let branch = DVec3::new(bx - ax, by - ay, bz - az);
-            let overlap = a + b - branch.length();
-            let normal = branch.normalize_or_zero();
+            let (mut overlap, mut normal) = (a + b - branch.length(), branch.normalize_or_zero());
             let first = list.first + touching.first as usize;
+            let mut arm = normal * (a - 0.5 * overlap);
+            if let Some(touch) = shapes.of(touching.pair) {
+                (overlap, normal) = (touch.overlap, touch.normal);
+                arm = touch.points[0] - normal * (0.5 * overlap);
+            }
             contacts.push(Contact {
                 first,
                 second: list.grain_at[second as usize] as usize,
                 wall: false,
-                position: g.position[first] + normal * (a - 0.5 * overlap),
+                position: g.position[first] + arm,
                 branch,
                 force: DVec3::ZERO,
                 normal,
@@ -42,9 +49,18 @@ pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
             elements.clear();
             elements.extend(near.iter().map(|near| near.element));
             input.walls[near[0].wall as usize].touching(&elements, centre, radius, &mut touches);
-            contacts.extend(touches.iter().map(|touch| {
-                let (normal, overlap) = (-touch.nearest.normal, radius - touch.nearest.distance);
-                let branch = normal * (radius - 0.5 * overlap);
+            let outline = if input.bodies.shaped() { input.bodies.outline(first) } else { None };
+            if let Some(outline) = &outline {
+                wall_shapes.find(outline, &mut touches, 0.0);
+            }
+            contacts.extend(touches.iter().enumerate().map(|(t, touch)| {
+                let (normal, mut overlap) = (-touch.nearest.normal, radius - touch.nearest.distance);
+                let mut branch = normal * (radius - 0.5 * overlap);
+                if outline.is_some() {
+                    let shape = wall_shapes.of(t);
+                    overlap = shape.overlap;
+                    branch = shape.shift + normal * (shape.radius - 0.5 * overlap);
+                }
                 Contact {
                     first,
                     second: near[0].wall as usize,

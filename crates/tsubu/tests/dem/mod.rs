@@ -18,6 +18,7 @@ mod same_bits;
 mod seams;
 mod search;
 mod start;
+mod superellipsoid;
 
 use tsubu::engine::{self, Engine};
 use tsubu::ledger::Ledger;

@@ -2,30 +2,13 @@
 
 use super::body::Body;
 use super::{Bodies, Piece};
-use crate::engine::{Note, Refusal, Verdict};
 use crate::neighbours::joined::NO_BODY;
 use crate::random::{Purpose, unit, words};
 use crate::sizes;
 use crate::state::{Grain, Grains};
+use crate::superellipsoid::Superellipsoid;
 use glam::{DMat3, DQuat, DVec3};
-use tsubu_scene::plan::{Clump, ClumpOrientation, Integrator, Particles, Plan, Start};
-
-/// What scenes with clumps cannot have yet.
-pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
-    if !plan.particles.values().any(|group| group.shape.is_clump()) {
-        return Ok(());
-    }
-    let mut notes = Vec::new();
-    let mut refuse =
-        |key: String, text: &str| notes.push(Note { key, verdict: Verdict::Refused, text: text.to_owned() });
-    if plan.dem.integrator != Integrator::VelocityVerlet {
-        refuse("dem.integrator".to_owned(), "clumps are moved by `velocity-verlet` alone; leave the key out");
-    }
-    if !plan.contact.rotation {
-        refuse("contact.rotation".to_owned(), "clumps turn; leave the key out");
-    }
-    if notes.is_empty() { Ok(()) } else { Err(Refusal { method: "dem", notes }) }
-}
+use tsubu_scene::plan::{Clump, ClumpOrientation, Particles, Plan, Start};
 
 impl Bodies {
     /// Puts the spheres of clumps in the place of the grains that stand for them, which get numbers one after the other; those of streams
@@ -57,6 +40,7 @@ impl Bodies {
                 }
             }
         }
+        bodies.shaped = bodies.list.iter().any(|body| body.superellipsoid.is_some());
         bodies.find(grains);
         bodies.show(grains);
         bodies
@@ -68,6 +52,11 @@ impl Bodies {
         self.list.push(Body {
             mass,
             moments: DVec3::from_array(clump.moments) * (mass * diameter * diameter),
+            superellipsoid: clump.superellipsoid.map(|shape| Superellipsoid {
+                semi_axes: DVec3::from_array(shape.semi_axes) * diameter,
+                exponents: shape.exponents,
+                reach: 0.5 * diameter,
+            }),
             pieces: 0..0,
             centre: DVec3::ZERO,
             velocity: DVec3::ZERO,

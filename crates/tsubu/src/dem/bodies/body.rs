@@ -1,6 +1,7 @@
 //! One rigid body: how it moves and turns.
 
 use super::Piece;
+use crate::superellipsoid::Superellipsoid;
 use glam::{DMat3, DQuat, DVec3};
 use std::ops::Range;
 
@@ -13,6 +14,8 @@ pub struct Body {
     pub mass: f64,
     /// Moments of inertia about the principal axes [kg.m^2].
     pub moments: DVec3,
+    /// What is in the place of its one sphere.
+    pub superellipsoid: Option<Superellipsoid>,
     /// Where its pieces are in the list of places; none where it is not there.
     pub pieces: Range<usize>,
     /// Centre of mass, never wrapped [m].

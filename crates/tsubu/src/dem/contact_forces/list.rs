@@ -24,7 +24,7 @@ pub(in crate::dem) fn contact_list(forces: &ContactForces, input: &ForceInput) -
                     second,
                     wall,
                     position: input.grains.position[first] + contact_point,
-                    branch: if wall { contact_point } else { Chunk::vector(&batch.branch, r) },
+                    branch: if wall { contact_point } else { batch.between_centres(r) },
                     force: Chunk::vector(&batch.force, r),
                     normal: Chunk::vector(&batch.chunk.normal, r),
                     overlap: batch.chunk.overlap[r],

@@ -17,11 +17,13 @@ pub(super) fn evaluate(
     mut visit: impl FnMut(&ContactBatch),
 ) {
     let ForceInput { grains, laws, .. } = *input;
-    let Scratch { spheres, touching_pairs, batches, old, next, .. } = scratch;
+    let Scratch { spheres, touching_pairs, shapes, batches, old, next, .. } = scratch;
     spheres.load(grains, list, &input.neighbours.shifts);
     touching_pairs.find(list, spheres, laws.reach());
+    shapes.find(touching_pairs, input, list, spheres);
     if laws.reaches.len() > 1 {
         touching_pairs.group_by_law(grains, list, spheres, &laws.table, &laws.reaches);
+        shapes.part(touching_pairs, &laws.reaches);
     }
     for (number, (law, ((history, next), batch))) in
         laws.all().iter().zip(history.iter().zip(next).zip(batches)).enumerate()
@@ -31,6 +33,7 @@ pub(super) fn evaluate(
         let mut released = 0.0;
         for touching in touching_pairs.under(number).chunks(ROWS) {
             batch.gather(touching, grains, list, spheres, &laws.table, laws.rotation);
+            shapes.gather(batch, touching);
             batch.sphere_geometry(laws.rotation, laws.lever_share);
             input.bodies.show_mass(batch, list, false);
             if width > 0 {
@@ -46,6 +49,7 @@ pub(super) fn evaluate(
                 history.pairs.gather(&old[..touching.len()], &mut batch.chunk.history);
             }
             apply_law(input, number, batch, sums);
+            shapes.round(batch, touching, law);
             if width > 0 {
                 next.pairs.keys.extend(touching.iter().map(|touching| touching.pair));
                 next.pairs.append(touching.len(), &batch.chunk.history);
@@ -70,11 +74,17 @@ pub(super) fn scatter(batch: &ContactBatch, loads: &mut [Load], rotation: bool) 
         if rotation {
             first.torque += Chunk::vector(&batch.torque[0], r);
         }
+        if batch.shifted {
+            first.torque += batch.shift(0, r).cross(force);
+        }
         let second = &mut loads[batch.second[r] as usize];
         second.force -= mutated(Mutation::ThirdLaw, 1.0) * force;
         second.dissipative -= dissipative;
         if rotation {
             second.torque += Chunk::vector(&batch.torque[1], r);
+        }
+        if batch.shifted {
+            second.torque -= batch.shift(1, r).cross(force);
         }
     }
 }

@@ -4,6 +4,7 @@ use super::{ContactSums, ForceInput, Load, Scratch, apply_law, power, skip};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::dem::contact_batch::ContactBatch;
 use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns, WallKey};
+use crate::dem::shapes::WallShape;
 use crate::neighbours::lists::BlockList;
 use crate::view::WallLoad;
 use crate::wall::{self, Wall};
@@ -49,10 +50,15 @@ fn evaluate_law(
         if several && input.laws.table.law(material) != number {
             continue;
         }
-        let Scratch { elements, touching, .. } = scratch;
+        let Scratch { elements, touching, wall_shapes, .. } = scratch;
         elements.clear();
         elements.extend(near.iter().map(|candidate| candidate.element));
-        wall.touching(elements, g.position[i], g.radius[i] + input.laws.reaches[number], touching);
+        let reach = input.laws.reaches[number];
+        wall.touching(elements, g.position[i], g.radius[i] + reach, touching);
+        let outline = if input.bodies.shaped() { input.bodies.outline(i) } else { None };
+        if let Some(outline) = &outline {
+            wall_shapes.find(outline, touching, reach);
+        }
         if remembers {
             let before = WallKey { own, wall: k, patch: 0 };
             let opened = skip(&history.walls.keys, &mut cursor, |key| *key < before);
@@ -66,7 +72,11 @@ fn evaluate_law(
         let mut t = 0;
         while t < scratch.touching.len() {
             let wall::Touch { element, nearest, .. } = scratch.touching[t];
-            let overlap = g.radius[i] - nearest.distance;
+            let shape = match outline {
+                Some(_) => scratch.wall_shapes.of(t),
+                None => WallShape::sphere(g.radius[i], nearest.distance),
+            };
+            let WallShape { overlap, radius, shift, .. } = shape;
             let batch = &mut scratch.batches[number];
             let r = batch.chunk.len;
             scratch.keys.push(WallKey { own, wall: k, patch: wall.key(element) });
@@ -77,16 +87,19 @@ fn evaluate_law(
             batch.second[r] = k;
             batch.chunk.overlap[r] = overlap;
             Chunk::set(&mut batch.chunk.normal, r, normal);
-            batch.chunk.effective_radius[r] = g.radius[i];
+            batch.chunk.effective_radius[r] = radius;
             batch.chunk.effective_mass[r] = 1.0 / (g.inverse_mass[i] + wall.inverse_mass);
-            batch.lever_arm[0][r] = g.radius[i] - input.laws.lever_share * overlap;
+            batch.lever_arm[0][r] = radius - input.laws.lever_share * overlap;
             batch.lever_arm[1][r] = 0.0;
             batch.material_pair[r] = material;
-            Chunk::set(
-                &mut batch.relative_velocity,
-                r,
-                g.velocity[i] - wall.velocity_at(g.position[i] + normal * batch.lever_arm[0][r]),
-            );
+            let (mut centre, mut velocity) = (g.position[i], g.velocity[i]);
+            batch.shifted = input.bodies.shaped();
+            if batch.shifted {
+                (centre, velocity) = (centre + shift, velocity + g.spin[i].cross(shift));
+                scratch.wall_shapes.push(batch, r, &shape);
+            }
+            let contact = centre + normal * batch.lever_arm[0][r];
+            Chunk::set(&mut batch.relative_velocity, r, velocity - wall.velocity_at(contact));
             Chunk::set(&mut batch.spin[0], r, g.spin[i]);
             Chunk::set(&mut batch.spin[1], r, wall.pose.spin);
             batch.chunk.len = r + 1;
@@ -143,7 +156,7 @@ fn finish(
     sums: &mut ContactSums,
     visit: &mut impl FnMut(&ContactBatch),
 ) {
-    let Scratch { batches, next, old, keys, .. } = scratch;
+    let Scratch { batches, next, old, keys, wall_shapes, .. } = scratch;
     let (batch, next) = (&mut batches[number], &mut next[number]);
     let remembers = input.laws.all()[number].width() > 0;
     let n = batch.chunk.rows();
@@ -153,6 +166,7 @@ fn finish(
         history.walls.gather(&old[..n], &mut batch.chunk.history);
     }
     apply_law(input, number, batch, sums);
+    wall_shapes.round(batch, &input.laws.all()[number]);
     if remembers {
         next.walls.keys.extend_from_slice(keys);
         next.walls.append(n, &batch.chunk.history);
@@ -179,6 +193,9 @@ pub(super) fn scatter(
         load.dissipative += Chunk::vector(&batch.dissipative, r).as_vec3();
         if input.laws.rotation {
             load.torque += torque;
+        }
+        if batch.shifted {
+            load.torque += batch.shift(0, r).cross(force);
         }
         let k = batch.second[r] as usize;
         let wall = &input.walls[k];
