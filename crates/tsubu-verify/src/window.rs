@@ -50,7 +50,7 @@ structure.oscillator = {{ mass = "12 kg", stiffness = "153.5 kN/m", damping = "2
 base.sine = {{ acceleration = "0.5 g", frequency = "18 Hz" }}
 [response]
 frequency-ratio = [1]
-measure-periods = 20
+measure-periods = 60
 "#,
         -half
     )

@@ -370,7 +370,10 @@ fn a_calibration_finds_what_fits() {
         "calibrate.measured=[]",
         "calibrate.measured=[{result=\"hops\",value=1,uncertainty=0}]",
     ] {
-        insta::assert_snapshot!(desk.shown(&format!("calibrate balls.toml -o new --set {change}")));
+        let shown = desk.shown(&format!("calibrate balls.toml -o new --set {change}"));
+        // Whether short runs left a checkpoint depends on how fast they were.
+        let (said, _) = shown.split_once("\n--- files").expect("all is shown");
+        insta::assert_snapshot!(said);
     }
     assert_eq!(desk.files().len(), before);
 }
