@@ -184,6 +184,11 @@ fn what_cannot_be_is_said() {
     ] {
         assert!(heavy.contains(said), "{heavy}");
     }
+    // Limits are of all cavities that the host carries, and of several the sides are not known.
+    let three = refused(&["hosts.spring.copies=3", "design.mass-limit=\"2.5 g\""]);
+    assert!(three.contains("`design.mass-limit` = 0.003 kg would be enough, for `count = 5"), "{three}");
+    let sides = refused(&["hosts.spring.copies=3", "design.envelope={ width = \"1 m\" }"]);
+    assert!(sides.contains("`hosts.spring.copies` = 3 cavities the sides of all together are not known"), "{sides}");
     let wrong = refused(&[
         "design.vary={ \"particles.balls.count\" = [60, 70], \"walls.box.shape.box.height\" = [\"15 mm\"] }",
     ]);

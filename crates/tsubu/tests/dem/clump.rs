@@ -136,6 +136,34 @@ fn a_free_rod_tumbles_on() {
     assert!((distance / 1.2e-3 - 1.0).abs() < 1e-12, "{distance}");
 }
 
+/// A top on a smooth floor, the pair on one end at a tilt of 0.5, set going as it precesses steadily: its axis goes round at the slower w of
+/// I_1 w^2 cos a - I_3 n w + m g h = 0 (the floor pushes with m g at h from its centre of mass, which rests), n its spin about its axis, and keeps its tilt.
+/// Control: the fast top's w = m g h / (I_3 n), off by 3 %.
+#[test]
+fn a_top_precesses() {
+    let (h, g, tilt, rate) = (0.6e-3, 9.81, 0.5_f64, 1000.0);
+    let (x, z) = (tilt.sin(), tilt.cos());
+    let [about, across] = moments().map(|moment| moment * 1e-6);
+    let [a, b, c] = [across * z, about * rate, g * h];
+    let steady = (b - (b * b - 4.0 * a * c).sqrt()) / (2.0 * a);
+    let centre = format!("[[{}, 0, {}], [{}, 0, {}]]", -0.6 * x, -0.6 * z, 0.6 * x, 0.6 * z);
+    let about_axis = rate - steady * z;
+    let start = format!("[[0, 0, {}]], spin = [[{}, 0, {}]]", 1e-3 + h * z, about_axis * x, about_axis * z + steady);
+    let text = PAIR.replace("[[-0.6, 0, 0], [0.6, 0, 0]]", &centre).replace("[[0, 0, \"3 mm\"]]", &start)
+        // The reader judges starts by the sphere that holds a clump, and not at all where walls move.
+        + "motion = { direction = 'z', signal.steady.rate = 0 }\n";
+    let (mut engine, mut hosts, mut ledger) = open_text(&text, &["gravity=9.81", "materials.glass.restitution=0.2"]);
+    let steps = (0.15 / engine.time_step()) as u64;
+    engine.advance(steps, &mut hosts, &mut ledger).unwrap();
+    let p = vectors(&*engine, "position");
+    let axis: [f64; 3] = std::array::from_fn(|k| (p[1][k] - p[0][k]) / (2.0 * h));
+    let found = axis[1].atan2(axis[0]) / (steps as f64 * engine.time_step());
+    assert!((found / steady - 1.0).abs() < 2e-3, "{found} {steady}");
+    assert!((found / (c / b) - 1.0).abs() > 0.01, "{found} {}", c / b);
+    assert!((axis[2].acos() - tilt).abs() < 2e-3, "{axis:?}");
+    assert!(missing(&*engine, &hosts, &ledger) < 1e-3);
+}
+
 /// Many rods in a world that repeats itself, enough for threads to share: the same bits whoever computes, after a resume, and however the steps are
 /// shared out among calls (what pieces show at the end of a call once went into how long lists live); the books close.
 #[test]
