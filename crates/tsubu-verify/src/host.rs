@@ -4,7 +4,7 @@ use super::bench;
 use super::control::refused;
 use crate::origin::{closed_form, own};
 use tsubu::interrupt::Interrupt;
-use tsubu::study::response::{CaseResult, Point, measure};
+use tsubu::study::response::{CaseResult, Point, bed, measure};
 use tsubu::study::ring_down::ring_down;
 use tsubu_frame::{Claim, State};
 use tsubu_scene::plan::{Plan, Response, Signal};
@@ -20,7 +20,7 @@ fn frequency() -> f64 {
     (K / M).sqrt() / std::f64::consts::TAU
 }
 
-fn measured(plan: &Plan, wanted: &Response, bed: &State, frequency: f64) -> Result<Point, String> {
+pub(super) fn measured(plan: &Plan, wanted: &Response, bed: &State, frequency: f64) -> Result<Point, String> {
     let point = measure(plan, wanted, 0, bed, frequency, &[], &Interrupt::new()).map_err(|e| e.to_string())?;
     point.ok_or_else(|| "interrupted".to_owned())
 }
@@ -36,9 +36,7 @@ pub(super) fn loss_factor(perturbation: f64) -> Result<Vec<Claim>, String> {
     let wanted = plan.response.clone().ok_or("the damper scene has no response")?;
     let ratios: Vec<f64> = (0..=40).map(|i| 0.96 + 0.002 * f64::from(i)).collect();
     let mut points = Vec::new();
-    let mut bed = State::default();
-    let hosts = tsubu::partner::Hosts::new(&plan.hosts);
-    tsubu::methods::open(&plan, &hosts).map_err(|e| e.to_string())?.save(&mut bed);
+    let bed = bed(&plan, 0).map_err(|e| e.to_string())?;
     for ratio in ratios {
         points.push((ratio, measured(&plan, &wanted, &bed, ratio * frequency())?));
     }
@@ -118,9 +116,7 @@ pub(super) fn loss_factor_with_grains(_spoiler: f64) -> Result<Vec<Claim>, Strin
     plan.dem.time_step = Some(1e-5);
     let mut wanted = plan.response.clone().ok_or("the damper scene has no response")?;
     wanted.measure_periods = 20;
-    let hosts = tsubu::partner::Hosts::new(&plan.hosts);
-    let mut bed = State::default();
-    tsubu::methods::open(&plan, &hosts).map_err(|e| e.to_string())?.save(&mut bed);
+    let bed = bed(&plan, 0).map_err(|e| e.to_string())?;
     let peak = measured(&plan, &wanted, &bed, 0.9667 * frequency())?;
     let driven = peak.loss / (std::f64::consts::PI * K * peak.amplitude * peak.amplitude);
     let mass = 0.2e-3 * 30.0;

@@ -3,17 +3,18 @@
 use super::bench;
 use super::control::refused;
 use super::ensemble;
+use super::host::measured;
 use crate::origin::own;
-use tsubu::interrupt::Interrupt;
-use tsubu::study::response::measure;
-use tsubu_frame::{Claim, Ensemble, State};
+use tsubu::partner::Hosts;
+use tsubu::study::response::bed;
+use tsubu_frame::{Claim, Ensemble};
 use tsubu_scene::plan::Plan;
 
 /// Frequencies over the natural frequency: at the top, where grains count, and beside it.
 const RATIOS: [f64; 3] = [0.99, 1.0, 1.01];
 
 /// A machine with a box of steel balls, 36 x 60 mm across and this deep [mm], between planes; its ends are walls, or it is periodic.
-fn scene(depth: f64, balls: usize, ends: &str, copies: f64) -> String {
+fn scene(depth: f64, balls: usize, closed: bool, copies: f64) -> String {
     let wall = |name: &str, point: [f64; 3], normal: &str| {
         format!(
             "[walls.{name}]\nmaterial = \"steel\"\nhost = \"machine\"\nshape.plane = {{ point = {point:?}, normal = \"{normal}\" }}\n"
@@ -22,9 +23,10 @@ fn scene(depth: f64, balls: usize, ends: &str, copies: f64) -> String {
     let half = 0.5e-3 * depth;
     let mut walls = wall("floor", [0.0; 3], "z") + &wall("ceiling", [0.0, 0.0, 0.06], "-z");
     walls += &(wall("left", [-0.018, 0.0, 0.0], "x") + &wall("right", [0.018, 0.0, 0.0], "-x"));
-    let ends = match ends {
-        "walls" => wall("front", [0.0, -half, 0.0], "y") + &wall("back", [0.0, half, 0.0], "-y"),
-        _ => format!("[periodic]\ny = [{}, {half}]\n", -half),
+    let ends = if closed {
+        wall("front", [0.0, -half, 0.0], "y") + &wall("back", [0.0, half, 0.0], "-y")
+    } else {
+        format!("[periodic]\ny = [{}, {half}]\n", -half)
     };
     format!(
         r#"
@@ -60,23 +62,20 @@ measure-periods = 60
 fn heard(plan: &Plan, seed: u64) -> Result<[f64; 3], String> {
     let plan = Plan { seed, ..plan.clone() };
     let wanted = plan.response.clone().ok_or("the scene has no response")?;
-    let hosts = tsubu::partner::Hosts::new(&plan.hosts);
-    let mut bed = State::default();
-    tsubu::methods::open(&plan, &hosts).map_err(|e| e.to_string())?.save(&mut bed);
-    let natural = hosts.list[0].natural_frequencies()[0];
+    let bed = bed(&plan, 0).map_err(|e| e.to_string())?;
+    let natural = Hosts::new(&plan.hosts).list[0].natural_frequencies()[0];
     let mut rms = [0.0; 3];
     for (rms, ratio) in rms.iter_mut().zip(RATIOS) {
-        let point = measure(&plan, &wanted, 0, &bed, ratio * natural, &[], &Interrupt::new());
-        *rms = point.map_err(|e| e.to_string())?.ok_or("interrupted")?.rms;
+        *rms = measured(&plan, &wanted, &bed, ratio * natural)?.rms;
     }
     Ok(rms)
 }
 
 /// 400 balls in a box 16 diameters deep, and 100 of them in a periodic slice of four diameters.
 pub(super) fn window(_spoiler: f64) -> Result<Vec<Claim>, String> {
-    let whole = bench::plan(&scene(96.0, 400, "walls", 1.0))?;
+    let whole = bench::plan(&scene(96.0, 400, true, 1.0))?;
     let over = |what: &str, copies: f64, seeds: u64| -> Result<[Ensemble; 3], String> {
-        let slice = bench::plan(&scene(24.0, 100, "none", copies))?;
+        let slice = bench::plan(&scene(24.0, 100, false, copies))?;
         ensemble::members(what, 1..=seeds, |seed| {
             let (slice, whole) = (heard(&slice, seed)?, heard(&whole, seed)?);
             Ok(std::array::from_fn(|i| slice[i] / whole[i]))

@@ -1,7 +1,7 @@
 //! Runs of a study done apart, as a cluster does them. The tasks are real, and so is the job script; what starts them is `bash` here.
 //! Real Slurm and real Dask: `cargo xtask cluster`.
 
-use crate::support::{Desk, Ended, SCENE, signal, wait_for};
+use crate::support::{Desk, Ended, SCENE, designed, signal, wait_for};
 use std::fs;
 use std::process::Command;
 
@@ -199,13 +199,7 @@ fn the_job_scripts_do_a_response() {
 /// A design chooses its runs by those before, and chooses the same whoever has done them.
 #[test]
 fn the_job_scripts_do_a_design() {
-    let asked = "[design]\nruns = 30\nmass-limit = \"6 g\"\nlevels = [0.5, 1.0]\n[design.vary]\n\
-                 \"particles.balls.count\" = [10, 20, 30, 40]\n";
-    let steady = SCENE.replace("discard-periods = 1\ndiscard-periods-empty = 1\n", "");
-    let desk = Desk::with(&format!(
-        "{}\n{asked}",
-        steady.replace("5 mm", "0.5 mm").replace("[0.9, 0.95, 1.0, 1.05]", "{ from = 0.9, to = 1.05 }")
-    ));
+    let desk = Desk::with(&designed());
     desk.done("design balls.toml -q -o here --set method=lattice");
     assert!(by_rounds(&desk, "design", "--set method=lattice") > 2, "it did not choose");
     desk.done("design balls.toml -q -o out --set method=lattice --gather");

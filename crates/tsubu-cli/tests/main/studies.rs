@@ -1,4 +1,4 @@
-use crate::support::{Desk, SCENE};
+use crate::support::{Desk, SCENE, designed};
 use std::path::Path;
 
 #[test]
@@ -308,13 +308,7 @@ fn a_response_that_goes_on_tells_the_time_of_all_its_parts() {
 /// and nothing is written.
 #[test]
 fn a_design_finds_the_best() {
-    let asked = "[design]\nruns = 30\nmass-limit = \"6 g\"\nlevels = [0.5, 1.0]\n[design.vary]\n\
-                 \"particles.balls.count\" = [10, 20, 30, 40]\n";
-    let steady = SCENE.replace("discard-periods = 1\ndiscard-periods-empty = 1\n", "");
-    let desk = Desk::with(&format!(
-        "{}\n{asked}",
-        steady.replace("5 mm", "0.5 mm").replace("[0.9, 0.95, 1.0, 1.05]", "{ from = 0.9, to = 1.05 }")
-    ));
+    let desk = Desk::with(&designed());
     let mut shown = Vec::new();
     for threads in [1, 7] {
         let command = format!("design balls.toml -q --set method=lattice -o design{threads} --threads {threads}");

@@ -47,6 +47,15 @@ history-interval = "1 ms"
 frame-interval = "10 ms"
 "#;
 
+/// The scene with a design of four candidates.
+pub fn designed() -> String {
+    let asked = "[design]\nruns = 30\nmass-limit = \"6 g\"\nlevels = [0.5, 1.0]\n[design.vary]\n\
+                 \"particles.balls.count\" = [10, 20, 30, 40]\n";
+    let steady = SCENE.replace("discard-periods = 1\ndiscard-periods-empty = 1\n", "");
+    let steady = steady.replace("5 mm", "0.5 mm").replace("[0.9, 0.95, 1.0, 1.05]", "{ from = 0.9, to = 1.05 }");
+    format!("{steady}\n{asked}")
+}
+
 /// A folder to work in.
 pub struct Desk {
     folder: tempfile::TempDir,

@@ -50,6 +50,11 @@ impl Keep {
             Self::Acceleration => 2,
         }
     }
+
+    /// The amplitude at one frequency over that at another.
+    pub fn amplitude(self, at: f64, over_that_at: f64) -> f64 {
+        (over_that_at / at).powi(self.power())
+    }
 }
 
 /// How a response goes through its frequencies.

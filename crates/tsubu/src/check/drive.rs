@@ -76,7 +76,7 @@ pub(super) fn pushed_speed(signal: &Signal, w: f64, ratio: f64, stiffness: f64) 
 /// Amplitude of a sweep at one of its frequencies [Hz].
 fn swept(signal: &Signal, frequency: f64) -> f64 {
     match signal {
-        Signal::SineSweep { amplitude, from, keep, .. } => amplitude.abs() * (from / frequency).powi(keep.power()),
+        Signal::SineSweep { amplitude, from, keep, .. } => amplitude.abs() * keep.amplitude(frequency, *from),
         _ => 0.0,
     }
 }

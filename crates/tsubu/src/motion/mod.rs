@@ -25,7 +25,7 @@ pub fn value_and_rate(signal: &Signal, t: f64) -> (f64, f64) {
             match keep.power() {
                 0 => (amplitude * sin, amplitude * TAU * frequency * cos),
                 power => {
-                    let amplitude = amplitude * (from / frequency).powi(power);
+                    let amplitude = amplitude * keep.amplitude(frequency, *from);
                     let shrinks = f64::from(power) * slope / frequency;
                     (amplitude * sin, amplitude * (TAU * frequency * cos - shrinks * sin))
                 }

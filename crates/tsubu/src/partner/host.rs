@@ -205,9 +205,9 @@ impl Host {
 
     /// Replaces the frequency [Hz] of base and force sines.
     pub fn set_frequency(&mut self, hertz: f64, keep: Keep) {
-        for (signal, power) in [(&mut self.base, keep.power()), (&mut self.force, 0)] {
+        for (signal, keep) in [(&mut self.base, keep), (&mut self.force, Keep::Displacement)] {
             if let Some(Signal::Sine { amplitude, frequency, .. }) = signal {
-                *amplitude *= (*frequency / hertz).powi(power);
+                *amplitude *= keep.amplitude(hertz, *frequency);
                 *frequency = hertz;
             }
         }

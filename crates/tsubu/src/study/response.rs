@@ -15,7 +15,7 @@ mod write;
 
 pub use apart::Runs;
 pub use curve::{CaseResult, Hysteresis, Peak, peak};
-pub use tasks::{Point, measure};
+pub use tasks::{Point, bed, measure};
 
 use super::cases::{Case, CasesError, case_plans, cases};
 use super::journal::{self, Exact, Journal};

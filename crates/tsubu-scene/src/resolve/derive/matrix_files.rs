@@ -2,7 +2,7 @@
 
 use super::Derive;
 use super::hosts::{taken, vector};
-use super::rayleigh::Rayleigh;
+use super::rayleigh::{self, Rayleigh};
 use crate::complaint::{Complaint, Source};
 use crate::resolve::matrices::{self, Coordinate, Matrix, Role, Units};
 use crate::symmetric::asymmetry;
@@ -74,7 +74,7 @@ impl Derive<'_> {
                 Complaint::new(format!("missing key `damping-ratio` in [{}]", path.join(".")))
                     .at(&self.root.locate(path), "needs `damping-ratio`, `rayleigh` or `damping`")
                     .hint("`damping-ratio`: of each mode, for example 0.01")
-                    .hint("or `rayleigh`: C = alpha M + beta K, for example { alpha = \"0.5 1/s\", beta = \"20 us\" }")
+                    .hint(rayleigh::HINT)
                     .hint("or `damping`: the file of C"),
             );
             return None;

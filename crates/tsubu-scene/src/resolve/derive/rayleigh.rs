@@ -5,6 +5,10 @@ use crate::complaint::Complaint;
 use std::f64::consts::TAU;
 use toml::{Table, Value};
 
+/// What to write where no damping is told.
+pub(super) const HINT: &str =
+    "or `rayleigh`: C = alpha M + beta K, for example { alpha = \"0.5 1/s\", beta = \"20 us\" }";
+
 /// C = alpha M + beta K.
 #[derive(Clone, Copy)]
 pub(super) struct Rayleigh {
@@ -39,7 +43,7 @@ impl Derive<'_> {
                     Complaint::new(format!("missing key `damping` in [{}]", path.join(".")))
                         .at(&self.root.locate(&path), "needs `damping` or `rayleigh`")
                         .hint("`damping`: C, row by row")
-                        .hint("or `rayleigh`: C = alpha M + beta K, for example { alpha = \"0.5 1/s\", beta = \"20 us\" }"),
+                        .hint(HINT),
                 );
             }
             return;

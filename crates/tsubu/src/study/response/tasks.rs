@@ -86,7 +86,7 @@ fn discard(plan: &Plan, wanted: &Response) -> Option<u32> {
 }
 
 /// The state at time 0 of a case and seed, settled.
-pub(in crate::study) fn bed(plan: &Plan, seed: u32) -> Result<State, OpenError> {
+pub fn bed(plan: &Plan, seed: u32) -> Result<State, OpenError> {
     let plan = seeded(plan, seed);
     let hosts = Hosts::new(&plan.hosts);
     let mut state = State::default();
