@@ -16,6 +16,7 @@ mod generate;
 mod guard;
 #[cfg(test)]
 mod imports;
+mod mpi;
 mod mutants;
 mod optional;
 mod python;
@@ -40,12 +41,14 @@ cargo xtask CHORE
   spelling            look for misspelt words in all texts, where there is a Python 3
   book                build the book, where there is an mdbook
   optional            what needs more than Rust and a C compiler: the book, the pages in a browser, units for co-simulation,
-                      Slurm and Dask, the Python package
+                      MPI, Slurm and Dask, the Python package
   python [ARGUMENT]...
                       build the wheel, install it into a bare environment, and run its tests, where there is a Python 3.10 or later
                       and a network; arguments go to pytest
   fmu [ARGUMENT]...   pack units for co-simulation, and let FMPy validate and move them, where there is a Python 3.10 or later and a
                       network; arguments go to pytest
+  mpi [ARGUMENT]...   build the program with MPI, and run it on several ranks under mpirun, where there is an MPI library; arguments go to
+                      the tests
   cluster [ARGUMENT]...
                       start Slurm and Dask on this machine, run studies over them, and kill their workers; arguments go to pytest
   claims [NAME]...    run verification cases (without names all of up to a minute) and keep what they claim
@@ -88,6 +91,7 @@ fn main() -> ExitCode {
         ["optional"] => optional::optional(),
         ["python", rest @ ..] => python::python(rest),
         ["fmu", rest @ ..] => fmu::fmu(rest),
+        ["mpi", rest @ ..] => mpi::mpi(rest),
         ["cluster", rest @ ..] => cluster::cluster(rest),
         ["mutants", names @ ..] => mutants::mutants(names),
         ["chaotic"] => mutants::chaotic(),

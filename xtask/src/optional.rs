@@ -1,9 +1,9 @@
-//! What needs more than Rust and a C compiler: the book, the browser, units for co-simulation, Slurm and Dask, Python. What is missing is said and skipped; `.ci/install`
+//! What needs more than Rust and a C compiler: the book, the browser, units for co-simulation, MPI, Slurm and Dask, Python. What is missing is said and skipped; `.ci/install`
 //! installs it.
 
 use crate::shell::cargo;
 use crate::test::has_nextest;
-use crate::{book, cluster, fmu, python};
+use crate::{book, cluster, fmu, mpi, python};
 
 /// All optional parts.
 pub fn optional() -> Result<(), String> {
@@ -15,6 +15,7 @@ pub fn optional() -> Result<(), String> {
         cargo(&["test", "--package", "tsubu-view"])?;
     }
     fmu::fmu(&[])?;
+    mpi::mpi(&[])?;
     cluster::cluster(&[])?;
     python::python(&[])
 }

@@ -79,3 +79,9 @@ pub fn python_with(package: &str, import: &str) -> Option<String> {
     }
     has(&python).then_some(python)
 }
+
+/// Whether a program is there.
+pub fn on_path(program: &str) -> bool {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    std::env::split_paths(&path).any(|folder| folder.join(program).is_file())
+}

@@ -50,6 +50,22 @@ impl Failure {
         Self { code: 1, ..Self::default() }
     }
 
+    /// The same, said by somebody else.
+    #[must_use]
+    pub fn quiet(self) -> Self {
+        Self { code: self.code, ..Self::default() }
+    }
+
+    /// The same with a word on where it went wrong.
+    #[must_use]
+    pub fn on(self, place: &str) -> Self {
+        let message = self.message.map(|message| match message {
+            Message::Plain(text) => Message::Plain(format!("{place}: {text}")),
+            Message::Ready(text) => Message::Ready(format!("{place}: {text}")),
+        });
+        Self { message, ..self }
+    }
+
     /// The user stopped it.
     pub fn interrupted(message: impl Into<String>) -> Self {
         Self { code: 130, message: Some(Message::Ready(message.into())), hints: Vec::new() }

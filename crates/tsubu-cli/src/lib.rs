@@ -12,6 +12,7 @@ mod machine;
 mod options;
 mod output;
 mod progress;
+mod ranks;
 mod session;
 mod stop;
 mod stream;

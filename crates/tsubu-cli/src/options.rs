@@ -81,7 +81,7 @@ impl FolderOptions {
 /// With how much, and how loud.
 #[derive(Args)]
 pub struct WorkOptions {
-    /// Threads to work with; results are the same for any number [default: all cores]
+    /// Threads to work with; results are the same for any number [default: all cores, shared by ranks]
     #[arg(long, visible_alias = "jobs", value_name = "N", value_parser = value_parser!(u16).range(1..=4096))]
     threads: Option<u16>,
     /// No progress on stderr
@@ -107,7 +107,10 @@ impl WorkOptions {
     pub fn pool(&self) -> Result<rayon::ThreadPool, Failure> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let most = MOST.max(4 * cores);
-        let told = self.threads.map_or(0, usize::from);
+        // Ranks that share a machine share its cores.
+        let here = tsubu_mpi::started_here();
+        let share = if here > 1 { (cores / here).max(1) } else { 0 };
+        let told = self.threads.map_or(share, usize::from);
         if told > most && !self.quiet {
             crate::output::tell(&format!("{told} threads cannot help on {cores} cores: working with {most}\n"));
         }

@@ -57,6 +57,12 @@ impl Session {
         (done, interrupt)
     }
 
+    /// Does work of which nothing is shown; whoever asks it to stop is heard elsewhere.
+    pub fn silently<T: Send>(&self, work: impl FnOnce(&Interrupt) -> T + Send) -> T {
+        let interrupt = stop::interrupt(stop::NOT_BEGUN);
+        self.pool.install(|| work(interrupt))
+    }
+
     /// Makes the page of results that were just computed, and gives its path.
     pub fn page(&self) -> Result<PathBuf, Failure> {
         self.pool.install(|| page(&self.folder))

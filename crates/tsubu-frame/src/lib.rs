@@ -32,5 +32,5 @@ pub use history::{History, Mark};
 pub use named::Named;
 pub use series::{Formats, FrameWriter, Snapshot, snapshots};
 pub use state::State;
-pub use summary::{Energy, Joule, ResultValue, Status, Summary};
+pub use summary::{Energy, Joule, RanksSummary, ResultValue, Status, Summary};
 pub use vtp_read::read_frame;

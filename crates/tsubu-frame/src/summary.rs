@@ -106,6 +106,9 @@ pub struct Summary {
     pub wall_seconds: f64,
     /// Threads used.
     pub threads: u32,
+    /// The ranks that made the run together, where there were several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ranks: Option<RanksSummary>,
     /// Grains times steps per second of computing time.
     #[serde(deserialize_with = "real")]
     pub particle_steps_per_second: f64,
@@ -128,6 +131,16 @@ pub struct Summary {
     pub claims: Vec<Claim>,
     /// What the reader should know.
     pub warnings: Vec<String>,
+}
+
+/// How ranks have shared a run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RanksSummary {
+    /// How many there were.
+    pub count: u32,
+    /// Work of the busiest over the mean of all; 1 where all have worked as long.
+    #[serde(deserialize_with = "real")]
+    pub imbalance: f64,
 }
 
 /// A stage of a run that is over.

@@ -156,6 +156,12 @@ impl Refusal {
         Self { method, notes: vec![Note { key: "bond".to_owned(), verdict: Verdict::Refused, text }] }
     }
 
+    /// A method that knows one rank.
+    pub fn ranks(method: &'static str) -> Self {
+        let text = "it runs on one rank; `dem` runs on several".to_owned();
+        Self { method, notes: vec![Note { key: "method".to_owned(), verdict: Verdict::Refused, text }] }
+    }
+
     /// A method that knows no stages.
     pub fn stages(method: &'static str) -> Self {
         let text = "it runs scenes of one stage; `dem` runs more".to_owned();
@@ -241,6 +247,11 @@ pub trait Engine: Send {
     /// Steps of single grains since time 0: what the computing time was spent on.
     fn grain_steps(&self) -> u64 {
         self.steps() * self.grains() as u64
+    }
+
+    /// For how long each rank of the run has worked at its steps [s]; nothing where there is but one.
+    fn worked(&self) -> &[f64] {
+        &[]
     }
 
     /// Moves the system by `steps` steps, together with its hosts; posts every flow to the ledger.

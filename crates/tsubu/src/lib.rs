@@ -24,6 +24,7 @@ pub mod neighbours;
 pub mod outside;
 pub mod partner;
 pub mod random;
+pub mod ranks;
 pub mod run;
 pub(crate) mod scene_files;
 pub mod sections;

@@ -8,10 +8,24 @@ use crate::lattice::site::build;
 use crate::lattice::site::rule::{GasRule, SiteRule};
 use crate::memory::refuse_more_than_there_is;
 use crate::partner::Hosts;
+use crate::ranks::Communicator;
+use std::sync::Arc;
 use tsubu_scene::plan::{Method, Plan};
 
 /// Builds the engine that the plan's method names, at time 0.
 pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
+    open_on_ranks(plan, hosts, None)
+}
+
+/// The same on this rank of several, which all do so.
+pub fn open_on_ranks(
+    plan: &Plan,
+    hosts: &Hosts,
+    communicator: Option<Arc<dyn Communicator>>,
+) -> Result<Box<dyn Engine>, OpenError> {
+    if communicator.is_some() && plan.method != Method::Dem {
+        return Err(Refusal::ranks(plan.method.name()).into());
+    }
     if plan.stage.len() > 1 && plan.method != Method::Dem {
         return Err(Refusal::stages(plan.method.name()).into());
     }
@@ -24,7 +38,7 @@ pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
     }
     refuse_more_than_there_is(plan, 0)?;
     let rule = match plan.method {
-        Method::Dem => return Ok(Box::new(DemEngine::new(plan, hosts)?)),
+        Method::Dem => return Ok(Box::new(DemEngine::on_ranks(plan, hosts, communicator)?)),
         Method::Lattice => return Ok(Box::new(LatticeEngine::new(plan, hosts)?)),
         Method::ClCa => return Ok(Box::new(ClCaEngine::new(plan, hosts)?)),
         Method::Litwiniszyn => SiteRule::Litwiniszyn,

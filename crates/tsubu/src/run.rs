@@ -1,6 +1,7 @@
 //! One run: from a scene to a run folder.
 
 mod error;
+mod leader;
 mod lost;
 mod measured;
 mod onlooker;
@@ -10,10 +11,14 @@ mod stages;
 mod start;
 mod steady;
 mod told;
+mod ways;
 
 pub use error::RunError;
+pub use leader::follow;
 pub use onlooker::{Onlooker, Wish};
 pub use simulation::Simulation;
+pub(crate) use ways::run_with;
+pub use ways::{run, run_on_ranks, run_seen};
 
 use crate::engine::{self, Engine};
 use crate::interrupt::Watcher;
@@ -21,6 +26,7 @@ use crate::ledger::{Account, Energies, Ledger};
 use crate::partner::Hosts;
 use crate::scene_files;
 use crate::watch::{Trigger, Watches};
+use leader::Leader;
 use lost::Lost;
 use measured::Measured;
 use stages::Stages;
@@ -32,48 +38,22 @@ use tsubu_frame::{
     State, Status, Summary, checkpoint,
 };
 use tsubu_scene::{Plan, Scene};
-
-/// Runs a scene to its end, or until it is interrupted, into `folder`.
-pub fn run(scene: &Scene, folder: &Path, existing: Existing, watcher: &Watcher) -> Result<Summary, RunError> {
-    run_with(scene, folder, existing, true, watcher)
-}
-
-/// The same, with somebody who looks on. The run is the same to the last bit.
-pub fn run_seen(
-    scene: &Scene,
-    folder: &Path,
-    existing: Existing,
-    watcher: &Watcher,
-    onlooker: &dyn Onlooker,
-) -> Result<Summary, RunError> {
-    work(scene, folder, existing, true, watcher, Some(onlooker))
-}
-
-/// The same. One of many runs (`alone` false) keeps no checkpoint of its end, and does not wait for the disk there: after a power cut
-/// it is done again.
-pub(crate) fn run_with(
-    scene: &Scene,
-    folder: &Path,
-    existing: Existing,
-    alone: bool,
-    watcher: &Watcher,
-) -> Result<Summary, RunError> {
-    work(scene, folder, existing, alone, watcher, None)
-}
+use ways::Manner;
 
 fn work(
     scene: &Scene,
     folder: &Path,
     existing: Existing,
-    alone: bool,
     watcher: &Watcher,
-    onlooker: Option<&dyn Onlooker>,
+    manner: Manner,
 ) -> Result<Summary, RunError> {
+    let Manner { alone, onlooker, communicator } = manner;
     let resumed = existing == Existing::Resume;
     let scene = &if resumed { resume::scene(scene, folder) } else { scene.clone() };
     let plans = scene.plans();
     let plan = scene.plan();
-    let Start { engine, hosts, ledger } = Start::of(scene)?;
+    let Start { engine, hosts, ledger } = Start::of(scene, communicator.as_ref())?;
+    let engine = Leader::of(engine, communicator);
     let last = engine.stage_begin().0 + steps(plan, &*engine)?;
     let mut run = Run {
         ledger,

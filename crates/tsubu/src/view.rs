@@ -2,6 +2,7 @@
 
 use crate::neighbours::grid::{PeriodicBounds, wrapped};
 use crate::partner::Host;
+use crate::ranks::Reader;
 use crate::water::Water;
 use glam::DVec3;
 use std::borrow::Cow;
@@ -130,6 +131,23 @@ pub struct Contact {
     pub normal: DVec3,
     /// Overlap [m].
     pub overlap: f64,
+}
+
+impl Contact {
+    /// Writes it into a message.
+    pub(crate) fn put(&self, message: &mut Vec<f64>) {
+        let Self { first, second, wall, position, branch, force, normal, overlap } = self;
+        message.extend([*first as f64, *second as f64, f64::from(*wall)]);
+        message.extend([position, branch, force, normal].into_iter().flat_map(DVec3::to_array));
+        message.push(*overlap);
+    }
+
+    /// Takes one from a message.
+    pub(crate) fn take(message: &mut Reader) -> Self {
+        let (first, second, wall) = (message.number() as usize, message.number() as usize, message.number() != 0.0);
+        let [position, branch, force, normal] = std::array::from_fn(|_| message.vector());
+        Self { first, second, wall, position, branch, force, normal, overlap: message.number() }
+    }
 }
 
 /// What grains do to a wall.

@@ -24,6 +24,7 @@ pub mod verify;
 mod view;
 
 use crate::failure::Failure;
+use crate::ranks;
 use clap::Subcommand;
 
 /// What tsubu can be asked to do.
@@ -67,6 +68,9 @@ pub enum Command {
 
 /// Does it.
 pub fn run(command: Command) -> Result<(), Failure> {
+    if !matches!(command, Command::Run(_)) {
+        ranks::refuse()?;
+    }
     match command {
         Command::Run(options) => run::run(&options),
         Command::Check(options) => check::run(&options),

@@ -6,11 +6,13 @@ use crate::looked_at::{LookedAt, PageOptions};
 use crate::options::{FolderOptions, SceneOptions, WorkOptions};
 use crate::session::{Session, judge, resume};
 use crate::stream::Stream;
-use crate::{machine, stop, table};
+use crate::{machine, ranks, stop, table};
 use clap::Args;
 use std::fmt::Write as _;
+use std::sync::Arc;
 use tsubu::check::human_time;
 use tsubu::interrupt::Watcher;
+use tsubu::ranks::Communicator;
 use tsubu::threads::alone;
 use tsubu_frame::summary::mean_beside;
 use tsubu_frame::{Existing, ResultValue, RunFolder, Status, Summary, unit::for_people};
@@ -22,6 +24,7 @@ Examples:
   tsubu run damper.toml -o few --set particles.balls.count=10
   tsubu run damper.toml --resume                            go on after Ctrl-C or a power cut
   tsubu run damper.toml --view                              look at it in the browser as it goes on
+  mpirun -n 4 tsubu run chute.toml                          on four ranks, with the same bits
 
 The folder holds scene.toml (as run, with every default), summary.json, history.csv,
 frames/ (for ParaView) and checkpoint/. `tsubu report DIR` makes figures and a page of it.")]
@@ -48,8 +51,36 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         return Err(Failure::wrong("`--port` and `--no-open` are of the page: add `--view`"));
     }
     let existing = if *resume { Existing::Resume } else { folder.existing() };
-    let session = Session::begin("run", "", scene, folder, work)?;
-    if *view { run_shown(&session, existing, *page) } else { run_alone(&session, existing) }
+    let session = || Session::begin("run", "", scene, folder, work);
+    let Some(ranks) = ranks::join()? else {
+        let session = session()?;
+        return if *view { run_shown(&session, existing, *page) } else { run_alone(&session, existing) };
+    };
+    let communicator = ranks.communicator();
+    let session = match view {
+        true => Err(Failure::wrong("`--view` shows a run on one rank; look at one on several with `tsubu view`")),
+        false => session(),
+    };
+    let session = ranks::together(&**communicator, session)?;
+    if communicator.rank() > 0 { follow(&session, communicator) } else { lead(&session, existing, communicator) }
+}
+
+/// The run on rank 0 of several.
+fn lead(session: &Session, existing: Existing, communicator: &Arc<dyn Communicator>) -> Result<(), Failure> {
+    let Session { scene, folder, .. } = session;
+    let work = |watcher: &Watcher| {
+        ranks::at_work(|| tsubu::run::run_on_ranks(scene, folder, existing, watcher, communicator.clone()))
+    };
+    let (done, _) = session.work(stop::NOT_BEGUN, work);
+    let summary = done.map_err(|error| Failure::of_scene(&error, scene, folder))?;
+    ended(session, &summary)
+}
+
+/// The run on another rank: the first tells how it went.
+fn follow(session: &Session, communicator: &Arc<dyn Communicator>) -> Result<(), Failure> {
+    let Session { scene, folder, .. } = session;
+    let done = session.silently(|interrupt| ranks::at_work(|| tsubu::run::follow(scene, communicator, interrupt)));
+    done.map_err(|error| Failure::of_scene(&error, scene, folder).quiet())
 }
 
 fn run_alone(session: &Session, existing: Existing) -> Result<(), Failure> {
@@ -124,8 +155,12 @@ fn told(title: &str, summary: &Summary) -> String {
     );
     let _ = writeln!(
         text,
-        "  computed   in {} with {}, {:.2e} particle-steps/s",
+        "  computed   in {} {}with {}, {:.2e} particle-steps/s",
         human_time(summary.wall_seconds),
+        summary
+            .ranks
+            .map(|ranks| format!("on {} ranks (imbalance {:.2}) ", ranks.count, ranks.imbalance))
+            .unwrap_or_default(),
         plural(u64::from(summary.threads), "thread"),
         summary.particle_steps_per_second
     );

@@ -116,3 +116,21 @@ fn more_random_grains_than_fit_between_walls() {
     let desk = Desk::with(&scene);
     assert_snapshot!(desk.shown("run balls.toml"));
 }
+
+/// Each of them would make the whole run, all in one folder.
+#[cfg(not(feature = "mpi"))]
+#[test]
+fn several_ranks_without_mpi_are_refused() {
+    let desk = Desk::with(SCENE);
+    let started = |rank: &str| {
+        let mut command = desk.command("run balls.toml");
+        let out = command.envs([("OMPI_COMM_WORLD_SIZE", "3"), ("OMPI_COMM_WORLD_RANK", rank)]).output().unwrap();
+        (out.status.code(), String::from_utf8(out.stderr).unwrap())
+    };
+    let (code, said) = started("0");
+    assert_eq!(code, Some(2));
+    assert!(said.contains("3 ranks were started, and this program was built without MPI"), "{said}");
+    assert!(said.contains("libopenmpi-dev"), "{said}");
+    assert_eq!(started("1"), (Some(2), String::new()));
+    assert!(!desk.path("out").exists());
+}

@@ -12,8 +12,9 @@ fn named_commands() -> Vec<String> {
     let rows = text.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| what "));
     let shown = rows.map(|row| row.trim_end_matches(" |").rsplit("| ").next().unwrap().trim_matches('`'));
     // The doors to Python, to co-simulation and to clusters have tests of their own.
-    let commands =
-        shown.filter(|shown| !["cargo xtask python", "cargo xtask fmu", "cargo xtask cluster"].contains(shown));
+    let commands = shown.filter(|shown| {
+        !["cargo xtask python", "cargo xtask fmu", "cargo xtask cluster", "cargo xtask mpi"].contains(shown)
+    });
     commands
         .map(|shown| shown.strip_prefix("tsubu ").unwrap_or_else(|| panic!("no command: `{shown}`")).to_owned())
         .collect()

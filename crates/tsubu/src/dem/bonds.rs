@@ -148,9 +148,9 @@ impl Bonds {
         });
     }
 
-    /// Adds what bonds do to what contacts do to the grains of each block.
-    pub fn add(&self, blocks: &mut [BlockContacts]) {
-        for grain in &self.bonded {
+    /// Adds what bonds do to what contacts do to the grains of each of the `own` blocks.
+    pub fn add(&self, blocks: &mut [BlockContacts], own: &Range<usize>) {
+        for grain in self.bonded.iter().filter(|grain| own.contains(&(grain.row as usize / BLOCK))) {
             let row = grain.row as usize;
             let load = &mut blocks[row / BLOCK].loads[row % BLOCK];
             load.force += grain.force;

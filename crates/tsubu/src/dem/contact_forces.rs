@@ -6,9 +6,11 @@
 
 mod list;
 mod pairs;
+mod sums;
 mod walls;
 
 pub(super) use list::contact_list;
+pub(super) use sums::{ContactLosses, ContactSums};
 
 use super::bodies::Bodies;
 use super::bonds::Bonds;
@@ -18,13 +20,14 @@ use super::history_transfer::HistorySnapshot;
 use super::immersion::{BlockImmersion, WaterAtTime};
 use super::narrow_phase::{Spheres, TouchingPairs};
 use super::outside::Outside;
+use super::ranks::Ranks;
 use super::shapes::{PairShapes, WallShapes};
 use super::sweep::{Direction, sweep};
 use crate::check;
 use crate::contact::chunk::ROWS;
 use crate::contact::{Law, Table};
 use crate::neighbours::NeighbourLists;
-use crate::neighbours::lists::{BlockList, shares};
+use crate::neighbours::lists::{BLOCK, BlockList, shares};
 use crate::partner::Hosts;
 use crate::state::Grains;
 use crate::view::WallLoad;
@@ -95,57 +98,6 @@ pub(super) struct ForceInput<'a> {
     /// See [`Chunk::completion`] [s].
     pub completion: f64,
     pub water: Option<WaterAtTime<'a>>,
-}
-
-/// Power lost in contacts [W].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct ContactLosses {
-    pub normal: f64,
-    pub sliding: f64,
-    pub rolling: f64,
-}
-
-impl ContactLosses {
-    fn each(&mut self) -> [&mut f64; 3] {
-        [&mut self.normal, &mut self.sliding, &mut self.rolling]
-    }
-
-    fn add(&mut self, other: &Self) {
-        self.normal += other.normal;
-        self.sliding += other.sliding;
-        self.rolling += other.rolling;
-    }
-
-    /// Adds a correction [W], to each in proportion.
-    pub fn correct(&mut self, correction: f64) {
-        let total: f64 = self.each().map(|lost| lost.abs()).iter().sum();
-        if total > 0.0 {
-            for lost in self.each() {
-                *lost += correction * lost.abs() / total;
-            }
-        }
-    }
-}
-
-/// Sums over contacts.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct ContactSums {
-    /// Stored energy [J].
-    pub stored: f64,
-    pub lost: ContactLosses,
-    /// Touching pairs.
-    pub contacts: usize,
-    /// Deepest overlap [m].
-    pub deepest: f64,
-}
-
-impl ContactSums {
-    fn add(&mut self, other: &Self) {
-        self.stored += other.stored;
-        self.lost.add(&other.lost);
-        self.contacts += other.contacts;
-        self.deepest = self.deepest.max(other.deepest);
-    }
 }
 
 /// What contacts do to a grain: one line of the cache.
@@ -258,12 +210,14 @@ impl ContactForces {
     /// Prepares as many blocks as there are neighbour lists; called when these have been rebuilt.
     pub fn resize(&mut self, input: &ForceInput) {
         let laws = input.laws.all();
-        let lists = &input.neighbours.lists;
+        let (lists, own) = (&input.neighbours.lists, input.neighbours.own());
         self.blocks.resize_with(lists.len(), BlockContacts::default);
         // Blocks pass their history on, so each is as large as the largest.
         let pairs = lists.iter().map(|list| list.pairs.len()).max().unwrap_or_default();
         for (block, list) in self.blocks.iter_mut().zip(lists) {
-            block.loads.resize(list.own + list.halo.len(), Load::default());
+            // Of a block of another rank its loads on own grains alone are here.
+            let loads = if own.contains(&(list.first / BLOCK)) { list.own + list.halo.len() } else { 0 };
+            block.loads.resize(loads, Load::default());
             block.walls.resize(input.walls.len(), WallLoad::default());
             if block.history.is_empty() {
                 block.history.extend(laws.iter().map(|law| ContactHistory::new(law.width())));
@@ -280,7 +234,7 @@ impl ContactForces {
     }
 
     /// Evaluates all contacts, and the forces of the water.
-    pub fn evaluate(&mut self, input: &ForceInput) {
+    pub fn evaluate(&mut self, input: &ForceInput, ranks: &mut Ranks) {
         // An engine may be moved to a pool with more threads than the one it was built in.
         while self.scratch.len() < rayon::current_num_threads() {
             self.scratch.push(Mutex::new(Scratch::new(input.laws.all())));
@@ -292,8 +246,10 @@ impl ContactForces {
             let mut scratch = scratch[mine].lock().unwrap_or_else(PoisonError::into_inner);
             blocks[0].evaluate(input, &lists[0], &mut scratch);
         };
-        let range = (&mut self.blocks[..], &input.neighbours.lists[..]);
+        let own = input.neighbours.own();
+        let range = (&mut self.blocks[own.clone()], &input.neighbours.lists[own]);
         sweep(range, Direction::Forward, shares(input.grains.len()), &work);
+        ranks.share_forces(&mut self.blocks);
         self.sums = ContactSums::default();
         for block in &self.blocks {
             self.sums.add(&block.sums);
@@ -387,7 +343,7 @@ mod tests {
         assert!(energy(&engine) > 0.0, "the tangential spring is stretched");
         engine.grains.position[1].x += 1e-3;
         let (mut contacts, input) = (std::mem::take(&mut engine.contacts), engine.force_input());
-        contacts.evaluate(&ForceInput { dt: 0.0, ..input });
+        contacts.evaluate(&ForceInput { dt: 0.0, ..input }, &mut Ranks::default());
         assert_eq!(contacts.sums.contacts, 0);
         assert_eq!(contacts.sums.lost, ContactLosses::default());
     }

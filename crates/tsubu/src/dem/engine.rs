@@ -3,11 +3,13 @@
 use super::bodies::{self, Bodies};
 use super::bonds::{self, Bonds};
 use super::books::{Books, Reactions};
+use super::clock::Clock;
 use super::contact_forces::{ContactForces, ContactLaws};
 use super::immersion::Immersion;
 use super::integrate::TimeIntegration;
 use super::orientation::Orientation;
 use super::place;
+use super::ranks::Ranks;
 use super::room;
 use super::sources::Sources;
 use crate::check;
@@ -20,6 +22,7 @@ use crate::neighbours::lists::{BLOCK, shares};
 use crate::neighbours::{NeighbourLists, Search};
 use crate::outside::Action;
 use crate::partner::Hosts;
+use crate::ranks::Communicator;
 use crate::state::Grains;
 use crate::threads::awake;
 use crate::view::{View, WallLoad, Wants};
@@ -27,6 +30,7 @@ use crate::wall::{Faces, Mover, Velocity, Wall};
 use crate::water::Water;
 use glam::DVec3;
 use std::any::Any;
+use std::sync::Arc;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, State};
 use tsubu_scene::plan::{Particles, Plan};
@@ -43,52 +47,12 @@ pub struct DemEngine {
     pub(super) contacts: ContactForces,
     pub(super) immersion: Option<Immersion>,
     pub(super) integration: TimeIntegration,
-    pub(super) orientation: Orientation,
+    pub(super) ranks: Ranks,
     pub(super) sources: Sources,
     pub(super) reactions: Reactions,
     pub(super) books: Books,
     pub(super) limits: Limits,
     pub(super) notes: Vec<Note>,
-}
-
-/// Where the run is in time.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Clock {
-    /// Time step [s].
-    pub dt: f64,
-    pub step: u64,
-    /// Step and time [s] at which this stage began.
-    pub begin: (u64, f64),
-    /// Grains moved in every step so far, summed.
-    pub grain_steps: u64,
-    /// Whether the grains have done the first half of the next step already; never between two calls of `advance`.
-    pub half_step_done: bool,
-    /// Before time 0 grains settle: walls and water stand, whoever moves them.
-    pub settling: bool,
-}
-
-impl Clock {
-    /// Simulated time [s].
-    pub fn time(&self) -> f64 {
-        self.time_of(self.step)
-    }
-
-    /// Time of a step of this stage [s]: steps times time step, so that it never drifts.
-    pub fn time_of(&self, step: u64) -> f64 {
-        let (first, begin) = self.begin;
-        begin + (step - first) as f64 * self.dt
-    }
-
-    /// A stage begins here, with steps of `dt` [s].
-    pub fn begin_stage(&mut self, dt: f64) {
-        (self.begin, self.dt) = ((self.step, self.time()), dt);
-    }
-
-    /// Counts a step of so many grains.
-    pub fn tick(&mut self, grains: usize) {
-        self.step += 1;
-        self.grain_steps += grains as u64;
-    }
 }
 
 /// What the grains of a run may be.
@@ -104,9 +68,31 @@ pub(super) struct Limits {
     pub in_space: bool,
 }
 
+impl Limits {
+    fn new(plan: &Plan, grains: &Grains, sources: &Sources) -> Self {
+        let all = grains.radius.iter().map(|r| (2.0 * r, 2.0 * r)).chain(sources.sizes());
+        let ends = all.fold((f64::INFINITY, 0.0_f64), |ends, of| (ends.0.min(of.0), ends.1.max(of.1)));
+        Self {
+            smallest_diameter: ends.0,
+            largest_diameter: plan.particles.values().map(Particles::largest_diameter).fold(ends.1, f64::max),
+            largest_overlap: plan.dem.largest_overlap,
+            in_space: plan.dimension == 3,
+        }
+    }
+}
+
 impl DemEngine {
     /// Builds the engine at time 0; grains that the scene wants settled have settled.
     pub fn new(plan: &Plan, hosts: &Hosts) -> Result<Self, OpenError> {
+        Self::on_ranks(plan, hosts, None)
+    }
+
+    /// The same on this rank of several, which all do so.
+    pub fn on_ranks(
+        plan: &Plan,
+        hosts: &Hosts,
+        communicator: Option<Arc<dyn Communicator>>,
+    ) -> Result<Self, OpenError> {
         // Every field is named: a new one does not compile until it is decided here.
         let Plan {
             title: _,
@@ -118,7 +104,7 @@ impl DemEngine {
             speed_scale: _,
             materials: _,
             material_pair: _,
-            particles,
+            particles: _,
             walls: _,
             periodic: _,
             removal: _,
@@ -170,12 +156,19 @@ impl DemEngine {
         }
         let bodies = Bodies::assemble(plan, &mut grains);
         let sources = Sources::new(plan, &table, &walls, grains.len());
-        let (smallest, largest) = diameters(&grains, &sources);
+        let orientation = Orientation::new(dem.orientation || !bond.is_empty());
+        let immersion =
+            water.as_ref().map(|water| Immersion::new(Water::new(water, gravity).seeded(*seed, *dimension == 3)));
+        // Who looks at all grains in every step.
+        let looked_at = !bodies.is_empty()
+            || orientation.is_wanted()
+            || immersion.as_ref().is_some_and(|immersion| immersion.water.has_surface());
+        let limits = Limits::new(plan, &grains, &sources);
+        let smallest = limits.smallest_diameter;
         let skin = if smallest.is_finite() { dem.skin * smallest } else { 0.0 };
         let laws = ContactLaws::new(plan, table, hosts);
         let search = Search { skin, reach: laws.reach(), periodic: room::periodic_bounds(plan) };
         let reactions = Reactions { wall_loads: vec![WallLoad::default(); walls.len()], ..Reactions::default() };
-        let largest_present = particles.values().map(Particles::largest_diameter).fold(largest, f64::max);
         let mut engine = Self {
             walls,
             faces: Faces::new(plan),
@@ -183,20 +176,13 @@ impl DemEngine {
             neighbours: NeighbourLists::new(search).but(Joined::bodies(bodies.of_grains())),
             laws,
             contacts: ContactForces::beside(Bonds::new(plan)),
-            immersion: water
-                .as_ref()
-                .map(|water| Immersion::new(Water::new(water, gravity).seeded(*seed, *dimension == 3))),
-            integration: TimeIntegration::new(dem.integrator, gravity, contact.rotation, bodies),
-            orientation: Orientation::new(dem.orientation || !bond.is_empty()),
+            immersion,
+            integration: TimeIntegration::new(dem.integrator, gravity, contact.rotation, bodies, orientation),
+            ranks: Ranks::new(communicator, looked_at),
             sources,
             reactions,
             books: Books { moved_mass: grains.moved_mass(), ..Books::default() },
-            limits: Limits {
-                smallest_diameter: smallest,
-                largest_diameter: largest_present,
-                largest_overlap: dem.largest_overlap,
-                in_space: *dimension == 3,
-            },
+            limits,
             notes: Vec::new(),
             grains,
         };
@@ -217,13 +203,8 @@ impl DemEngine {
         self.init_porosity();
         self.rebuild_neighbours();
         self.evaluate_at_rest();
+        self.ranks.gather_grains(&mut self.grains);
     }
-}
-
-/// Diameters of the smallest and of the largest grain that there is or will be [m].
-fn diameters(grains: &Grains, sources: &Sources) -> (f64, f64) {
-    let all = grains.radius.iter().map(|r| (2.0 * r, 2.0 * r)).chain(sources.sizes());
-    all.fold((f64::INFINITY, 0.0), |ends, of| (ends.0.min(of.0), ends.1.max(of.1)))
 }
 
 /// The walls of a plan at time 0.
@@ -289,8 +270,13 @@ impl Engine for DemEngine {
         true
     }
 
+    fn worked(&self) -> &[f64] {
+        self.ranks.worked()
+    }
+
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
         let grains = self.grains.len();
+        self.ranks.begin_to_work();
         let mut go = || {
             for step in 0..steps {
                 self.step(hosts, ledger, step + 1 < steps)?;
@@ -298,6 +284,7 @@ impl Engine for DemEngine {
                     break;
                 }
             }
+            self.ranks.gather_grains(&mut self.grains);
             Ok(())
         };
         if shares(grains) > 1 { awake(grains.div_ceil(BLOCK), go) } else { go() }

@@ -4,11 +4,13 @@
 
 use super::contact_forces::{BlockContacts, ContactForces, ForceInput};
 use super::contact_history::WallKey;
+use super::ranks::Ranks;
 use super::sweep::{Direction, sweep};
 use crate::contact::Law;
 use crate::mutation::{Mutation, left_out};
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::lists::{BLOCK, BlockList, shares};
+use crate::ranks::Reader;
 use crate::threads;
 use crate::wall::Wall;
 
@@ -24,6 +26,19 @@ pub(super) struct ContactId {
     pub law: u32,
 }
 
+impl ContactId {
+    fn put(&self, history: &[f64], message: &mut Vec<f64>) {
+        let Self { first, second, wall, patch, law } = *self;
+        message.extend([first, second, u32::from(wall), patch, law].map(f64::from));
+        message.extend(history);
+    }
+
+    fn take(message: &mut Reader) -> Self {
+        let [first, second, wall, patch, law] = std::array::from_fn(|_| message.number() as u32);
+        Self { first, second, wall: wall != 0, patch, law }
+    }
+}
+
 /// The contact history of all blocks by ids.
 #[derive(Clone, Debug, Default)]
 pub(super) struct HistorySnapshot {
@@ -32,6 +47,8 @@ pub(super) struct HistorySnapshot {
     index: Vec<u32>,
     /// Destinations that follow one another in a block's history and are in one block; by that block, then by the other.
     runs: Vec<Run>,
+    /// Whether every rank has all contacts, as from a checkpoint.
+    whole: bool,
 }
 
 /// The contact history of one block, or of a checkpoint.
@@ -42,8 +59,8 @@ pub(super) struct BlockHistory {
     pub history: Vec<f64>,
     /// Where they belong now, in order.
     destinations: Vec<Destination>,
-    /// Stored energy of those that belong nowhere [J].
-    lost: f64,
+    /// Numbers of those that belong to no list that was made here.
+    missing: Vec<u32>,
 }
 
 /// Where a remembered contact belongs.
@@ -93,8 +110,10 @@ impl ContactForces {
     /// Writes every contact's history into a snapshot, in the order of blocks.
     pub fn record_history(&self, input: &ForceInput, snapshot: &mut HistorySnapshot) {
         let width = input.laws.history_width();
-        let lists = if width == 0 { &[] } else { &input.neighbours.lists[..] };
+        let own = if width == 0 { 0..0 } else { input.neighbours.own() };
+        let lists = &input.neighbours.lists[own.clone()];
         snapshot.blocks.resize_with(lists.len(), BlockHistory::default);
+        snapshot.whole = false;
         let (id, blocks) = (&input.grains.id, &self.blocks);
         let range = (&mut snapshot.blocks[..], lists);
         sweep(range, Direction::Forward, shares(id.len()), &|(of, lists): (&mut [BlockHistory], &[BlockList])| {
@@ -104,14 +123,14 @@ impl ContactForces {
 
     /// Gives the pairs of new neighbour lists the histories they had; a pair whose bodies have changed places gets its turned.
     /// Returns the stored energy of contacts whose body is gone, or whose pair is in no list any more [J].
-    pub fn restore_history(&mut self, input: &ForceInput, mut snapshot: HistorySnapshot) -> f64 {
+    pub fn restore_history(&mut self, input: &ForceInput, mut snapshot: HistorySnapshot, ranks: &Ranks) -> f64 {
         let width = input.laws.history_width();
         if width == 0 {
             return 0.0;
         }
         let (laws, ids) = (input.laws.all(), &input.grains.id);
         let shares = shares(ids.len());
-        let HistorySnapshot { blocks: parts, index, runs } = &mut snapshot;
+        let HistorySnapshot { blocks: parts, index, runs, whole } = &mut snapshot;
         index.clear();
         index.resize(ids.iter().max().map_or(0, |m| *m as usize + 1), REMOVED);
         if !left_out(Mutation::HistoryTransfer) {
@@ -121,6 +140,10 @@ impl ContactForces {
         }
         let lookup = Lookup { index, neighbours: input.neighbours, walls: input.walls, laws, width };
         threads::each(parts, shares, |part| part.locate(&lookup));
+        let here = parts.len();
+        if !*whole {
+            pass_on(parts, &lookup, ranks);
+        }
         runs.clear();
         for (from, BlockHistory { destinations, .. }) in parts.iter().enumerate() {
             let mut first = 0;
@@ -131,23 +154,42 @@ impl ContactForces {
             }
         }
         runs.sort_by_key(|run| run.block);
-        let range = (&mut self.blocks[..], &input.neighbours.lists[..]);
+        let own = input.neighbours.own();
+        let range = (&mut self.blocks[own.clone()], &input.neighbours.lists[own]);
         sweep(range, Direction::Forward, shares, &|(blocks, lists): (&mut [BlockContacts], &[BlockList])| {
             let block = (lists[0].first / BLOCK) as u32;
             let first = runs.partition_point(|run| run.block < block);
             let runs = runs[first..].iter().take_while(|run| run.block == block);
             refill(&mut blocks[0], parts, runs, laws, width);
         });
-        let lost = parts.iter().map(|part| part.lost).sum();
+        parts.truncate(here);
+        let lost = parts.iter().map(|part| part.lost(&lookup)).collect();
         self.snapshot = snapshot;
-        lost
+        ranks.gather(lost).iter().sum()
     }
 }
 
 impl HistorySnapshot {
     /// Contacts that are not known by block.
     pub fn of(contacts: Vec<ContactId>, history: Vec<f64>) -> Self {
-        Self { blocks: vec![BlockHistory { contacts, history, ..BlockHistory::default() }], ..Self::default() }
+        let all = BlockHistory { contacts, history, ..BlockHistory::default() };
+        Self { blocks: vec![all], whole: true, ..Self::default() }
+    }
+
+    /// The contacts of all ranks, in the order of blocks.
+    pub fn joined(self, ranks: &Ranks, width: usize) -> Self {
+        if ranks.is_alone() {
+            return self;
+        }
+        let mut message = Vec::new();
+        for block in &self.blocks {
+            for (contact, history) in block.contacts.iter().zip(block.history.chunks_exact(width)) {
+                contact.put(history, &mut message);
+            }
+        }
+        let mut all = BlockHistory::default();
+        all.receive(&ranks.gather(message), width);
+        Self::of(all.contacts, all.history)
     }
 }
 
@@ -178,15 +220,37 @@ impl BlockHistory {
         }
     }
 
+    /// Adds the contacts of a message.
+    fn receive(&mut self, message: &[f64], width: usize) {
+        let mut message = Reader::new(message);
+        while !message.is_at_end() {
+            let contact = ContactId::take(&mut message);
+            self.push(contact, message.numbers(width).iter().copied(), width);
+        }
+    }
+
+    /// Stored energy of those that belong nowhere [J].
+    fn lost(&self, lookup: &Lookup) -> f64 {
+        let mut lost = 0.0;
+        for &from in &self.missing {
+            lost += lookup.laws[self.contacts[from as usize].law as usize].held(self.history_of(from, lookup.width));
+        }
+        lost
+    }
+
+    fn history_of(&self, number: u32, width: usize) -> &[f64] {
+        &self.history[number as usize * width..(number as usize + 1) * width]
+    }
+
     /// Finds out where the contacts belong, turning those whose bodies have changed places.
     fn locate(&mut self, lookup: &Lookup) {
-        let Self { contacts, history, destinations, lost } = self;
+        let Self { contacts, history, destinations, missing } = self;
         destinations.clear();
-        *lost = 0.0;
+        missing.clear();
         for (from, (contact, history)) in (0..).zip(contacts.iter().zip(history.chunks_exact_mut(lookup.width))) {
             let law = &lookup.laws[contact.law as usize];
             let Some((block, key, turned)) = lookup.locate(contact) else {
-                *lost += law.held(history);
+                missing.push(from);
                 continue;
             };
             if turned {
@@ -206,7 +270,8 @@ impl Lookup<'_> {
             let own = i % BLOCK as u32;
             let key = Key::Wall(WallKey { own, wall: contact.second, patch: contact.patch });
             let wall = self.walls.get(contact.second as usize)?;
-            return (!wall.vanished()).then_some((i / BLOCK as u32, key, false));
+            let here = !wall.vanished() && self.neighbours.own().contains(&(i as usize / BLOCK));
+            return here.then_some((i / BLOCK as u32, key, false));
         }
         let j = self.index(contact.second)?;
         let found = |(block, k), turned| (block, Key::Pair(k), turned);
@@ -221,10 +286,48 @@ impl Lookup<'_> {
     /// Block, and number in its list, of the pair of grain `i` with grain `j`.
     fn pair(&self, i: u32, j: u32) -> Option<(u32, u32)> {
         let (block, own) = (i as usize / BLOCK, i as usize % BLOCK);
+        if !self.neighbours.own().contains(&block) {
+            return None;
+        }
         let list = &self.neighbours.lists[block];
         let range = list.start[own] as usize..list.start[own + 1] as usize;
         let k = list.pairs[range.clone()].iter().position(|pair| list.grain_at[pair.second as usize] == j)?;
         Some((block as u32, (range.start + k) as u32))
+    }
+}
+
+/// Sends the contacts that belong to no list here to the ranks that have their grains, and adds what such ranks send as another part each.
+fn pass_on(parts: &mut Vec<BlockHistory>, lookup: &Lookup, ranks: &Ranks) {
+    let mut letters = ranks.letters();
+    let mut sent: Vec<Vec<(usize, u32)>> = vec![Vec::new(); letters.len()];
+    for (part, block) in parts.iter().enumerate() {
+        for &from in &block.missing {
+            let contact = &block.contacts[from as usize];
+            let second = if contact.wall { None } else { lookup.index(contact.second) };
+            for rank in ranks.others([lookup.index(contact.first), second]) {
+                contact.put(block.history_of(from, lookup.width), &mut letters[rank]);
+                sent[rank].push((part, from));
+            }
+        }
+    }
+    ranks.pass(&mut letters);
+    for letter in &mut letters {
+        let mut part = BlockHistory::default();
+        part.receive(letter, lookup.width);
+        part.locate(lookup);
+        // The answer: which of them are nobody's here either.
+        letter.clear();
+        letter.extend(part.missing.drain(..).map(f64::from));
+        parts.push(part);
+    }
+    ranks.pass(&mut letters);
+    let mut found: Vec<(usize, u32)> = Vec::new();
+    for (sent, letter) in sent.iter().zip(&letters) {
+        let lost = |k: usize| letter.contains(&(k as f64));
+        found.extend(sent.iter().enumerate().filter(|(k, _)| !lost(*k)).map(|(_, contact)| *contact));
+    }
+    for (part, from) in found {
+        parts[part].missing.retain(|missing| *missing != from);
     }
 }
 

@@ -5,6 +5,7 @@ use super::engine::DemEngine;
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::ledger::{Account, Ledger};
 use crate::neighbours::lists::BLOCK;
+use crate::ranks::Reader;
 use crate::state::Grains;
 use crate::water::{EVERY, Gust, LayerReaction, Parcel, Stream, Water, WaterPowers};
 use glam::DVec3;
@@ -39,6 +40,24 @@ pub(super) struct WaterAtTime<'a> {
     time: f64,
     /// Whether the water is held still.
     held: bool,
+}
+
+impl BlockImmersion {
+    /// Writes what others must know into a message.
+    pub fn put(&self, message: &mut Vec<f64>) {
+        message.extend(self.powers.numbers());
+        message.push(self.reaction.len() as f64);
+        message.extend(self.reaction.iter().flatten().flatten());
+    }
+
+    /// Takes it from a message.
+    pub fn take(&mut self, message: &mut Reader) {
+        self.powers = WaterPowers::of_numbers(std::array::from_fn(|_| message.number()));
+        let layers = message.number() as usize;
+        self.reaction.clear();
+        self.reaction
+            .extend((0..layers).map(|_| [[message.number(), message.number()], [message.number(), message.number()]]));
+    }
 }
 
 impl Immersion {
@@ -254,6 +273,9 @@ impl DemEngine {
         let dt = self.clock.dt;
         let Some(immersion) = &mut self.immersion else { return };
         let looks = self.clock.step.is_multiple_of(EVERY);
+        if looks {
+            self.ranks.gather_grains(&mut self.grains);
+        }
         match &mut immersion.water.stream {
             Stream::Coupled(coupled) if !self.clock.settling => {
                 let mut turned = coupled.step(&immersion.reaction, &immersion.entrained, dt);

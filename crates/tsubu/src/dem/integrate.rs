@@ -3,6 +3,8 @@
 
 use super::bodies::{Block, Bodies};
 use super::contact_forces::BlockContacts;
+use super::orientation::Orientation;
+use super::ranks::Ranks;
 use super::sweep::{BlockRange, Direction, sweep};
 use crate::mutation::{Mutation, left_out, mutated};
 use crate::neighbours::NeighbourLists;
@@ -17,6 +19,7 @@ use tsubu_scene::plan::Integrator;
 #[derive(Debug)]
 pub(super) struct TimeIntegration {
     pub bodies: Bodies,
+    pub orientation: Orientation,
     scheme: Integrator,
     /// Acceleration by gravity [m/s^2].
     pub gravity: DVec3,
@@ -61,9 +64,11 @@ struct Slice<'a> {
 }
 
 impl<'a> Slice<'a> {
+    /// The blocks that are stepped here.
     fn new(grains: &'a mut Grains, neighbours: &'a mut NeighbourLists, reports: &'a mut Vec<Report>) -> Self {
         reports.resize(neighbours.lists.len(), Report::default());
-        Self {
+        let own = neighbours.own();
+        let all = Self {
             position: &mut grains.position,
             velocity: &mut grains.velocity,
             acceleration: &mut grains.acceleration,
@@ -76,7 +81,8 @@ impl<'a> Slice<'a> {
             lists: &neighbours.lists,
             drifts: &mut neighbours.drifts.of,
             reports,
-        }
+        };
+        all.cut(own.start).1.cut(own.len()).0
     }
 }
 
@@ -132,9 +138,10 @@ impl BlockRange for Slice<'_> {
 }
 
 impl TimeIntegration {
-    pub fn new(scheme: Integrator, gravity: DVec3, rotation: bool, bodies: Bodies) -> Self {
+    pub fn new(scheme: Integrator, gravity: DVec3, rotation: bool, bodies: Bodies, orientation: Orientation) -> Self {
         let scheme = if left_out(Mutation::SecondOrder) { Integrator::ForwardEuler } else { scheme };
-        Self { bodies, scheme, gravity: mutated(Mutation::Gravity, 1.0) * gravity, rotation, reports: Vec::new() }
+        let gravity = mutated(Mutation::Gravity, 1.0) * gravity;
+        Self { bodies, orientation, scheme, gravity, rotation, reports: Vec::new() }
     }
 
     /// How long velocities go with the old acceleration until the second half step puts the new one in its place [s].
@@ -144,11 +151,12 @@ impl TimeIntegration {
 
     /// Before the forces: brings positions to the end of the step, and velocities there too, predicted with the old
     /// acceleration, so that forces that depend on velocity see positions and velocities of one time level.
-    pub fn first_half(&mut self, grains: &mut Grains, neighbours: &mut NeighbourLists, dt: f64) {
+    pub fn first_half(&mut self, grains: &mut Grains, neighbours: &mut NeighbourLists, dt: f64, ranks: &mut Ranks) {
         self.bodies.first_half(dt);
         let (bodies, motion, shares) = (&self.bodies, self.motion(dt), shares(grains.len()));
         let blocks = Slice::new(grains, neighbours, &mut self.reports);
         sweep(blocks, Direction::Forward, shares, &|mut s: Slice| first_half(&mut s, bodies, &motion));
+        ranks.share_motion(grains, neighbours, &mut self.reports);
     }
 
     /// After the forces: sums what blocks hold for every grain, finds the new accelerations and completes the velocities of
@@ -159,8 +167,8 @@ impl TimeIntegration {
         grains: &mut Grains,
         contacts: &[BlockContacts],
         neighbours: &mut NeighbourLists,
-        dt: f64,
-        go_on: bool,
+        (dt, go_on): (f64, bool),
+        ranks: &mut Ranks,
     ) -> Report {
         let (bodies, motion, shares) = (&self.bodies, self.motion(dt), shares(grains.len()));
         let blocks = Slice::new(grains, neighbours, &mut self.reports);
@@ -170,6 +178,7 @@ impl TimeIntegration {
                 first_half(&mut s, bodies, &motion);
             }
         });
+        ranks.share_motion(grains, neighbours, &mut self.reports);
         let mut total = Report::default();
         for report in &self.reports {
             total.add(report);

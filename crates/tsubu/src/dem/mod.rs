@@ -3,6 +3,7 @@
 mod bodies;
 mod bonds;
 mod books;
+mod clock;
 mod contact_batch;
 mod contact_forces;
 mod contact_history;
@@ -19,6 +20,7 @@ mod output;
 mod outside;
 mod overlaps;
 mod place;
+mod ranks;
 mod room;
 mod settle;
 mod shapes;

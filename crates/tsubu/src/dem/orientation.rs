@@ -18,6 +18,11 @@ impl Orientation {
         Self { wanted, turned: Vec::new() }
     }
 
+    /// Whether somebody asks.
+    pub fn is_wanted(&self) -> bool {
+        self.wanted
+    }
+
     /// Of a grain; `None` where nobody asks.
     pub fn of(&self, id: u32) -> Option<DQuat> {
         self.wanted.then(|| self.turned.get(id as usize).copied().unwrap_or(DQuat::IDENTITY))
@@ -43,11 +48,11 @@ impl Orientation {
 impl DemEngine {
     /// Turns every grain by its spin in the middle of the step, between the two half steps.
     pub(super) fn rotate(&mut self) {
-        if !self.orientation.wanted || self.clock.settling {
+        if !self.integration.orientation.wanted || self.clock.settling {
             return;
         }
         let grains = &self.grains;
-        let turned = &mut self.orientation.turned;
+        let turned = &mut self.integration.orientation.turned;
         let ids = grains.id.iter().max().map_or(0, |id| *id as usize + 1);
         if turned.len() < ids {
             turned.resize(ids, DQuat::IDENTITY);

@@ -37,8 +37,8 @@ impl DemEngine {
             .iter()
             .map(|&i| self.grains.id[i])
             .map(|id| match self.integration.bodies.orientation(id) {
-                Some(turned) if shaped || self.orientation.of(id).is_some() => Some(turned),
-                _ => self.orientation.of(id).or(shaped.then_some(DQuat::IDENTITY)),
+                Some(turned) if shaped || self.integration.orientation.of(id).is_some() => Some(turned),
+                _ => self.integration.orientation.of(id).or(shaped.then_some(DQuat::IDENTITY)),
             })
             .collect();
         if let Some(turned) = turned {
@@ -167,7 +167,7 @@ impl DemEngine {
             state.put_real("dem.stage-begin", vec![step as f64, time]);
         }
         self.integration.bodies.save(state);
-        self.orientation.save(state);
+        self.integration.orientation.save(state);
         self.contacts.bonds.save(state);
         state.put_integer("dem.streams", self.sources.counts());
         let begun = self.sources.begun();
@@ -191,6 +191,7 @@ impl DemEngine {
         }
         let mut history = HistorySnapshot::default();
         self.contacts.record_history(&self.force_input(), &mut history);
+        let history = history.joined(&self.ranks, self.laws.history_width());
         let contacts = history.blocks.iter().flat_map(|block| &block.contacts);
         let contacts = contacts.flat_map(|k| [k.first, k.second, u32::from(k.wall), k.patch].map(i64::from));
         state.put_integer("dem.contacts", contacts.collect::<Vec<_>>());
@@ -218,7 +219,7 @@ impl DemEngine {
         }
         self.contacts.sums.contacts = contacts as usize;
         self.place_gates();
-        self.orientation.load(state)?;
+        self.integration.orientation.load(state)?;
         self.sources.set_counts(state.integer("dem.streams")?);
         if let Ok(begun) = state.real("dem.streams-begun") {
             self.sources.set_begun(begun);
@@ -240,6 +241,7 @@ impl DemEngine {
         self.neighbours.wall_reference = self.walls.iter().map(|w| w.pose).collect();
         self.contacts.bonds.load(state, &self.grains)?;
         self.neighbours.joined.bond(self.contacts.bonds.pairs());
+        self.neighbours.part = self.cut();
         self.neighbours.build(&self.grains, &self.walls);
         let drifts = state.real("dem.drifts")?.as_chunks::<6>().0;
         for (drift, d) in self.neighbours.drifts.of.iter_mut().zip(drifts) {

@@ -17,7 +17,7 @@ pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
     let mut elements = Vec::new();
     let mut contacts = Vec::new();
     let g = input.grains;
-    for list in &input.neighbours.lists {
+    for list in &input.neighbours.lists[input.neighbours.own()] {
         spheres.load(g, list, &input.neighbours.shifts);
         pairs.find(list, &spheres, 0.0);
         shapes.find(&mut pairs, input, list, &spheres);

@@ -5,13 +5,17 @@ use super::contact_forces::{ContactForces, ForceInput, contact_list};
 use super::engine::DemEngine;
 use super::history_transfer::HistorySnapshot;
 use super::overlaps::overlaps;
+use super::ranks::Ranks;
 use crate::engine::Fault;
 use crate::ledger::{Account, Ledger};
+use crate::neighbours::lists::BLOCK;
 use crate::partner::Hosts;
+use crate::ranks::Reader;
 use crate::state::Grains;
 use crate::view::Contact;
 use crate::wall::{Mover, Wall};
 use glam::DVec3;
+use std::ops::Range;
 
 impl DemEngine {
     /// Moves everything by one time step. With `go_on` the grains have done the first half of the next step when it ends: it is
@@ -26,7 +30,8 @@ impl DemEngine {
         let looked_at = !go_on;
         let go_on = go_on && self.integration.bodies.is_empty();
         if !std::mem::replace(&mut self.clock.half_step_done, go_on) {
-            self.integration.first_half(&mut self.grains, &mut self.neighbours, self.clock.dt);
+            let dt = self.clock.dt;
+            self.integration.first_half(&mut self.grains, &mut self.neighbours, dt, &mut self.ranks);
         }
         self.clock.tick(self.grains.len());
         let (time, dt) = (self.clock.time(), self.clock.dt);
@@ -36,6 +41,7 @@ impl DemEngine {
         self.move_driven(time);
         self.update_added_mass(ledger);
         if self.neighbours.stale(&self.grains, &self.walls) {
+            self.ranks.gather_grains(&mut self.grains);
             self.check_finite()?;
             self.rebuild_neighbours();
         }
@@ -51,6 +57,9 @@ impl DemEngine {
         self.apply_reactions(hosts, ledger);
         hosts.after(time, dt, ledger);
         self.post_powers(ledger);
+        if insertion_due || gate_due || bonds_due {
+            self.ranks.gather_grains(&mut self.grains);
+        }
         if insertion_due {
             self.insert_and_remove(ledger);
         }
@@ -87,34 +96,57 @@ impl DemEngine {
         self.neighbours.sort_grains(&mut self.grains);
         self.integration.bodies.find(&self.grains);
         self.contacts.bonds.find(&self.grains);
+        self.neighbours.part = self.cut();
         self.neighbours.rebuild(&self.grains, &self.walls);
         self.resize_contacts();
         let released = self.restore_history(history);
         self.contacts.released += released;
     }
 
+    /// The blocks that this rank has from now on; `None`: all.
+    pub(super) fn cut(&mut self) -> Option<Range<usize>> {
+        let blocks = &self.contacts.blocks;
+        let contacts = |block: usize| blocks.get(block).map_or(0, |block| block.sums.contacts);
+        self.ranks.cut(self.grains.len().div_ceil(BLOCK), contacts)
+    }
+
+    /// The contacts that this rank and all others have, in the order of blocks.
+    fn of_all_ranks(&self, own: Vec<Contact>) -> Vec<Contact> {
+        if self.ranks.is_alone() {
+            return own;
+        }
+        let mut message = Vec::new();
+        for contact in &own {
+            contact.put(&mut message);
+        }
+        let all = self.ranks.gather(message);
+        let mut all = Reader::new(&all);
+        std::iter::from_fn(|| (!all.is_at_end()).then(|| Contact::take(&mut all))).collect()
+    }
+
     /// Prepares the contacts for new neighbour lists.
     pub(super) fn resize_contacts(&mut self) {
-        let (contacts, input) = self.contacts_and_input();
+        self.ranks.agree(&mut self.neighbours);
+        let (contacts, _, input) = self.contacts_and_input();
         contacts.resize(&input);
         self.neighbours.estimate_work(self.contacts.blocks.iter().map(|block| block.sums.contacts));
     }
 
     pub(super) fn snapshot_history(&mut self) -> HistorySnapshot {
-        let (contacts, input) = self.contacts_and_input();
+        let (contacts, _, input) = self.contacts_and_input();
         contacts.snapshot_history(&input)
     }
 
     pub(super) fn restore_history(&mut self, history: HistorySnapshot) -> f64 {
-        let (contacts, input) = self.contacts_and_input();
-        contacts.restore_history(&input, history)
+        let (contacts, ranks, input) = self.contacts_and_input();
+        contacts.restore_history(&input, history, ranks)
     }
 
     /// Forces of contacts and of the water at this time level; `completion` as in [`ForceInput`].
     fn evaluate_forces(&mut self, completion: f64) {
-        let (contacts, input) = self.contacts_and_input();
+        let (contacts, ranks, input) = self.contacts_and_input();
         let dt = input.dt;
-        contacts.evaluate(&ForceInput { completion, ..input });
+        contacts.evaluate(&ForceInput { completion, ..input }, ranks);
         contacts.sums.lost.sliding += std::mem::take(&mut contacts.released) / dt;
         if let Some(immersion) = &mut self.immersion {
             immersion.sum_powers(&self.contacts.blocks);
@@ -125,18 +157,19 @@ impl DemEngine {
 
     /// Adds what bonds do to the grains to what contacts do.
     fn add_bonds(&mut self) {
-        let Self { grains, contacts, neighbours, orientation, integration, .. } = self;
+        let Self { grains, contacts, neighbours, integration, .. } = self;
         let ContactForces { bonds, blocks, .. } = contacts;
-        bonds.evaluate(grains, Attitudes { orientation, bodies: &integration.bodies }, &neighbours.search.periodic);
-        bonds.add(blocks);
+        let attitudes = Attitudes { orientation: &integration.orientation, bodies: &integration.bodies };
+        bonds.evaluate(grains, attitudes, &neighbours.search.periodic);
+        bonds.add(blocks, &neighbours.own());
     }
 
     /// Forces, energies and powers of a moment that no step has led to: at time 0, and after grains or walls have gone.
     pub(super) fn evaluate_at_rest(&mut self) {
         // Without time, bodies that adhere take hold of each other and springs stay as they are. Powers have no meaning then:
         // what snapping together sets free has gone before the ledger opens.
-        let (contacts, input) = self.contacts_and_input();
-        contacts.evaluate(&ForceInput { dt: 0.0, water: None, ..input });
+        let (contacts, ranks, input) = self.contacts_and_input();
+        contacts.evaluate(&ForceInput { dt: 0.0, water: None, ..input }, ranks);
         let stored = contacts.sums.stored;
         let history = self.snapshot_history();
         self.evaluate_forces(0.0);
@@ -153,12 +186,13 @@ impl DemEngine {
         self.books.last = self.powers();
     }
 
-    /// The contacts, and what their forces are computed from.
-    fn contacts_and_input(&mut self) -> (&mut ContactForces, ForceInput<'_>) {
-        let Self { grains, walls, neighbours, laws, contacts, immersion, integration, clock, .. } = self;
+    /// The contacts, the ranks, and what forces are computed from.
+    fn contacts_and_input(&mut self) -> (&mut ContactForces, &mut Ranks, ForceInput<'_>) {
+        let Self { grains, walls, neighbours, laws, contacts, ranks, immersion, integration, clock, .. } = self;
         let water = immersion.as_ref().map(|immersion| immersion.at(clock.time(), integration.gravity, clock.settling));
         (
             contacts,
+            ranks,
             ForceInput {
                 grains,
                 bodies: &integration.bodies,
@@ -189,22 +223,22 @@ impl DemEngine {
 
     /// The contacts of this moment.
     pub(super) fn contact_list(&self) -> Vec<Contact> {
-        contact_list(&self.contacts, &self.force_input())
+        self.of_all_ranks(contact_list(&self.contacts, &self.force_input()))
     }
 
     /// The same without forces, for those who look at every step.
     pub(super) fn overlaps(&self) -> Vec<Contact> {
-        overlaps(&self.force_input())
+        self.of_all_ranks(overlaps(&self.force_input()))
     }
 
     /// Accelerations from forces and gravity; completes the velocities of a step `dt` (0: leaves them).
     fn second_half_step(&mut self, dt: f64, go_on: bool) {
-        let Self { grains, neighbours, contacts, integration, .. } = self;
+        let Self { grains, neighbours, contacts, integration, ranks, .. } = self;
         let power = |contacts: &ContactForces, grains: &Grains| {
             contacts.outside.torque_power(grains) + contacts.bonds.torque_power(grains)
         };
         let predicted = power(contacts, grains);
-        let report = integration.second_half(grains, &contacts.blocks, neighbours, dt, go_on);
+        let report = integration.second_half(grains, &contacts.blocks, neighbours, (dt, go_on), ranks);
         if contacts.outside.acts() || !contacts.bonds.is_empty() {
             integration.bodies.show(grains);
         }

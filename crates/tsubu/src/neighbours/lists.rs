@@ -8,13 +8,16 @@
 //! very different sizes are searched on several grids, one for each factor of two in size: a small grain looks for small
 //! ones near it and for large ones farther away, never the other way round.
 
+pub use super::block::{BlockList, Incoming, Pair};
+use super::block::{Finder, NOT_IN_HALO};
 use super::drift::Drifts;
-use super::grid::{Grid, Image, Nearby, Numbering, PRIMARY_IMAGE, PeriodicBounds, shift};
+use super::grid::{Grid, Image, Numbering, PRIMARY_IMAGE, PeriodicBounds, shift};
 use super::joined::Joined;
 use crate::state::Grains;
 use crate::threads;
 use crate::wall::{Pose, Wall};
 use glam::DVec3;
+use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
 /// Grains of a block.
@@ -34,75 +37,6 @@ const SMALL: usize = 96;
 /// Up to this ratio of sizes one grid is faster than two.
 const ONE_LEVEL: f64 = 2.5;
 
-/// Two grains that may touch.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Pair {
-    /// Local index of the first grain, an own one.
-    pub first: u32,
-    /// Local index of the second grain: own grains first, then the halo.
-    pub second: u32,
-}
-
-/// A wall element near a grain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct WallCandidate {
-    /// Grain, counted from the first of the block.
-    pub own: u32,
-    /// Number of the wall.
-    pub wall: u32,
-    /// Element of the wall.
-    pub element: u32,
-}
-
-/// Where another block has gathered forces on a grain of this one.
-#[derive(Clone, Copy, Debug)]
-pub struct Incoming {
-    /// Grain, counted from the first of this block.
-    pub own: u32,
-    /// The other block.
-    pub block: u32,
-    /// Its local index in the other block.
-    pub local: u32,
-}
-
-/// The neighbour list of one block.
-#[derive(Clone, Debug, Default)]
-pub struct BlockList {
-    /// Index of its first grain.
-    pub first: usize,
-    /// Number of its grains.
-    pub own: usize,
-    /// First pair of every own grain; one more than grains.
-    pub start: Vec<u32>,
-    /// In the order of their first grains.
-    pub pairs: Vec<Pair>,
-    /// What appears in `pairs` besides own grains: grains of other blocks, and images across a periodic end; rising.
-    pub halo: Vec<Image>,
-    /// Index of the grain with each local index.
-    pub grain_at: Vec<u32>,
-    /// Wall elements near own grains, sorted.
-    pub walls: Vec<WallCandidate>,
-    /// What other blocks hold for own grains, by grain and then in the order of the blocks.
-    pub incoming: Vec<Incoming>,
-    /// How much work a step is, in contacts: threads share by it.
-    pub work: usize,
-}
-
-/// Memory of one thread that makes lists.
-#[derive(Debug, Default)]
-struct Finder {
-    nearby: Nearby,
-    /// Second grains of all pairs of the block.
-    seconds: Vec<Image>,
-    /// Local index of every grain in the halo of the block; [`NOT_IN_HALO`] between blocks.
-    local_of: Vec<u32>,
-    /// Wall elements near a grain.
-    elements: Vec<u32>,
-}
-
-/// The local index of what is not in the halo.
-const NOT_IN_HALO: u32 = u32::MAX;
-
 /// The neighbour lists of all blocks, and where everything was when they were made.
 #[derive(Debug, Default)]
 pub struct NeighbourLists {
@@ -120,6 +54,8 @@ pub struct NeighbourLists {
     pub shifts: Vec<DVec3>,
     /// Which grains are not to touch each other.
     pub joined: Joined,
+    /// The blocks whose lists are made here; `None`: all. Others have none.
+    pub part: Option<Range<usize>>,
     levels: Vec<Grid>,
     level_of: Vec<u8>,
     largest: Vec<f64>,
@@ -148,6 +84,11 @@ impl NeighbourLists {
     #[must_use]
     pub fn but(self, joined: Joined) -> Self {
         Self { joined, ..self }
+    }
+
+    /// The blocks whose lists are made here.
+    pub fn own(&self) -> Range<usize> {
+        self.part.clone().unwrap_or(0..self.lists.len())
     }
 
     /// Whether the lists may miss a touching pair.
@@ -211,17 +152,18 @@ impl NeighbourLists {
         for (block, list) in self.lists.iter_mut().enumerate() {
             list.first = block * BLOCK;
             list.own = BLOCK.min(n - list.first);
+            list.clear();
         }
         self.finders.resize_with(self.finders.len().max(rayon::current_num_threads()), Mutex::default);
+        let own = self.own();
         let mut lists = std::mem::take(&mut self.lists);
-        threads::each(&mut lists, shares(n), |list| {
+        threads::each(&mut lists[own.clone()], shares(n), |list| {
             let mine = rayon::current_thread_index().unwrap_or(0);
             // Nobody else has this thread's finder, so the lock is free.
             let mut finder = self.finders[mine].lock().unwrap_or_else(PoisonError::into_inner);
             let finder = &mut *finder;
             finder.seconds.clear();
             finder.local_of.resize(n, NOT_IN_HALO);
-            list.clear();
             for own in 0..list.own {
                 let i = list.first + own;
                 if small {
@@ -239,12 +181,14 @@ impl NeighbourLists {
             }
             list.number_locally(finder);
         });
-        for block in 0..lists.len() {
+        for block in own.clone() {
             for h in 0..lists[block].halo.len() {
                 let grain = lists[block].halo[h].grain as usize;
                 let local = (lists[block].own + h) as u32;
                 let incoming = Incoming { own: (grain % BLOCK) as u32, block: block as u32, local };
-                lists[grain / BLOCK].incoming.push(incoming);
+                if own.contains(&(grain / BLOCK)) {
+                    lists[grain / BLOCK].incoming.push(incoming);
+                }
             }
         }
         for list in &mut lists {
@@ -322,75 +266,6 @@ impl NeighbourLists {
             if near && grains.inverse_mass[i] + grains.inverse_mass[j] > 0.0 {
                 finder.seconds.push(Image { grain: j as u32, image: PRIMARY_IMAGE });
             }
-        }
-    }
-}
-
-impl BlockList {
-    /// Estimates the work from what is near and how many `contacts` there are, as measured with beds at rest.
-    fn estimate_work(&mut self, contacts: usize) {
-        self.work = self.own / 2 + self.pairs.len() / 4 + self.walls.len() + contacts;
-    }
-
-    fn clear(&mut self) {
-        self.pairs.clear();
-        self.walls.clear();
-        self.halo.clear();
-        self.incoming.clear();
-        self.start.clear();
-        self.start.push(0);
-    }
-
-    /// Walls near a grain; of a grain that nothing moves those that grains can move: what neither gives way in need not be
-    /// watched, and may lie in the other.
-    fn near_walls(
-        &mut self,
-        walls: &[Wall],
-        own: u32,
-        centre: DVec3,
-        reach: f64,
-        moves: bool,
-        elements: &mut Vec<u32>,
-    ) {
-        for (k, wall) in walls.iter().enumerate().filter(|(_, wall)| moves || wall.inverse_mass > 0.0) {
-            elements.clear();
-            wall.near(centre, reach, elements);
-            self.walls.extend(elements.iter().map(|&element| WallCandidate { own, wall: k as u32, element }));
-        }
-    }
-
-    /// Gives every second grain its local index.
-    fn number_locally(&mut self, finder: &mut Finder) {
-        let Finder { seconds, local_of, .. } = finder;
-        let inside = self.first as u32..(self.first + self.own) as u32;
-        let own = |c: &Image| c.image == PRIMARY_IMAGE && inside.contains(&c.grain);
-        for second in seconds.iter().filter(|c| !own(c)) {
-            // What is nearby across a periodic end is rare, and may be nearby as several images.
-            if second.image != PRIMARY_IMAGE {
-                self.halo.push(*second);
-            } else if local_of[second.grain as usize] == NOT_IN_HALO {
-                self.halo.push(*second);
-                local_of[second.grain as usize] = 0;
-            }
-        }
-        self.halo.sort_unstable();
-        self.halo.dedup();
-        for (local, h) in (self.own as u32..).zip(&self.halo).filter(|(_, h)| h.image == PRIMARY_IMAGE) {
-            local_of[h.grain as usize] = local;
-        }
-        self.grain_at.clear();
-        self.grain_at.extend(inside.clone().chain(self.halo.iter().map(|h| h.grain)));
-        let local = |c: &Image| match c {
-            c if own(c) => c.grain - inside.start,
-            c if c.image == PRIMARY_IMAGE => local_of[c.grain as usize],
-            c => self.own as u32 + self.halo.partition_point(|h| h < c) as u32,
-        };
-        for (grain, ends) in (0..).zip(self.start.windows(2)) {
-            let seconds = &seconds[ends[0] as usize..ends[1] as usize];
-            self.pairs.extend(seconds.iter().map(|second| Pair { first: grain, second: local(second) }));
-        }
-        for h in &self.halo {
-            local_of[h.grain as usize] = NOT_IN_HALO;
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Who is near whom: cells, neighbour lists, how long they live.
 
+mod block;
 pub mod drift;
 pub mod grid;
 pub mod joined;

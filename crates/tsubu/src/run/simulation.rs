@@ -33,7 +33,7 @@ impl std::fmt::Debug for Simulation {
 impl Simulation {
     /// Opens a scene at its begin.
     pub fn open(scene: &Scene) -> Result<Self, RunError> {
-        let Start { engine, hosts, ledger } = Start::of(scene)?;
+        let Start { engine, hosts, ledger } = Start::of(scene, None)?;
         Ok(Self { scene: scene.clone(), engine, hosts, ledger, stage: 0 })
     }
 
@@ -47,7 +47,7 @@ impl Simulation {
         if header.scene_hash != scene_hash(&scene.steps_toml()) {
             return Err(refuse("belongs to another scene"));
         }
-        let (Start { engine, hosts, ledger }, stage) = Start::at(scene, &state)?;
+        let (Start { engine, hosts, ledger }, stage) = Start::at(scene, &state, None)?;
         Ok(Self { scene: scene.clone(), engine, hosts, ledger, stage })
     }
 

@@ -6,7 +6,9 @@ use crate::engine::{Engine, energies};
 use crate::ledger::{Account, Ledger};
 use crate::methods;
 use crate::partner::Hosts;
+use crate::ranks::Communicator;
 use std::path::Path;
+use std::sync::Arc;
 use tsubu_frame::{State, checkpoint};
 use tsubu_scene::Scene;
 
@@ -18,21 +20,25 @@ pub(super) struct Start {
 }
 
 impl Start {
-    /// The begin of the first stage of a scene.
-    pub(super) fn of(scene: &Scene) -> Result<Self, RunError> {
+    /// The begin of the first stage of a scene, on one of several ranks if there is a communicator.
+    pub(super) fn of(scene: &Scene, communicator: Option<&Arc<dyn Communicator>>) -> Result<Self, RunError> {
         let plan = scene.plan();
         if let Some(folder) = &plan.start_from {
-            return Self::from(scene, Path::new(folder));
+            return Self::from(scene, Path::new(folder), communicator);
         }
         let hosts = Hosts::new(&plan.hosts);
-        let engine = methods::open(plan, &hosts)?;
+        let engine = methods::open_on_ranks(plan, &hosts, communicator.cloned())?;
         let ledger = Ledger::open(energies(&*engine, &hosts), engine.momentum());
         Ok(Self { engine, hosts, ledger })
     }
 
     /// A scene where the checkpoint of such a state left it, and the stage that this is.
-    pub(super) fn at(scene: &Scene, state: &State) -> Result<(Self, usize), RunError> {
-        let Self { mut engine, mut hosts, .. } = Self::of(scene)?;
+    pub(super) fn at(
+        scene: &Scene,
+        state: &State,
+        communicator: Option<&Arc<dyn Communicator>>,
+    ) -> Result<(Self, usize), RunError> {
+        let Self { mut engine, mut hosts, .. } = Self::of(scene, communicator)?;
         let at = stage_of(state, scene.plans())?;
         for pair in scene.plans()[..=at].windows(2) {
             stages::change(&mut *engine, &mut hosts, [&pair[0], &pair[1]])?;
@@ -43,7 +49,7 @@ impl Start {
     }
 
     /// Where the run in a folder stood at its last checkpoint, under the plan of the first stage.
-    fn from(scene: &Scene, folder: &Path) -> Result<Self, RunError> {
+    fn from(scene: &Scene, folder: &Path, communicator: Option<&Arc<dyn Communicator>>) -> Result<Self, RunError> {
         let refuse = |why: String| RunError::Start(format!("cannot start from {}: {why}", folder.display()));
         let text = std::fs::read_to_string(folder.join("scene.toml")).map_err(|error| refuse(error.to_string()))?;
         let obstacles = scene.obstacles(&text);
@@ -57,7 +63,7 @@ impl Start {
         let earlier = Scene::read(&folder.join("scene.toml"), &[])
             .map_err(|complaints| refuse(complaints.titles().collect::<Vec<_>>().join("; ")))?;
         let plans = earlier.plans();
-        let (Self { mut engine, mut hosts, mut ledger }, at) = Self::at(&earlier, &state)?;
+        let (Self { mut engine, mut hosts, mut ledger }, at) = Self::at(&earlier, &state, communicator)?;
         if scene.plan().start_at_zero == Some(true) {
             hosts.begin_anew();
             engine.restart_clock(&plans[at], &hosts)?;

@@ -3,7 +3,7 @@
 use super::{Run, judge};
 use crate::engine;
 use crate::ledger::Account;
-use tsubu_frame::{Status, Summary};
+use tsubu_frame::{RanksSummary, Status, Summary};
 
 impl Run<'_> {
     pub(super) fn summary(&self, status: Status) -> Summary {
@@ -20,6 +20,7 @@ impl Run<'_> {
             simulated_seconds: self.engine.time(),
             wall_seconds,
             threads: rayon::current_num_threads() as u32,
+            ranks: ranks(self.engine.worked()),
             particle_steps_per_second: self.engine.grain_steps() as f64 / wall_seconds,
             contacts_mean: self.measured.contacts_mean(),
             state_hash: self.state().hash(),
@@ -77,4 +78,11 @@ impl Run<'_> {
         }
         summary.take(self.stages.name(), seen);
     }
+}
+
+/// How ranks that have worked for so long have shared a run [s]; nothing of one alone.
+fn ranks(worked: &[f64]) -> Option<RanksSummary> {
+    let most = worked.iter().copied().reduce(f64::max)?;
+    let mean = worked.iter().sum::<f64>() / worked.len() as f64;
+    Some(RanksSummary { count: worked.len() as u32, imbalance: if mean > 0.0 { most / mean } else { 1.0 } })
 }

@@ -89,6 +89,19 @@ pub struct WaterPowers {
 }
 
 impl WaterPowers {
+    /// All of them as numbers.
+    pub(crate) fn numbers(&self) -> [f64; 10] {
+        let Self { pressure, carried, stream, spin_work, fluctuation, lost, held, force } = *self;
+        [pressure, carried, stream, spin_work, fluctuation, lost, held, force.x, force.y, force.z]
+    }
+
+    /// Takes them back.
+    pub(crate) fn of_numbers(
+        [pressure, carried, stream, spin_work, fluctuation, lost, held, x, y, z]: [f64; 10],
+    ) -> Self {
+        Self { pressure, carried, stream, spin_work, fluctuation, lost, held, force: DVec3::new(x, y, z) }
+    }
+
     /// Adds other powers.
     pub fn add(&mut self, other: &Self) {
         self.pressure += other.pressure;

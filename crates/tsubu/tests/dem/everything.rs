@@ -6,7 +6,7 @@ use super::run_text;
 /// A world that repeats along x and y: a rough frozen floor, two kinds of grains of distributed sizes that stick, roll and
 /// twist with resistance, a driven row, a turning paddle of triangles, a ball that falls freely, a lid that presses, a
 /// stream of grains that comes, a region where grains go, and a stream of water with a surface.
-const EVERYTHING: &str = r#"
+pub const EVERYTHING: &str = r#"
 title = "everything"
 dimension = 3
 gravity = [5, 0, -98]
@@ -94,7 +94,7 @@ time-step = "1e-5 s"
 "#;
 
 /// A thin block of 12 triangles, 40 mm long.
-fn paddle(folder: &std::path::Path) {
+pub fn paddle(folder: &std::path::Path) {
     let (low, high) = ([0.012, 0.030, 0.046], [0.052, 0.034, 0.050]);
     let corner = |k: usize| {
         let pick = |axis: usize| if k >> axis & 1 == 0 { low[axis] } else { high[axis] };

@@ -5,7 +5,7 @@ mod books;
 mod clump;
 mod clump_traffic;
 mod come_and_go;
-mod everything;
+pub mod everything;
 mod gates;
 mod idle;
 mod lever;

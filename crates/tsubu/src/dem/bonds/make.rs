@@ -75,11 +75,12 @@ impl DemEngine {
         let reach = self.neighbours.search.reach;
         let bond = self.contacts.bonds.entries[entry].clone();
         self.neighbours.search.reach = reach.max(0.5 * bond.gap * self.limits.largest_diameter);
+        let part = self.neighbours.part.take();
         self.neighbours.rebuild(&self.grains, &self.walls);
         self.neighbours.search.reach = reach;
-        let Self { grains, neighbours, contacts, orientation, integration, .. } = self;
+        let Self { grains, neighbours, contacts, integration, .. } = self;
         let (bonds, periodic) = (&mut contacts.bonds, &neighbours.search.periodic);
-        let attitudes = Attitudes { orientation, bodies: &integration.bodies };
+        let attitudes = Attitudes { orientation: &integration.orientation, bodies: &integration.bodies };
         let joins = |i: usize| bonds.joins[entry][grains.group[i] as usize];
         let mut pairs: Vec<([u32; 2], [u32; 2])> = Vec::new();
         for list in &neighbours.lists {
@@ -109,6 +110,7 @@ impl DemEngine {
         }
         bonds.made[entry] = true;
         neighbours.joined.bond(bonds.pairs());
+        neighbours.part = part;
     }
 
     /// Lets the bonds go that carry too much. Where grains are pressed together, their contact takes over.

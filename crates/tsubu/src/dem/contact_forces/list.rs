@@ -11,7 +11,8 @@ pub(in crate::dem) fn contact_list(forces: &ContactForces, input: &ForceInput) -
     let input = ForceInput { dt: 0.0, ..*input };
     let mut scratch = Scratch::new(input.laws.all());
     let mut contacts = Vec::new();
-    for (block, list) in forces.blocks.iter().zip(&input.neighbours.lists) {
+    let own = input.neighbours.own();
+    for (block, list) in forces.blocks[own.clone()].iter().zip(&input.neighbours.lists[own]) {
         let mut take = |batch: &ContactBatch, wall: bool| {
             // What is only near, within the reach of a law, is no contact.
             for r in (0..batch.chunk.rows()).filter(|&r| batch.chunk.contact_radius[r] > 0.0) {

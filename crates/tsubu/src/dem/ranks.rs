@@ -1,0 +1,239 @@
+//! One run on several ranks: all have the grains, and each has the blocks of a stretch of their order in space.
+//!
+//! A rank makes lists, forces and steps for its own blocks alone. What these see of other grains, and what they do to them, goes over in two
+//! exchanges a step: motion when positions have gone on, loads when forces are there. What blocks have summed goes along, and is added up in the
+//! order of the blocks: the same bits on any number of ranks. Before grains are sorted anew, all ranks get all grains.
+
+mod share;
+
+use crate::neighbours::NeighbourLists;
+use crate::neighbours::lists::{BLOCK, Incoming};
+use crate::ranks::{Communicator, Reader};
+use crate::state::Grains;
+use std::ops::Range;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// The ranks of a run, as this one sees them; by default it is alone.
+#[derive(Debug, Default)]
+pub(super) struct Ranks {
+    communicator: Option<Arc<dyn Communicator>>,
+    /// Whether something looks at all grains in every step, so that all go over.
+    whole: bool,
+    /// The first block of every rank, and the number of blocks.
+    cuts: Vec<usize>,
+    seams: Vec<Seam>,
+    messages: Vec<Vec<f64>>,
+    work: Work,
+}
+
+/// How long ranks work. It decides who has which blocks, and no bit.
+#[derive(Debug, Default)]
+struct Work {
+    /// Each rank from the first step on [s].
+    all: Vec<f64>,
+    /// The same up to the last cut [s].
+    before_cut: Vec<f64>,
+    /// Since when this rank works.
+    since: Option<Instant>,
+}
+
+/// What goes over between this rank and another.
+#[derive(Clone, Debug, Default)]
+struct Seam {
+    /// Own grains that the other sees.
+    gives: Vec<u32>,
+    /// Its grains that blocks of this rank see.
+    takes: Vec<u32>,
+    /// Where loads on its grains are: own blocks, and local numbers there.
+    back: Vec<[u32; 2]>,
+    /// Its blocks that have loads on own grains, a load each.
+    owed: Vec<u32>,
+}
+
+impl Ranks {
+    /// With `whole` all grains go over in every step.
+    pub fn new(communicator: Option<Arc<dyn Communicator>>, whole: bool) -> Self {
+        let size = communicator.as_ref().map_or(0, |all| all.size());
+        Self {
+            communicator,
+            whole,
+            cuts: Vec::new(),
+            seams: vec![Seam::default(); size],
+            messages: vec![Vec::new(); size],
+            work: Work { all: vec![0.0; size], before_cut: vec![0.0; size], since: None },
+        }
+    }
+
+    pub fn is_alone(&self) -> bool {
+        self.communicator.is_none()
+    }
+
+    fn rank(&self) -> usize {
+        self.communicator.as_ref().map_or(0, |all| all.rank())
+    }
+
+    /// The blocks of a rank.
+    fn blocks(&self, rank: usize) -> Range<usize> {
+        self.cuts[rank]..self.cuts[rank + 1]
+    }
+
+    /// The rank that has a grain.
+    pub fn owner(&self, grain: u32) -> usize {
+        self.cuts.partition_point(|first| *first <= grain as usize / BLOCK) - 1
+    }
+
+    /// Cuts so many blocks by what they cost, of which `contacts` tells the contacts in the last step. Gives the own ones, where there are several ranks.
+    pub fn cut(&mut self, blocks: usize, contacts: impl Fn(usize) -> usize) -> Option<Range<usize>> {
+        let size = self.communicator.as_ref()?.size();
+        let costs = self.costs(blocks, contacts);
+        let all: f64 = costs.iter().sum();
+        let (mut cuts, mut before) = (Vec::with_capacity(size + 1), 0.0);
+        for (block, cost) in costs.iter().enumerate() {
+            // A block belongs where most of it does.
+            let middle = before + 0.5 * cost;
+            while cuts.len() as f64 * all <= middle * size as f64 && cuts.len() < size {
+                cuts.push(block);
+            }
+            before += cost;
+        }
+        cuts.resize(size + 1, blocks);
+        self.cuts = cuts;
+        self.work.before_cut.clone_from(&self.work.all);
+        Some(self.blocks(self.rank()))
+    }
+
+    /// What every block costs: by its contacts, and by how long its rank has worked for such since the last cut.
+    fn costs(&self, blocks: usize, contacts: impl Fn(usize) -> usize) -> Vec<f64> {
+        let cost = |block: usize| (4 * BLOCK + 5 * contacts(block)) as f64;
+        let told = |ends: &[usize]| (ends[0]..ends[1]).map(cost).sum::<f64>();
+        let worked = self.work.all.iter().zip(&self.work.before_cut).map(|(all, before)| all - before);
+        let pace: Vec<f64> = self.cuts.windows(2).zip(worked).map(|(ends, worked)| worked / told(ends)).collect();
+        let mean = pace.iter().filter(|pace| pace.is_finite()).sum::<f64>() / pace.len() as f64;
+        let of = |block: usize| {
+            let rank = self.cuts.partition_point(|first| *first <= block).saturating_sub(1);
+            let pace = pace.get(rank).map_or(1.0, |pace| pace / mean);
+            // Short times tell little.
+            cost(block) * if pace.is_finite() { pace.clamp(0.5, 2.0) } else { 1.0 }
+        };
+        (0..blocks).map(of).collect()
+    }
+
+    /// Work of every rank so far [s].
+    pub fn worked(&self) -> &[f64] {
+        &self.work.all
+    }
+
+    /// What is done from here on is work.
+    pub fn begin_to_work(&mut self) {
+        self.work.since = (!self.is_alone()).then(Instant::now);
+    }
+
+    /// Finds out from new lists what goes over, and tells them where loads on own grains come from.
+    pub fn agree(&mut self, neighbours: &mut NeighbourLists) {
+        let Some(all) = self.communicator.clone() else { return };
+        for seam in &mut self.seams {
+            *seam = Seam::default();
+        }
+        self.messages.iter_mut().for_each(Vec::clear);
+        let own = neighbours.own();
+        for (block, list) in own.clone().zip(&neighbours.lists[own.clone()]) {
+            for (local, halo) in
+                (list.own..).zip(&list.halo).filter(|(_, halo)| !own.contains(&(halo.grain as usize / BLOCK)))
+            {
+                let owner = self.owner(halo.grain);
+                self.seams[owner].takes.push(halo.grain);
+                self.seams[owner].back.push([block as u32, local as u32]);
+                self.messages[owner].extend([f64::from(halo.grain), block as f64]);
+            }
+        }
+        all.exchange(&mut self.messages);
+        let mut held = vec![0; neighbours.lists.len()];
+        for (seam, message) in self.seams.iter_mut().zip(&self.messages) {
+            let mut message = Reader::new(message);
+            while !message.is_at_end() {
+                let (grain, block) = (message.number() as u32, message.number() as u32);
+                seam.gives.push(grain);
+                seam.owed.push(block);
+                let local = held[block as usize];
+                held[block as usize] += 1;
+                let incoming = Incoming { own: grain % BLOCK as u32, block, local };
+                neighbours.lists[grain as usize / BLOCK].incoming.push(incoming);
+            }
+            for grains in [&mut seam.gives, &mut seam.takes] {
+                grains.sort_unstable();
+                grains.dedup();
+            }
+        }
+        for list in &mut neighbours.lists[own] {
+            list.incoming.sort_unstable_by_key(|incoming| (incoming.own, incoming.block, incoming.local));
+        }
+    }
+
+    /// Writes a message to every other rank.
+    fn write(&mut self, write: impl Fn(&Self, usize, &mut Vec<f64>)) {
+        let mut messages = std::mem::take(&mut self.messages);
+        for (rank, message) in messages.iter_mut().enumerate().filter(|(rank, _)| *rank != self.rank()) {
+            message.clear();
+            write(self, rank, message);
+        }
+        self.messages = messages;
+    }
+
+    /// Sends what was written, and reads what comes from each.
+    fn send_and_read(&mut self, mut read: impl FnMut(&Self, usize, &mut Reader)) {
+        let Some(all) = self.communicator.clone() else { return };
+        let mut messages = std::mem::take(&mut self.messages);
+        let own = self.rank();
+        self.work.all[own] += self.work.since.map_or(0.0, |since| since.elapsed().as_secs_f64());
+        for message in &mut messages {
+            message.push(self.work.all[own]);
+        }
+        all.exchange(&mut messages);
+        self.work.since = self.work.since.map(|_| Instant::now());
+        for (rank, message) in messages.iter().enumerate().filter(|(rank, _)| *rank != own) {
+            if let Some((worked, message)) = message.split_last() {
+                self.work.all[rank] = *worked;
+                read(self, rank, &mut Reader::new(message));
+            }
+        }
+        self.messages = messages;
+    }
+
+    /// The grains of a rank.
+    fn grains(&self, rank: usize, grains: &Grains) -> Range<usize> {
+        let blocks = self.blocks(rank);
+        (blocks.start * BLOCK).min(grains.len())..(blocks.end * BLOCK).min(grains.len())
+    }
+
+    /// What all ranks have, in the order of the ranks; `mine` alone where there is but one.
+    pub fn gather(&self, mine: Vec<f64>) -> Vec<f64> {
+        let Some(all) = &self.communicator else { return mine };
+        let mut messages = vec![mine; all.size()];
+        all.exchange(&mut messages);
+        messages.concat()
+    }
+
+    /// Sends a message to every rank; nothing comes where there is but one.
+    pub fn pass(&self, messages: &mut [Vec<f64>]) {
+        if let Some(all) = &self.communicator {
+            all.exchange(messages);
+        }
+    }
+
+    /// The ranks other than this one that have one of these grains, each once.
+    pub fn others(&self, grains: [Option<u32>; 2]) -> impl Iterator<Item = usize> {
+        let several = self.communicator.is_some();
+        let [first, second] = grains.map(|grain| grain.filter(|_| several).map(|grain| self.owner(grain)));
+        let rank = self.rank();
+        [first, second.filter(|second| Some(*second) != first)]
+            .into_iter()
+            .flatten()
+            .filter(move |owner| *owner != rank)
+    }
+
+    /// As many messages as there are ranks.
+    pub fn letters(&self) -> Vec<Vec<f64>> {
+        vec![Vec::new(); self.seams.len()]
+    }
+}

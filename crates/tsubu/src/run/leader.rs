@@ -1,0 +1,286 @@
+//! A run on several ranks: rank 0 makes it, and tells the others what its engine is asked for, so that theirs do the same.
+
+use super::start::Start;
+use super::{RunError, stages};
+use crate::engine::{Engine, Fault, Note, OpenError};
+use crate::interrupt::Interrupt;
+use crate::ledger::{Energies, Ledger};
+use crate::partner::Hosts;
+use crate::ranks::{Communicator, Reader};
+use crate::view::{Contacts, View, Wants};
+use crate::wall::Wall;
+use std::any::Any;
+use std::sync::Arc;
+use tsubu_frame::state::{MissingSection, Section};
+use tsubu_frame::{Frame, State};
+use tsubu_scene::{Plan, Scene};
+
+/// What all engines do together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Order {
+    Advance = 1,
+    Change,
+    Frame,
+    Glimpse,
+    Places,
+    Forces,
+    Save,
+    Load,
+    End,
+}
+
+impl Order {
+    fn number(self) -> f64 {
+        f64::from(self as u8)
+    }
+}
+
+const ORDERS: [Order; 9] = [
+    Order::Advance,
+    Order::Change,
+    Order::Frame,
+    Order::Glimpse,
+    Order::Places,
+    Order::Forces,
+    Order::Save,
+    Order::Load,
+    Order::End,
+];
+
+/// The engine of rank 0.
+pub(super) struct Leader {
+    engine: Box<dyn Engine>,
+    communicator: Arc<dyn Communicator>,
+}
+
+impl Leader {
+    /// An engine that is one of several, or the same alone.
+    pub fn of(engine: Box<dyn Engine>, communicator: Option<Arc<dyn Communicator>>) -> Box<dyn Engine> {
+        match communicator {
+            Some(communicator) => Box::new(Self { engine, communicator }),
+            None => engine,
+        }
+    }
+
+    fn tell(&self, order: Order, more: impl IntoIterator<Item = f64>) {
+        let mut message = vec![order.number()];
+        message.extend(more);
+        self.communicator.broadcast(&mut message);
+    }
+}
+
+impl Drop for Leader {
+    fn drop(&mut self) {
+        // In a panic the others may be anywhere; whoever started them ends them.
+        if !std::thread::panicking() {
+            self.tell(Order::End, None);
+        }
+    }
+}
+
+/// Makes the run of a scene on a rank that is not the first, as long as that wishes. Whoever asks it to stop is to ask the first.
+pub fn follow(scene: &Scene, communicator: &Arc<dyn Communicator>, interrupt: &Interrupt) -> Result<(), RunError> {
+    let _held = interrupt.hold();
+    let Start { mut engine, mut hosts, .. } = Start::of(scene, Some(communicator))?;
+    let (mut ledger, mut stage) = (Ledger::default(), 0);
+    loop {
+        let mut message = Vec::new();
+        communicator.broadcast(&mut message);
+        let mut message = Reader::new(&message);
+        let order = message.number();
+        let order = ORDERS.into_iter().find(|one| one.number() == order).unwrap_or(Order::End);
+        match order {
+            // What went wrong went wrong on all ranks: the first tells it, and ends the run.
+            Order::Advance => _ = engine.advance(message.number() as u64, &mut hosts, &mut ledger),
+            Order::Change => {
+                let plans = scene.plans();
+                _ = stages::change(&mut *engine, &mut hosts, [&plans[stage], &plans[stage + 1]]);
+                stage += 1;
+            }
+            Order::Frame => _ = engine.frame(&hosts),
+            Order::Glimpse => _ = engine.glimpse(&hosts),
+            Order::Places => _ = engine.view(Wants::TOUCHES),
+            Order::Forces => _ = engine.view(Wants::CONTACTS),
+            Order::Save => engine.save(&mut State::default()),
+            Order::Load => {
+                let state = read_state(&mut message);
+                engine.load(&state)?;
+                hosts.load(&state)?;
+            }
+            Order::End => return Ok(()),
+        }
+    }
+}
+
+impl Engine for Leader {
+    fn notes(&self) -> &[Note] {
+        self.engine.notes()
+    }
+
+    fn time_step(&self) -> f64 {
+        self.engine.time_step()
+    }
+
+    fn step_key(&self) -> &str {
+        self.engine.step_key()
+    }
+
+    fn steps(&self) -> u64 {
+        self.engine.steps()
+    }
+
+    fn stage_begin(&self) -> (u64, f64) {
+        self.engine.stage_begin()
+    }
+
+    fn change(&mut self, plans: [&Plan; 2], hosts: &Hosts) -> Result<(), OpenError> {
+        self.tell(Order::Change, None);
+        self.engine.change(plans, hosts)
+    }
+
+    fn grains(&self) -> usize {
+        self.engine.grains()
+    }
+
+    fn traffic(&self) -> Vec<(String, u64)> {
+        self.engine.traffic()
+    }
+
+    fn grain_steps(&self) -> u64 {
+        self.engine.grain_steps()
+    }
+
+    fn worked(&self) -> &[f64] {
+        self.engine.worked()
+    }
+
+    fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
+        self.tell(Order::Advance, [steps as f64]);
+        self.engine.advance(steps, hosts, ledger)
+    }
+
+    fn grain_energies(&self) -> Energies {
+        self.engine.grain_energies()
+    }
+
+    fn momentum(&self) -> [f64; 3] {
+        self.engine.momentum()
+    }
+
+    fn centre_of_mass(&self) -> [f64; 3] {
+        self.engine.centre_of_mass()
+    }
+
+    fn contacts(&self) -> usize {
+        self.engine.contacts()
+    }
+
+    fn frame(&self, hosts: &Hosts) -> Frame {
+        self.tell(Order::Frame, None);
+        self.engine.frame(hosts)
+    }
+
+    fn glimpse(&self, hosts: &Hosts) -> Frame {
+        self.tell(Order::Glimpse, None);
+        self.engine.glimpse(hosts)
+    }
+
+    fn offers(&self) -> Wants {
+        self.engine.offers()
+    }
+
+    fn view(&self, wants: Wants) -> View<'_> {
+        match wants.contacts {
+            Contacts::Nothing => {}
+            Contacts::Places => self.tell(Order::Places, None),
+            Contacts::Forces => self.tell(Order::Forces, None),
+        }
+        self.engine.view(wants)
+    }
+
+    fn walls(&self) -> &[Wall] {
+        self.engine.walls()
+    }
+
+    fn renew(&mut self, column: &str) -> Option<Box<dyn Any + Send + Sync>> {
+        self.engine.renew(column)
+    }
+
+    fn save(&self, state: &mut State) {
+        self.tell(Order::Save, None);
+        self.engine.save(state);
+    }
+
+    fn load(&mut self, state: &State) -> Result<(), MissingSection> {
+        self.tell(Order::Load, written(state));
+        self.engine.load(state)
+    }
+}
+
+/// A state as numbers.
+fn written(state: &State) -> Vec<f64> {
+    let mut message = Vec::new();
+    let text = |message: &mut Vec<f64>, text: &str| {
+        message.push(text.len() as f64);
+        message.extend(text.bytes().map(f64::from));
+    };
+    for (name, section) in state.sections() {
+        text(&mut message, name);
+        match section {
+            Section::Real(values) => {
+                message.extend([0.0, values.len() as f64]);
+                message.extend(values);
+            }
+            Section::Integer(values) => {
+                message.extend([1.0, values.len() as f64]);
+                message.extend(values.iter().map(|value| f64::from_bits(*value as u64)));
+            }
+            Section::Text(value) => {
+                message.push(2.0);
+                text(&mut message, value);
+            }
+        }
+    }
+    message
+}
+
+/// The state that was written.
+fn read_state(message: &mut Reader) -> State {
+    let text = |message: &mut Reader| {
+        let length = message.number() as usize;
+        let bytes: Vec<u8> = message.numbers(length).iter().map(|byte| *byte as u8).collect();
+        String::from_utf8_lossy(&bytes).into_owned()
+    };
+    let mut state = State::default();
+    while !message.is_at_end() {
+        let name = text(message);
+        let section = match message.number() {
+            0.0 => {
+                let length = message.number() as usize;
+                Section::Real(message.numbers(length).to_vec())
+            }
+            1.0 => {
+                let length = message.number() as usize;
+                Section::Integer(message.numbers(length).iter().map(|value| value.to_bits() as i64).collect())
+            }
+            _ => Section::Text(text(message)),
+        };
+        state.insert(name, section);
+    }
+    state
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_state_goes_over_to_the_last_bit() {
+        let mut state = State::default();
+        state.put_real("real", vec![0.1, f64::NAN, -0.0]);
+        state.put_integer("integer", vec![i64::MIN, -1, 0, i64::MAX]);
+        state.put_text("text", "粒");
+        let message = written(&state);
+        assert_eq!(read_state(&mut Reader::new(&message)).hash(), state.hash());
+    }
+}

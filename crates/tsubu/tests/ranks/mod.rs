@@ -1,0 +1,314 @@
+//! One run on several ranks: the bits of one.
+//!
+//! The ranks of these tests are threads that talk through channels. What goes over MPI is in `crates/tsubu-mpi/tests`.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+use tsubu::engine::{self, Engine};
+use tsubu::ledger::Ledger;
+use tsubu::methods;
+use tsubu::partner::Hosts;
+use tsubu::ranks::Communicator;
+use tsubu_frame::State;
+use tsubu_scene::Scene;
+
+/// A rank that is a thread.
+#[derive(Debug)]
+struct Thread {
+    rank: usize,
+    to: Vec<Sender<Vec<f64>>>,
+    from: Vec<Mutex<Receiver<Vec<f64>>>>,
+    sent: AtomicUsize,
+    /// In which exchanges numbers go over wrong by their last bit.
+    wrong: Range<usize>,
+}
+
+impl Thread {
+    fn team(size: usize) -> Vec<Self> {
+        let counted = || AtomicUsize::new(0);
+        let mut team: Vec<Self> = (0..size)
+            .map(|rank| Self { rank, to: Vec::new(), from: Vec::new(), sent: counted(), wrong: 0..0 })
+            .collect();
+        for sender in 0..size {
+            for receiver in 0..size {
+                let (to, from) = channel();
+                team[sender].to.push(to);
+                team[receiver].from.push(Mutex::new(from));
+            }
+        }
+        team
+    }
+
+    fn receive(&self, rank: usize) -> Vec<f64> {
+        let from = self.from[rank].lock().unwrap();
+        from.recv_timeout(Duration::from_mins(1)).expect("every rank sends")
+    }
+}
+
+impl Communicator for Thread {
+    fn rank(&self) -> usize {
+        self.rank
+    }
+
+    fn size(&self) -> usize {
+        self.to.len()
+    }
+
+    fn exchange(&self, messages: &mut [Vec<f64>]) {
+        let others: Vec<usize> = (0..self.size()).filter(|rank| *rank != self.rank).collect();
+        if self.wrong.contains(&self.sent.fetch_add(1, Ordering::Relaxed)) {
+            // What counts or names something stays.
+            let numbers = messages.iter_mut().flatten().filter(|number| number.fract() != 0.0);
+            numbers.for_each(|number| *number = f64::from_bits(number.to_bits() ^ 1));
+        }
+        for &rank in &others {
+            self.to[rank].send(std::mem::take(&mut messages[rank])).unwrap();
+        }
+        for &rank in &others {
+            messages[rank] = self.receive(rank);
+        }
+    }
+
+    fn broadcast(&self, message: &mut Vec<f64>) {
+        if self.rank == 0 {
+            self.to[1..].iter().for_each(|to| to.send(message.clone()).unwrap());
+        } else {
+            *message = self.receive(0);
+        }
+    }
+}
+
+/// A scene on ranks and threads: hash of all there is after so many steps, and what `look` makes of it, both of rank 0.
+struct Job<'a> {
+    text: &'a str,
+    folder: &'a std::path::Path,
+    steps: &'a [u64],
+    resume: bool,
+}
+
+impl Job<'_> {
+    fn opened(&self, communicator: Option<&Arc<dyn Communicator>>) -> (Box<dyn Engine>, Hosts, Ledger) {
+        let scene = Scene::parse("test", self.text, self.folder, &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+        let hosts = Hosts::new(&scene.plan().hosts);
+        let engine = methods::open_on_ranks(scene.plan(), &hosts, communicator.cloned()).unwrap();
+        let ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
+        (engine, hosts, ledger)
+    }
+
+    fn go(&self, communicator: Option<&Arc<dyn Communicator>>) -> String {
+        let state = |engine: &dyn Engine, hosts: &Hosts, ledger: &Ledger| {
+            let mut state = State::default();
+            engine.save(&mut state);
+            hosts.save(&mut state);
+            ledger.save(&mut state);
+            state
+        };
+        let (mut engine, mut hosts, mut ledger) = self.opened(communicator);
+        let first = engine.frame(&hosts);
+        for &steps in self.steps {
+            engine.advance(steps, &mut hosts, &mut ledger).unwrap();
+            if self.resume {
+                let saved = state(&*engine, &hosts, &ledger);
+                (engine, hosts, _) = self.opened(communicator);
+                engine.load(&saved).unwrap();
+                hosts.load(&saved).unwrap();
+                ledger = Ledger::load(&saved).unwrap();
+            }
+        }
+        let frame = engine.frame(&hosts);
+        let mut state = state(&*engine, &hosts, &ledger);
+        // What is shown must be the same as well.
+        state.put_text("frame", format!("{:?}{:?}", first.columns, frame.columns));
+        state.hash()
+    }
+
+    fn on(&self, ranks: usize, threads: usize) -> String {
+        self.with(Thread::team(ranks), threads).unwrap()
+    }
+
+    /// On a team of ranks; `None`: they do not agree.
+    fn with(&self, team: Vec<Thread>, threads: usize) -> Option<String> {
+        let work = |communicator: Option<&Arc<dyn Communicator>>| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| self.go(communicator))
+        };
+        if team.len() == 1 {
+            return Some(work(None));
+        }
+        std::thread::scope(|scope| {
+            let ranks: Vec<_> = team
+                .into_iter()
+                .map(|one| scope.spawn(move || work(Some(&(Arc::new(one) as Arc<dyn Communicator>)))))
+                .collect();
+            let mut hashes: Vec<String> = ranks.into_iter().map(|rank| rank.join().unwrap()).collect();
+            hashes.dedup();
+            (hashes.len() == 1).then(|| hashes.remove(0))
+        })
+    }
+
+    /// Holds the bits of one rank against those of several.
+    fn same(&self, ranks: &[usize]) {
+        let one = self.on(1, 1);
+        for &ranks in ranks {
+            assert_eq!(one, self.on(ranks, 1), "{ranks} ranks");
+        }
+        assert_eq!(one, self.on(2, 2), "2 ranks of 2 threads");
+    }
+}
+
+fn job(text: &str) -> Job<'_> {
+    Job { text, folder: std::path::Path::new("."), steps: &[350, 1, 300], resume: false }
+}
+
+/// 2,500 balls in a box that shakes on a spring, with friction springs, spin and rolling friction.
+const DAMPER: &str = r#"
+gravity = 10
+duration = "1 s"
+[materials.glass]
+young-modulus = "10 MPa"
+restitution = 0.6
+friction = 0.5
+rolling-friction = 0.05
+[particles.balls]
+material = "glass"
+count = 2500
+diameter = "2 mm"
+mass = "0.01 g"
+start.rows = { spacing = 1.02, jitter = 0.8, speed = 0.3 }
+[walls.box]
+material = "glass"
+host = "spring"
+shape.box = { width = "110 mm", height = "200 mm" }
+[hosts.spring]
+direction = "z"
+structure.oscillator = { mass = "86 g", stiffness = "1234 N/m", damping = "0.08 N s/m" }
+base.sine = { amplitude = "2 mm", frequency = "18 Hz" }
+[contact]
+rolling.constant = {}
+[dem]
+time-step = "2e-5 s"
+"#;
+
+#[test]
+fn a_damper_has_the_bits_of_one_rank() {
+    job(DAMPER).same(&[2, 3, 7]);
+    Job { resume: true, ..job(DAMPER) }.same(&[3]);
+}
+
+/// Of some thousand exchanges a few are wrong by the last bit: the bits are others. One alone may be that of new lists, in which nothing goes over.
+#[test]
+fn a_last_bit_that_goes_over_wrong_is_seen() {
+    let mut team = Thread::team(2);
+    team[1].wrong = 400..404;
+    let job = job(DAMPER);
+    assert_ne!(job.with(team, 1), Some(job.on(1, 1)));
+}
+
+/// Grains flow down a rough periodic slope; some come, some go, a gate opens, and a row is driven.
+const FLOW: &str = r#"
+dimension = 3
+gravity = [5, 0, -9]
+duration = "1 s"
+speed-scale = "1 m/s"
+[materials.glass]
+young-modulus = "2 MPa"
+restitution = 0.6
+friction = 0.5
+density = "2500 kg/m^3"
+[periodic]
+x = ["0 mm", "48 mm"]
+y = ["0 mm", "24 mm"]
+[particles.a-base]
+material = "glass"
+count = 288
+diameter = "2 mm"
+motion.frozen = {}
+start.rows = { spacing = 1.0, jitter = 0, region = { low = [0, 0, 0], high = ["48 mm", "24 mm", "2 mm"] } }
+[particles.b-flow]
+material = "glass"
+count = 1800
+size.uniform = { smallest = "1.8 mm", largest = "2.2 mm" }
+start.rows = { spacing = 1.01, jitter = 1, speed = 0.5, region = { low = [0, 0, "2.2 mm"], high = ["48 mm", "24 mm", "40 mm"] } }
+[particles.c-row]
+material = "glass"
+count = 8
+diameter = "2 mm"
+motion.driven = { direction = "y", signal.sine = { amplitude = "1 mm", frequency = "60 Hz" } }
+start.rows = { spacing = 1.0, jitter = 0, region = { low = ["10 mm", "12 mm", "42 mm"], high = ["40 mm", "14 mm", "44 mm"] } }
+[particles.d-rain]
+material = "glass"
+count = 500
+diameter = "2 mm"
+start.stream = { region = { low = [0, 0, "50 mm"], high = ["48 mm", "24 mm", "56 mm"] }, rate = "30000 1/s", velocity = [0, 0, -0.5] }
+[walls.gate]
+material = "glass"
+shape.sphere = { centre = ["24 mm", "12 mm", "20 mm"], radius = "5 mm" }
+until = "5 ms"
+[removal.side.inside]
+region = { low = ["40 mm", 0, "5 mm"], high = ["48 mm", "8 mm", "20 mm"] }
+[contact]
+tangential.mindlin = {}
+[dem]
+time-step = "2e-5 s"
+"#;
+
+#[test]
+fn a_flow_has_the_bits_of_one_rank() {
+    job(FLOW).same(&[2, 4]);
+}
+
+/// More ranks than blocks, all grains in one block, and none at all: some ranks have nothing to do.
+#[test]
+fn ranks_without_grains_do_no_harm() {
+    let few = DAMPER.replace("count = 2500", "count = 300");
+    job(&few).same(&[2, 4]);
+    let none = FLOW
+        .replace("count = 1800", "count = 1")
+        .replace("count = 288", "count = 1")
+        .replace("count = 8\n", "count = 1\n");
+    job(&none).same(&[3]);
+}
+
+/// A stream of water in layers takes from the grains what they take from it.
+#[test]
+fn a_stream_has_the_bits_of_one_rank() {
+    let flow = "[water]\ndensity = '1000 kg/m^3'\nviscosity = '1e-6 m^2/s'\ndrag.stokes-newton = {}\n\
+                flow.coupled = { bottom = 0, top = '40 mm', shear-velocity = '0.2 m/s' }\nfluctuation.strength = 0.5\n";
+    job(&format!("{FLOW}{flow}")).same(&[2, 3]);
+}
+
+/// Clumps across the cut and wider than a block, bonds across it, and a surface of water: all grains go over in every step.
+#[test]
+fn clumps_and_bonds_have_the_bits_of_one_rank() {
+    let clumps = FLOW.replace(
+        "size.uniform = { smallest = \"1.8 mm\", largest = \"2.2 mm\" }",
+        "diameter = \"2 mm\"\nshape.clump = { centre = [[-1, 0, 0], [1, 0, 0]], diameter = [2.5, 2.5] }",
+    );
+    let clumps = clumps.replace("count = 1800", "count = 900");
+    Job { steps: &[150, 1, 100], ..job(&clumps) }.same(&[3]);
+    let bonds = format!(
+        "{FLOW}[[bond]]\nparticles = [\"b-flow\"]\nyoung-modulus = \"2 MPa\"\nradius = 0.5\ntensile-strength = \"2 kPa\"\n"
+    );
+    Job { steps: &[150, 1, 100], ..job(&bonds) }.same(&[3]);
+}
+
+#[test]
+fn a_flow_goes_on_as_on_one_rank() {
+    Job { resume: true, ..job(FLOW) }.same(&[3]);
+}
+
+mod patient {
+    use super::Job;
+    use crate::dem::everything::{EVERYTHING, paddle};
+
+    #[test]
+    #[ignore = "half a minute: cargo xtask patient"]
+    fn everything_at_once_has_the_bits_of_one_rank() {
+        let folder = tempfile::tempdir().unwrap();
+        paddle(folder.path());
+        Job { text: EVERYTHING, folder: folder.path(), steps: &[300, 200], resume: true }.same(&[3]);
+    }
+}
