@@ -64,7 +64,7 @@ impl DemEngine {
             .iter()
             .map(|&i| {
                 let sphere = (DVec3::splat(self.grains.radius[i]), [2.0; 2]);
-                self.integration.bodies.superellipsoid(i).map_or(sphere, |body| (body.semi_axes, body.exponents))
+                self.integration.bodies.superellipsoid(i).map_or(sphere, |(_, own)| (own.semi_axes, own.exponents))
             })
             .collect();
         frame.vector(Kind::Grain, "semi-axes", "m", shapes.iter().map(|(axes, _)| axes.to_array()).collect());
