@@ -75,7 +75,7 @@ impl Superellipsoid {
 
     /// The ellipsoid with its semi-axes, turned so that these have these directions.
     pub fn ellipsoid(&self, axes: &DMat3) -> Ellipsoid {
-        let squared = Symmetric::squared(self.semi_axes, axes);
+        let squared = Symmetric::along(self.semi_axes * self.semi_axes, axes);
         let (product, flattest) = (self.semi_axes.element_product(), FLATTEST * self.reach);
         Ellipsoid { squared, product, flattest, inverse_inertia: Symmetric::default() }
     }

@@ -19,6 +19,7 @@ use crate::neighbours::lists::{BlockList, shares};
 use crate::state::Grains;
 use crate::superellipsoid::{Outline, Superellipsoid};
 use crate::threads::each_in_parts;
+use crate::view;
 pub(super) use body::Body;
 use body::{Felt, TOGETHER};
 use glam::{DQuat, DVec3};
@@ -77,7 +78,8 @@ impl Bodies {
     /// The same as it is turned.
     pub fn outline(&self, i: usize) -> Option<Outline> {
         let body = self.list.get(self.sorted.get(i)?.body as usize)?;
-        Some(body.superellipsoid?.turned(&body.axes))
+        let shape = body.superellipsoid.as_ref()?;
+        Some(if shape.is_ellipsoid() { body.ellipsoid.outline() } else { shape.turned(&body.axes) })
     }
 
     /// The body of every grain by its id; nothing where there are none.
@@ -231,6 +233,38 @@ impl Bodies {
     /// Adds a velocity to all.
     pub fn push(&mut self, velocity: DVec3) {
         self.list.iter_mut().for_each(|body| body.velocity += velocity);
+    }
+
+    /// What is shown of those that are there, and for each grain its place among them.
+    pub fn view(&self) -> (Vec<view::Body>, Vec<Option<u32>>) {
+        let (mut shown, mut body_of) = (Vec::new(), vec![None; self.sorted.len()]);
+        for body in self.there() {
+            let places = &self.places[body.pieces.clone()];
+            for place in places {
+                body_of[*place as usize] = Some(shown.len() as u32);
+            }
+            let [x, y, z] = body.moments.to_array();
+            let along = |which: usize| body.axes.col(which);
+            shown.push(view::Body {
+                grain: places[0] as usize,
+                centre: body.centre,
+                long: along(if x <= y && x <= z {
+                    0
+                } else if y <= z {
+                    1
+                } else {
+                    2
+                }),
+                short: along(if z >= x && z >= y {
+                    2
+                } else if y >= x {
+                    1
+                } else {
+                    0
+                }),
+            });
+        }
+        (shown, if self.is_empty() { Vec::new() } else { body_of })
     }
 
     /// Brings all to rest.

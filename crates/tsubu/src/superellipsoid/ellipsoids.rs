@@ -17,8 +17,8 @@ const STEPS: usize = 8;
 /// Longest step over the sphere [rad].
 const LONGEST: f64 = 0.5;
 
-/// A row has arrived where it goes no farther than this over the sphere [rad]: what is left is the square of it.
-const ARRIVED: f64 = 1e-5;
+/// A row has arrived where it goes no farther than this over the sphere [rad]: the square of it is left, and a last step takes the square of that.
+const ARRIVED: f64 = 1e-3;
 
 /// The greater of two numbers, without a word on what is none.
 #[inline(always)]
@@ -53,10 +53,11 @@ impl Ellipsoid {
     }
 }
 
-/// How round a body, by its product and its flattest radius, is where it reaches `reach` at `point` along a normal, and how that changes with the
-/// normal: see [`Outline::roundness`].
+/// How round a body, by its product and its flattest radius, is where `point` is farthest along a normal, and how that changes with the normal: see
+/// [`Outline::roundness`].
 #[inline(always)]
-fn roundness((product, flattest): (f64, f64), normal: DVec3, reach: f64, point: DVec3) -> (f64, DVec3) {
+fn roundness((product, flattest): (f64, f64), normal: DVec3, point: DVec3) -> (f64, DVec3) {
+    let reach = normal.dot(point);
     let (radius, least) = (product / (reach * reach), 1e-6 * flattest);
     let slope = (point - normal * reach) * (-2.0 * radius / reach);
     let ends = if radius > least { flattest } else { least };
@@ -326,7 +327,7 @@ fn step(pairs: &mut Pairs, reach: f64) {
     }
 }
 
-/// What is told of every row where it has arrived.
+/// What is told of every row where it has arrived, by a last step so short that points go along it as the surfaces bend.
 #[multiversion(targets = "simd")]
 fn end(pairs: &mut Pairs) {
     for i in 0..pairs.rows() {
@@ -334,25 +335,33 @@ fn end(pairs: &mut Pairs) {
         let (normal, apart) = (vector(&pairs.normal, i), vector(&pairs.apart, i));
         let look = Look::at(normal, &first, &second, apart);
         let (a, b) = (1.0 / look.reach[0], 1.0 / look.reach[1]);
-        let bends = [first.bend(look.points[0], a), second.bend(look.points[1], b)];
+        let bends = (first.bend(look.points[0], a), second.bend(look.points[1], b));
+        let (bend, size) = (bends.0.plus(&bends.1), apart.dot(apart).sqrt());
+        let way = look.answer(&bend, -look.beside, size);
+        let overlap = look.overlap + 0.5 * way.dot(look.beside);
+        let (p1, p2) = (look.points[0] + bends.0.times(way), look.points[1] + bends.1.times(way));
+        let to = normal + way;
+        let normal = to * (1.0 / to.dot(to).sqrt());
+        let beside = p1 + p2 - apart - normal * overlap;
         let [one, two] = &pairs.bodies;
-        let (r1, g1) = roundness((one.product[i], one.flattest[i]), normal, look.reach[0], look.points[0]);
-        let (r2, g2) = roundness((two.product[i], two.flattest[i]), normal, look.reach[1], look.points[1]);
+        let (r1, g1) = roundness((one.product[i], one.flattest[i]), normal, p1);
+        let (r2, g2) = roundness((two.product[i], two.flattest[i]), normal, p2);
         // Of R = r1 r2 / (r1 + r2).
-        let share = [r2 / (r1 + r2), r1 / (r1 + r2)];
-        let (g1, g2) = (g1 * (share[0] * share[0]), g2 * (share[1] * share[1]));
-        let force = look.answer(&bends[0].plus(&bends[1]), g1 + g2, apart.dot(apart).sqrt());
-        let [p1, p2] = look.points;
-        set(&mut pairs.points[0], i, p1 - look.beside * share[1]);
-        set(&mut pairs.points[1], i, look.beside * share[0] - p2);
+        let share = (r2 / (r1 + r2), r1 / (r1 + r2));
+        let (g1, g2) = (g1 * (share.0 * share.0), g2 * (share.1 * share.1));
+        let force = look.answer(&bend, g1 + g2, size);
+        let torques = (g1 - bends.0.times(force), g2 - bends.1.times(force));
+        set(&mut pairs.torques[0], i, p1.cross(force) + normal.cross(torques.0));
+        set(&mut pairs.torques[1], i, p2.cross(force) + normal.cross(torques.1));
         set(&mut pairs.force, i, force);
-        set(&mut pairs.torques[0], i, p1.cross(force) + normal.cross(g1 - bends[0].times(force)));
-        set(&mut pairs.torques[1], i, p2.cross(force) + normal.cross(g2 - bends[1].times(force)));
-        (pairs.radii[0][i], pairs.radii[1][i]) = (r1, r2);
+        let points = (p1 - beside * share.1, beside * share.0 - p2);
+        set(&mut pairs.points[0], i, points.0);
+        set(&mut pairs.points[1], i, points.1);
         let inertia = (Symmetric::at(&one.inverse_inertia, i), Symmetric::at(&two.inverse_inertia, i));
-        let (q1, q2) = (vector(&pairs.points[0], i), vector(&pairs.points[1], i));
-        let levers = (q1.cross(normal), q2.cross(normal));
+        let levers = (points.0.cross(normal), points.1.cross(normal));
         pairs.turning[i] = levers.0.dot(inertia.0.times(levers.0)) + levers.1.dot(inertia.1.times(levers.1));
-        pairs.overlap[i] = look.overlap;
+        (pairs.radii[0][i], pairs.radii[1][i]) = (r1, r2);
+        set(&mut pairs.normal, i, normal);
+        pairs.overlap[i] = overlap;
     }
 }

@@ -59,22 +59,17 @@ impl Symmetric {
         Self { on: DVec3::new(xx[i], yy[i], zz[i]), off: DVec3::new(yz[i], zx[i], xy[i]) }
     }
 
-    /// Of semi-axes [m] along directions.
-    pub fn squared(semi_axes: DVec3, axes: &DMat3) -> Self {
+    /// With these values along three directions at right angles.
+    #[inline]
+    pub fn along(values: DVec3, axes: &DMat3) -> Self {
         let mut sum = Self::default();
         for k in 0..3 {
-            let (axis, square) = (axes.col(k), semi_axes[k] * semi_axes[k]);
-            let scaled = axis * square;
+            let axis = axes.col(k);
+            let scaled = axis * values[k];
             sum.on += scaled * axis;
             sum.off += DVec3::new(scaled.y * axis.z, scaled.z * axis.x, scaled.x * axis.y);
         }
         sum
-    }
-
-    /// Of nine numbers that are symmetric.
-    pub fn of(full: &DMat3) -> Self {
-        let (x, y, z) = (full.x_axis, full.y_axis, full.z_axis);
-        Self { on: DVec3::new(x.x, y.y, z.z), off: DVec3::new(z.y, x.z, y.x) }
     }
 
     /// The same in nine numbers.
@@ -83,11 +78,11 @@ impl Symmetric {
         DMat3::from_cols_array(&[on.x, off.z, off.y, off.z, on.y, off.x, off.y, off.x, on.z])
     }
 
+    #[inline(always)]
     pub(super) fn set(&self, columns: &mut Columns<6>, i: usize) {
-        let (on, off) = (self.on, self.off);
-        for (column, value) in columns.iter_mut().zip([on.x, on.y, on.z, off.x, off.y, off.z]) {
-            column[i] = value;
-        }
+        let [xx, yy, zz, yz, zx, xy] = columns;
+        (xx[i], yy[i], zz[i]) = (self.on.x, self.on.y, self.on.z);
+        (yz[i], zx[i], xy[i]) = (self.off.x, self.off.y, self.off.z);
     }
 }
 

@@ -63,10 +63,12 @@ impl Body {
     /// Finds what follows from attitude and angular momentum.
     pub fn follow(&mut self, plane: bool) {
         self.axes = DMat3::from_quat(self.orientation);
-        self.inverse_inertia = self.axes * DMat3::from_diagonal(self.moments.recip()) * self.axes.transpose();
         if let Some(shape) = &self.superellipsoid {
-            self.ellipsoid.squared = Symmetric::squared(shape.semi_axes, &self.axes);
-            self.ellipsoid.inverse_inertia = Symmetric::of(&self.inverse_inertia);
+            self.ellipsoid.squared = Symmetric::along(shape.semi_axes * shape.semi_axes, &self.axes);
+            self.ellipsoid.inverse_inertia = Symmetric::along(self.moments.recip(), &self.axes);
+            self.inverse_inertia = self.ellipsoid.inverse_inertia.full();
+        } else {
+            self.inverse_inertia = self.axes * DMat3::from_diagonal(self.moments.recip()) * self.axes.transpose();
         }
         self.turn(plane);
     }
