@@ -10,6 +10,8 @@
 //!
 //! (Barr 1981; the dual norm, Rockafellar 1970).
 
+#![allow(clippy::inline_always, reason = "a call inside a row would end the vector code of its loop")]
+
 pub mod ellipsoids;
 pub mod symmetric;
 pub mod touch;

@@ -203,9 +203,9 @@ fn ellipsoids_side_by_side_touch_where_one_pair_does() {
         let body = |number: u32| &bodies[number as usize / 2][number as usize % 2];
         let search = |from: usize, to: usize| {
             let mut side_by_side = Pairs::default();
-            for k in from..to {
+            for (k, pair) in pairs.iter().enumerate().take(to).skip(from) {
                 let number = [2 * k as u32, 2 * k as u32 + 1];
-                side_by_side.push(k as u32, number, number.map(body), pairs[k].apart);
+                side_by_side.push(k as u32, number, number.map(body), pair.apart);
             }
             side_by_side.sieve(0.01);
             let guess: Vec<f64> = (0..side_by_side.rows()).map(|i| side_by_side.overlap(i)).collect();

@@ -243,25 +243,12 @@ impl Bodies {
             for place in places {
                 body_of[*place as usize] = Some(shown.len() as u32);
             }
-            let [x, y, z] = body.moments.to_array();
-            let along = |which: usize| body.axes.col(which);
+            let along = |axis: usize| body.axes.col(axis);
             shown.push(view::Body {
                 grain: places[0] as usize,
                 centre: body.centre,
-                long: along(if x <= y && x <= z {
-                    0
-                } else if y <= z {
-                    1
-                } else {
-                    2
-                }),
-                short: along(if z >= x && z >= y {
-                    2
-                } else if y >= x {
-                    1
-                } else {
-                    0
-                }),
+                long: along(body.moments.min_position()),
+                short: along(body.moments.max_position()),
             });
         }
         (shown, if self.is_empty() { Vec::new() } else { body_of })

@@ -102,7 +102,9 @@ impl Watch for List {
         if self.bodies {
             let mut pairs: Vec<[u32; 2]> =
                 listed.iter().filter(|(_, c)| !c.wall).map(|(_, c)| bodies(view, c)).collect();
-            pairs.iter_mut().for_each(|pair| pair.sort_unstable());
+            for pair in &mut pairs {
+                pair.sort_unstable();
+            }
             pairs.sort_unstable();
             pairs.dedup();
             scalars.push(pairs.len() as f64);

@@ -1,5 +1,7 @@
 //! One rigid body: how it moves and turns.
 
+#![allow(clippy::inline_always, reason = "a call inside a row would end the vector code of its loop")]
+
 use super::Piece;
 use crate::superellipsoid::Superellipsoid;
 use crate::superellipsoid::ellipsoids::Ellipsoid;
