@@ -47,7 +47,7 @@ pub use stage::{Stage, Until};
 pub use study::{Atlas, Calibrate, Claim, Cost, Design, Envelope, Goal, Keep, Measured, Output, Path, Response, Sweep};
 pub use superellipsoid::Superellipsoid;
 pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall, box_of_planes};
-pub use watch::{Axis, Bed, Face, Heading, Kernel, Measure, Quantity, Watch};
+pub use watch::{Axis, Bed, BodyAxis, Face, Heading, Kernel, Measure, Quantity, Watch};
 pub use water::{Buoyancy, Directions, Drag, Flow, Fluctuation, Hindrance, Lid, Lift, StreamStart, Torque, Water};
 
 use serde::{Deserialize, Serialize};

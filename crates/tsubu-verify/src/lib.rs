@@ -39,6 +39,7 @@ mod order;
 mod orifice;
 mod origin;
 mod outlet;
+mod packing;
 mod pile_stress;
 mod pile_twin;
 mod plastic;

@@ -4,9 +4,9 @@ use crate::case::{Case, Judged};
 use crate::{
     apparent_mass, bedload, brazil_nut, carried, chung_ooi_2011, chute, cl_ca_2001, cohesion, common_test, contact,
     cooling, damper_2003, drop, drum, drum_regimes, expansion, film, gdr_midi_2004, held, host, impact_damper,
-    lattice_grain, lattice_review, lump, open_dem_benchmark, order, orifice, outlet, pile_stress, pile_twin, plastic,
-    prediction, random_loads, rheology, rolling, sediment_2004, shapes, sieving, silo, spin_in_water, stack, triaxial,
-    twisting, voids, water, window,
+    lattice_grain, lattice_review, lump, open_dem_benchmark, order, orifice, outlet, packing, pile_stress, pile_twin,
+    plastic, prediction, random_loads, rheology, rolling, sediment_2004, shapes, sieving, silo, spin_in_water, stack,
+    triaxial, twisting, voids, water, window,
 };
 
 /// All cases, in the order they are listed and run.
@@ -43,6 +43,13 @@ pub static CASES: &[Case] = &[
     case("haff", "dem-benchmarks", 10, "a gas of grains cools, in the plane and in space", cooling::haff),
     gap(case("haff-inelastic", "dem-benchmarks", 10, "the same at a restitution of 0.8", cooling::haff_inelastic)),
     case("centrifuging", "dem-benchmarks", 1, "where a drum's grain leaves the wall", drum::centrifuging),
+    case(
+        "packed-ellipsoids",
+        "dem-benchmarks",
+        600,
+        "frictionless ellipsoids lie denser than spheres",
+        packing::ellipsoids,
+    ),
     case("q-model", "dem-benchmarks", 5, "random loads on a lattice", random_loads::q_model),
     case("rebound-on-steel", "open-dem-benchmark", 1, "rebound at 0.4 m/s", open_dem_benchmark::rebound),
     case("starts-to-roll", "open-dem-benchmark", 1, "a steel sphere rolls down 45 degrees", open_dem_benchmark::roll),

@@ -1,6 +1,8 @@
 //! Steps per second of a scene, steps alone: no files, no report.
 //! `cargo bench --bench race -- SCENE WARM STEPS THREADS [KEY=VALUE]...`
 //!
+//! A scene with `start-from` begins at the checkpoint in that folder, from the folder of the scene.
+//!
 //! Prints one line of JSON: what was timed and, for a comparison of physics, what came out. `cargo xtask race` runs it
 //! against other codes.
 
@@ -11,7 +13,7 @@ use tsubu::ledger::Ledger;
 use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu::threads::alone;
-use tsubu_frame::{Frame, Kind, Values};
+use tsubu_frame::{Frame, Kind, Values, checkpoint};
 use tsubu_scene::Scene;
 use tsubu_scene::plan::{GrainMotion, Plan};
 
@@ -32,6 +34,10 @@ fn race(path: &Path, changes: &[String], warm: u64, steps: u64) {
     let scene = Scene::read(path, changes).unwrap_or_else(|c| panic!("{c}"));
     let mut hosts = Hosts::new(&scene.plan().hosts);
     let mut engine = methods::open(scene.plan(), &hosts).unwrap_or_else(|e| panic!("{e}"));
+    if let Some(folder) = &scene.plan().start_from {
+        let (_, state) = checkpoint::read(&checkpoint::path(Path::new(folder))).unwrap_or_else(|e| panic!("{e}"));
+        engine.load(&state).unwrap_or_else(|e| panic!("{e}"));
+    }
     let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let mut go = |steps: u64| {
         let begun = Instant::now();

@@ -10,9 +10,15 @@
 //!
 //! (Barr 1981; the dual norm, Rockafellar 1970).
 
+#![allow(clippy::inline_always, reason = "a call inside a row would end the vector code of its loop")]
+
+pub mod ellipsoids;
+pub mod symmetric;
 pub mod touch;
 
+use ellipsoids::Ellipsoid;
 use glam::{DMat3, DVec3};
+use symmetric::Symmetric;
 
 /// Radii of curvature end at so many times the farthest reach of a body: flat places have none.
 pub const FLATTEST: f64 = 10.0;
@@ -63,15 +69,26 @@ pub struct Support {
 }
 
 impl Superellipsoid {
+    /// Whether it is an ellipsoid.
+    #[inline]
+    pub fn is_ellipsoid(&self) -> bool {
+        self.exponents == [2.0; 2]
+    }
+
+    /// The ellipsoid with its semi-axes, turned so that these have these directions.
+    pub fn ellipsoid(&self, axes: &DMat3) -> Ellipsoid {
+        let squared = Symmetric::along(self.semi_axes * self.semi_axes, axes);
+        let (product, flattest) = (self.semi_axes.element_product(), FLATTEST * self.reach);
+        Ellipsoid { squared, product, flattest, inverse_inertia: Symmetric::default() }
+    }
+
     /// The body, turned so that its axes have these directions.
     pub fn turned(&self, axes: &DMat3) -> Outline {
-        let squared = *axes * DMat3::from_diagonal(self.semi_axes * self.semi_axes) * axes.transpose();
-        let form = if self.exponents == [2.0; 2] {
-            Form::Ellipsoid(self.semi_axes.element_product())
-        } else {
-            Form::Superellipsoid(*self, *axes)
-        };
-        Outline { form, squared, flattest: FLATTEST * self.reach }
+        let ellipsoid = self.ellipsoid(axes).outline();
+        if self.is_ellipsoid() {
+            return ellipsoid;
+        }
+        Outline { form: Form::Superellipsoid(*self, *axes), ..ellipsoid }
     }
 
     /// See [`Outline::roundness`], in the frame of the body and without its ends.

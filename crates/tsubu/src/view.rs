@@ -28,11 +28,13 @@ pub struct Wants {
     pub contacts: Contacts,
     /// Forces and torques on the walls.
     pub walls: bool,
+    /// Bodies that are no spheres.
+    pub bodies: bool,
 }
 
 impl Wants {
     /// Grains alone, spins not looked at.
-    pub const GRAINS: Self = Self { spins: false, contacts: Contacts::Nothing, walls: false };
+    pub const GRAINS: Self = Self { spins: false, contacts: Contacts::Nothing, walls: false, bodies: false };
     /// Grains, and which of them touch.
     pub const TOUCHES: Self = Self { contacts: Contacts::Places, ..Self::GRAINS };
     /// Grains and their contacts.
@@ -40,7 +42,7 @@ impl Wants {
     /// Forces and torques on the walls.
     pub const WALLS: Self = Self { walls: true, ..Self::GRAINS };
     /// Everything.
-    pub const ALL: Self = Self { spins: true, contacts: Contacts::Forces, walls: true };
+    pub const ALL: Self = Self { spins: true, contacts: Contacts::Forces, walls: true, bodies: true };
 
     /// What either wants.
     #[must_use]
@@ -49,6 +51,7 @@ impl Wants {
             spins: self.spins || other.spins,
             contacts: self.contacts.max(other.contacts),
             walls: self.walls || other.walls,
+            bodies: self.bodies || other.bodies,
         }
     }
 
@@ -58,6 +61,8 @@ impl Wants {
             Some("a list of contacts")
         } else if self.walls && !offered.walls {
             Some("forces on walls")
+        } else if self.bodies && !offered.bodies {
+            Some("bodies that are no spheres")
         } else {
             (self.spins && !offered.spins).then_some("spins")
         }
@@ -82,6 +87,10 @@ pub struct View<'a> {
     pub broken_bonds: u64,
     /// Loads on the walls, in the order of their names; empty unless wanted.
     pub walls: Vec<WallLoad>,
+    /// The bodies that are no spheres; empty unless wanted.
+    pub bodies: Vec<Body>,
+    /// For each grain the place among these of the body that it is a piece of; empty where there are none.
+    pub body_of: Vec<Option<u32>>,
     /// The water that the grains are in.
     pub water: Option<&'a Water>,
     /// The hosts, in the order of their names; engines show none, whoever lets watches look adds them.
@@ -109,6 +118,19 @@ pub struct Columns<'a> {
     pub group: Cow<'a, [u32]>,
     /// Number of the grain.
     pub id: Cow<'a, [u32]>,
+}
+
+/// A body that is no sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// Index of a grain that is a piece of it, the one with the lowest number.
+    pub grain: usize,
+    /// Centre of mass, which periodic ends do not put back [m].
+    pub centre: DVec3,
+    /// Direction of the principal axis of the least moment of inertia.
+    pub long: DVec3,
+    /// Direction of the principal axis of the largest one.
+    pub short: DVec3,
 }
 
 /// A touching pair.

@@ -3,6 +3,7 @@
 use glam::{DMat3, DQuat, DVec3};
 use std::f64::consts::TAU;
 use tsubu::random::{Purpose, unit, words};
+use tsubu::superellipsoid::ellipsoids::{Ellipsoid, Pairs};
 use tsubu::superellipsoid::touch::{Touch, touch};
 use tsubu::superellipsoid::{Outline, Superellipsoid};
 
@@ -37,7 +38,10 @@ struct Pair {
 impl Pair {
     fn drawn(draw: &mut Draw, exponents: [[f64; 2]; 2]) -> Self {
         let bodies = exponents.map(|exponents| (draw.body(exponents), draw.turned()));
-        let way = draw.turned() * DVec3::Z;
+        Self::pressed(bodies, draw.turned() * DVec3::Z)
+    }
+
+    fn pressed(bodies: [(Superellipsoid, DQuat); 2], way: DVec3) -> Self {
         let mut pair = Self { bodies, apart: way };
         let (mut inside, mut outside) = (0.2, 4.0);
         while outside - inside > 2e-3 {
@@ -170,4 +174,74 @@ fn rounding_is_the_slope_of_the_effective_radius() {
         }
     }
     assert!(largest > 0.1, "{largest}");
+}
+
+/// Many pairs at once are found where each alone is, whatever is beside them in the columns and whether the other is a sphere; the place that the
+/// search sets out from is none of these and refused.
+#[test]
+fn ellipsoids_side_by_side_touch_where_one_pair_does() {
+    let mut draw = Draw(4);
+    let (mut away, mut rounding, mut coarse, mut many) = (0.0_f64, 0.0_f64, 0, 0);
+    for round in 0..100 {
+        let pairs: Vec<Pair> = (0..30)
+            .map(|k| {
+                let pair = Pair::drawn(&mut draw, [[2.0; 2]; 2]);
+                if k % 5 != 0 {
+                    return pair;
+                }
+                // A sphere, and a body ten times as long as wide.
+                let mut bodies = pair.bodies;
+                bodies[0].0.semi_axes = DVec3::ONE;
+                bodies[1].0.semi_axes = DVec3::new(1.0, 0.1, 0.1);
+                Pair::pressed(bodies, pair.apart.normalize())
+            })
+            .collect();
+        let bodies: Vec<[Ellipsoid; 2]> = pairs
+            .iter()
+            .map(|pair| pair.bodies.map(|(body, turned)| body.ellipsoid(&DMat3::from_quat(turned))))
+            .collect();
+        let body = |number: u32| &bodies[number as usize / 2][number as usize % 2];
+        let search = |from: usize, to: usize| {
+            let mut side_by_side = Pairs::default();
+            for (k, pair) in pairs.iter().enumerate().take(to).skip(from) {
+                let number = [2 * k as u32, 2 * k as u32 + 1];
+                side_by_side.push(k as u32, number, number.map(body), pair.apart);
+            }
+            side_by_side.sieve(0.01);
+            let guess: Vec<f64> = (0..side_by_side.rows()).map(|i| side_by_side.overlap(i)).collect();
+            side_by_side.descend(0.0, body);
+            (guess, side_by_side)
+        };
+        let (guess, found) = search(0, pairs.len());
+        for i in 0..found.rows() {
+            let pair = &pairs[found.name[i] as usize];
+            let Some(alone) = pair.touch() else {
+                assert!(found.overlap(i) <= 0.0 || !found.arrived(i));
+                continue;
+            };
+            if !found.arrived(i) {
+                continue;
+            }
+            many += 1;
+            let touch = found.touch(i);
+            coarse += usize::from(guess[i] - alone.overlap > 1e-6);
+            away = away.max((touch.normal - alone.normal).length()).max((touch.overlap - alone.overlap).abs());
+            for k in 0..2 {
+                away = away.max((touch.points[k] - alone.points[k]).length());
+                away = away.max((touch.radii[k] / alone.radii[k] - 1.0).abs());
+                let scale = 1.0 + alone.rounding.torques[k].length();
+                rounding = rounding.max((touch.rounding.torques[k] - alone.rounding.torques[k]).length() / scale);
+            }
+            let scale = 1.0 + alone.rounding.force.length();
+            rounding = rounding.max((touch.rounding.force - alone.rounding.force).length() / scale);
+            // Alone in the columns it has the same bits.
+            if round < 5 {
+                let (_, single) = search(found.name[i] as usize, found.name[i] as usize + 1);
+                assert_eq!(single.touch(0).normal, touch.normal);
+                assert_eq!(single.touch(0).rounding.torques, touch.rounding.torques);
+            }
+        }
+    }
+    assert!(away < 1e-8 && rounding < 1e-4, "{away:e} {rounding:e}");
+    assert!(many > 2500 && coarse > many / 3, "{many} {coarse}");
 }

@@ -1,13 +1,15 @@
 //! Watches: what is looked at while a scene runs, and when. Every kind of watch is one row here; formulas stand beside their
 //! code: `tsubu explain`.
 
+mod common;
 mod words;
 
-pub use words::{Axis, Bed, Face, Heading, Kernel, Quantity};
+pub use words::{Axis, Bed, BodyAxis, Face, Heading, Kernel, Quantity};
 
 use super::{Region, Vector};
 use crate::key::{Family, Key, Kind};
 use crate::units::{AREA, DENSITY, FREQUENCY, LENGTH, NUMBER, SPEED, TIME};
+use common::{GROUP, REGION, SIZES, STAYS, WALLS, WITHIN};
 use serde::{Deserialize, Serialize};
 
 /// A watch: when it looks, and at what.
@@ -84,28 +86,6 @@ macro_rules! kinds {
         }
     };
 }
-
-const REGION: Key = Key::new(
-    "region",
-    Kind::Table(Region::KEYS),
-    "Where: a box of space; it stands still, whatever walls are around it",
-)
-.derived("the inside of the box as drawn, where there is one box");
-const STAYS: Key =
-    Key::new("region", Kind::Table(Region::ROUND_KEYS), "Where; it stands still, whatever walls are around it")
-        .derived("the inside of the box as drawn, where there is one box");
-const WITHIN: Key =
-    Key::new("region", Kind::Table(Region::ROUND_KEYS), "Only grains whose centres are inside; it stands still")
-        .optional();
-const SIZES: Key = Key::new(
-    "sizes",
-    Kind::Quantities(&LENGTH),
-    "Diameters, rising: it is told for the grains below, between and from them on, too",
-)
-.above(0.0)
-.optional();
-const WALLS: Key = Key::new("walls", Kind::Flag, "Whether contacts with walls count");
-const GROUP: Key = Key::new("group", Kind::Name(Family::Group), "Only the grains of this group").optional();
 
 kinds! {
     profile::Profile "profile"
@@ -276,6 +256,24 @@ kinds! {
         /// Whether contacts with walls count.
         walls: bool = WALLS.default("false"),
         /// Only grains inside.
+        region: Option<Region> = WITHIN,
+    }
+
+    orientation::Orientation "orientation"
+    "How clumps and superellipsoids are turned: nematic order parameter, director, and how many lie at which angle" {
+        /// Which axis of a body.
+        body_axis: BodyAxis =
+            Key::new("body-axis", Kind::OneOf(BodyAxis::WORDS), "Which axis of a body").default("'long'"),
+        /// Unit direction that angles are told against.
+        along: Vector = Key::new("along", Kind::Direction, "Direction that angles are told against").default("'z'"),
+        /// Bins of the angles.
+        bins: usize = Key::new("bins", Kind::Whole, "Bins of the angles from 0 to 90 degrees")
+            .default("18")
+            .at_least(1.0)
+            .at_most(1e5),
+        /// Only bodies of this group.
+        group: Option<String> = GROUP,
+        /// Only bodies whose centres are inside.
         region: Option<Region> = WITHIN,
     }
 

@@ -1,6 +1,6 @@
 //! Elastic spheres: Hertz.
 
-use super::chunk::Chunk;
+use super::chunk::{Chunk, Column};
 use super::part::{About, Part, Stage};
 use super::root::most;
 use super::table::{Constants, Pair};
@@ -45,8 +45,10 @@ impl Part for Hertz {
     }
 
     /// The energy goes with the root of the radius.
-    fn energy_slope(&self, chunk: &Chunk, row: usize) -> f64 {
-        0.2 * chunk.secant_stiffness[row] * chunk.overlap[row].powi(2) / chunk.effective_radius[row]
+    fn energy_slopes(&self, chunk: &Chunk, slopes: &mut Column) {
+        for i in 0..chunk.rows() {
+            slopes[i] += 0.2 * chunk.secant_stiffness[i] * chunk.overlap[i].powi(2) / chunk.effective_radius[i];
+        }
     }
 }
 

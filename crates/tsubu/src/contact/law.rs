@@ -1,6 +1,6 @@
 //! A law: an ordered stack of parts.
 
-use super::chunk::Chunk;
+use super::chunk::{Chunk, Column, ZERO};
 use super::part::{Needs, Part, Slot, Stage};
 use super::root::most;
 use super::table::{Constants, Pair};
@@ -81,9 +81,11 @@ impl Law {
         }
     }
 
-    /// Slope of the stored energy of a row over its effective radius [N].
-    pub fn energy_slope(&self, chunk: &Chunk, row: usize) -> f64 {
-        self.parts.iter().map(|part| part.energy_slope(chunk, row)).sum()
+    /// Slopes of the stored energy of all rows over their effective radii [N].
+    pub fn energy_slopes(&self, chunk: &Chunk) -> Column {
+        let mut slopes = ZERO;
+        self.parts.iter().for_each(|part| part.energy_slopes(chunk, &mut slopes));
+        slopes
     }
 
     /// Energy [J] that a contact's history still holds when it opens.

@@ -1,6 +1,6 @@
 //! A part: one ingredient of a contact law.
 
-use super::chunk::Chunk;
+use super::chunk::{Chunk, Column};
 use super::table::{Constants, Pair};
 pub use crate::about::About;
 
@@ -85,11 +85,9 @@ pub trait Part: Send + Sync + std::fmt::Debug {
     /// Acts on all rows; its history begins at column `at`; `dt` is the time step [s].
     fn apply(&self, chunk: &mut Chunk, at: usize, dt: f64);
 
-    /// Slope of the energy that a row stores over its effective radius, at the same overlap [N]: what it takes to roll to where bodies are less
-    /// round. Asked for bodies that are no spheres, after the law has acted.
-    fn energy_slope(&self, _chunk: &Chunk, _row: usize) -> f64 {
-        0.0
-    }
+    /// Adds the slope of the energy that each row stores over its effective radius, at the same overlap [N]: what it takes to roll to where bodies
+    /// are less round. Asked for bodies that are no spheres, after the law has acted.
+    fn energy_slopes(&self, _chunk: &Chunk, _slopes: &mut Column) {}
 
     /// Energy [J] that a history still holds; it is lost when the contact opens. `history` begins with this part's.
     fn held(&self, _history: &[f64]) -> f64 {

@@ -19,7 +19,9 @@ use crate::neighbours::lists::{BlockList, shares};
 use crate::state::Grains;
 use crate::superellipsoid::{Outline, Superellipsoid};
 use crate::threads::each_in_parts;
-use body::{Body, Felt};
+use crate::view;
+pub(super) use body::Body;
+use body::{Felt, TOGETHER};
 use glam::{DQuat, DVec3};
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
@@ -47,6 +49,8 @@ pub(super) struct Bodies {
     plane: bool,
     /// Whether some are superellipsoids.
     shaped: bool,
+    /// Whether some of these are no ellipsoids.
+    powers: bool,
 }
 
 impl Bodies {
@@ -59,15 +63,23 @@ impl Bodies {
         self.shaped
     }
 
+    /// Whether some superellipsoids are no ellipsoids.
+    pub fn powers(&self) -> bool {
+        self.powers
+    }
+
     /// The superellipsoid that a grain is; `None`: it is a sphere.
-    pub fn superellipsoid(&self, i: usize) -> Option<&Superellipsoid> {
-        self.list.get(self.sorted.get(i)?.body as usize)?.superellipsoid.as_ref()
+    #[inline]
+    pub fn superellipsoid(&self, i: usize) -> Option<(&Body, &Superellipsoid)> {
+        let body = self.list.get(self.sorted.get(i)?.body as usize)?;
+        Some((body, body.superellipsoid.as_ref()?))
     }
 
     /// The same as it is turned.
     pub fn outline(&self, i: usize) -> Option<Outline> {
         let body = self.list.get(self.sorted.get(i)?.body as usize)?;
-        Some(body.superellipsoid?.turned(&body.axes))
+        let shape = body.superellipsoid.as_ref()?;
+        Some(if shape.is_ellipsoid() { body.ellipsoid.outline() } else { shape.turned(&body.axes) })
     }
 
     /// The body of every grain by its id; nothing where there are none.
@@ -111,11 +123,9 @@ impl Bodies {
     /// Before the forces: bodies go to the end of the step. Their pieces follow block by block, see [`Bodies::place`].
     pub fn first_half(&mut self, dt: f64) {
         let (plane, pieces) = (self.plane, self.places.len());
-        each_in_parts(&mut self.list, shares(pieces), &|body: &mut Body| {
-            if body.is_there() {
-                body.first_half(dt, plane);
-            }
-        });
+        let (many, others) = self.list.as_chunks_mut::<TOGETHER>();
+        each_in_parts(many, shares(pieces), &|bodies: &mut [Body; TOGETHER]| Body::first_half(bodies, dt, plane));
+        Body::first_half(others, dt, plane);
     }
 
     /// Puts the pieces of a block where their bodies have them. Returns, of all of its grains, the sum of the velocities [m/s] and how far the
@@ -174,11 +184,12 @@ impl Bodies {
 
     /// Gives each row of a batch the mass that its bodies show at the place of contact: 1/m + (r x n) . I^-1 (r x n), with the arm r from the
     /// centre of mass (Goldsmith 1960). So what was asked for comes back from an impact anywhere on a body.
-    pub fn show_mass(&self, batch: &mut ContactBatch, list: &BlockList, wall: bool) {
+    /// Only to the rows that are `asked` for.
+    pub fn show_mass(&self, batch: &mut ContactBatch, list: &BlockList, wall: bool, asked: impl Fn(usize) -> bool) {
         if self.is_empty() {
             return;
         }
-        for r in 0..batch.chunk.rows() {
+        for r in (0..batch.chunk.rows()).filter(|r| asked(*r)) {
             let normal = Chunk::vector(&batch.chunk.normal, r);
             let mut more = self.turning(list.first + batch.first[r] as usize, batch.shift(0, r), normal);
             if !wall {
@@ -191,7 +202,7 @@ impl Bodies {
     }
 
     /// How much a body gives way by turning, to a push along a normal on a piece of it, or on what is `shift` [m] beside that [1/kg].
-    fn turning(&self, i: usize, shift: DVec3, normal: DVec3) -> f64 {
+    pub fn turning(&self, i: usize, shift: DVec3, normal: DVec3) -> f64 {
         let piece = &self.sorted[i];
         let Some(body) = self.list.get(piece.body as usize) else { return 0.0 };
         let lever = (body.arm(piece, self.plane) + shift).cross(normal);
@@ -222,6 +233,25 @@ impl Bodies {
     /// Adds a velocity to all.
     pub fn push(&mut self, velocity: DVec3) {
         self.list.iter_mut().for_each(|body| body.velocity += velocity);
+    }
+
+    /// What is shown of those that are there, and for each grain its place among them.
+    pub fn view(&self) -> (Vec<view::Body>, Vec<Option<u32>>) {
+        let (mut shown, mut body_of) = (Vec::new(), vec![None; self.sorted.len()]);
+        for body in self.there() {
+            let places = &self.places[body.pieces.clone()];
+            for place in places {
+                body_of[*place as usize] = Some(shown.len() as u32);
+            }
+            let along = |axis: usize| body.axes.col(axis);
+            shown.push(view::Body {
+                grain: places[0] as usize,
+                centre: body.centre,
+                long: along(body.moments.min_position()),
+                short: along(body.moments.max_position()),
+            });
+        }
+        (shown, if self.is_empty() { Vec::new() } else { body_of })
     }
 
     /// Brings all to rest.

@@ -108,9 +108,14 @@ impl TouchingPairs {
         }
     }
 
+    /// What was found under any law.
+    pub fn all(&self) -> &[TouchingPair] {
+        &self.room[..self.count]
+    }
+
     /// What was found under a law.
     pub fn under(&self, law: usize) -> &[TouchingPair] {
-        self.by_law.get(law).map_or(&self.room[..self.count], Vec::as_slice)
+        self.by_law.get(law).map_or(self.all(), Vec::as_slice)
     }
 }
 

@@ -64,7 +64,7 @@ impl DemEngine {
             .iter()
             .map(|&i| {
                 let sphere = (DVec3::splat(self.grains.radius[i]), [2.0; 2]);
-                self.integration.bodies.superellipsoid(i).map_or(sphere, |body| (body.semi_axes, body.exponents))
+                self.integration.bodies.superellipsoid(i).map_or(sphere, |(_, own)| (own.semi_axes, own.exponents))
             })
             .collect();
         frame.vector(Kind::Grain, "semi-axes", "m", shapes.iter().map(|(axes, _)| axes.to_array()).collect());
@@ -142,6 +142,7 @@ impl DemEngine {
         let walls = if wants.walls { self.reactions.wall_loads.clone() } else { Vec::new() };
         let water = self.immersion.as_ref().map(|immersion| &immersion.water);
         let bonds = self.contacts.bonds.rows().collect();
+        let (bodies, body_of) = if wants.bodies { self.integration.bodies.view() } else { Default::default() };
         View {
             time: self.clock.time(),
             periodic: self.neighbours.search.periodic,
@@ -150,6 +151,8 @@ impl DemEngine {
             bonds,
             broken_bonds: self.contacts.bonds.broken(),
             walls,
+            bodies,
+            body_of,
             water,
             hosts: &[],
         }

@@ -7,6 +7,7 @@ mod engines;
 mod hops;
 mod hydrostatic;
 mod kernel;
+mod orientation;
 mod profile;
 mod single;
 mod slope;
@@ -104,7 +105,12 @@ pub fn plan(dimension: u8, more: &str, watch: &str) -> Plan {
 
 /// The watch of such a scene.
 pub fn watch(dimension: u8, watch: &str) -> Box<dyn Watch> {
-    let plan = plan(dimension, "", watch);
+    watch_of(dimension, "", watch)
+}
+
+/// The watch of a scene with `more`.
+pub fn watch_of(dimension: u8, more: &str, watch: &str) -> Box<dyn Watch> {
+    let plan = plan(dimension, more, watch);
     open(&plan.watch["w"].measure, &plan)
 }
 

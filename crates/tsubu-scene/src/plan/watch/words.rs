@@ -149,6 +149,27 @@ impl Quantity {
     ];
 }
 
+/// Which axis of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BodyAxis {
+    /// Of the least moment of inertia.
+    Long,
+    /// Of the largest moment of inertia.
+    Short,
+}
+
+impl BodyAxis {
+    /// What a scene may say.
+    pub(crate) const WORDS: &'static [Word] = &[
+        Word { name: "long", about: "of the least moment of inertia: along a rod" },
+        Word {
+            name: "short",
+            about: "of the largest moment of inertia: across a disc; in the plane across the long one",
+        },
+    ];
+}
+
 /// What the bed is that grains hop on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -40,7 +40,8 @@ impl Bodies {
                 }
             }
         }
-        bodies.shaped = bodies.list.iter().any(|body| body.superellipsoid.is_some());
+        let shapes = || bodies.list.iter().filter_map(|body| body.superellipsoid.as_ref());
+        (bodies.shaped, bodies.powers) = (shapes().next().is_some(), shapes().any(|shape| !shape.is_ellipsoid()));
         bodies.find(grains);
         bodies.show(grains);
         bodies
@@ -49,14 +50,16 @@ impl Bodies {
     /// Makes room for a body: what of it never changes.
     fn expect(&mut self, clump: &Clump, mass: f64, diameter: f64) {
         let body = self.list.len() as u32;
+        let superellipsoid = clump.superellipsoid.map(|shape| Superellipsoid {
+            semi_axes: DVec3::from_array(shape.semi_axes) * diameter,
+            exponents: shape.exponents,
+            reach: 0.5 * diameter,
+        });
         self.list.push(Body {
             mass,
             moments: DVec3::from_array(clump.moments) * (mass * diameter * diameter),
-            superellipsoid: clump.superellipsoid.map(|shape| Superellipsoid {
-                semi_axes: DVec3::from_array(shape.semi_axes) * diameter,
-                exponents: shape.exponents,
-                reach: 0.5 * diameter,
-            }),
+            ellipsoid: superellipsoid.map(|shape| shape.ellipsoid(&DMat3::IDENTITY)).unwrap_or_default(),
+            superellipsoid,
             pieces: 0..0,
             centre: DVec3::ZERO,
             velocity: DVec3::ZERO,

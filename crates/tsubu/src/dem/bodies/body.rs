@@ -1,8 +1,13 @@
 //! One rigid body: how it moves and turns.
 
+#![allow(clippy::inline_always, reason = "a call inside a row would end the vector code of its loop")]
+
 use super::Piece;
 use crate::superellipsoid::Superellipsoid;
+use crate::superellipsoid::ellipsoids::Ellipsoid;
+use crate::superellipsoid::symmetric::Symmetric;
 use glam::{DMat3, DQuat, DVec3};
+use multiversion::multiversion;
 use std::ops::Range;
 
 /// Rounds of the midpoint rule; at usual steps it takes five to eight.
@@ -32,6 +37,8 @@ pub struct Body {
     pub torque: DVec3,
     // What follows from these.
     pub axes: DMat3,
+    /// The ellipsoid with the semi-axes of the superellipsoid.
+    pub ellipsoid: Ellipsoid,
     /// Inverse inertia in space [1/(kg.m^2)].
     pub inverse_inertia: DMat3,
     pub spin: DVec3,
@@ -58,7 +65,13 @@ impl Body {
     /// Finds what follows from attitude and angular momentum.
     pub fn follow(&mut self, plane: bool) {
         self.axes = DMat3::from_quat(self.orientation);
-        self.inverse_inertia = self.axes * DMat3::from_diagonal(self.moments.recip()) * self.axes.transpose();
+        if let Some(shape) = &self.superellipsoid {
+            self.ellipsoid.squared = Symmetric::along(shape.semi_axes * shape.semi_axes, &self.axes);
+            self.ellipsoid.inverse_inertia = Symmetric::along(self.moments.recip(), &self.axes);
+            self.inverse_inertia = self.ellipsoid.inverse_inertia.full();
+        } else {
+            self.inverse_inertia = self.axes * DMat3::from_diagonal(self.moments.recip()) * self.axes.transpose();
+        }
         self.turn(plane);
     }
 
@@ -72,7 +85,7 @@ impl Body {
 
     /// From the centre of mass to that of a piece [m].
     #[inline]
-    pub fn arm(&self, piece: &Piece, plane: bool) -> DVec3 {
+    pub(super) fn arm(&self, piece: &Piece, plane: bool) -> DVec3 {
         let mut arm = self.axes * piece.offset;
         if plane {
             arm.y = 0.0;
@@ -80,17 +93,23 @@ impl Body {
         arm
     }
 
-    /// To the end of a step, velocities predicted with the old acceleration as those of spheres are.
-    pub fn first_half(&mut self, dt: f64, plane: bool) {
-        let kick = self.acceleration * (0.5 * dt);
-        let half = self.velocity + kick;
-        self.centre += half * dt;
-        self.velocity = half + kick;
-        let kick = self.torque * (0.5 * dt);
-        let half = self.angular_momentum + kick;
-        self.orientation = rotated(self.orientation, half, self.moments, dt);
-        self.angular_momentum = half + kick;
-        self.follow(plane);
+    /// Up to [`TOGETHER`] bodies go to the end of a step, velocities predicted with the old acceleration as those of spheres are.
+    pub fn first_half(bodies: &mut [Self], dt: f64, plane: bool) {
+        let mut turns = Turns::default();
+        for (k, body) in bodies.iter_mut().enumerate().filter(|(_, body)| body.is_there()) {
+            let kick = body.acceleration * (0.5 * dt);
+            let half = body.velocity + kick;
+            body.centre += half * dt;
+            body.velocity = half + kick;
+            body.angular_momentum += body.torque * (0.5 * dt);
+            turns.set(k, body.orientation, body.angular_momentum, body.moments, dt);
+        }
+        turn(&mut turns);
+        for (k, body) in bodies.iter_mut().enumerate().filter(|(_, body)| body.is_there()) {
+            body.orientation = turns.turned(k, body.orientation);
+            body.angular_momentum += body.torque * (0.5 * dt);
+            body.follow(plane);
+        }
     }
 
     pub fn vectors(&self) -> [DVec3; 5] {
@@ -117,29 +136,77 @@ impl Body {
     }
 }
 
-/// Where free rotation brings an orientation in `dt` [s], with an angular momentum in space and moments about the principal axes.
+/// Bodies that go together: vectors hold them side by side.
+pub const TOGETHER: usize = 16;
+
+type Columns = [[f64; TOGETHER]; 3];
+
+/// Where free rotation brings orientations in a step, with angular momenta in space and moments about the principal axes.
 ///
 /// In the body the momentum p obeys dp/dt = p x w, w = I^-1 p. The midpoint m of both ends obeys m + a x m = p with a = w dt/2, so
 /// m = (p + a (a.p) - a x p) / (1 + a^2), and the attitude turns by the quaternion (1, a), normalised.
-fn rotated(orientation: DQuat, momentum: DVec3, moments: DVec3, dt: f64) -> DQuat {
-    let p = orientation.conjugate() * momentum;
-    let slowness = moments.recip() * (0.5 * dt);
-    let mut a = p * slowness;
-    for _ in 0..ROUNDS {
-        let middle = (p + a * a.dot(p) - a.cross(p)) / (1.0 + a.length_squared());
-        let next = middle * slowness;
-        let same = (next - a).length_squared() <= 1e-32 * next.length_squared();
-        a = next;
-        if same {
-            break;
+#[derive(Default)]
+struct Turns {
+    /// p, in the body.
+    momentum: Columns,
+    /// dt/2 over the moments.
+    slowness: Columns,
+    a: Columns,
+}
+
+impl Turns {
+    fn set(&mut self, k: usize, orientation: DQuat, momentum: DVec3, moments: DVec3, dt: f64) {
+        let p = orientation.conjugate() * momentum;
+        let slowness = moments.recip() * (0.5 * dt);
+        for (columns, v) in [(&mut self.momentum, p), (&mut self.slowness, slowness), (&mut self.a, p * slowness)] {
+            (columns[0][k], columns[1][k], columns[2][k]) = (v.x, v.y, v.z);
         }
     }
-    (orientation * DQuat::from_xyzw(a.x, a.y, a.z, 1.0).normalize()).normalize()
+
+    /// An orientation after the turn.
+    fn turned(&self, k: usize, orientation: DQuat) -> DQuat {
+        let a = at(&self.a, k);
+        (orientation * DQuat::from_xyzw(a.x, a.y, a.z, 1.0).normalize()).normalize()
+    }
+}
+
+#[inline(always)]
+fn at(columns: &Columns, k: usize) -> DVec3 {
+    DVec3::new(columns[0][k], columns[1][k], columns[2][k])
+}
+
+/// Finds a of all; each stays where it is once it has been found.
+#[multiversion(targets = "simd")]
+fn turn(turns: &mut Turns) {
+    let Turns { momentum, slowness, a: columns } = turns;
+    let mut found = [0.0; TOGETHER];
+    for _ in 0..ROUNDS {
+        for k in 0..TOGETHER {
+            let (p, a) = (at(momentum, k), at(columns, k));
+            let middle = (p + a * a.dot(p) - a.cross(p)) / (1.0 + a.length_squared());
+            let next = middle * at(slowness, k);
+            let same = (next - a).length_squared() <= 1e-32 * next.length_squared();
+            let before = found[k];
+            let next = if before > 0.0 { a } else { next };
+            (columns[0][k], columns[1][k], columns[2][k]) = (next.x, next.y, next.z);
+            found[k] = if same { 1.0 } else { before };
+        }
+        if !found.contains(&0.0) {
+            return;
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn rotated(orientation: DQuat, momentum: DVec3, moments: DVec3, dt: f64) -> DQuat {
+        let mut turns = Turns::default();
+        turns.set(0, orientation, momentum, moments, dt);
+        turn(&mut turns);
+        turns.turned(0, orientation)
+    }
 
     /// Free tumbling about the middle axis (Dzhanibekov), moments 1 : 50 : 100, 40 steps a turn, 1e5 turns: the energy keeps to rounding
     /// that grows as a random walk does. The same with the spin of the beginning of each step, which is of first order, is refused.

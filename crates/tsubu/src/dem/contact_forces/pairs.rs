@@ -35,7 +35,7 @@ pub(super) fn evaluate(
             batch.gather(touching, grains, list, spheres, &laws.table, laws.rotation);
             shapes.gather(batch, touching);
             batch.sphere_geometry(laws.rotation, laws.lever_share);
-            input.bodies.show_mass(batch, list, false);
+            shapes.show_mass(input.bodies, batch, list);
             if width > 0 {
                 for (touching, old) in touching.iter().zip(&mut *old) {
                     let opened = skip(&history.pairs.keys, &mut cursor, |pair| *pair < touching.pair);
@@ -49,7 +49,7 @@ pub(super) fn evaluate(
                 history.pairs.gather(&old[..touching.len()], &mut batch.chunk.history);
             }
             apply_law(input, number, batch, sums);
-            shapes.round(batch, touching, law);
+            shapes.round(batch, law);
             if width > 0 {
                 next.pairs.keys.extend(touching.iter().map(|touching| touching.pair));
                 next.pairs.append(touching.len(), &batch.chunk.history);

@@ -55,7 +55,8 @@ fn evaluate_law(
         elements.extend(near.iter().map(|candidate| candidate.element));
         let reach = input.laws.reaches[number];
         wall.touching(elements, g.position[i], g.radius[i] + reach, touching);
-        let outline = if input.bodies.shaped() { input.bodies.outline(i) } else { None };
+        let shaped = input.bodies.shaped() && !touching.is_empty();
+        let outline = if shaped { input.bodies.outline(i) } else { None };
         if let Some(outline) = &outline {
             wall_shapes.find(outline, touching, reach);
         }
@@ -161,7 +162,7 @@ fn finish(
     let remembers = input.laws.all()[number].width() > 0;
     let n = batch.chunk.rows();
     batch.relative_motion(input.laws.rotation);
-    input.bodies.show_mass(batch, list, true);
+    input.bodies.show_mass(batch, list, true, |_| true);
     if remembers {
         history.walls.gather(&old[..n], &mut batch.chunk.history);
     }
