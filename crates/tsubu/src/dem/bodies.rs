@@ -16,11 +16,12 @@ use crate::contact::chunk::Chunk;
 use crate::ledger::Energies;
 use crate::neighbours::joined::NO_BODY;
 use crate::neighbours::lists::{BlockList, shares};
+use crate::polyhedron::Polyhedron;
 use crate::state::Grains;
 use crate::superellipsoid::{Outline, Superellipsoid};
 use crate::threads::each_in_parts;
 use body::{Body, Felt};
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 
@@ -47,6 +48,8 @@ pub(super) struct Bodies {
     plane: bool,
     /// Whether some are superellipsoids.
     shaped: bool,
+    /// Polyhedra of diameter 1.
+    polyhedra: Vec<Polyhedron>,
 }
 
 impl Bodies {
@@ -68,6 +71,29 @@ impl Bodies {
     pub fn outline(&self, i: usize) -> Option<Outline> {
         let body = self.list.get(self.sorted.get(i)?.body as usize)?;
         Some(body.superellipsoid?.turned(&body.axes))
+    }
+
+    /// Whether there are polyhedra.
+    pub fn faceted(&self) -> bool {
+        !self.polyhedra.is_empty()
+    }
+
+    /// The polyhedron that a grain is, of diameter 1, its diameter [m], and the directions of its principal axes.
+    pub fn polyhedron(&self, i: usize) -> Option<(&Polyhedron, f64, &DMat3)> {
+        let body = self.list.get(self.sorted.get(i)?.body as usize)?;
+        let (shape, size) = body.polyhedron?;
+        Some((&self.polyhedra[shape as usize], size, &body.axes))
+    }
+
+    /// Rounding radius of the polyhedron that a grain is [m].
+    pub fn rounding(&self, i: usize) -> Option<f64> {
+        self.polyhedron(i).map(|(shape, size, _)| shape.rounding() * size)
+    }
+
+    /// Twice the smallest rounding radius of all, those that are yet to come included [m].
+    pub fn finest(&self) -> f64 {
+        let rounding = |body: &Body| body.polyhedron.map(|(shape, size)| self.polyhedra[shape as usize].rounding() * size);
+        2.0 * self.list.iter().filter_map(rounding).fold(f64::INFINITY, f64::min)
     }
 
     /// The body of every grain by its id; nothing where there are none.

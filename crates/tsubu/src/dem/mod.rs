@@ -8,6 +8,7 @@ mod contact_forces;
 mod contact_history;
 mod drawn;
 pub mod engine;
+mod features;
 mod fill;
 mod gates;
 mod history_transfer;
