@@ -28,6 +28,7 @@ mod products;
 mod robust;
 /// Stages of a run.
 mod stages;
+mod polyhedra;
 mod superellipsoids;
 /// Watches.
 mod watches;

@@ -61,9 +61,9 @@ impl Polyhedron {
         &self.corners
     }
 
-    /// Faces of the core by the numbers of their corners.
-    pub fn faces(&self) -> impl Iterator<Item = &[u32]> {
-        self.faces.iter().map(|face| &self.round[face.clone()])
+    /// Faces of a body of diameter 1: unit normals, and distances from the centre.
+    pub fn planes(&self) -> impl Iterator<Item = (DVec3, f64)> {
+        self.normals.iter().zip(&self.offsets).map(|(normal, offset)| (*normal, offset + self.rounding))
     }
 }
 

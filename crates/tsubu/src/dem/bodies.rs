@@ -8,6 +8,7 @@
 mod assemble;
 mod body;
 mod refused;
+mod told;
 
 pub(super) use refused::refused;
 
