@@ -142,7 +142,9 @@ pub struct TurnedBodies {
 
 #[derive(Clone, Copy, Debug)]
 struct Entry {
+    shape: u32,
     size: f64,
+    rounding: f64,
     corners: usize,
     normals: usize,
 }
@@ -155,10 +157,11 @@ impl TurnedBodies {
         self.list.clear();
     }
 
-    /// Takes a body of a diameter [m] whose principal axes have these directions; `None`: no polyhedron.
-    pub fn push(&mut self, body: Option<(&Polyhedron, f64, &DMat3)>) {
-        let Some((shape, size, axes)) = body else { return self.list.push(None) };
-        self.list.push(Some(Entry { size, corners: self.corners[0].len(), normals: self.normals.len() }));
+    /// Takes a body of one of these shapes, with a diameter [m], whose principal axes have these directions; `None`: no polyhedron.
+    pub fn push(&mut self, shapes: &[Polyhedron], body: Option<(u32, f64, &DMat3)>) {
+        let Some((number, size, axes)) = body else { return self.list.push(None) };
+        let (shape, corners, normals) = (&shapes[number as usize], self.corners[0].len(), self.normals.len());
+        self.list.push(Some(Entry { shape: number, size, rounding: shape.rounding * size, corners, normals }));
         let turned = |corner: &DVec3| *axes * (*corner * size);
         let missing = shape.corners.len().next_multiple_of(LANES) - shape.corners.len();
         for corner in shape.corners.iter().chain(shape.corners.iter().take(1).cycle().take(missing)).map(turned) {
@@ -169,15 +172,21 @@ impl TurnedBodies {
         self.normals.extend(shape.normals.iter().map(|normal| *axes * *normal));
     }
 
-    /// Body number `k`, which is of this shape; `None`: no polyhedron.
-    pub fn at<'a>(&'a self, k: usize, shape: &'a Polyhedron) -> Option<Turned<'a>> {
-        let Entry { size, corners, normals } = self.list[k]?;
+    /// Rounding radius of body number `k` [m]; `None`: no polyhedron.
+    pub fn rounding(&self, k: usize) -> Option<f64> {
+        self.list[k].map(|entry| entry.rounding)
+    }
+
+    /// Body number `k`, with the shapes it was taken with; `None`: no polyhedron.
+    pub fn at<'a>(&'a self, k: usize, shapes: &'a [Polyhedron]) -> Option<Turned<'a>> {
+        let Entry { shape, size, rounding, corners, normals } = self.list[k]?;
+        let shape = &shapes[shape as usize];
         let (count, first) = (shape.corners.len(), corners);
         let lots = first..first + count.next_multiple_of(LANES);
         Some(Turned {
             shape,
             size,
-            rounding: shape.rounding * size,
+            rounding,
             corners: [0, 1, 2].map(|axis| &self.corners[axis][lots.clone()]),
             count,
             normals: &self.normals[normals..normals + shape.normals.len()],

@@ -16,6 +16,7 @@ mod host;
 mod interface;
 mod lattice;
 mod outside;
+mod polyhedron;
 mod response;
 mod stages;
 mod superellipsoid;

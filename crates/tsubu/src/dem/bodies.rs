@@ -79,16 +79,21 @@ impl Bodies {
         !self.polyhedra.is_empty()
     }
 
-    /// The polyhedron that a grain is, of diameter 1, its diameter [m], and the directions of its principal axes.
-    pub fn polyhedron(&self, i: usize) -> Option<(&Polyhedron, f64, &DMat3)> {
+    /// Polyhedra of diameter 1, by number.
+    pub fn polyhedra(&self) -> &[Polyhedron] {
+        &self.polyhedra
+    }
+
+    /// The number of the polyhedron that a grain is, its diameter [m], and the directions of its principal axes.
+    pub fn polyhedron(&self, i: usize) -> Option<(u32, f64, &DMat3)> {
         let body = self.list.get(self.sorted.get(i)?.body as usize)?;
         let (shape, size) = body.polyhedron?;
-        Some((&self.polyhedra[shape as usize], size, &body.axes))
+        Some((shape, size, &body.axes))
     }
 
     /// Rounding radius of the polyhedron that a grain is [m].
     pub fn rounding(&self, i: usize) -> Option<f64> {
-        self.polyhedron(i).map(|(shape, size, _)| shape.rounding() * size)
+        self.polyhedron(i).map(|(shape, size, _)| self.polyhedra[shape as usize].rounding() * size)
     }
 
     /// Twice the smallest rounding radius of all, those that are yet to come included [m].

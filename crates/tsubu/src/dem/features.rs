@@ -42,11 +42,9 @@ impl PairFeatures {
         bodies.clear();
         let own = list.first..list.first + list.own;
         let halo = list.halo.iter().map(|halo| halo.grain as usize);
-        own.chain(halo).for_each(|i| bodies.push(input.bodies.polyhedron(i)));
-        let shape = |local: u32| {
-            let shape = input.bodies.polyhedron(list.grain_at[local as usize] as usize)?.0;
-            bodies.at(local as usize, shape)
-        };
+        let shapes = input.bodies.polyhedra();
+        own.chain(halo).for_each(|i| bodies.push(shapes, input.bodies.polyhedron(i)));
+        let shape = |local: u32| bodies.at(local as usize, shapes);
         touching.keep(|pair| {
             let locals = [pair.first, list.pairs[pair.pair as usize].second];
             let [first, second] = locals.map(shape);
@@ -79,8 +77,7 @@ impl PairFeatures {
         {
             shapes.find(&outline, touching, reach);
         } else if input.bodies.faceted()
-            && let Some((shape, ..)) = input.bodies.polyhedron(i)
-            && let Some(body) = self.bodies.at(own as usize, shape)
+            && let Some(body) = self.bodies.at(own as usize, input.bodies.polyhedra())
         {
             let count = touching.len();
             for t in 0..count {
@@ -143,7 +140,7 @@ impl PairFeatures {
     pub fn gather(&self, batch: &mut ContactBatch, range: Range<usize>, input: &ForceInput, list: &BlockList) {
         batch.shifted = true;
         for (r, contact) in self.rows(range).enumerate() {
-            let grains = [list.first + batch.first[r] as usize, list.grain_at[batch.second[r] as usize] as usize];
+            let locals = [batch.first[r], batch.second[r]].map(|local| local as usize);
             let branch = Chunk::vector(&batch.branch, r) + contact.points[1] - contact.points[0];
             // Cores that touch have no distance, but a normal all the same.
             let least = 1e-6 * branch.length().max(contact.points[0].length());
@@ -151,8 +148,9 @@ impl PairFeatures {
             let branch = if along < least { contact.normal * least } else { branch };
             Chunk::set(&mut batch.branch, r, branch);
             let mut relative = Chunk::vector(&batch.relative_velocity, r);
-            for (body, (i, sign)) in grains.into_iter().zip([1.0, -1.0]).enumerate() {
-                batch.radius[body][r] = input.bodies.rounding(i).unwrap_or(input.grains.radius[i]);
+            for (body, (local, sign)) in locals.into_iter().zip([1.0, -1.0]).enumerate() {
+                let i = list.grain_at[local] as usize;
+                batch.radius[body][r] = self.bodies.rounding(local).unwrap_or(input.grains.radius[i]);
                 batch.set_shift(body, r, contact.points[body]);
                 relative += sign * input.grains.spin[i].cross(contact.points[body]);
             }
