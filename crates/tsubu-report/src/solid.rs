@@ -130,8 +130,7 @@ impl Form {
             (!round).then_some(Self::Superellipsoid { semi_axes: *semi_axes, exponents })
         };
         let mut forms: Vec<Option<Self>> = semi_axes.iter().enumerate().map(round).collect();
-        let (number, radius) =
-            (frame.integers(Kind::Grain, "polyhedron"), frame.scalars(Kind::Grain, "radius"));
+        let (number, radius) = (frame.integers(Kind::Grain, "polyhedron"), frame.scalars(Kind::Grain, "radius"));
         let shapes = Faces::all(frame);
         forms.resize(forms.len().max(number.len()), None);
         for ((form, number), radius) in forms.iter_mut().zip(number).zip(radius) {
@@ -181,10 +180,8 @@ mod tests {
     /// Nearly a box is seen in front at its face and past its edge not at all; an ellipsoid of the same size ends before the corner.
     #[test]
     fn a_line_of_sight_meets_what_is_there() {
-        let body = |exponents| Solid {
-            axes: ALONG,
-            form: Form::Superellipsoid { semi_axes: [2.0, 1.0, 0.5], exponents },
-        };
+        let body =
+            |exponents| Solid { axes: ALONG, form: Form::Superellipsoid { semi_axes: [2.0, 1.0, 0.5], exponents } };
         let (z, normal) = body([8.0; 2]).seen(1.0, 0.5, 3.0).expect("the face");
         assert!((z - 0.5).abs() < 0.01 && normal[2] > 0.99, "{z} {normal:?}");
         assert!(body([8.0; 2]).seen(1.6, 0.8, 3.0).is_some() && body([2.0; 2]).seen(1.6, 0.8, 3.0).is_none());
@@ -200,10 +197,14 @@ mod tests {
         let sides = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]];
         let square: Vec<_> = sides.into_iter().map(|n| (n, 0.25)).collect();
         let ends = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]].into_iter().map(|n| (n, 0.25));
-        let body = |planes: Vec<_>, axes| {
-            Solid { axes, form: Form::Polyhedron(Arc::new(Faces { planes, rounding: 0.05 }), 2.0) }
+        let body = |planes: Vec<_>, axes| Solid {
+            axes,
+            form: Form::Polyhedron(Arc::new(Faces { planes, rounding: 0.05 }), 2.0),
         };
-        let cube = body(square.iter().copied().chain(ends).collect(), [[half, 0.0, half], [0.0, 1.0, 0.0], [-half, 0.0, half]]);
+        let cube = body(
+            square.iter().copied().chain(ends).collect(),
+            [[half, 0.0, half], [0.0, 1.0, 0.0], [-half, 0.0, half]],
+        );
         let (z, normal) = cube.seen(0.0, 0.0, 1.0).expect("the edge");
         assert!((z - half).abs() < 1e-12 && (normal[2] - 1.0).abs() < 1e-12, "{z} {normal:?}");
         let (z, normal) = cube.seen(0.4, 0.0, 1.0).expect("a face");

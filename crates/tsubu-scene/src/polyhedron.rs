@@ -99,7 +99,8 @@ pub(crate) fn faces(corners: &[Point], space: bool) -> Result<Vec<Plane>, Flaw> 
         for (sign, out) in [(1.0, high), (-1.0, -low)] {
             let plane = Plane { normal: normal * sign, offset: sign * normal.dot(at) };
             let same = |other: &Plane| {
-                (other.normal - plane.normal).norm() < PARALLEL && (other.offset - plane.offset).abs() <= 4.0 * tolerance
+                (other.normal - plane.normal).norm() < PARALLEL
+                    && (other.offset - plane.offset).abs() <= 4.0 * tolerance
             };
             if out <= tolerance && !planes.iter().any(same) {
                 planes.push(plane);

@@ -22,13 +22,13 @@ mod mesh_files;
 mod messages;
 /// Contact laws of pairs of materials.
 mod pairs;
+mod polyhedra;
 /// The resolved scene, the schema, the reference page, the templates.
 mod products;
 /// No text makes the reader panic.
 mod robust;
 /// Stages of a run.
 mod stages;
-mod polyhedra;
 mod superellipsoids;
 /// Watches.
 mod watches;

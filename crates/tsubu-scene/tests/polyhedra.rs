@@ -3,10 +3,11 @@
 use super::clumps::in_folder;
 use std::f64::consts::PI;
 use std::fmt::Write as _;
-use tsubu_scene::plan::{Clump, Polyhedron, Vector};
 use tsubu_scene::Scene;
+use tsubu_scene::plan::{Clump, Polyhedron, Vector};
 
-const CUBE: &str = "[[-1, -1, -1], [1, -1, -1], [-1, 1, -1], [1, 1, -1], [-1, -1, 1], [1, -1, 1], [-1, 1, 1], [1, 1, 1]]";
+const CUBE: &str =
+    "[[-1, -1, -1], [1, -1, -1], [-1, 1, -1], [1, 1, -1], [-1, -1, 1], [1, -1, 1], [-1, 1, 1], [1, 1, 1]]";
 const TETRAHEDRON: &str = "[[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]";
 
 fn read(shape: &str, changes: &[&str]) -> Result<Scene, String> {
@@ -15,7 +16,8 @@ fn read(shape: &str, changes: &[&str]) -> Result<Scene, String> {
 }
 
 fn body(corners: &str, rounding: f64) -> Clump {
-    let shape = format!("shape.polyhedron = {{ corners = {corners}, rounding = {rounding:?}, orientation = \"as-drawn\" }}");
+    let shape =
+        format!("shape.polyhedron = {{ corners = {corners}, rounding = {rounding:?}, orientation = \"as-drawn\" }}");
     let scene = read(&shape, &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
     let group = &scene.plan().particles["rods"];
     let body = group.shape.clump().expect("a body");
@@ -63,7 +65,8 @@ fn a_rounded_cube_is_the_sum_of_its_parts() {
     near(cube.volume, volume * unit.powi(3), 1e-12);
     // Integral of x^2: of the core and the plates, of the cylinders and of the ball, each about the planes x = a/2.
     let half = 0.5 * a;
-    let plates = a.powi(5) / 12.0 + 4.0 * a.powi(4) / 12.0 * r + 2.0 * a * a * ((half + r).powi(3) - half.powi(3)) / 3.0;
+    let plates =
+        a.powi(5) / 12.0 + 4.0 * a.powi(4) / 12.0 * r + 2.0 * a * a * ((half + r).powi(3) - half.powi(3)) / 3.0;
     // Over half a disc right of a line: area, first and second moment.
     let [area, first, second] = [PI * r * r / 2.0, 2.0 * r.powi(3) / 3.0, PI * r.powi(4) / 8.0];
     let along = PI * r * r * a.powi(3) / 12.0;
@@ -150,7 +153,8 @@ fn cube_file() -> String {
 #[test]
 fn a_mesh_says_what_its_corners_say() {
     let named = "shape.polyhedron-mesh = { path = \"cube.obj\", rounding = 0.1, orientation = \"as-drawn\" }";
-    let scene = in_folder(&[("cube.obj", &cube_file())], named, &["dimension=3"]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let scene =
+        in_folder(&[("cube.obj", &cube_file())], named, &["dimension=3"]).unwrap_or_else(|wrong| panic!("{wrong}"));
     let (found, told) = (scene.plan().particles["rods"].shape.clump().expect("a body"), body(CUBE, 0.1));
     near(found.volume, told.volume, 1e-9);
     (0..3).for_each(|k| near(found.moments[k], told.moments[k], 1e-9));
@@ -181,8 +185,8 @@ fn polyhedra_that_cannot_be() {
         read(&with(&CUBE.replace("]]", "], [-1, 1, -1]]")), &[]),
         read(&cube.replace("0.1 }", "1 }"), &[]),
         read(&cube.replace("0.1 }", "0 }"), &[]),
-        read(&cube, &plane),
-        read(square, &[]),
+        read(&with("[[1, 1], [-1, 1], [-1, -1], [1, -1]]"), &plane),
+        read(&cube.replace("polyhedron", "polygon").replace("0.1 }", "0.1, thickness = 0.01 }"), &[]),
         read(&square.replace("[-1, 1], [-1, -1]", "[-1, -1], [-1, 1]"), &plane),
         read(&square.replace("[1, -1]]", "[0, 0.2]]"), &plane),
         read(&square.replace("0.2,", "1.2,"), &plane),

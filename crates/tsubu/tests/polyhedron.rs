@@ -44,8 +44,7 @@ const TETRAHEDRON: [[f64; 3]; 4] = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1
 
 /// A body of diameter 1, as drawn.
 fn body(corners: &[[f64; 3]], rounding: f64) -> Polyhedron {
-    let shape =
-        GrainShape::Polyhedron { corners: corners.to_vec(), rounding, orientation: ClumpOrientation::AsDrawn };
+    let shape = GrainShape::Polyhedron { corners: corners.to_vec(), rounding, orientation: ClumpOrientation::AsDrawn };
     let clump = shape.clump().unwrap();
     // Along the axes as drawn: of a cube they could be any.
     let mut plan = clump.polyhedron.unwrap();
@@ -148,16 +147,17 @@ fn no_force_jumps() {
     let radii = 2.0 * cube.rounding();
     let half = cube.corners()[0].abs().max_element();
     let (mut last, mut worst, mut last_deepest, mut worst_deepest, mut kinds) =
-        (None, 0.0_f64, None, 0.0_f64, std::collections::BTreeSet::new());
+        (None::<[DVec3; 3]>, 0.0_f64, None, 0.0_f64, std::collections::BTreeSet::new());
     for step in 0..40_000 {
         let t = f64::from(step) / 40_000.0;
-        let turned = [DQuat::IDENTITY, DQuat::from_rotation_z(0.3 * t) * DQuat::from_rotation_x(0.01 * (40.0 * t).sin())];
+        let turned =
+            [DQuat::IDENTITY, DQuat::from_rotation_z(0.3 * t) * DQuat::from_rotation_x(0.01 * (40.0 * t).sin())];
         let apart = DVec3::new(2.4 * half * t, 0.7 * half * t, 2.0 * half + 0.9 * radii);
         let found = contacts([&cube; 2], turned, apart, 0.0);
         kinds.extend(found.iter().map(|contact| contact.feature));
         let (_, push) = pressed(&found, |contact| contact.share);
         if let Some(last) = last {
-            worst = (0..3).map(|k| (push[k] - last_of(&last, k)).length()).fold(worst, f64::max);
+            worst = (0..3).map(|k| (push[k] - last[k]).length()).fold(worst, f64::max);
         }
         last = Some(push);
         let deepest = found.iter().max_by(|a, b| a.overlap.total_cmp(&b.overlap)).map(|c| c.points[0] * c.overlap);
@@ -173,11 +173,7 @@ fn no_force_jumps() {
     assert!(worst_deepest > 10.0 * step, "{worst_deepest:e} {step:e}");
 }
 
-fn last_of(push: &[DVec3; 3], k: usize) -> DVec3 {
-    push[k]
-}
-
-/// Cores are as far from each other as alternating projections say (von Neumann; Cheney and Goldstein 1959), whatever touches. To give up beyond the radii of the spheres that hold them would be wrong.
+/// No pair is missed: what alternating projections (Cheney and Goldstein 1959) bring near touches. And where a corner is nearest no direction shows the cores nearer to each other.
 #[test]
 fn bodies_touch_where_they_are_near() {
     let shapes = [body(&CUBE, 0.15), body(&PRISM, 0.12), body(&TETRAHEDRON, 0.1)];
@@ -211,19 +207,27 @@ fn bodies_touch_where_they_are_near() {
             a = onto(&planes[0], b);
             b = onto(&planes[1], a);
         }
+        // What projections have found so far is never less than the distance.
         let distance = (b - a).length();
-        if distance < 0.02 * cut {
-            continue;
-        }
         let found = contacts(pair_of, turned, apart, 0.0);
-        let nearest = found.iter().map(|contact| cut - contact.overlap).fold(f64::INFINITY, f64::min);
-        // Where edges cross they lie back by at most 4 % of the radii.
-        if distance < 0.95 * cut {
-            assert!(nearest >= distance - 1e-4 && nearest < distance + 0.05 * cut, "{nearest} {distance}");
+        let nearest = found.iter().max_by(|a, b| a.overlap.total_cmp(&b.overlap));
+        // Edges that cross at their ends lie back by 2 % of the radii each.
+        let back = (distance * distance + 0.08 * cut * cut).sqrt();
+        assert!(back >= cut || nearest.is_some_and(|contact| cut - contact.overlap < back + 1e-9), "{distance}");
+        let Some(contact) = nearest.filter(|contact| contact.overlap < 0.9 * cut) else {
+            apart_yet_near += usize::from(distance > cut && apart.length() < 1.0);
+            continue;
+        };
+        // Whatever the direction, cores are as far apart as along it; where the way between the points is the normal of both there is no nearer pair.
+        let far = |k: usize, n: DVec3| {
+            pair_of[k].corners().iter().map(|c| n.dot(turned[k] * *c)).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let way = apart + contact.points[1] - contact.points[0];
+        let gap = contact.normal.dot(apart) - far(0, contact.normal) - far(1, -contact.normal);
+        assert!(gap <= way.length() + 1e-12);
+        if contact.share == 1.0 {
+            assert!(gap > way.length() - 1e-9, "{gap} {}", way.length());
             touching += 1;
-        } else if distance > cut + 1e-4 {
-            assert!(found.is_empty(), "{distance} {cut}");
-            apart_yet_near += usize::from(apart.length() < 1.0);
         }
     }
     assert!(touching > 50 && apart_yet_near > 50, "{touching} {apart_yet_near}");

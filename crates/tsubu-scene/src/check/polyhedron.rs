@@ -44,8 +44,7 @@ pub(super) fn check(parts: &Parts<'_>, name: &str, group: &Particles, complaints
             }
         }
         GrainShape::PolyhedronMesh { faces, rounding, .. } => {
-            let plane =
-                |(normal, offset): &(Vector, f64)| Plane { normal: Vector3::from(*normal), offset: *offset };
+            let plane = |(normal, offset): &(Vector, f64)| Plane { normal: Vector3::from(*normal), offset: *offset };
             (faces.iter().map(plane).collect(), *rounding)
         }
         _ => return,
@@ -55,8 +54,11 @@ pub(super) fn check(parts: &Parts<'_>, name: &str, group: &Particles, complaints
         let most = largest_rounding(&planes, space);
         complaints.push(
             Complaint::new(format!("the rounding radius of `{name}` leaves nothing of the body"))
-                .at(&at(&["rounding"]), format!("{rounding} is not below {most:.4}, the radius of what just fits into it"))
-                .hint("one tenth of that is a good beginning"),
+                .at(
+                    &at(&["rounding"]),
+                    format!("{rounding} is not below {most:.4}, the radius of what just fits into it"),
+                )
+                .hint(format!("one tenth of that is a good beginning: {:.3}", 0.1 * most)),
         );
     }
 }
@@ -80,15 +82,15 @@ fn of_corners(corners: &[Vector], space: bool) -> Result<Vec<Plane>, Wrong> {
             (None, "all are in one plane".to_owned(), "a body needs some thickness; in the plane write shape.polygon")
         }
         Flaw::Flat => (None, "all are on one line".to_owned(), "an area needs some width"),
-        Flaw::Twice(first, second) => {
-            (Some(second), format!("corner {} once more", first + 1), "leave it out")
-        }
-        Flaw::Within(index) => {
-            (Some(index), "lies within the others, on a face or on an edge".to_owned(), concave)
-        }
+        Flaw::Twice(first, second) => (Some(second), format!("corner {} once more", first + 1), "leave it out"),
+        Flaw::Within(index) => (Some(index), "lies within the others, on a face or on an edge".to_owned(), concave),
     })?;
     match crossing(&points).filter(|_| !space) {
-        Some(index) => Err((Some(index), "the way from corner to corner crosses itself here".to_owned(), "write them one after the other, all the way round")),
+        Some(index) => Err((
+            Some(index),
+            "the way from corner to corner crosses itself here".to_owned(),
+            "write them one after the other, all the way round",
+        )),
         None => Ok(planes),
     }
 }

@@ -37,7 +37,7 @@ fn body(planes: &[Plane], rounding: f64, space: bool, orientation: ClumpOrientat
         solid = in_plane(&core, rounding);
     }
     let core = core.about(&Vector3::from(solid.centre));
-    let reach = rounding + core.corners.iter().map(|corner| corner.norm()).fold(0.0, f64::max);
+    let reach = rounding + core.corners.iter().map(Vector3::norm).fold(0.0, f64::max);
     let unit = 0.5 / reach;
     let axes = solid.axes.map(Vector3::from);
     let own = |v: &Vector3<f64>| axes.map(|axis| axis.dot(v));

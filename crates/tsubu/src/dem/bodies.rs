@@ -51,6 +51,8 @@ pub(super) struct Bodies {
     shaped: bool,
     /// Polyhedra of diameter 1.
     polyhedra: Vec<Polyhedron>,
+    /// See [`Bodies::finest`].
+    finest: Option<f64>,
 }
 
 impl Bodies {
@@ -96,10 +98,9 @@ impl Bodies {
         self.polyhedron(i).map(|(shape, size, _)| self.polyhedra[shape as usize].rounding() * size)
     }
 
-    /// Twice the smallest rounding radius of all, those that are yet to come included [m].
+    /// Twice the smallest rounding radius of all polyhedra, those that are yet to come included [m]; infinite where there are none.
     pub fn finest(&self) -> f64 {
-        let rounding = |body: &Body| body.polyhedron.map(|(shape, size)| self.polyhedra[shape as usize].rounding() * size);
-        2.0 * self.list.iter().filter_map(rounding).fold(f64::INFINITY, f64::min)
+        self.finest.unwrap_or(f64::INFINITY)
     }
 
     /// The body of every grain by its id; nothing where there are none.

@@ -96,8 +96,6 @@ impl Clock {
 pub(super) struct Limits {
     /// Of all grains, those that are yet to come included [m].
     pub smallest_diameter: f64,
-    /// The same, of polyhedra twice their rounding radius [m].
-    pub smallest_contact: f64,
     /// The same.
     pub largest_diameter: f64,
     /// Over the diameter; beyond it the run ends [-].
@@ -172,7 +170,6 @@ impl DemEngine {
         }
         let bodies = Bodies::assemble(plan, &mut grains);
         let sources = Sources::new(plan, &table, &walls, grains.len());
-        let bodies_finest = bodies.finest();
         let (smallest, largest) = diameters(&grains, &sources);
         let skin = if smallest.is_finite() { dem.skin * smallest } else { 0.0 };
         let laws = ContactLaws::new(plan, table, hosts);
@@ -196,7 +193,6 @@ impl DemEngine {
             books: Books { moved_mass: grains.moved_mass(), ..Books::default() },
             limits: Limits {
                 smallest_diameter: smallest,
-                smallest_contact: bodies_finest.min(smallest),
                 largest_diameter: largest_present,
                 largest_overlap: dem.largest_overlap,
                 in_space: *dimension == 3,

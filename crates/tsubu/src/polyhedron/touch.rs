@@ -1,7 +1,7 @@
 //! Where two bodies touch.
 
-use super::crossing::{CROWN, Edge, nearest};
 use super::Turned;
+use super::crossing::{CROWN, Edge, nearest};
 use glam::DVec3;
 
 /// A contact of two features.
@@ -143,7 +143,9 @@ fn crossings(
     let count = edges.len();
     b.edges_towards(-n, cut - height, within, heights, edges);
     let (of_a, of_b) = edges.split_at_mut(count);
-    of_b.iter_mut().for_each(|edge| edge.middle += apart);
+    for edge in of_b.iter_mut() {
+        edge.middle += apart;
+    }
     for p in of_a.iter() {
         for q in of_b.iter() {
             let (points, squared) = nearest(p, q, back);

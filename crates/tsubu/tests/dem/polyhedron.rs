@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 use tsubu::engine::Engine;
 use tsubu::partner::Hosts;
 use tsubu::view::Wants;
-use tsubu_frame::{Kind, Values};
+use tsubu_frame::Kind;
 use tsubu_scene::Scene;
 use tsubu_scene::plan::{ClumpOrientation, GrainShape};
 
@@ -41,7 +41,7 @@ fn turned(corners: Vec<DVec3>, by: DMat3) -> Vec<DVec3> {
 }
 
 fn shape(corners: &[DVec3]) -> String {
-    let corners: Vec<[f64; 3]> = corners.iter().map(|corner| corner.to_array()).collect();
+    let corners: Vec<[f64; 3]> = corners.iter().map(DVec3::to_array).collect();
     format!("shape.polyhedron = {{ corners = {corners:?}, rounding = {ROUNDING}, orientation = \"as-drawn\" }}")
 }
 
@@ -80,11 +80,9 @@ fn a_cube_rests_on_face_edge_and_corner() {
     let half = 1.0 - ROUNDING;
     let on_edge = DMat3::from_rotation_x(std::f64::consts::FRAC_PI_4);
     let on_corner = DMat3::from_quat(glam::DQuat::from_rotation_arc(DVec3::ONE.normalize(), -DVec3::Z));
-    for (by, height, bearing) in [
-        (DMat3::IDENTITY, half, 4),
-        (on_edge, half * 2.0_f64.sqrt(), 2),
-        (on_corner, half * 3.0_f64.sqrt(), 1),
-    ] {
+    for (by, height, bearing) in
+        [(DMat3::IDENTITY, half, 4), (on_edge, half * 2.0_f64.sqrt(), 2), (on_corner, half * 3.0_f64.sqrt(), 1)]
+    {
         let unit = unit(half * 3.0_f64.sqrt());
         let shape = shape(&turned(cube(DVec3::ONE), by));
         let open = |height: f64| open_text(&scene(&shape, &at(DVec3::Z * height, DVec3::ZERO), FLOOR), &[]);
@@ -106,24 +104,17 @@ fn a_cube_rests_on_face_edge_and_corner() {
     }
 }
 
-/// What a body does on a plane that is tilted by an angle whose tangent is given: speed down the plane, and how far it has turned.
+/// What a body does on a plane that is tilted by an angle whose tangent is given: speed down the plane, and its height over that at first.
 fn on_incline(corners: &[DVec3], height: f64, tangent: f64, friction: f64, seconds: f64) -> (f64, f64) {
     let angle = tangent.atan();
     let gravity = format!("gravity=[{:?}, 0, {:?}]", 9.81 * angle.sin(), -9.81 * angle.cos());
     let friction = format!("materials.wood.friction={friction}");
     let text = scene(&shape(corners), &at(DVec3::Z * height, DVec3::ZERO), FLOOR);
-    let (mut engine, mut hosts, mut ledger) = open_text(&text, &[&gravity, &friction, "materials.wood.restitution=0.1"]);
+    let (mut engine, mut hosts, mut ledger) =
+        open_text(&text, &[&gravity, &friction, "materials.wood.restitution=0.1"]);
     let steps = (seconds / engine.time_step()) as u64;
     engine.advance(steps, &mut hosts, &mut ledger).unwrap();
-    assert!(missing(&*engine, &hosts, &ledger) < 1e-3);
-    let frame = engine.frame(&hosts);
-    let Some(Values::Quaternion(turned)) = frame.column(Kind::Grain, "orientation").map(|c| &c.values) else {
-        panic!("orientations are told")
-    };
-    // The axes of a cube are any: how far from where it began is told by the corner that is lowest.
-    let [_, x, y, _] = turned[0];
-    let lean = [(x, y)].map(|(x, y)| 1.0 - 2.0 * (x * x + y * y))[0];
-    (vectors(&*engine, "velocity")[0].x, lean)
+    (vectors(&*engine, "velocity")[0].x, vectors(&*engine, "position")[0].z / height)
 }
 
 /// A cube slides where the slope is steeper than its friction, with g (sin - mu cos), and stays where it is less steep; a pillar tips where its weight passes the corners of its core.
@@ -145,9 +136,8 @@ fn a_cube_slides_and_a_pillar_tips() {
     let tips = (1.0 - ROUNDING) / 3.0;
     let up = |tangent: f64| on_incline(&pillar, height, tangent, 0.9, 0.15).1;
     let [stands, falls, sharp] = [0.97 * tips, 1.03 * tips, 0.97 / 3.0].map(up);
-    assert!((stands.abs() - up(0.0).abs()).abs() < 0.01, "{stands}");
-    assert!((falls.abs() - up(0.0).abs()).abs() > 0.1, "{falls}");
-    assert!((sharp.abs() - up(0.0).abs()).abs() > 0.1, "with sharp edges it would stand: {sharp}");
+    assert!(stands > 0.99 && falls < 0.9, "{stands} {falls}");
+    assert!(sharp < 0.9, "with sharp edges it would stand: {sharp}");
 }
 
 /// A wedge of half angle a between two planes: each carries m g / (2 sin a), by four corners alike.
@@ -160,7 +150,7 @@ fn a_wedge_rests_between_two_planes() {
         .flat_map(|y| [DVec3::new(0.0, y, 0.0), DVec3::new(w, y, h), DVec3::new(-w, y, h)])
         .collect();
     let plan = GrainShape::Polyhedron {
-        corners: corners.iter().map(|corner| corner.to_array()).collect(),
+        corners: corners.iter().map(DVec3::to_array).collect(),
         rounding: ROUNDING,
         orientation: ClumpOrientation::AsDrawn,
     };
@@ -174,7 +164,11 @@ fn a_wedge_rests_between_two_planes() {
     let walls = |depth: f64| {
         let plane = |sign: f64| {
             let n = DVec3::new(sign * left.x, 0.0, left.z);
-            format!("shape.plane = {{ point = {:?}, normal = {:?} }}", (n * (distance - depth)).to_array(), (-n).to_array())
+            format!(
+                "shape.plane = {{ point = {:?}, normal = {:?} }}",
+                (n * (distance - depth)).to_array(),
+                (-n).to_array()
+            )
         };
         format!("{}\n[walls.right]\nmaterial = \"wood\"\n{}", plane(1.0), plane(-1.0))
     };
@@ -190,7 +184,10 @@ fn a_wedge_rests_between_two_planes() {
     for _ in 0..2 {
         let (count, first, second) = push(&*engine);
         assert_eq!(count, 8);
-        assert!((first / on_each - 1.0).abs() < 1e-3 && (second / on_each - 1.0).abs() < 1e-3, "{first} {second} {on_each}");
+        assert!(
+            (first / on_each - 1.0).abs() < 1e-3 && (second / on_each - 1.0).abs() < 1e-3,
+            "{first} {second} {on_each}"
+        );
         engine.advance(3000, &mut hosts, &mut ledger).unwrap();
     }
     let (_, flat, _) = push(&*open(overlap(weight / 8.0, radius)).0);
@@ -224,12 +221,20 @@ fn what_is_asked_comes_back_where_a_corner_lands() {
 #[test]
 fn bodies_that_lose_nothing_keep_their_energy() {
     let space = shape(&cube(DVec3::new(1.0, 1.2, 0.8))).replace("as-drawn", "random");
-    let three = ("count = 30\nstart.random = { region = { low = [-0.02, -0.02, 0.002], high = [0.02, 0.02, 0.04] }, speed = 1 }", "shape.box = { width = 0.042, depth = 0.042, height = 0.042 }");
-    let plane = "shape.polygon = { corners = [[1, 0.9], [-1, 1.1], [-0.8, -1], [1, -0.7]], rounding = 0.1, thickness = 0.01 }";
-    let two = ("count = 25\nstart.random = { region = { low = [-0.039, 0.002], high = [0.039, 0.08] }, speed = 1 }", "shape.box = { width = 0.08, height = 0.082 }");
-    for (body, (start, wall), changes) in
-        [(space.as_str(), three, &["gravity=0", "materials.wood.restitution=1"][..]), (plane, two, &["dimension=2", "gravity=0", "materials.wood.restitution=1"])]
-    {
+    let three = (
+        "count = 30\nstart.random = { region = { low = [-0.02, -0.02, 0.002], high = [0.02, 0.02, 0.06] }, speed = 0.5 }",
+        "shape.box = { width = 0.042, depth = 0.042, height = 0.062 }",
+    );
+    let plane =
+        "shape.polygon = { corners = [[1, 0.9], [-1, 1.1], [-0.8, -1], [1, -0.7]], rounding = 0.1, thickness = 0.01 }";
+    let two = (
+        "count = 25\nstart.random = { region = { low = [-0.039, 0.002], high = [0.039, 0.08] }, speed = 0.5 }",
+        "shape.box = { width = 0.08, height = 0.082 }",
+    );
+    for (body, (start, wall), changes) in [
+        (space.as_str(), three, &["gravity=0", "materials.wood.restitution=1", "dem.largest-overlap=1"][..]),
+        (plane, two, &["dimension=2", "gravity=0", "materials.wood.restitution=1", "dem.largest-overlap=1"]),
+    ] {
         let drift = |longer: Option<f64>| {
             let text = scene(body, start, wall);
             let automatic = open_text(&text, changes).0.time_step();
@@ -237,7 +242,7 @@ fn bodies_that_lose_nothing_keep_their_energy() {
             let changes: Vec<&str> = changes.iter().copied().chain(step.as_deref()).collect();
             let (mut engine, mut hosts, mut ledger) = open_text(&text, &changes);
             let before = engine.grain_energies().kinetic;
-            engine.advance((0.06 / engine.time_step()) as u64, &mut hosts, &mut ledger).unwrap();
+            engine.advance((0.1 / engine.time_step()) as u64, &mut hosts, &mut ledger).unwrap();
             let after = engine.grain_energies();
             assert!(after.rotational > 0.1 * before, "they turn: {} of {before}", after.rotational);
             (after.kinetic + after.rotational + after.elastic) / before - 1.0
@@ -255,9 +260,12 @@ fn a_square_rests_on_side_and_corner() {
     let half = 1.0 - ROUNDING;
     let unit = unit(half * 2.0_f64.sqrt());
     let side = "[[1, 1], [-1, 1], [-1, -1], [1, -1]]";
-    let corner = "[[1.4142135623730951, 0], [0, 1.4142135623730951], [-1.4142135623730951, 0], [0, -1.4142135623730951]]";
+    let corner =
+        "[[1.4142135623730951, 0], [0, 1.4142135623730951], [-1.4142135623730951, 0], [0, -1.4142135623730951]]";
     for (corners, height, bearing) in [(side, half, 2), (corner, half * 2.0_f64.sqrt(), 1)] {
-        let shape = format!("shape.polygon = {{ corners = {corners}, rounding = {ROUNDING}, thickness = 0.01, orientation = \"as-drawn\" }}");
+        let shape = format!(
+            "shape.polygon = {{ corners = {corners}, rounding = {ROUNDING}, thickness = 0.01, orientation = \"as-drawn\" }}"
+        );
         let floor = "shape.plane = { point = [0, 0], normal = [0, 1] }";
         let open = |height: f64| {
             let start = format!("start.at = {{ position = [[0, {height:?}]] }}");
@@ -279,8 +287,10 @@ const CROWD: &str = r#"
 dimension = 3
 duration = "1 s"
 gravity = 9.81
+[dem]
+largest-overlap = 0.5
 [materials.wood]
-young-modulus = "2 GPa"
+young-modulus = "500 MPa"
 poisson-ratio = 0.3
 density = "700 kg/m^3"
 restitution = 0.5
@@ -289,25 +299,25 @@ friction = 0.4
 material = "wood"
 count = 60
 diameter = "3 mm"
-start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "60 mm"] }, velocity = [0, 0, -2], speed = 0.5 }
+start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "110 mm"] }, velocity = [0, 0, -4], speed = 0.5 }
 [particles.cubes]
 material = "wood"
 count = 120
 diameter = "6 mm"
 shape.polyhedron = { corners = [[-1, -1, -1], [1, -1, -1], [-1, 1, -1], [1, 1, -1], [-1, -1, 1], [1, -1, 1], [-1, 1, 1], [1, 1, 1]], rounding = 0.15 }
-start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "60 mm"] }, velocity = [0, 0, -2], speed = 0.5 }
+start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "110 mm"] }, velocity = [0, 0, -4], speed = 0.5 }
 [particles.pairs]
 material = "wood"
 count = 40
 diameter = "4 mm"
 shape.clump = { centre = [[-1, 0, 0], [1, 0, 0]], diameter = [2, 2] }
-start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "60 mm"] }, velocity = [0, 0, -2], speed = 0.5 }
+start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "110 mm"] }, velocity = [0, 0, -4], speed = 0.5 }
 [particles.tetrahedra]
 material = "wood"
 count = 120
 diameter = "6 mm"
 shape.polyhedron = { corners = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], rounding = 0.1 }
-start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "60 mm"] }, velocity = [0, 0, -2], speed = 0.5 }
+start.random = { region = { low = ["-20 mm", "-20 mm", "2 mm"], high = ["20 mm", "20 mm", "110 mm"] }, velocity = [0, 0, -4], speed = 0.5 }
 [walls.floor]
 material = "wood"
 shape.plane = { point = [0, 0, 0], normal = [0, 0, 1] }
@@ -335,7 +345,8 @@ fn a_crowd_gives_the_same_bits_for_all() {
         assert_eq!(alone, run(steps, threads, resume).0, "{steps:?}, {threads} threads, resumed: {resume}");
     }
     let (alone, _) = hash(|| super::open("polygons", &[]), [4000, 3000], 1, false, |engine, _, _| engine.contacts());
-    let (other, contacts) = hash(|| super::open("polygons", &[]), [4000, 3000], 7, true, |engine, _, _| engine.contacts());
+    let (other, contacts) =
+        hash(|| super::open("polygons", &[]), [4000, 3000], 7, true, |engine, _, _| engine.contacts());
     assert_eq!(alone, other);
     assert!(contacts > 5, "{contacts}");
 }
@@ -356,7 +367,9 @@ fn what_polyhedra_cannot_have_is_refused() {
     refused(FLOOR, &["dem.integrator=forward-euler"], "dem.integrator");
     let watched = format!("{FLOOR}\n[watch.height.profile]\nregion = {{ low = [-1, -1, -1], high = [1, 1, 1] }}");
     refused(&watched, &[], "watch.height");
-    let seeds = format!("{FLOOR}\n[particles.seeds]\nmaterial = \"wood\"\ndiameter = 0.004\nshape.superellipsoid.semi-axes = [3, 2, 1]\nstart.at.position = [[0, 0, 0.05]]");
+    let seeds = format!(
+        "{FLOOR}\n[particles.seeds]\nmaterial = \"wood\"\ndiameter = 0.004\nshape.superellipsoid.semi-axes = [3, 2, 1]\nstart.at.position = [[0, 0, 0.05]]"
+    );
     refused(&seeds, &[], "particles.seeds.shape");
     refused(FLOOR, &["method=lattice"], "particles.dice.shape");
 }

@@ -50,6 +50,9 @@ impl Bodies {
             }
         }
         bodies.shaped = bodies.list.iter().any(|body| body.superellipsoid.is_some());
+        let rounding =
+            |body: &Body| body.polyhedron.map(|(shape, size)| bodies.polyhedra[shape as usize].rounding() * size);
+        bodies.finest = bodies.list.iter().filter_map(rounding).reduce(f64::min).map(|radius| 2.0 * radius);
         bodies.find(grains);
         bodies.show(grains);
         bodies

@@ -25,12 +25,12 @@ pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
 /// What goes with clumps, but not with superellipsoids, polyhedra and polygons.
 fn one_piece(plan: &Plan, mut refuse: impl FnMut(String, &str)) {
     let round = |group: &Particles| matches!(group.shape, GrainShape::Superellipsoid { .. });
-    let groups =
-        || plan.particles.iter().filter(|(_, group)| round(group) || group.shape.is_polyhedron());
+    let groups = || plan.particles.iter().filter(|(_, group)| round(group) || group.shape.is_polyhedron());
     let Some((_, first)) = groups().next() else { return };
     let plural = first.shape.plural();
     if let Some((name, group)) = groups().find(|(_, group)| round(group) != round(first)) {
-        let text = format!("{} and {plural} in one scene cannot touch yet; leave one of them out", group.shape.plural());
+        let text =
+            format!("{} and {plural} in one scene cannot touch yet; leave one of them out", group.shape.plural());
         refuse(format!("particles.{name}.shape"), &text);
     }
     for (name, wall) in &plan.walls {

@@ -1,6 +1,7 @@
 //! What frames say of polyhedra.
 
 use super::Bodies;
+use crate::polyhedron::Polyhedron;
 use glam::DVec3;
 use tsubu_frame::{Frame, Kind};
 
@@ -26,7 +27,12 @@ impl Bodies {
             of_corner.extend(shape.corners().iter().map(|_| number));
             corner.extend(shape.corners().iter().map(DVec3::to_array));
         }
-        frame.scalar(Kind::Global, "polyhedron rounding", "-", self.polyhedra.iter().map(|s| s.rounding()).collect());
+        frame.scalar(
+            Kind::Global,
+            "polyhedron rounding",
+            "-",
+            self.polyhedra.iter().map(Polyhedron::rounding).collect(),
+        );
         frame.integer(Kind::Global, "polyhedron of face", "-", of_face);
         frame.vector(Kind::Global, "polyhedron normal", "-", normal);
         frame.scalar(Kind::Global, "polyhedron offset", "-", offset);

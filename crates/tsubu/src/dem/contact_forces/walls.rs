@@ -69,8 +69,7 @@ fn evaluate_law(
         let mut t = 0;
         while t < scratch.touching.len() {
             let wall::Touch { element, nearest, .. } = scratch.touching[t];
-            let shape =
-                scratch.wall_shapes.of(t).unwrap_or_else(|| WallShape::sphere(g.radius[i], nearest.distance));
+            let shape = scratch.wall_shapes.of(t).unwrap_or_else(|| WallShape::sphere(g.radius[i], nearest.distance));
             let WallShape { overlap, radius, shift, patch, .. } = shape;
             let batch = &mut scratch.batches[number];
             let r = batch.chunk.len;
@@ -121,9 +120,7 @@ fn match_up(
 ) {
     let patch = |t: usize| wall.key(touching[t].element) | shapes.of(t).map_or(0, |shape| shape.patch);
     went_on.clear();
-    went_on.extend(
-        (0..touching.len()).map(|t| old.clone().find(|&c| keys[c].patch == patch(t)).map_or(FRESH, slot)),
-    );
+    went_on.extend((0..touching.len()).map(|t| old.clone().find(|&c| keys[c].patch == patch(t)).map_or(FRESH, slot)));
     for t in 1..touching.len() {
         // Two contacts of one patch share a name; the one history goes on once.
         if went_on[..t].contains(&went_on[t]) {
