@@ -35,10 +35,17 @@ pub(crate) fn shape(shape: &mut GrainShape, files: &Files, space: bool) {
                 *packing = known;
             }
         }
+        GrainShape::PolyhedronMesh { path, faces, .. } => {
+            if let Some(known) = files.known_faces(path) {
+                *faces = known;
+            }
+        }
         GrainShape::Sphere {}
         | GrainShape::Disc { .. }
         | GrainShape::Clump { .. }
-        | GrainShape::Superellipsoid { .. } => {}
+        | GrainShape::Superellipsoid { .. }
+        | GrainShape::Polyhedron { .. }
+        | GrainShape::Polygon { .. } => {}
     }
 }
 
@@ -61,8 +68,12 @@ pub(crate) fn companions(plan: &mut Plan, files: &Files) -> Vec<Companion> {
         if let Start::File { path, .. } = &mut group.start {
             copies.take(path, "particles", name);
         }
-        if let GrainShape::ClumpFile { path, .. } | GrainShape::ClumpMesh { path, .. } = &mut group.shape {
-            copies.take(path, "clumps", name);
+        match &mut group.shape {
+            GrainShape::ClumpFile { path, .. } | GrainShape::ClumpMesh { path, .. } => {
+                copies.take(path, "clumps", name);
+            }
+            GrainShape::PolyhedronMesh { path, .. } => copies.take(path, "polyhedra", name),
+            _ => {}
         }
     }
     for (name, wall) in &mut plan.walls {

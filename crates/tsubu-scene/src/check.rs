@@ -10,6 +10,7 @@ mod grains;
 mod host;
 mod overlap;
 mod place;
+mod polyhedron;
 mod rotor;
 mod shell;
 mod walls;

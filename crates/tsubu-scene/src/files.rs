@@ -21,7 +21,11 @@ pub(crate) struct Files {
     meshes: BTreeMap<String, Arc<Vec<[Vector; 3]>>>,
     clumps: BTreeMap<(String, bool), Spheres>,
     packings: BTreeMap<(String, usize), Arc<Packing>>,
+    faces: BTreeMap<String, Faces>,
 }
+
+/// The faces of a convex body: unit normal, and distance from the origin.
+type Faces = Arc<Vec<(Vector, f64)>>;
 
 /// The spheres of a clump: centre and radius.
 type Spheres = Arc<Vec<(Vector, f64)>>;
@@ -35,6 +39,7 @@ impl Files {
             meshes: BTreeMap::new(),
             clumps: BTreeMap::new(),
             packings: BTreeMap::new(),
+            faces: BTreeMap::new(),
         }
     }
 
@@ -143,6 +148,15 @@ impl Files {
         Ok(())
     }
 
+    /// The faces of the convex body that the mesh in the file encloses.
+    pub fn faces(&mut self, name: &str, sources: &mut Vec<Source>) -> Result<(), Vec<Complaint>> {
+        if !self.faces.contains_key(name) {
+            let faces = packing::faces(&self.mesh(name, sources)?).map_err(|complaint| vec![complaint])?;
+            self.faces.insert(name.to_string(), Arc::new(faces));
+        }
+        Ok(())
+    }
+
     /// What tells the file from another: CRC-32 of its bytes, in hex.
     pub fn fingerprint(&mut self, name: &str) -> Option<String> {
         Some(format!("{:08x}", crc32fast::hash(&self.bytes(name).ok()?)))
@@ -171,6 +185,11 @@ impl Files {
     /// The spheres in a mesh whose file was read.
     pub fn known_packing(&self, name: &str, most: usize) -> Option<Arc<Packing>> {
         self.packings.get(&(name.to_string(), most)).cloned()
+    }
+
+    /// The faces of a convex body whose file was read.
+    pub fn known_faces(&self, name: &str) -> Option<Faces> {
+        self.faces.get(name).cloned()
     }
 
     /// The triangles of a file that was read.

@@ -51,6 +51,7 @@ mod mesh_file;
 mod node;
 mod packing;
 pub mod philox;
+mod polyhedron;
 pub mod range;
 mod reference;
 mod resolve;

@@ -6,8 +6,11 @@
 //! not covered falls with every sphere.
 
 mod cells;
+mod convex;
 mod polyhedron;
 mod tree;
+
+pub(crate) use convex::faces;
 
 use crate::complaint::Complaint;
 use crate::mesh_check;

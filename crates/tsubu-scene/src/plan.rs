@@ -16,6 +16,7 @@ mod gases;
 mod grains;
 mod hosts;
 mod methods;
+pub(crate) mod polyhedron;
 mod region;
 mod share;
 mod sites;
@@ -41,6 +42,7 @@ pub use methods::{
     Arithmetic, ClCa, ClCaRule, Collision, Dem, GrainPoints, GravitySwitch, Integrator, Lattice, LatticeMode,
     ObliqueGravity,
 };
+pub use polyhedron::{Polyhedron, PolyhedronFace};
 pub use region::{Ball, Cylinder, Region};
 pub use sites::{GuttHaff, Heap, Savage, Split, Voids};
 pub use stage::{Stage, Until};

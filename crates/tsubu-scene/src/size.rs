@@ -43,11 +43,13 @@ fn sieve_mean(diameter: &[f64], passing: &[f64], shape: &GrainShape) -> Option<f
             | GrainShape::Clump { .. }
             | GrainShape::ClumpFile { .. }
             | GrainShape::ClumpMesh { .. }
-            | GrainShape::Superellipsoid { .. } => {
+            | GrainShape::Superellipsoid { .. }
+            | GrainShape::Polyhedron { .. }
+            | GrainShape::PolyhedronMesh { .. } => {
                 number += share * square;
                 moment += share * inverse;
             }
-            GrainShape::Disc { .. } => {
+            GrainShape::Disc { .. } | GrainShape::Polygon { .. } => {
                 number += share * inverse;
                 moment += share * (b / a).ln();
             }
@@ -83,8 +85,17 @@ impl GrainShape {
     pub fn mass(&self, density: f64, diameter: f64) -> f64 {
         match self {
             Self::Sphere {} => density * std::f64::consts::PI / 6.0 * diameter.powi(3),
-            Self::Clump { .. } | Self::ClumpFile { .. } | Self::ClumpMesh { .. } | Self::Superellipsoid { .. } => {
+            Self::Clump { .. }
+            | Self::ClumpFile { .. }
+            | Self::ClumpMesh { .. }
+            | Self::Superellipsoid { .. }
+            | Self::Polyhedron { .. }
+            | Self::PolyhedronMesh { .. } => {
                 density * self.clump().map_or(std::f64::consts::PI / 6.0, |clump| clump.volume) * diameter.powi(3)
+            }
+            Self::Polygon { thickness, .. } => {
+                let area = self.clump().map_or(std::f64::consts::PI / 4.0, |clump| clump.volume);
+                density * area * diameter.powi(2) * thickness
             }
             Self::Disc { thickness } => density * std::f64::consts::PI / 4.0 * diameter.powi(2) * thickness,
         }

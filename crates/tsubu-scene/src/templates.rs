@@ -89,6 +89,16 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/ellipsoids.toml"),
     },
     Template {
+        name: "cubes",
+        about: "in space: cubes, tetrahedra and prisms with rounded edges fall into a box beside balls",
+        text: include_str!("../../../scenes/cubes.toml"),
+    },
+    Template {
+        name: "polygons",
+        about: "in the plane: squares, triangles and hexagons with rounded corners fall into a box beside discs",
+        text: include_str!("../../../scenes/polygons.toml"),
+    },
+    Template {
         name: "heap",
         about: "a hopper empties onto a floor and a heap grows: watches count, weigh and measure; the scene claims what comes out",
         text: include_str!("../../../scenes/heap.toml"),

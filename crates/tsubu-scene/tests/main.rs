@@ -22,6 +22,7 @@ mod mesh_files;
 mod messages;
 /// Contact laws of pairs of materials.
 mod pairs;
+mod polyhedra;
 /// The resolved scene, the schema, the reference page, the templates.
 mod products;
 /// No text makes the reader panic.

@@ -23,6 +23,7 @@ pub mod mutation;
 pub mod neighbours;
 pub mod outside;
 pub mod partner;
+pub mod polyhedron;
 pub mod random;
 pub mod ranks;
 pub mod run;

@@ -1,7 +1,7 @@
 //! Diameters of the grains of a group.
 
 use crate::random::{Purpose, unit, words};
-use tsubu_scene::plan::{GrainShape, Particles, Size};
+use tsubu_scene::plan::{Particles, Size};
 
 /// Diameter [m] of grain `id` of a group, from its distribution.
 pub fn diameter(group: &Particles, seed: u64, id: u32) -> f64 {
@@ -15,7 +15,7 @@ pub fn diameter(group: &Particles, seed: u64, id: u32) -> f64 {
         Size::Normal { mean, deviation, cut } => mean + deviation * normal(draw, *cut),
         Size::LogNormal { median, deviation, cut } => median * (deviation * normal(draw, *cut)).exp(),
         Size::Sieve { diameter, passing } => {
-            let power = if matches!(group.shape, GrainShape::Disc { .. }) { 2 } else { 3 };
+            let power = if group.shape.is_flat() { 2 } else { 3 };
             sieve(diameter, passing, power, draw(0))
         }
     }
@@ -55,7 +55,7 @@ fn sieve(diameter: &[f64], passing: &[f64], power: i32, [pick, u]: [f64; 2]) -> 
 
 /// Mass of a grain of the group with another diameter [kg].
 pub fn mass(group: &Particles, diameter: f64) -> f64 {
-    let power = if matches!(group.shape, GrainShape::Disc { .. }) { 2 } else { 3 };
+    let power = if group.shape.is_flat() { 2 } else { 3 };
     group.mass * (diameter / group.diameter).powi(power)
 }
 

@@ -16,6 +16,7 @@ mod host;
 mod interface;
 mod lattice;
 mod outside;
+mod polyhedron;
 mod ranks;
 mod response;
 mod stages;

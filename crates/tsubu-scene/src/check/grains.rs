@@ -1,6 +1,6 @@
 //! Groups of grains whose keys contradict each other.
 
-use super::Parts;
+use super::{Parts, polyhedron};
 use crate::complaint::Complaint;
 use crate::grain_file::{How, clump::MOST_PIECES};
 use crate::plan::{GrainMotion, GrainShape, Particles, Size, Start, Vector};
@@ -20,6 +20,7 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
         }
         clump(parts, name, group, complaints);
         superellipsoid(parts, name, group, complaints);
+        polyhedron::check(parts, name, group, complaints);
         sizes_and_places(parts, name, group, complaints);
         held(parts, name, group, complaints);
         complaints.extend(density(parts, name, group));

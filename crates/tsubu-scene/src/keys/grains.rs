@@ -89,7 +89,47 @@ static SHAPE: &[Variant] = &[
             TURNED,
         ],
     },
+    Variant {
+        name: "polyhedron",
+        about: "A convex body with rounded edges, scaled so that it just fits a sphere of the grain's `diameter` about its centre of mass; only in space, between walls of planes and boxes. Bodies touch where a corner of one comes near the other and where two edges cross, each a contact of two spheres of the rounding radii",
+        keys: &[
+            Key::new("corners", Kind::Vectors(&NUMBER), "Corners before edges are rounded, in any unit and any order"),
+            ROUNDING,
+            TURNED,
+        ],
+    },
+    Variant {
+        name: "polyhedron-mesh",
+        about: "The same, its faces from a closed convex mesh",
+        keys: &[
+            Key::new(
+                "path",
+                Kind::Text,
+                "An STL (`.stl`) or OBJ (`.obj`) file in any unit, from the folder of the scene file",
+            ),
+            FINGERPRINT,
+            ROUNDING,
+            TURNED,
+        ],
+    },
+    Variant {
+        name: "polygon",
+        about: "A convex polygon with rounded corners, scaled so that it just fits a circle of the grain's `diameter` about its centre of mass; only in the plane, between walls of planes and boxes",
+        keys: &[
+            Key::new("corners", Kind::Vectors(&NUMBER), "Corners one after the other, in any unit"),
+            ROUNDING,
+            Key::new("thickness", Kind::Quantity(&LENGTH), "Thickness along y").above(0.0),
+            TURNED,
+        ],
+    },
 ];
+
+const ROUNDING: Key = Key::new(
+    "rounding",
+    Kind::Quantity(&NUMBER),
+    "Radius of the rounded edges in the same unit: faces stay where they are, edges and corners are as if a ball had been rolled inside",
+)
+.above(0.0);
 
 const TURNED: Key =
     Key::new("orientation", Kind::OneOf(ORIENTATION), "How each grain is turned at first").default("'random'");
@@ -100,7 +140,7 @@ const FINGERPRINT: Key =
 
 static ORIENTATION: &[Word] = &[
     Word { name: "random", about: "any orientation as likely as another; in the plane any angle" },
-    Word { name: "as-drawn", about: "as the centres say, or a, b and c along x, y and z" },
+    Word { name: "as-drawn", about: "as the centres, corners or the file say, or a, b and c along x, y and z" },
 ];
 
 const CUT: Key = Key::new("cut", Kind::Quantity(&NUMBER), "Where the tails are cut on both sides, in deviations")

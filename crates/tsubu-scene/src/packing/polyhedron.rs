@@ -10,7 +10,7 @@ const THIN: f64 = 1e-6;
 
 /// Refuses what encloses nothing: the complaint has yet to be placed.
 pub(super) fn closed(found: &Diagnosis) -> Result<(), Complaint> {
-    // A clump's mesh is in any unit.
+    // A body's mesh is in any unit.
     let refuse = |what: String, hint: &str| Err(Complaint::new(what.trim_end_matches(" m")).hint(hint));
     if !found.not_finite.is_empty() {
         return refuse(
@@ -23,7 +23,7 @@ pub(super) fn closed(found: &Diagnosis) -> Result<(), Complaint> {
         return refuse(format!("the mesh has triangles without area: {}", found.degenerate), hint);
     }
     if !found.open_edges.is_empty() {
-        let hint = "a clump needs a closed surface: close it in the mesh file";
+        let hint = "a body needs a closed surface: close it in the mesh file";
         return refuse(format!("the mesh is open: edges with one triangle: {}", found.open_edges), hint);
     }
     for (what, found, hint) in [

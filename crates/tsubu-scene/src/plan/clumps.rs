@@ -1,5 +1,6 @@
 //! Clumps: grains that are several spheres; and what they have in common with other bodies that are no spheres.
 
+use super::polyhedron::{self, Polyhedron};
 use super::{GrainShape, Superellipsoid, Vector};
 use crate::clump::{Solid, surface};
 use serde::{Deserialize, Serialize};
@@ -14,12 +15,12 @@ pub enum ClumpOrientation {
     AsDrawn,
 }
 
-/// The spheres of a clump of diameter 1, or the one that holds a superellipsoid, and how its mass is spread.
+/// The spheres of a clump of diameter 1, or the one that holds a superellipsoid or polyhedron, and how its mass is spread.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clump {
     /// Centres from the centre of mass, along the principal axes, and radii.
     pub pieces: Vec<(Vector, f64)>,
-    /// Volume; what overlaps counts once.
+    /// Volume; what overlaps counts once. Of a polygon its area.
     pub volume: f64,
     /// Principal moments of inertia over the mass; of a clump the smallest first.
     pub moments: Vector,
@@ -29,6 +30,8 @@ pub struct Clump {
     pub orientation: ClumpOrientation,
     /// What is in the place of its one sphere.
     pub superellipsoid: Option<Superellipsoid>,
+    /// The same.
+    pub polyhedron: Option<Polyhedron>,
 }
 
 /// Spheres within a closed mesh, and the mesh that they stand for, in the unit of its file.
@@ -80,9 +83,13 @@ impl Clump {
     }
 
     /// Radii that a contact can have, the smallest and the largest that matter: of spheres theirs, of a superellipsoid that of its flattest place,
-    /// where a contact is stiffest.
+    /// where a contact is stiffest, of a polyhedron its rounding radius.
     pub fn contact_radii(&self) -> [f64; 2] {
-        self.superellipsoid.map_or_else(|| self.radii(), |body| [body.flattest(); 2])
+        match (&self.superellipsoid, &self.polyhedron) {
+            (Some(body), _) => [body.flattest(); 2],
+            (_, Some(body)) => [body.rounding; 2],
+            _ => self.radii(),
+        }
     }
 
     /// The mass over the smallest that it shows to an impact anywhere: 1 + (r x n) . I^-1 (r x n) m, of the worst arm r and normal n.
@@ -90,19 +97,24 @@ impl Clump {
         if let Some(body) = &self.superellipsoid {
             return body.lightness();
         }
+        if let Some(body) = &self.polyhedron {
+            return 1.0 + body.corners.iter().map(|corner| self.worst(corner)).fold(0.0, f64::max);
+        }
+        1.0 + self.pieces.iter().map(|(arm, _)| self.worst(arm)).fold(0.0, f64::max)
+    }
+
+    /// (r x n) . I^-1 (r x n) m of the worst normal n on an arm r.
+    fn worst(&self, arm: &Vector) -> f64 {
         // Of I^-1 across the arm the larger of two eigenvalues, from its trace and that of its square.
-        let worst = |(arm, _): &(Vector, f64)| {
-            let squared: f64 = arm.iter().map(|x| x * x).sum();
-            if squared == 0.0 {
-                return 0.0;
-            }
-            let across = |i: usize, j: usize| f64::from(u8::from(i == j)) - arm[i] * arm[j] / squared;
-            let entry = |i: usize, j: usize| (0..3).map(|k| across(i, k) * across(k, j) / self.moments[k]).sum::<f64>();
-            let trace: f64 = (0..3).map(|i| entry(i, i)).sum();
-            let square: f64 = (0..9).map(|k| entry(k / 3, k % 3).powi(2)).sum();
-            squared * 0.5 * (trace + (2.0 * square - trace * trace).max(0.0).sqrt())
-        };
-        1.0 + self.pieces.iter().map(worst).fold(0.0, f64::max)
+        let squared: f64 = arm.iter().map(|x| x * x).sum();
+        if squared == 0.0 {
+            return 0.0;
+        }
+        let across = |i: usize, j: usize| f64::from(u8::from(i == j)) - arm[i] * arm[j] / squared;
+        let entry = |i: usize, j: usize| (0..3).map(|k| across(i, k) * across(k, j) / self.moments[k]).sum::<f64>();
+        let trace: f64 = (0..3).map(|i| entry(i, i)).sum();
+        let square: f64 = (0..9).map(|k| entry(k / 3, k % 3).powi(2)).sum();
+        squared * 0.5 * (trace + (2.0 * square - trace * trace).max(0.0).sqrt())
     }
 }
 
@@ -115,12 +127,30 @@ impl GrainShape {
             Self::ClumpFile { .. } => Some("clump-file"),
             Self::ClumpMesh { .. } => Some("clump-mesh"),
             Self::Superellipsoid { .. } => Some("superellipsoid"),
+            Self::Polyhedron { .. } => Some("polyhedron"),
+            Self::PolyhedronMesh { .. } => Some("polyhedron-mesh"),
+            Self::Polygon { .. } => Some("polygon"),
         }
     }
 
     /// What bodies that are no spheres are called.
     pub fn plural(&self) -> &'static str {
-        if matches!(self, Self::Superellipsoid { .. }) { "superellipsoids" } else { "clumps" }
+        match self {
+            Self::Superellipsoid { .. } => "superellipsoids",
+            Self::Polyhedron { .. } | Self::PolyhedronMesh { .. } => "polyhedra",
+            Self::Polygon { .. } => "polygons",
+            _ => "clumps",
+        }
+    }
+
+    /// Whether it is a disc or a polygon, whose mass goes with the square of the diameter.
+    pub fn is_flat(&self) -> bool {
+        matches!(self, Self::Disc { .. } | Self::Polygon { .. })
+    }
+
+    /// Whether it is a polyhedron or a polygon.
+    pub fn is_polyhedron(&self) -> bool {
+        matches!(self, Self::Polyhedron { .. } | Self::PolyhedronMesh { .. } | Self::Polygon { .. })
     }
 
     /// Whether it is a body that is no sphere: [`GrainShape::clump`] without the work of its mass.
@@ -131,16 +161,23 @@ impl GrainShape {
             Self::ClumpFile { spheres, .. } => spheres.len() > 1,
             // Even one sphere has the mass and inertia of the mesh.
             Self::ClumpMesh { packing, .. } => !packing.spheres.is_empty(),
-            Self::Superellipsoid { .. } => true,
+            Self::PolyhedronMesh { faces, .. } => !faces.is_empty(),
+            Self::Superellipsoid { .. } | Self::Polyhedron { .. } | Self::Polygon { .. } => true,
         }
     }
 
     /// Diameter of what a grain of that diameter fills however it is turned: of a superellipsoid twice its shortest semi-axis. How deep it begins in
     /// something the engine says.
     pub fn sure(&self, diameter: f64) -> f64 {
-        let Self::Superellipsoid { .. } = self else { return diameter };
-        let body = self.clump().and_then(|body| body.superellipsoid);
-        body.map_or(diameter, |body| 2.0 * diameter * body.semi_axes.iter().copied().fold(0.5, f64::min))
+        if !matches!(self, Self::Superellipsoid { .. }) && !self.is_polyhedron() {
+            return diameter;
+        }
+        let shortest = |axes: &Vector| 2.0 * axes.iter().copied().fold(0.5, f64::min);
+        let share = self.clump().and_then(|body| match (&body.superellipsoid, &body.polyhedron) {
+            (Some(body), _) => Some(shortest(&body.semi_axes)),
+            (_, body) => body.as_ref().map(Polyhedron::sure),
+        });
+        diameter * share.unwrap_or(1.0)
     }
 
     /// The packing in place of a mesh.
@@ -170,6 +207,15 @@ impl GrainShape {
                 let exponents = <[f64; 2]>::try_from(&exponents[..]).ok()?;
                 Some(Superellipsoid::new(*semi_axes, exponents).body(*orientation))
             }
+            Self::Polyhedron { corners, rounding, orientation } => {
+                polyhedron::of_corners(corners, *rounding, true, *orientation)
+            }
+            Self::Polygon { corners, rounding, orientation, .. } => {
+                polyhedron::of_corners(corners, *rounding, false, *orientation)
+            }
+            Self::PolyhedronMesh { faces, rounding, orientation, .. } => {
+                polyhedron::of_faces(faces, *rounding, *orientation)
+            }
         }
     }
 }
@@ -187,5 +233,6 @@ fn scaled(spheres: &[(Vector, f64)], solid: &Solid, reach: f64, orientation: Clu
         axes: solid.axes,
         orientation,
         superellipsoid: None,
+        polyhedron: None,
     }
 }

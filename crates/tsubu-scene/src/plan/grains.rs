@@ -16,7 +16,7 @@ pub struct Particles {
     pub diameter: f64,
     /// Mass of a grain of that diameter [kg]: given, or from density and diameter. Others scale with their volume.
     pub mass: f64,
-    /// Sphere, disc, clump or superellipsoid.
+    /// Sphere, disc, clump, superellipsoid, polyhedron or polygon.
     pub shape: GrainShape,
     /// How the diameters are distributed.
     pub size: Size,
@@ -64,6 +64,40 @@ pub enum GrainShape {
         semi_axes: Vector,
         /// Exponents of the profile and of the equator [-]; 2 and 2: an ellipsoid.
         exponents: Vec<f64>,
+        /// How each grain is turned at first.
+        orientation: ClumpOrientation,
+    },
+    /// A convex body with rounded edges, scaled so that it just fits a sphere of the grain's diameter about its centre of mass.
+    Polyhedron {
+        /// Corners before edges are rounded, in any unit.
+        corners: Vec<Vector>,
+        /// Radius of the rounded edges in the same unit.
+        rounding: f64,
+        /// How each grain is turned at first.
+        orientation: ClumpOrientation,
+    },
+    /// The same, its faces from a closed mesh.
+    PolyhedronMesh {
+        /// Name of the file's copy in the run folder (see `Scene::companions`).
+        path: String,
+        /// What tells one file from another: CRC-32 of its bytes, in hex.
+        fingerprint: String,
+        /// Radius of the rounded edges in the unit of the file.
+        rounding: f64,
+        /// How each grain is turned at first.
+        orientation: ClumpOrientation,
+        /// Unit normal and distance from the origin of each face.
+        #[serde(skip)]
+        faces: Arc<Vec<(Vector, f64)>>,
+    },
+    /// A convex polygon with rounded corners; only in the plane.
+    Polygon {
+        /// Corners one after the other, before they are rounded, in any unit.
+        corners: Vec<Vector>,
+        /// Radius of the rounded corners in the same unit.
+        rounding: f64,
+        /// Thickness along y [m].
+        thickness: f64,
         /// How each grain is turned at first.
         orientation: ClumpOrientation,
     },

@@ -62,6 +62,7 @@ impl Superellipsoid {
             axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             orientation,
             superellipsoid: Some(self),
+            polyhedron: None,
         }
     }
 

@@ -47,8 +47,10 @@ pub struct Kind {
     pub group: Option<String>,
     /// Number of the material in the contact table.
     pub material: u32,
-    /// Radius [m]; infinite for walls.
+    /// Radius at contacts [m]; infinite for walls.
     pub radius: f64,
+    /// What an overlap is held against, twice this [m]: of polyhedra the sphere that holds them, of others the radius.
+    pub size: f64,
     /// Radius of the largest of them [m].
     pub largest: f64,
     /// Mass [kg]; infinite for what forces do not move.
@@ -94,6 +96,7 @@ pub fn bodies(plan: &Plan, table: &Table, hosts: &Hosts) -> Bodies {
             group: Some(name.clone()),
             material: table.material(&group.material),
             radius: thin * smallest,
+            size: if group.shape.is_polyhedron() { 0.5 } else { thin } * smallest,
             largest: thick * largest,
             mass: if free { sizes::mass(group, smallest) / lightness + added(smallest) } else { f64::INFINITY },
         });
@@ -111,6 +114,7 @@ pub fn bodies(plan: &Plan, table: &Table, hosts: &Hosts) -> Bodies {
             group: None,
             material: table.material(&wall.material),
             radius: f64::INFINITY,
+            size: f64::INFINITY,
             largest: f64::INFINITY,
             mass: host.or(own).unwrap_or(f64::INFINITY),
         };

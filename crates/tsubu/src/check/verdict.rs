@@ -176,7 +176,7 @@ fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
             format!("{label}: contact time {time:.3e} s at {speed:.3} m/s, {steps:.1} steps per contact (never below 10, good from 20)"),
             || format!("`dem.time-step` to {:.2e} s or less, or leave it out (20 steps per contact)", time / 20.0),
         );
-        let overlap = pair.largest_overlap(speed) / (2.0 * a.radius);
+        let overlap = pair.largest_overlap(speed) / (2.0 * a.size);
         verdict.judge(
             overlap <= 0.01,
             format!(

@@ -8,6 +8,7 @@
 mod assemble;
 mod body;
 mod refused;
+mod told;
 
 pub(super) use refused::refused;
 
@@ -16,13 +17,14 @@ use crate::contact::chunk::Chunk;
 use crate::ledger::Energies;
 use crate::neighbours::joined::NO_BODY;
 use crate::neighbours::lists::{BlockList, shares};
+use crate::polyhedron::Polyhedron;
 use crate::state::Grains;
 use crate::superellipsoid::{Outline, Superellipsoid};
 use crate::threads::each_in_parts;
 use crate::view;
 pub(super) use body::Body;
 use body::{Felt, TOGETHER};
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 
@@ -51,6 +53,10 @@ pub(super) struct Bodies {
     shaped: bool,
     /// Whether some of these are no ellipsoids.
     powers: bool,
+    /// Polyhedra of diameter 1.
+    polyhedra: Vec<Polyhedron>,
+    /// See [`Bodies::finest`].
+    finest: Option<f64>,
 }
 
 impl Bodies {
@@ -80,6 +86,33 @@ impl Bodies {
         let body = self.list.get(self.sorted.get(i)?.body as usize)?;
         let shape = body.superellipsoid.as_ref()?;
         Some(if shape.is_ellipsoid() { body.ellipsoid.outline() } else { shape.turned(&body.axes) })
+    }
+
+    /// Whether there are polyhedra.
+    pub fn faceted(&self) -> bool {
+        !self.polyhedra.is_empty()
+    }
+
+    /// Polyhedra of diameter 1, by number.
+    pub fn polyhedra(&self) -> &[Polyhedron] {
+        &self.polyhedra
+    }
+
+    /// The number of the polyhedron that a grain is, its diameter [m], and the directions of its principal axes.
+    pub fn polyhedron(&self, i: usize) -> Option<(u32, f64, &DMat3)> {
+        let body = self.list.get(self.sorted.get(i)?.body as usize)?;
+        let (shape, size) = body.polyhedron?;
+        Some((shape, size, &body.axes))
+    }
+
+    /// Rounding radius of the polyhedron that a grain is [m].
+    pub fn rounding(&self, i: usize) -> Option<f64> {
+        self.polyhedron(i).map(|(shape, size, _)| self.polyhedra[shape as usize].rounding() * size)
+    }
+
+    /// Twice the smallest rounding radius of all polyhedra, those that are yet to come included [m]; infinite where there are none.
+    pub fn finest(&self) -> f64 {
+        self.finest.unwrap_or(f64::INFINITY)
     }
 
     /// The body of every grain by its id; nothing where there are none.

@@ -4,6 +4,7 @@
 //! in its own `loads`: first for its own grains, then for the grains of its halo. Afterwards every grain adds what other
 //! blocks hold for it, in the order of the blocks. Nothing here depends on the number of threads.
 
+mod features;
 mod list;
 mod pairs;
 mod sums;
@@ -16,6 +17,7 @@ use super::bodies::Bodies;
 use super::bonds::Bonds;
 use super::contact_batch::{self, ContactBatch};
 use super::contact_history::{ContactHistory, FRESH, WallKey};
+use super::features::PairFeatures;
 use super::history_transfer::HistorySnapshot;
 use super::immersion::{BlockImmersion, WaterAtTime};
 use super::narrow_phase::{Spheres, TouchingPairs};
@@ -169,6 +171,7 @@ struct Scratch {
     touching_pairs: TouchingPairs,
     shapes: PairShapes,
     wall_shapes: WallShapes,
+    features: PairFeatures,
     elements: Vec<u32>,
     touching: Vec<wall::Touch>,
     went_on: Vec<u32>,
@@ -186,6 +189,7 @@ impl Scratch {
             touching_pairs: TouchingPairs::default(),
             shapes: PairShapes::default(),
             wall_shapes: WallShapes::default(),
+            features: PairFeatures::default(),
             elements: Vec::with_capacity(64),
             touching: Vec::with_capacity(64),
             went_on: Vec::with_capacity(64),
@@ -274,6 +278,7 @@ impl BlockContacts {
         walls.fill(WallLoad::default());
         *sums = ContactSums::default();
         pairs::evaluate(input, list, history, scratch, sums, |batch| pairs::scatter(batch, loads, rotation));
+        features::evaluate(input, list, history, scratch, sums, |batch| pairs::scatter(batch, loads, rotation));
         walls::evaluate(input, list, history, scratch, sums, |batch| walls::scatter(input, list, batch, loads, walls));
         history.swap_with_slice(&mut scratch.next);
         scratch.forget(input.laws.all());

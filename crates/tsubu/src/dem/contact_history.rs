@@ -104,6 +104,13 @@ impl<K> HistoryColumns<K> {
     }
 }
 
+/// A contact of two features of bodies: number of the pair in the neighbour list, and which features.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct FeatureKey {
+    pub pair: u32,
+    pub feature: u32,
+}
+
 /// A contact with a wall: its grain (counted from the first of the block), its wall, and the wall's name for the place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct WallKey {
@@ -117,6 +124,8 @@ pub(super) struct WallKey {
 pub(super) struct ContactHistory {
     /// Grain-grain contacts by number of the pair in the neighbour list.
     pub pairs: HistoryColumns<u32>,
+    /// Contacts of features of polyhedra with other grains.
+    pub features: HistoryColumns<FeatureKey>,
     /// Grain-wall contacts.
     pub walls: HistoryColumns<WallKey>,
 }
@@ -132,6 +141,7 @@ impl ContactHistory {
     /// Forgets all; from now on there are `width` numbers a contact.
     pub fn clear(&mut self, width: usize) {
         self.pairs.clear(width);
+        self.features.clear(width);
         self.walls.clear(width);
     }
 }

@@ -3,19 +3,20 @@
 //! Every block hands over its own contacts, and is filled from what belongs to it: both on many threads.
 
 use super::contact_forces::{BlockContacts, ContactForces, ForceInput};
-use super::contact_history::WallKey;
+use super::contact_history::{FeatureKey, WallKey};
 use super::ranks::Ranks;
 use super::sweep::{Direction, sweep};
 use crate::contact::Law;
 use crate::mutation::{Mutation, left_out};
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::lists::{BLOCK, BlockList, shares};
+use crate::polyhedron::touch::turned_feature;
 use crate::ranks::Reader;
 use crate::threads;
 use crate::wall::Wall;
 
 /// A remembered contact by the ids of its bodies. For a wall the second number is the wall, and `patch` tells the place
-/// on it.
+/// on it; between grains it tells the features of polyhedra, and is 0 for others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ContactId {
     pub first: u32,
@@ -77,6 +78,7 @@ struct Destination {
 enum Key {
     /// By number of the pair in the neighbour list.
     Pair(u32),
+    Feature(FeatureKey),
     Wall(WallKey),
 }
 
@@ -212,6 +214,13 @@ impl BlockHistory {
                 let second = id[list.grain_at[pair.second as usize] as usize];
                 self.push(ContactId { first, second, wall: false, patch: 0, law }, of.pairs.history(c), width);
             }
+            for (c, key) in of.features.keys.iter().enumerate() {
+                let pair = list.pairs[key.pair as usize];
+                let first = id[list.first + pair.first as usize];
+                let second = id[list.grain_at[pair.second as usize] as usize];
+                let contact = ContactId { first, second, wall: false, patch: key.feature, law };
+                self.push(contact, of.features.history(c), width);
+            }
             for (c, key) in of.walls.keys.iter().enumerate() {
                 let first = id[list.first + key.own as usize];
                 let contact = ContactId { first, second: key.wall, wall: true, patch: key.patch, law };
@@ -274,7 +283,14 @@ impl Lookup<'_> {
             return here.then_some((i / BLOCK as u32, key, false));
         }
         let j = self.index(contact.second)?;
-        let found = |(block, k), turned| (block, Key::Pair(k), turned);
+        let found = |(block, pair), turned| {
+            let key = match contact.patch {
+                0 => Key::Pair(pair),
+                feature if turned => Key::Feature(FeatureKey { pair, feature: turned_feature(feature) }),
+                feature => Key::Feature(FeatureKey { pair, feature }),
+            };
+            (block, key, turned)
+        };
         let same = self.pair(i, j).map(|pair| found(pair, false));
         same.or_else(|| self.pair(j, i).map(|pair| found(pair, true)))
     }
@@ -355,6 +371,7 @@ fn refill<'a>(
         let (law, history) = (contacts[from].law as usize, &history[from * width..(from + 1) * width]);
         match key {
             Key::Pair(k) => block.history[law].pairs.push(k, history),
+            Key::Feature(key) => block.history[law].features.push(key, history),
             Key::Wall(key) => block.history[law].walls.push(key, history),
         }
     }

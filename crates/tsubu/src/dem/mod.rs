@@ -9,6 +9,7 @@ mod contact_forces;
 mod contact_history;
 mod drawn;
 pub mod engine;
+mod features;
 mod fill;
 mod gates;
 mod history_transfer;

@@ -33,12 +33,13 @@ impl DemEngine {
         let contacts = if told || self.immersion.is_some() { self.contact_list() } else { Vec::new() };
         let force = self.contact_forces(&contacts);
         let shaped = self.integration.bodies.shaped();
+        let turns = shaped || self.integration.bodies.faceted();
         let turned: Option<Vec<_>> = order
             .iter()
             .map(|&i| self.grains.id[i])
             .map(|id| match self.integration.bodies.orientation(id) {
-                Some(turned) if shaped || self.integration.orientation.of(id).is_some() => Some(turned),
-                _ => self.integration.orientation.of(id).or(shaped.then_some(DQuat::IDENTITY)),
+                Some(turned) if turns || self.integration.orientation.of(id).is_some() => Some(turned),
+                _ => self.integration.orientation.of(id).or(turns.then_some(DQuat::IDENTITY)),
             })
             .collect();
         if let Some(turned) = turned {
@@ -47,6 +48,7 @@ impl DemEngine {
         if shaped {
             self.tell_shapes(&order, &mut frame);
         }
+        self.integration.bodies.tell_polyhedra(&order, &mut frame);
         frame.vector(Kind::Grain, "contact force", "N", vectors(&force));
         if self.immersion.is_some() {
             frame.vector(Kind::Grain, "water force", "N", vectors(&self.water_forces(&force)));

@@ -4,6 +4,7 @@
 //! forces needs every law and a copy of what contacts remember; the places need neither.
 
 use super::contact_forces::ForceInput;
+use super::features::PairFeatures;
 use super::narrow_phase::{Spheres, TouchingPairs};
 use super::shapes::{PairShapes, WallShapes};
 use crate::view::Contact;
@@ -13,6 +14,7 @@ use glam::DVec3;
 pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
     let (mut spheres, mut pairs) = (Spheres::default(), TouchingPairs::default());
     let (mut shapes, mut wall_shapes) = (PairShapes::default(), WallShapes::default());
+    let mut features = PairFeatures::default();
     let mut touches = Vec::new();
     let mut elements = Vec::new();
     let mut contacts = Vec::new();
@@ -20,6 +22,7 @@ pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
     for list in &input.neighbours.lists[input.neighbours.own()] {
         spheres.load(g, list, &input.neighbours.shifts);
         pairs.find(list, &spheres, 0.0);
+        features.take(&mut pairs, input, list, &spheres);
         shapes.find(&mut pairs, input, list, &spheres);
         for touching in pairs.under(0) {
             let second = list.pairs[touching.pair as usize].second;
@@ -43,21 +46,33 @@ pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
                 overlap,
             });
         }
+        for (touching, contact) in features.contacts() {
+            let second = list.pairs[touching.pair as usize].second;
+            let ([ax, ay, az, a], [bx, by, bz, _]) = (spheres.at(touching.first), spheres.at(second));
+            let first = list.first + touching.first as usize;
+            let radius = input.bodies.rounding(first).unwrap_or(a);
+            contacts.push(Contact {
+                first,
+                second: list.grain_at[second as usize] as usize,
+                wall: false,
+                position: g.position[first] + contact.points[0] + contact.normal * (radius - 0.5 * contact.overlap),
+                branch: DVec3::new(bx - ax, by - ay, bz - az),
+                force: DVec3::ZERO,
+                normal: contact.normal,
+                overlap: contact.overlap,
+            });
+        }
         for near in list.walls.chunk_by(|a, b| (a.own, a.wall) == (b.own, b.wall)) {
             let first = list.first + near[0].own as usize;
             let (centre, radius) = (g.position[first], g.radius[first]);
             elements.clear();
             elements.extend(near.iter().map(|near| near.element));
             input.walls[near[0].wall as usize].touching(&elements, centre, radius, &mut touches);
-            let outline = if input.bodies.shaped() { input.bodies.outline(first) } else { None };
-            if let Some(outline) = &outline {
-                wall_shapes.find(outline, &mut touches, 0.0);
-            }
+            features.at_wall(input, list, near[0].own, &mut touches, 0.0, &mut wall_shapes);
             contacts.extend(touches.iter().enumerate().map(|(t, touch)| {
                 let (normal, mut overlap) = (-touch.nearest.normal, radius - touch.nearest.distance);
                 let mut branch = normal * (radius - 0.5 * overlap);
-                if outline.is_some() {
-                    let shape = wall_shapes.of(t);
+                if let Some(shape) = wall_shapes.of(t) {
                     overlap = shape.overlap;
                     branch = shape.shift + normal * (shape.radius - 0.5 * overlap);
                 }

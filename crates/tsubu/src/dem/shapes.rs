@@ -255,6 +255,8 @@ pub(super) struct WallShape {
     pub radius: f64,
     /// Centre of the sphere that stands for the body, from that of the body [m].
     pub shift: DVec3,
+    /// Which feature of a polyhedron it is, in the upper half; 0 for others.
+    pub patch: u32,
     /// Torque on the body, its opposite on the wall, for each unit of the slope of energy over radius [m]; see [`Rounding`].
     pub rounding: DVec3,
 }
@@ -262,7 +264,8 @@ pub(super) struct WallShape {
 /// Where one grain touches the elements of a wall.
 #[derive(Clone, Debug, Default)]
 pub(super) struct WallShapes {
-    found: Vec<WallShape>,
+    /// Of each touch; empty where they are those of a sphere.
+    pub found: Vec<WallShape>,
     /// [`WallShape::rounding`] of the rows of a batch.
     rounding: Vec<DVec3>,
 }
@@ -279,9 +282,9 @@ impl WallShapes {
         });
     }
 
-    /// Of the touch with that number.
-    pub fn of(&self, touch: usize) -> WallShape {
-        self.found[touch]
+    /// Of the touch with that number; `None`: it is a sphere that touches.
+    pub fn of(&self, touch: usize) -> Option<WallShape> {
+        self.found.get(touch).copied()
     }
 
     /// Takes a row of a batch.
@@ -307,7 +310,7 @@ impl WallShapes {
 impl WallShape {
     /// Of a sphere.
     pub fn sphere(radius: f64, distance: f64) -> Self {
-        Self { overlap: radius - distance, radius, shift: DVec3::ZERO, rounding: DVec3::ZERO }
+        Self { overlap: radius - distance, radius, shift: DVec3::ZERO, patch: 0, rounding: DVec3::ZERO }
     }
 }
 
@@ -319,6 +322,7 @@ fn against_plane(outline: &Outline, touch: &wall::Touch) -> WallShape {
         overlap: normal.dot(point) - touch.nearest.distance,
         radius,
         shift: point - normal * radius,
+        patch: 0,
         rounding: normal.cross(slope),
     }
 }

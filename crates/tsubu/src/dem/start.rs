@@ -143,9 +143,9 @@ impl DemEngine {
 
     /// Overlap over diameter, of the smaller grain.
     pub(super) fn overlap_ratio(&self, contact: &Contact) -> f64 {
-        let radius = &self.grains.radius;
-        let second = if contact.wall { f64::INFINITY } else { radius[contact.second] };
-        contact.overlap / (2.0 * radius[contact.first].min(second))
+        let radius = |i: usize| self.integration.bodies.rounding(i).unwrap_or(self.grains.radius[i]);
+        let second = if contact.wall { f64::INFINITY } else { radius(contact.second) };
+        contact.overlap / (2.0 * radius(contact.first).min(second))
     }
 
     /// Whom a contact is with, as users know it.

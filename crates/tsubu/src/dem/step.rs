@@ -285,7 +285,7 @@ impl DemEngine {
 
     fn check_overlap(&self) -> Result<(), Fault> {
         let limit = self.limits.largest_overlap;
-        if self.contacts.sums.deepest <= limit * self.limits.smallest_diameter {
+        if self.contacts.sums.deepest <= limit * self.limits.smallest_diameter.min(self.integration.bodies.finest()) {
             return Ok(());
         }
         let ratios = self.contact_list().into_iter().map(|contact| (self.overlap_ratio(&contact), contact));

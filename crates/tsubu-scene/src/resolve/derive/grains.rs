@@ -36,12 +36,14 @@ impl Derive<'_> {
     /// What the grains are, with what files say of it; nothing where that is wrong.
     fn shape(&mut self, group: &mut toml::Table, name: &str, space: bool) -> Option<GrainShape> {
         let shape = group.get_mut("shape")?;
-        for key in ["clump-file", "clump-mesh"] {
+        for key in ["clump-file", "clump-mesh", "polyhedron-mesh"] {
             let Some(file) = shape.get_mut(key).and_then(Value::as_table_mut) else { continue };
             let here = ["particles", name, "shape", key];
             let path = file.get("path")?.as_str()?.to_string();
             let read = if key == "clump-file" {
                 self.files.clump(&path, space, self.sources)
+            } else if key == "polyhedron-mesh" && space {
+                self.files.faces(&path, self.sources)
             } else if space {
                 let most = usize::try_from(file.get("spheres")?.as_integer()?).ok()?;
                 self.files.packing(&path, most, self.sources)

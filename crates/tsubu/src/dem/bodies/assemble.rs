@@ -3,6 +3,7 @@
 use super::body::Body;
 use super::{Bodies, Piece};
 use crate::neighbours::joined::NO_BODY;
+use crate::polyhedron::Polyhedron;
 use crate::random::{Purpose, unit, words};
 use crate::sizes;
 use crate::state::{Grain, Grains};
@@ -19,36 +20,47 @@ impl Bodies {
         if clumps.iter().all(Option::is_none) {
             return bodies;
         }
+        let mut shapes: Vec<Option<u32>> = Vec::new();
+        for clump in &clumps {
+            let polyhedron = clump.as_ref().and_then(|clump| clump.polyhedron.as_ref());
+            shapes.push(polyhedron.map(|_| bodies.polyhedra.len() as u32));
+            bodies.polyhedra.extend(polyhedron.map(Polyhedron::new));
+        }
         let whole = std::mem::take(grains);
         for i in 0..whole.len() {
             let grain = whole.row(i);
             let first = grains.len() as u32;
             if let Some(clump) = &clumps[grain.group as usize] {
-                bodies.expect(clump, grain.mass, 2.0 * grain.radius);
+                bodies.expect(clump, shapes[grain.group as usize], grain.mass, 2.0 * grain.radius);
                 bodies.enter(clump, &grain, first, plan).into_iter().for_each(|piece| grains.push(piece));
             } else {
                 grains.push(Grain { id: first, ..grain });
                 bodies.by_id.push(ALONE);
             }
         }
-        for (group, clump) in plan.particles.values().zip(&clumps).filter(|(group, _)| is_stream(group)) {
+        for ((group, clump), shape) in
+            plan.particles.values().zip(&clumps).zip(&shapes).filter(|((group, _), _)| is_stream(group))
+        {
             for _ in 0..group.count {
                 let diameter = sizes::diameter(group, plan.seed, bodies.by_id.len() as u32);
                 match clump {
-                    Some(clump) => bodies.expect(clump, sizes::mass(group, diameter), diameter),
+                    Some(clump) => bodies.expect(clump, *shape, sizes::mass(group, diameter), diameter),
                     None => bodies.by_id.push(ALONE),
                 }
             }
         }
         let shapes = || bodies.list.iter().filter_map(|body| body.superellipsoid.as_ref());
         (bodies.shaped, bodies.powers) = (shapes().next().is_some(), shapes().any(|shape| !shape.is_ellipsoid()));
+        let rounding =
+            |body: &Body| body.polyhedron.map(|(shape, size)| bodies.polyhedra[shape as usize].rounding() * size);
+        bodies.finest = bodies.list.iter().filter_map(rounding).reduce(f64::min).map(|radius| 2.0 * radius);
         bodies.find(grains);
         bodies.show(grains);
         bodies
     }
 
     /// Makes room for a body: what of it never changes.
-    fn expect(&mut self, clump: &Clump, mass: f64, diameter: f64) {
+    fn expect(&mut self, clump: &Clump, polyhedron: Option<u32>, mass: f64, diameter: f64) {
         let body = self.list.len() as u32;
         let superellipsoid = clump.superellipsoid.map(|shape| Superellipsoid {
             semi_axes: DVec3::from_array(shape.semi_axes) * diameter,
@@ -60,6 +72,7 @@ impl Bodies {
             moments: DVec3::from_array(clump.moments) * (mass * diameter * diameter),
             ellipsoid: superellipsoid.map(|shape| shape.ellipsoid(&DMat3::IDENTITY)).unwrap_or_default(),
             superellipsoid,
+            polyhedron: polyhedron.map(|shape| (shape, diameter)),
             pieces: 0..0,
             centre: DVec3::ZERO,
             velocity: DVec3::ZERO,

@@ -21,6 +21,8 @@ pub struct Body {
     pub moments: DVec3,
     /// What is in the place of its one sphere.
     pub superellipsoid: Option<Superellipsoid>,
+    /// The number of the polyhedron that is there, and its diameter [m].
+    pub polyhedron: Option<(u32, f64)>,
     /// Where its pieces are in the list of places; none where it is not there.
     pub pieces: Range<usize>,
     /// Centre of mass, never wrapped [m].

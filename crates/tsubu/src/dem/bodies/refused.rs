@@ -1,7 +1,7 @@
 //! What scenes with bodies that are no spheres cannot have yet.
 
 use crate::engine::{Note, Refusal, Verdict};
-use tsubu_scene::plan::{GrainShape, Integrator, Measure, Plan, Quantity, Shape};
+use tsubu_scene::plan::{GrainShape, Integrator, Measure, Particles, Plan, Quantity, Shape};
 
 /// Refuses it by name.
 pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
@@ -18,25 +18,32 @@ pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
     if !plan.contact.rotation {
         refuse("contact.rotation".to_owned(), "bodies that are no spheres turn; leave the key out");
     }
-    superellipsoids(plan, refuse);
+    one_piece(plan, refuse);
     if notes.is_empty() { Ok(()) } else { Err(Refusal { method: "dem", notes }) }
 }
 
-/// What goes with clumps, but not with superellipsoids.
-fn superellipsoids(plan: &Plan, mut refuse: impl FnMut(String, &str)) {
-    let groups = || plan.particles.iter().filter(|(_, group)| matches!(group.shape, GrainShape::Superellipsoid { .. }));
-    if groups().next().is_none() {
-        return;
+/// What goes with clumps, but not with superellipsoids, polyhedra and polygons.
+fn one_piece(plan: &Plan, mut refuse: impl FnMut(String, &str)) {
+    let round = |group: &Particles| matches!(group.shape, GrainShape::Superellipsoid { .. });
+    let groups = || plan.particles.iter().filter(|(_, group)| round(group) || group.shape.is_polyhedron());
+    let Some((_, first)) = groups().next() else { return };
+    let plural = first.shape.plural();
+    if let Some((name, group)) = groups().find(|(_, group)| round(group) != round(first)) {
+        let text =
+            format!("{} and {plural} in one scene cannot touch yet; leave one of them out", group.shape.plural());
+        refuse(format!("particles.{name}.shape"), &text);
     }
     for (name, wall) in &plan.walls {
         if !matches!(wall.shape, Shape::Plane { .. } | Shape::Box { .. }) {
-            let text = "superellipsoids touch planes and boxes alone yet; build it of these, or write shape.clump for the grains";
-            refuse(format!("walls.{name}.shape"), text);
+            let text = format!(
+                "{plural} touch planes and boxes alone yet; build it of these, or write shape.clump for the grains"
+            );
+            refuse(format!("walls.{name}.shape"), &text);
         }
     }
     for (name, _) in groups().filter(|(name, _)| plan.bond.iter().any(|bond| bond.joins(name))) {
-        let text = "bonds hold spheres and clumps together, no superellipsoids yet; write shape.clump";
-        refuse(format!("particles.{name}.shape"), text);
+        let text = format!("bonds hold spheres and clumps together, no {plural} yet; write shape.clump");
+        refuse(format!("particles.{name}.shape"), &text);
     }
     for (name, watch) in &plan.watch {
         let volumes = match &watch.measure {
@@ -45,8 +52,10 @@ fn superellipsoids(plan: &Plan, mut refuse: impl FnMut(String, &str)) {
             _ => false,
         };
         if volumes {
-            let text = "it takes grains for spheres, whose volumes are not those of superellipsoids; leave it, or its `solid-fraction`, out";
-            refuse(format!("watch.{name}"), text);
+            let text = format!(
+                "it takes grains for spheres, whose volumes are not those of {plural}; leave it, or its `solid-fraction`, out"
+            );
+            refuse(format!("watch.{name}"), &text);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The list of contacts with their forces, for those who look on.
 
-use super::{ContactForces, ContactSums, ForceInput, Scratch, pairs, walls};
+use super::{ContactForces, ContactSums, ForceInput, Scratch, features, pairs, walls};
 use crate::contact::chunk::Chunk;
 use crate::dem::contact_batch::ContactBatch;
 use crate::view::Contact;
@@ -34,6 +34,7 @@ pub(in crate::dem) fn contact_list(forces: &ContactForces, input: &ForceInput) -
         };
         let mut sums = ContactSums::default();
         pairs::evaluate(&input, list, &block.history, &mut scratch, &mut sums, |batch| take(batch, false));
+        features::evaluate(&input, list, &block.history, &mut scratch, &mut sums, |batch| take(batch, false));
         walls::evaluate(&input, list, &block.history, &mut scratch, &mut sums, |batch| take(batch, true));
         scratch.forget(input.laws.all());
     }

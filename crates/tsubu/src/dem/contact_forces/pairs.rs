@@ -17,9 +17,10 @@ pub(super) fn evaluate(
     mut visit: impl FnMut(&ContactBatch),
 ) {
     let ForceInput { grains, laws, .. } = *input;
-    let Scratch { spheres, touching_pairs, shapes, batches, old, next, .. } = scratch;
+    let Scratch { spheres, touching_pairs, shapes, features, batches, old, next, .. } = scratch;
     spheres.load(grains, list, &input.neighbours.shifts);
     touching_pairs.find(list, spheres, laws.reach());
+    features.take(touching_pairs, input, list, spheres);
     shapes.find(touching_pairs, input, list, spheres);
     if laws.reaches.len() > 1 {
         touching_pairs.group_by_law(grains, list, spheres, &laws.table, &laws.reaches);

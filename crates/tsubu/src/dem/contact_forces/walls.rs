@@ -4,7 +4,7 @@ use super::{ContactSums, ForceInput, Load, Scratch, apply_law, power, skip};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::dem::contact_batch::ContactBatch;
 use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns, WallKey};
-use crate::dem::shapes::WallShape;
+use crate::dem::shapes::{WallShape, WallShapes};
 use crate::neighbours::lists::BlockList;
 use crate::view::WallLoad;
 use crate::wall::{self, Wall};
@@ -50,22 +50,18 @@ fn evaluate_law(
         if several && input.laws.table.law(material) != number {
             continue;
         }
-        let Scratch { elements, touching, wall_shapes, .. } = scratch;
+        let Scratch { elements, touching, wall_shapes, features, .. } = scratch;
         elements.clear();
         elements.extend(near.iter().map(|candidate| candidate.element));
         let reach = input.laws.reaches[number];
         wall.touching(elements, g.position[i], g.radius[i] + reach, touching);
-        let shaped = input.bodies.shaped() && !touching.is_empty();
-        let outline = if shaped { input.bodies.outline(i) } else { None };
-        if let Some(outline) = &outline {
-            wall_shapes.find(outline, touching, reach);
-        }
+        features.at_wall(input, list, own, touching, reach, wall_shapes);
         if remembers {
             let before = WallKey { own, wall: k, patch: 0 };
             let opened = skip(&history.walls.keys, &mut cursor, |key| *key < before);
             released += history.walls.stored_energy(opened, law);
             let old = skip(&history.walls.keys, &mut cursor, |key| (key.own, key.wall) == (own, k));
-            match_up(wall, &history.walls.keys, &old, touching, &mut scratch.went_on);
+            match_up(wall, &history.walls.keys, &old, (touching, wall_shapes), &mut scratch.went_on);
             let went_on = &scratch.went_on;
             let ended = old.filter(|c| !went_on.contains(&slot(*c)));
             released += ended.map(|c| history.walls.stored_energy(c..c + 1, law)).sum::<f64>();
@@ -73,14 +69,11 @@ fn evaluate_law(
         let mut t = 0;
         while t < scratch.touching.len() {
             let wall::Touch { element, nearest, .. } = scratch.touching[t];
-            let shape = match outline {
-                Some(_) => scratch.wall_shapes.of(t),
-                None => WallShape::sphere(g.radius[i], nearest.distance),
-            };
-            let WallShape { overlap, radius, shift, .. } = shape;
+            let shape = scratch.wall_shapes.of(t).unwrap_or_else(|| WallShape::sphere(g.radius[i], nearest.distance));
+            let WallShape { overlap, radius, shift, patch, .. } = shape;
             let batch = &mut scratch.batches[number];
             let r = batch.chunk.len;
-            scratch.keys.push(WallKey { own, wall: k, patch: wall.key(element) });
+            scratch.keys.push(WallKey { own, wall: k, patch: wall.key(element) | patch });
             scratch.old[r] = if remembers { scratch.went_on[t] } else { FRESH };
             t += 1;
             let normal = -nearest.normal;
@@ -94,7 +87,7 @@ fn evaluate_law(
             batch.lever_arm[1][r] = 0.0;
             batch.material_pair[r] = material;
             let (mut centre, mut velocity) = (g.position[i], g.velocity[i]);
-            batch.shifted = input.bodies.shaped();
+            batch.shifted = input.bodies.shaped() || input.bodies.faceted();
             if batch.shifted {
                 (centre, velocity) = (centre + shift, velocity + g.spin[i].cross(shift));
                 scratch.wall_shapes.push(batch, r, &shape);
@@ -122,12 +115,12 @@ fn match_up(
     wall: &Wall,
     keys: &[WallKey],
     old: &std::ops::Range<usize>,
-    touching: &[wall::Touch],
+    (touching, shapes): (&[wall::Touch], &WallShapes),
     went_on: &mut Vec<u32>,
 ) {
-    let patch = |t: &wall::Touch| wall.key(t.element);
+    let patch = |t: usize| wall.key(touching[t].element) | shapes.of(t).map_or(0, |shape| shape.patch);
     went_on.clear();
-    went_on.extend(touching.iter().map(|t| old.clone().find(|&c| keys[c].patch == patch(t)).map_or(FRESH, slot)));
+    went_on.extend((0..touching.len()).map(|t| old.clone().find(|&c| keys[c].patch == patch(t)).map_or(FRESH, slot)));
     for t in 1..touching.len() {
         // Two contacts of one patch share a name; the one history goes on once.
         if went_on[..t].contains(&went_on[t]) {
@@ -137,7 +130,7 @@ fn match_up(
     for t in 0..touching.len() {
         if went_on[t] == FRESH {
             let free = |c: &usize| !went_on.contains(&slot(*c));
-            let before = old.clone().filter(free).find(|&c| wall.adjacent(keys[c].patch, patch(&touching[t])));
+            let before = old.clone().filter(free).find(|&c| wall.adjacent(keys[c].patch, patch(t)));
             went_on[t] = before.map_or(FRESH, slot);
         }
     }

@@ -1,0 +1,59 @@
+//! Polyhedra that touch other grains, contact by contact of their features.
+
+use super::{ContactSums, ForceInput, Scratch, apply_law, power, skip};
+use crate::contact::chunk::ROWS;
+use crate::dem::contact_batch::ContactBatch;
+use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns};
+use crate::neighbours::lists::BlockList;
+
+/// Walks the contacts that [`super::pairs::evaluate`] has left for here, law by law; `visit` sees every finished batch.
+pub(super) fn evaluate(
+    input: &ForceInput,
+    list: &BlockList,
+    history: &[ContactHistory],
+    scratch: &mut Scratch,
+    sums: &mut ContactSums,
+    mut visit: impl FnMut(&ContactBatch),
+) {
+    if !input.bodies.faceted() {
+        return;
+    }
+    let ForceInput { grains, laws, .. } = *input;
+    let Scratch { spheres, features, batches, old, next, .. } = scratch;
+    for (number, (law, ((history, next), batch))) in
+        laws.all().iter().zip(history.iter().zip(next).zip(batches)).enumerate()
+    {
+        let (history, next, remembers) = (&history.features, &mut next.features, law.width() > 0);
+        let (mut cursor, mut released) = (0, 0.0);
+        let count = features.under(number, input, list);
+        for start in (0..count).step_by(ROWS) {
+            let range = start..count.min(start + ROWS);
+            batch.gather(features.pairs(range.clone()), grains, list, spheres, &laws.table, laws.rotation);
+            features.gather(batch, range.clone(), input, list);
+            batch.sphere_geometry(laws.rotation, laws.lever_share);
+            features.lie_back(batch, range.clone());
+            input.bodies.show_mass(batch, list, false, |_| true);
+            if remembers {
+                for (key, old) in features.keys(range.clone()).zip(&mut *old) {
+                    let opened = skip(&history.keys, &mut cursor, |before| *before < key);
+                    released += history.stored_energy(opened, law);
+                    let goes_on = history.keys.get(cursor) == Some(&key);
+                    *old = if goes_on { HistoryColumns::<()>::slot(cursor) } else { FRESH };
+                    cursor += usize::from(goes_on);
+                }
+                history.gather(&old[..range.len()], &mut batch.chunk.history);
+            }
+            apply_law(input, number, batch, sums);
+            features.push_less(batch, range.clone());
+            if remembers {
+                next.keys.extend(features.keys(range.clone()));
+                next.append(range.len(), &batch.chunk.history);
+            }
+            visit(batch);
+        }
+        if remembers {
+            released += history.stored_energy(cursor..history.keys.len(), law);
+            sums.lost.sliding += power(released, input.dt);
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! How far a point is from a core.
+
+use super::Turned;
+use glam::DVec3;
+
+impl Turned<'_> {
+    /// Distance of a point from the core [m], and the unit direction from it; within the core the distance from the nearest face, below 0. Nothing where it is `cut` [m] or farther.
+    ///
+    /// The slope of the distance is that direction, which turns without a jump as the nearest feature changes; the core is convex.
+    pub(super) fn distance(&self, point: DVec3, cut: f64) -> Option<(f64, DVec3)> {
+        let (mut face, mut height) = (0, f64::NEG_INFINITY);
+        for k in 0..self.normals.len() {
+            let above = self.above(k, point);
+            if above > height {
+                (face, height) = (k, above);
+            }
+        }
+        if height >= cut {
+            return None;
+        }
+        let normal = self.normals[face];
+        if height <= 0.0 || self.is_over(face, point) {
+            return Some((height, normal));
+        }
+        let (mut nearest, mut away) = (f64::INFINITY, DVec3::ZERO);
+        for k in (0..self.normals.len()).filter(|k| self.above(*k, point) > 0.0) {
+            self.sides(k, |a, side| {
+                let arm = point - a;
+                let share = (arm.dot(side) / side.length_squared()).clamp(0.0, 1.0);
+                let from = arm - side * share;
+                let squared = from.length_squared();
+                if squared < nearest {
+                    (nearest, away) = (squared, from);
+                }
+                true
+            });
+        }
+        let distance = nearest.sqrt();
+        (distance < cut).then(|| (distance, away / distance))
+    }
+
+    /// Whether a point lies straight above a face; a side of a polygon has no answer to that.
+    fn is_over(&self, face: usize, point: DVec3) -> bool {
+        let normal = self.normals[face];
+        self.shape.faces[face].len() > 2 && self.sides(face, |a, side| normal.dot(side.cross(point - a)) >= 0.0)
+    }
+
+    /// Walks round a face as long as `goes_on` with the start and the way of each side [m].
+    fn sides(&self, face: usize, mut goes_on: impl FnMut(DVec3, DVec3) -> bool) -> bool {
+        let round = &self.shape.round[self.shape.faces[face].clone()];
+        let Some(last) = round.last() else { return true };
+        let mut a = self.corner(*last as usize);
+        for corner in round {
+            let b = self.corner(*corner as usize);
+            if !goes_on(a, b - a) {
+                return false;
+            }
+            a = b;
+        }
+        true
+    }
+}
