@@ -3,7 +3,7 @@
 use super::bench::{Rig, vectors};
 use super::control::refused;
 use super::ensemble;
-use crate::origin::printed;
+use crate::origin::remembered;
 use glam::{DMat3, DQuat, DVec3};
 use std::f64::consts::PI;
 use tsubu_frame::{Claim, Ensemble, Kind, Values};
@@ -90,7 +90,7 @@ fn gate(semi_axes: [f64; 3], friction: f64) -> Result<Claim, String> {
         (0.70, 0.74, "figure 2: 0.70 to 0.74 about the densest")
     };
     let source = format!("Donev and others 2004 (Science 303, 990), {source}");
-    Ok(Claim::judge_ensemble(name, beds(semi_axes, friction)?, Some(low), Some(high), printed(&source)))
+    Ok(Claim::judge_ensemble(name, beds(semi_axes, friction)?, Some(low), Some(high), remembered(&source)))
 }
 
 /// Frictionless ellipsoids lie denser than spheres.
