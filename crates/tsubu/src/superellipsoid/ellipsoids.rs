@@ -3,7 +3,7 @@
 //! The search of [`super::touch`], for bodies whose support function is a root of squares: h(u) = sqrt(u . A u), with the sum A over the axes of
 //! the squared semi-axis times the dyad of its direction. Pairs are rows of columns, which the compiler puts into vectors: there are no powers and
 //! no branches. A row does the same whatever is beside it, so the bits depend on the two bodies alone. Steps are Newton's without a line search; a
-//! row where the overlap grows, or which has not arrived after [`STEPS`], is left to the search that always ends.
+//! row where the overlap grows, or which has not arrived after some steps, is left to the search that always ends.
 
 use super::symmetric::{Column, Columns, ROWS, Symmetric, ZERO, set, vector};
 use super::touch::{Rounding, Touch};
