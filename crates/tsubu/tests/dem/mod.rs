@@ -13,7 +13,7 @@ mod orientation;
 mod pairs;
 mod place;
 mod plane;
-mod polyhedron;
+pub mod polyhedron;
 mod rest;
 mod same_bits;
 mod seams;

@@ -283,7 +283,7 @@ fn a_square_rests_on_side_and_corner() {
 }
 
 /// A crowd in a world that repeats itself: cubes, tetrahedra, spheres and clumps, with friction.
-const CROWD: &str = r#"
+pub const CROWD: &str = r#"
 dimension = 3
 duration = "1 s"
 gravity = 9.81

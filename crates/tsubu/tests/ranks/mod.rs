@@ -2,6 +2,7 @@
 //!
 //! The ranks of these tests are threads that talk through channels. What goes over MPI is in `crates/tsubu-mpi/tests`.
 
+use crate::dem::polyhedron::CROWD;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -293,6 +294,13 @@ fn clumps_and_bonds_have_the_bits_of_one_rank() {
         "{FLOW}[[bond]]\nparticles = [\"b-flow\"]\nyoung-modulus = \"2 MPa\"\nradius = 0.5\ntensile-strength = \"2 kPa\"\n"
     );
     Job { steps: &[150, 1, 100], ..job(&bonds) }.same(&[3]);
+}
+
+/// Cubes and tetrahedra, each contact of features with a history of its own, which goes over when grains are sorted anew.
+#[test]
+fn polyhedra_have_the_bits_of_one_rank() {
+    let crowd = CROWD.replace("count = 120", "count = 400").replace("110 mm", "300 mm");
+    Job { steps: &[2500, 1, 1500], resume: true, ..job(&crowd) }.same(&[3]);
 }
 
 #[test]
