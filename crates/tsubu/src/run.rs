@@ -34,8 +34,8 @@ use start::Start;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use tsubu_frame::{
-    Advise, Claim, Existing, FileError, Formats, FrameWriter, Header, History, Mark, ResultValue, RunFolder, Source,
-    State, Status, Summary, checkpoint,
+    Advise, Claim, Existing, FileError, Formats, Frame, FrameWriter, Header, History, Mark, ResultValue, RunFolder,
+    Source, State, Status, Summary, checkpoint,
 };
 use tsubu_scene::{Plan, Scene};
 use ways::Manner;
@@ -187,6 +187,11 @@ impl Run<'_> {
         self.finish(folder, out)
     }
 
+    /// What frames get, without what is not written.
+    fn picture(&self) -> Frame {
+        if self.plan.output.contacts { self.engine.frame(&self.hosts) } else { self.engine.glimpse(&self.hosts) }
+    }
+
     /// One stage to its end; a summary where the run was interrupted before it.
     fn stage(&mut self, folder: &RunFolder, out: &mut Outputs, watcher: &Watcher) -> Result<Option<Summary>, RunError> {
         let output = &self.plan.output;
@@ -199,7 +204,7 @@ impl Run<'_> {
             self.watches.look(&*self.engine, &self.hosts)?;
             out.history.append(&self.row())?;
             if pictures.is_some() {
-                out.frames.write(&self.engine.frame(&self.hosts))?;
+                out.frames.write(&self.picture())?;
             }
         }
         let mut block = 1;
@@ -231,7 +236,7 @@ impl Run<'_> {
             }
             let last = self.last;
             if target == next_picture {
-                out.frames.write(&self.engine.frame(&self.hosts))?;
+                out.frames.write(&self.picture())?;
             }
             let share = (target - begin) as f64 / (last - begin).max(1) as f64;
             let share = self.stages.share_done(share);

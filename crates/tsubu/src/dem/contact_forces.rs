@@ -294,15 +294,6 @@ fn power(energy: f64, dt: f64) -> f64 {
     if dt > 0.0 { energy / dt } else { 0.0 }
 }
 
-/// Moves `cursor` past the keys that `pass`; returns which they were.
-fn skip<K>(keys: &[K], cursor: &mut usize, pass: impl Fn(&K) -> bool) -> std::ops::Range<usize> {
-    let begin = *cursor;
-    while *cursor < keys.len() && pass(&keys[*cursor]) {
-        *cursor += 1;
-    }
-    begin..*cursor
-}
-
 /// Law `number` on a filled batch, and its sums.
 fn apply_law(input: &ForceInput, number: usize, batch: &mut ContactBatch, sums: &mut ContactSums) {
     let law = &input.laws.all()[number];

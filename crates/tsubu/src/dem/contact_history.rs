@@ -104,6 +104,43 @@ impl<K> HistoryColumns<K> {
     }
 }
 
+/// How far a step has come through the contacts of the last one.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Walk {
+    at: usize,
+    /// Energy that contacts held which have opened [J].
+    pub released: f64,
+}
+
+impl<K: Ord> HistoryColumns<K> {
+    /// Walks on along touching `keys`, in order, and tells in `old` where the history of each lies.
+    pub fn follow(&self, keys: impl Iterator<Item = K>, old: &mut [u32], walk: &mut Walk, law: &Law) {
+        for (key, old) in keys.zip(old) {
+            self.open(walk, law, |before| *before < key);
+            let goes_on = self.keys.get(walk.at) == Some(&key);
+            *old = if goes_on { Self::slot(walk.at) } else { FRESH };
+            walk.at += usize::from(goes_on);
+        }
+    }
+
+    /// Walks past the contacts that `have_opened`.
+    pub fn open(&self, walk: &mut Walk, law: &Law, have_opened: impl Fn(&K) -> bool) {
+        let opened = self.pass(walk, have_opened);
+        if !opened.is_empty() {
+            walk.released += self.stored_energy(opened, law);
+        }
+    }
+
+    /// The contacts that come next and `are` so; walks past them.
+    pub fn pass(&self, walk: &mut Walk, are: impl Fn(&K) -> bool) -> std::ops::Range<usize> {
+        let begin = walk.at;
+        while self.keys.get(walk.at).is_some_and(&are) {
+            walk.at += 1;
+        }
+        begin..walk.at
+    }
+}
+
 /// A contact of two features of bodies: number of the pair in the neighbour list, and which features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct FeatureKey {

@@ -125,7 +125,7 @@ impl ContactForces {
 
     /// Gives the pairs of new neighbour lists the histories they had; a pair whose bodies have changed places gets its turned.
     /// Returns the stored energy of contacts whose body is gone, or whose pair is in no list any more [J].
-    pub fn restore_history(&mut self, input: &ForceInput, mut snapshot: HistorySnapshot, ranks: &Ranks) -> f64 {
+    pub fn restore_history(&mut self, input: &ForceInput, mut snapshot: HistorySnapshot, ranks: &mut Ranks) -> f64 {
         let width = input.laws.history_width();
         if width == 0 {
             return 0.0;
@@ -165,9 +165,12 @@ impl ContactForces {
             refill(&mut blocks[0], parts, runs, laws, width);
         });
         parts.truncate(here);
-        let lost = parts.iter().map(|part| part.lost(&lookup)).collect();
+        let mut lost = ranks.letters();
+        lost.resize(lost.len().max(1), Vec::new());
+        lost.fill(parts.iter().map(|part| part.lost(&lookup)).collect());
         self.snapshot = snapshot;
-        ranks.gather(lost).iter().sum()
+        ranks.pass(&mut lost);
+        lost.iter().flatten().sum()
     }
 }
 
@@ -178,7 +181,7 @@ impl HistorySnapshot {
         Self { blocks: vec![all], whole: true, ..Self::default() }
     }
 
-    /// The contacts of all ranks, in the order of blocks.
+    /// The contacts of all ranks, in the order of blocks, on the first of them.
     pub fn joined(self, ranks: &Ranks, width: usize) -> Self {
         if ranks.is_alone() {
             return self;
@@ -190,7 +193,7 @@ impl HistorySnapshot {
             }
         }
         let mut all = BlockHistory::default();
-        all.receive(&ranks.gather(message), width);
+        all.receive(&ranks.gather_first(message), width);
         Self::of(all.contacts, all.history)
     }
 }
@@ -313,7 +316,7 @@ impl Lookup<'_> {
 }
 
 /// Sends the contacts that belong to no list here to the ranks that have their grains, and adds what such ranks send as another part each.
-fn pass_on(parts: &mut Vec<BlockHistory>, lookup: &Lookup, ranks: &Ranks) {
+fn pass_on(parts: &mut Vec<BlockHistory>, lookup: &Lookup, ranks: &mut Ranks) {
     let mut letters = ranks.letters();
     let mut sent: Vec<Vec<(usize, u32)>> = vec![Vec::new(); letters.len()];
     for (part, block) in parts.iter().enumerate() {

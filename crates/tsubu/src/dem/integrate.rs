@@ -4,7 +4,7 @@
 use super::bodies::{Block, Bodies};
 use super::contact_forces::BlockContacts;
 use super::orientation::Orientation;
-use super::ranks::Ranks;
+use super::ranks::{Halves, Ranks};
 use super::sweep::{BlockRange, Direction, sweep};
 use crate::mutation::{Mutation, left_out, mutated};
 use crate::neighbours::NeighbourLists;
@@ -156,7 +156,7 @@ impl TimeIntegration {
         let (bodies, motion, shares) = (&self.bodies, self.motion(dt), shares(grains.len()));
         let blocks = Slice::new(grains, neighbours, &mut self.reports);
         sweep(blocks, Direction::Forward, shares, &|mut s: Slice| first_half(&mut s, bodies, &motion));
-        ranks.share_motion(grains, neighbours, &mut self.reports);
+        ranks.share_motion(Halves { first: true, second: false }, grains, neighbours, &mut self.reports);
     }
 
     /// After the forces: sums what blocks hold for every grain, finds the new accelerations and completes the velocities of
@@ -178,7 +178,7 @@ impl TimeIntegration {
                 first_half(&mut s, bodies, &motion);
             }
         });
-        ranks.share_motion(grains, neighbours, &mut self.reports);
+        ranks.share_motion(Halves { first: go_on, second: true }, grains, neighbours, &mut self.reports);
         let mut total = Report::default();
         for report in &self.reports {
             total.add(report);

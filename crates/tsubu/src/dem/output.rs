@@ -12,12 +12,16 @@ use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, Kind, State};
 
 impl DemEngine {
-    /// Grains in the order of their ids, and the walls; with `told` the contacts too.
+    /// Grains in the order of their ids, and the walls; with `told` the contacts too. Of several ranks the first draws it; the others tell it their contacts.
     pub(super) fn picture(&self, told: bool) -> Frame {
+        let contacts = if told || !self.acceleration_tells() { self.contacts_to_show() } else { Vec::new() };
+        let mut frame = Frame { time: self.clock.time(), step: self.clock.step, columns: Vec::new() };
+        if !self.ranks.is_first() {
+            return frame;
+        }
         let order = self.grains.by_id();
         let vectors = |column: &[DVec3]| order.iter().map(|&i| column[i].to_array()).collect::<Vec<_>>();
         let scalars = |column: &[f64]| order.iter().map(|&i| column[i]).collect::<Vec<_>>();
-        let mut frame = Frame { time: self.clock.time(), step: self.clock.step, columns: Vec::new() };
         let whole = |column: &[u32]| order.iter().map(|&i| i64::from(column[i])).collect::<Vec<_>>();
         frame.integer(Kind::Grain, "id", "-", whole(&self.grains.id));
         frame.integer(Kind::Grain, "group", "-", whole(&self.grains.group));
@@ -30,7 +34,6 @@ impl DemEngine {
         frame.vector(Kind::Grain, "spin", "rad/s", vectors(&self.grains.spin));
         frame.scalar(Kind::Grain, "radius", "m", scalars(&self.grains.radius));
         frame.scalar(Kind::Grain, "mass", "kg", scalars(&self.grains.mass));
-        let contacts = if told || self.immersion.is_some() { self.contact_list() } else { Vec::new() };
         let force = self.contact_forces(&contacts);
         let shaped = self.integration.bodies.shaped();
         let turns = shaped || self.integration.bodies.faceted();
@@ -86,14 +89,18 @@ impl DemEngine {
         frame.scalar(Kind::Contact, "overlap", "m", contacts.iter().map(|c| c.overlap).collect());
     }
 
-    /// What contacts do to every grain [N]. In water the acceleration does not tell, so the contacts are summed.
-    fn contact_forces(&self, contacts: &[Contact]) -> Vec<DVec3> {
-        let g = &self.grains;
-        if self.immersion.is_none()
+    /// Whether accelerations are those of contacts and gravity alone.
+    fn acceleration_tells(&self) -> bool {
+        self.immersion.is_none()
             && !self.pushed_from_outside()
             && self.integration.bodies.is_empty()
             && self.contacts.bonds.is_empty()
-        {
+    }
+
+    /// What contacts do to every grain [N]. Where the acceleration does not tell, the contacts are summed.
+    fn contact_forces(&self, contacts: &[Contact]) -> Vec<DVec3> {
+        let g = &self.grains;
+        if self.acceleration_tells() {
             let pull = |i: usize| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { self.integration.gravity };
             return (0..g.len()).map(|i| g.mass[i] * (g.acceleration[i] - pull(i))).collect();
         }
@@ -137,8 +144,8 @@ impl DemEngine {
         };
         let mut contacts = match wants.contacts {
             Contacts::Nothing => Vec::new(),
-            Contacts::Places => self.overlaps(),
-            Contacts::Forces => self.contact_list(),
+            Contacts::Places => self.overlaps_to_show(),
+            Contacts::Forces => self.contacts_to_show(),
         };
         contacts.retain(|c| c.overlap > 0.0 || c.force != DVec3::ZERO);
         let walls = if wants.walls { self.reactions.wall_loads.clone() } else { Vec::new() };
@@ -160,8 +167,14 @@ impl DemEngine {
         }
     }
 
-    /// Everything that the next step depends on.
+    /// Everything that the next step depends on. Of several ranks the first writes it; the others tell it their contacts.
     pub(super) fn write_state(&self, state: &mut State) {
+        let mut history = HistorySnapshot::default();
+        self.contacts.record_history(&self.force_input(), &mut history);
+        let history = history.joined(&self.ranks, self.laws.history_width());
+        if !self.ranks.is_first() {
+            return;
+        }
         self.grains.save("grains", state);
         let counts =
             [self.clock.step, self.clock.grain_steps, self.contacts.sums.contacts as u64, self.grains.len() as u64];
@@ -194,9 +207,6 @@ impl DemEngine {
         for wall in &self.walls {
             wall.save(state);
         }
-        let mut history = HistorySnapshot::default();
-        self.contacts.record_history(&self.force_input(), &mut history);
-        let history = history.joined(&self.ranks, self.laws.history_width());
         let contacts = history.blocks.iter().flat_map(|block| &block.contacts);
         let contacts = contacts.flat_map(|k| [k.first, k.second, u32::from(k.wall), k.patch].map(i64::from));
         state.put_integer("dem.contacts", contacts.collect::<Vec<_>>());

@@ -6,10 +6,11 @@
 
 mod share;
 
+pub(super) use share::Halves;
+
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::lists::{BLOCK, Incoming};
 use crate::ranks::{Communicator, Reader};
-use crate::state::Grains;
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
@@ -131,7 +132,9 @@ impl Ranks {
 
     /// Finds out from new lists what goes over, and tells them where loads on own grains come from.
     pub fn agree(&mut self, neighbours: &mut NeighbourLists) {
-        let Some(all) = self.communicator.clone() else { return };
+        if self.is_alone() {
+            return;
+        }
         for seam in &mut self.seams {
             *seam = Seam::default();
         }
@@ -147,7 +150,9 @@ impl Ranks {
                 self.messages[owner].extend([f64::from(halo.grain), block as f64]);
             }
         }
-        all.exchange(&mut self.messages);
+        let mut messages = std::mem::take(&mut self.messages);
+        self.pass(&mut messages);
+        self.messages = messages;
         let mut held = vec![0; neighbours.lists.len()];
         for (seam, message) in self.seams.iter_mut().zip(&self.messages) {
             let mut message = Reader::new(message);
@@ -182,15 +187,13 @@ impl Ranks {
 
     /// Sends what was written, and reads what comes from each.
     fn send_and_read(&mut self, mut read: impl FnMut(&Self, usize, &mut Reader)) {
-        let Some(all) = self.communicator.clone() else { return };
         let mut messages = std::mem::take(&mut self.messages);
         let own = self.rank();
-        self.work.all[own] += self.work.since.map_or(0.0, |since| since.elapsed().as_secs_f64());
+        self.note_work();
         for message in &mut messages {
             message.push(self.work.all[own]);
         }
-        all.exchange(&mut messages);
-        self.work.since = self.work.since.map(|_| Instant::now());
+        self.pass(&mut messages);
         for (rank, message) in messages.iter().enumerate().filter(|(rank, _)| *rank != own) {
             if let Some((worked, message)) = message.split_last() {
                 self.work.all[rank] = *worked;
@@ -200,10 +203,32 @@ impl Ranks {
         self.messages = messages;
     }
 
-    /// The grains of a rank.
-    fn grains(&self, rank: usize, grains: &Grains) -> Range<usize> {
+    /// Adds the work since it was last noted.
+    fn note_work(&mut self) {
+        if let Some(since) = &mut self.work.since {
+            let now = Instant::now();
+            let rank = self.communicator.as_ref().map_or(0, |all| all.rank());
+            self.work.all[rank] += now.duration_since(std::mem::replace(since, now)).as_secs_f64();
+        }
+    }
+
+    /// Sends a message to every rank, and puts what each sends in its place; nothing comes where there is but one. To wait is no work.
+    pub fn pass(&mut self, messages: &mut [Vec<f64>]) {
+        let Some(all) = self.communicator.clone() else { return };
+        self.note_work();
+        all.exchange(messages);
+        self.work.since = self.work.since.map(|_| Instant::now());
+    }
+
+    /// The grains of a rank, of so many.
+    fn grains(&self, rank: usize, grains: usize) -> Range<usize> {
         let blocks = self.blocks(rank);
-        (blocks.start * BLOCK).min(grains.len())..(blocks.end * BLOCK).min(grains.len())
+        (blocks.start * BLOCK).min(grains)..(blocks.end * BLOCK).min(grains)
+    }
+
+    /// Whether this is the first rank.
+    pub fn is_first(&self) -> bool {
+        self.rank() == 0
     }
 
     /// What all ranks have, in the order of the ranks; `mine` alone where there is but one.
@@ -214,11 +239,21 @@ impl Ranks {
         messages.concat()
     }
 
-    /// Sends a message to every rank; nothing comes where there is but one.
-    pub fn pass(&self, messages: &mut [Vec<f64>]) {
-        if let Some(all) = &self.communicator {
-            all.exchange(messages);
+    /// The same on the first rank; on others nothing.
+    pub fn gather_first(&self, mine: Vec<f64>) -> Vec<f64> {
+        let Some(all) = &self.communicator else { return mine };
+        let mut messages = self.letters();
+        messages[0] = mine;
+        all.exchange(&mut messages);
+        if !self.is_first() {
+            return Vec::new();
         }
+        let mut messages = messages.into_iter();
+        let mut joined = messages.next().unwrap_or_default();
+        for mut message in messages {
+            joined.append(&mut message);
+        }
+        joined
     }
 
     /// The ranks other than this one that have one of these grains, each once.

@@ -110,16 +110,16 @@ impl DemEngine {
         self.ranks.cut(self.grains.len().div_ceil(BLOCK), contacts)
     }
 
-    /// The contacts that this rank and all others have, in the order of blocks.
-    fn of_all_ranks(&self, own: Vec<Contact>) -> Vec<Contact> {
+    /// The contacts that this rank and all others have, in the order of blocks: where they are to be `for_all`, else on the first rank alone.
+    fn of_all_ranks(&self, own: Vec<Contact>, for_all: bool) -> Vec<Contact> {
         if self.ranks.is_alone() {
             return own;
         }
-        let mut message = Vec::new();
-        for contact in &own {
+        let mut message = Vec::with_capacity(15 * own.len());
+        for contact in own {
             contact.put(&mut message);
         }
-        let all = self.ranks.gather(message);
+        let all = if for_all { self.ranks.gather(message) } else { self.ranks.gather_first(message) };
         let mut all = Reader::new(&all);
         std::iter::from_fn(|| (!all.is_at_end()).then(|| Contact::take(&mut all))).collect()
     }
@@ -223,12 +223,22 @@ impl DemEngine {
 
     /// The contacts of this moment.
     pub(super) fn contact_list(&self) -> Vec<Contact> {
-        self.of_all_ranks(contact_list(&self.contacts, &self.force_input()))
+        self.of_all_ranks(contact_list(&self.contacts, &self.force_input()), true)
+    }
+
+    /// The same on the first rank.
+    pub(super) fn contacts_to_show(&self) -> Vec<Contact> {
+        self.of_all_ranks(contact_list(&self.contacts, &self.force_input()), false)
     }
 
     /// The same without forces, for those who look at every step.
     pub(super) fn overlaps(&self) -> Vec<Contact> {
-        self.of_all_ranks(overlaps(&self.force_input()))
+        self.of_all_ranks(overlaps(&self.force_input()), true)
+    }
+
+    /// The same on the first rank.
+    pub(super) fn overlaps_to_show(&self) -> Vec<Contact> {
+        self.of_all_ranks(overlaps(&self.force_input()), false)
     }
 
     /// Accelerations from forces and gravity; completes the velocities of a step `dt` (0: leaves them).

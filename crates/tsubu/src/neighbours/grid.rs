@@ -101,8 +101,7 @@ impl Nearby {
 /// Indices sorted by cell.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
-    /// How its cells are numbered.
-    pub numbering: Numbering,
+    numbering: Numbering,
     origin: [f64; 3],
     /// Cells per metre along each axis.
     density: [f64; 3],
@@ -117,12 +116,10 @@ pub struct Grid {
     /// Centre and radius of every member, side by side [m].
     spheres: Vec<[f64; 4]>,
     cell_of: Vec<u32>,
-    next: Vec<u32>,
 }
 
 impl Grid {
-    /// Sorts the spheres of `members` into cells of at least `size` [m]; no more cells than about four a member, however
-    /// far they fly. Members keep their order within a cell.
+    /// Sorts the spheres of `members` into cells of at least `size` [m], to be searched.
     pub fn fill(
         &mut self,
         positions: &[DVec3],
@@ -131,6 +128,25 @@ impl Grid {
         size: f64,
         periodic: &PeriodicBounds,
     ) {
+        self.sort(Numbering::Rows, positions, members, size, periodic);
+        self.spheres.clear();
+        self.spheres.extend(self.members.iter().map(|&i| {
+            let p = positions[i as usize];
+            [p.x, p.y, p.z, radii[i as usize]]
+        }));
+    }
+
+    /// Sorts `members` into cells of at least `size` [m]; no more cells than about four a member, however far they fly.
+    /// Members keep their order within a cell.
+    pub fn sort(
+        &mut self,
+        numbering: Numbering,
+        positions: &[DVec3],
+        members: impl Iterator<Item = u32> + Clone,
+        size: f64,
+        periodic: &PeriodicBounds,
+    ) {
+        self.numbering = numbering;
         let (mut low, mut high, mut count) = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0usize);
         for i in members.clone() {
             let p = positions[i as usize];
@@ -143,27 +159,25 @@ impl Grid {
         };
         self.lumps = [nx / LUMP, ny / LUMP];
         let cells = nx * ny * nz;
+        // One entry more, so that a cell's next free place can stand behind its own until all are filled.
         self.start.clear();
-        self.start.resize(cells + 1, 0);
+        self.start.resize(cells + 2, 0);
         self.cell_of.clear();
         for i in members.clone() {
             let cell = self.cell_index(self.cell_at(positions[i as usize]));
             self.cell_of.push(cell as u32);
-            self.start[cell + 1] += 1;
+            self.start[cell + 2] += 1;
         }
-        for i in 0..cells {
-            self.start[i + 1] += self.start[i];
+        for i in 2..cells + 2 {
+            self.start[i] += self.start[i - 1];
         }
         self.members.resize(count, 0);
-        self.spheres.resize(count, [0.0; 4]);
-        self.next.clone_from(&self.start);
         for (i, &cell) in members.zip(&self.cell_of) {
-            let next = &mut self.next[cell as usize];
-            let p = positions[i as usize];
+            let next = &mut self.start[cell as usize + 1];
             self.members[*next as usize] = i;
-            self.spheres[*next as usize] = [p.x, p.y, p.z, radii[i as usize]];
             *next += 1;
         }
+        self.start.pop();
     }
 
     fn shape(&mut self, low: [f64; 3], high: [f64; 3], count: usize, size: f64, periodic: &PeriodicBounds) {

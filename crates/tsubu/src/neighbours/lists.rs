@@ -59,7 +59,6 @@ pub struct NeighbourLists {
     levels: Vec<Grid>,
     level_of: Vec<u8>,
     largest: Vec<f64>,
-    order: Grid,
     finders: Vec<Mutex<Finder>>,
 }
 
@@ -122,10 +121,12 @@ impl NeighbourLists {
             return;
         }
         let mean = grains.radius.iter().sum::<f64>() / grains.len() as f64;
-        self.order.numbering = Numbering::Lumps;
         let size = 2.0 * mean + search.skin;
-        self.order.fill(&grains.position, &grains.radius, 0..grains.len() as u32, size, &search.periodic);
-        grains.permute(self.order.order());
+        // The memory of a level, which is filled anew afterwards.
+        self.levels.resize_with(self.levels.len().max(1), Grid::default);
+        let order = &mut self.levels[0];
+        order.sort(Numbering::Lumps, &grains.position, 0..grains.len() as u32, size, &search.periodic);
+        grains.permute(order.order());
     }
 
     /// Makes the lists for the present positions.

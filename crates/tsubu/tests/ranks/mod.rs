@@ -13,6 +13,7 @@ use tsubu::ledger::Ledger;
 use tsubu::methods;
 use tsubu::partner::Hosts;
 use tsubu::ranks::Communicator;
+use tsubu::view::Wants;
 use tsubu_frame::State;
 use tsubu_scene::Scene;
 
@@ -99,7 +100,8 @@ impl Job<'_> {
         (engine, hosts, ledger)
     }
 
-    fn go(&self, communicator: Option<&Arc<dyn Communicator>>) -> String {
+    /// Hash of the state, which the first rank has, and of the grains, which all have; `saved` goes from the first to the others.
+    fn go(&self, communicator: Option<&Arc<dyn Communicator>>, saved: &Mutex<State>) -> [String; 2] {
         let state = |engine: &dyn Engine, hosts: &Hosts, ledger: &Ledger| {
             let mut state = State::default();
             engine.save(&mut state);
@@ -112,7 +114,14 @@ impl Job<'_> {
         for &steps in self.steps {
             engine.advance(steps, &mut hosts, &mut ledger).unwrap();
             if self.resume {
-                let saved = state(&*engine, &hosts, &ledger);
+                let written = state(&*engine, &hosts, &ledger);
+                if communicator.is_none_or(|all| all.rank() == 0) {
+                    *saved.lock().unwrap() = written;
+                }
+                if let Some(all) = communicator {
+                    all.broadcast(&mut Vec::new());
+                }
+                let saved = saved.lock().unwrap().clone();
                 (engine, hosts, _) = self.opened(communicator);
                 engine.load(&saved).unwrap();
                 hosts.load(&saved).unwrap();
@@ -123,30 +132,35 @@ impl Job<'_> {
         let mut state = state(&*engine, &hosts, &ledger);
         // What is shown must be the same as well.
         state.put_text("frame", format!("{:?}{:?}", first.columns, frame.columns));
-        state.hash()
+        let mut grains = State::default();
+        grains.put_text("grains", format!("{:?}", engine.view(Wants::default()).grains));
+        grains.put_text("energies", format!("{:?}", engine::energies(&*engine, &hosts)));
+        [state.hash(), grains.hash()]
     }
 
     fn on(&self, ranks: usize, threads: usize) -> String {
         self.with(Thread::team(ranks), threads).unwrap()
     }
 
-    /// On a team of ranks; `None`: they do not agree.
+    /// On a team of ranks; `None`: they do not have the same grains.
     fn with(&self, team: Vec<Thread>, threads: usize) -> Option<String> {
+        let saved = Mutex::new(State::default());
         let work = |communicator: Option<&Arc<dyn Communicator>>| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| self.go(communicator))
+            pool.install(|| self.go(communicator, &saved))
         };
         if team.len() == 1 {
-            return Some(work(None));
+            let [state, _] = work(None);
+            return Some(state);
         }
         std::thread::scope(|scope| {
             let ranks: Vec<_> = team
                 .into_iter()
-                .map(|one| scope.spawn(move || work(Some(&(Arc::new(one) as Arc<dyn Communicator>)))))
+                .map(|one| scope.spawn(|| work(Some(&(Arc::new(one) as Arc<dyn Communicator>)))))
                 .collect();
-            let mut hashes: Vec<String> = ranks.into_iter().map(|rank| rank.join().unwrap()).collect();
-            hashes.dedup();
-            (hashes.len() == 1).then(|| hashes.remove(0))
+            let mut hashes: Vec<[String; 2]> = ranks.into_iter().map(|rank| rank.join().unwrap()).collect();
+            let [state, grains] = hashes.remove(0);
+            hashes.iter().all(|[_, other]| *other == grains).then_some(state)
         })
     }
 

@@ -1,9 +1,9 @@
 //! Polyhedra that touch other grains, contact by contact of their features.
 
-use super::{ContactSums, ForceInput, Scratch, apply_law, power, skip};
+use super::{ContactSums, ForceInput, Scratch, apply_law, power};
 use crate::contact::chunk::ROWS;
 use crate::dem::contact_batch::ContactBatch;
-use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns};
+use crate::dem::contact_history::{ContactHistory, Walk};
 use crate::neighbours::lists::BlockList;
 
 /// Walks the contacts that [`super::pairs::evaluate`] has left for here, law by law; `visit` sees every finished batch.
@@ -24,7 +24,7 @@ pub(super) fn evaluate(
         laws.all().iter().zip(history.iter().zip(next).zip(batches)).enumerate()
     {
         let (history, next, remembers) = (&history.features, &mut next.features, law.width() > 0);
-        let (mut cursor, mut released) = (0, 0.0);
+        let mut walk = Walk::default();
         let count = features.under(number, input, list);
         for start in (0..count).step_by(ROWS) {
             let range = start..count.min(start + ROWS);
@@ -34,13 +34,7 @@ pub(super) fn evaluate(
             features.lie_back(batch, range.clone());
             input.bodies.show_mass(batch, list, false, |_| true);
             if remembers {
-                for (key, old) in features.keys(range.clone()).zip(&mut *old) {
-                    let opened = skip(&history.keys, &mut cursor, |before| *before < key);
-                    released += history.stored_energy(opened, law);
-                    let goes_on = history.keys.get(cursor) == Some(&key);
-                    *old = if goes_on { HistoryColumns::<()>::slot(cursor) } else { FRESH };
-                    cursor += usize::from(goes_on);
-                }
+                history.follow(features.keys(range.clone()), old, &mut walk, law);
                 history.gather(&old[..range.len()], &mut batch.chunk.history);
             }
             apply_law(input, number, batch, sums);
@@ -52,8 +46,8 @@ pub(super) fn evaluate(
             visit(batch);
         }
         if remembers {
-            released += history.stored_energy(cursor..history.keys.len(), law);
-            sums.lost.sliding += power(released, input.dt);
+            history.open(&mut walk, law, |_| true);
+            sums.lost.sliding += power(walk.released, input.dt);
         }
     }
 }

@@ -1,9 +1,9 @@
 //! Grains that touch grains.
 
-use super::{ContactSums, ForceInput, Load, Scratch, apply_law, power, skip};
+use super::{ContactSums, ForceInput, Load, Scratch, apply_law, power};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::dem::contact_batch::ContactBatch;
-use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns};
+use crate::dem::contact_history::{ContactHistory, Walk};
 use crate::mutation::{Mutation, mutated};
 use crate::neighbours::lists::BlockList;
 
@@ -30,23 +30,15 @@ pub(super) fn evaluate(
         laws.all().iter().zip(history.iter().zip(next).zip(batches)).enumerate()
     {
         let width = law.width();
-        let mut cursor = 0;
-        let mut released = 0.0;
+        let mut walk = Walk::default();
         for touching in touching_pairs.under(number).chunks(ROWS) {
             batch.gather(touching, grains, list, spheres, &laws.table, laws.rotation);
             shapes.gather(batch, touching);
             batch.sphere_geometry(laws.rotation, laws.lever_share);
             shapes.show_mass(input.bodies, batch, list);
             if width > 0 {
-                for (touching, old) in touching.iter().zip(&mut *old) {
-                    let opened = skip(&history.pairs.keys, &mut cursor, |pair| *pair < touching.pair);
-                    if !opened.is_empty() {
-                        released += history.pairs.stored_energy(opened, law);
-                    }
-                    let goes_on = history.pairs.keys.get(cursor) == Some(&touching.pair);
-                    *old = if goes_on { HistoryColumns::<u32>::slot(cursor) } else { FRESH };
-                    cursor += usize::from(goes_on);
-                }
+                let pairs = touching.iter().map(|touching| touching.pair);
+                history.pairs.follow(pairs, old, &mut walk, law);
                 history.pairs.gather(&old[..touching.len()], &mut batch.chunk.history);
             }
             apply_law(input, number, batch, sums);
@@ -58,8 +50,8 @@ pub(super) fn evaluate(
             visit(batch);
         }
         if width > 0 {
-            released += history.pairs.stored_energy(cursor..history.pairs.keys.len(), law);
-            sums.lost.sliding += power(released, input.dt);
+            history.pairs.open(&mut walk, law, |_| true);
+            sums.lost.sliding += power(walk.released, input.dt);
         }
     }
 }

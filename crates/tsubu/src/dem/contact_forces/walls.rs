@@ -1,9 +1,9 @@
 //! Grains that touch walls: a wall is a body of infinite radius, under the same laws.
 
-use super::{ContactSums, ForceInput, Load, Scratch, apply_law, power, skip};
+use super::{ContactSums, ForceInput, Load, Scratch, apply_law, power};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::dem::contact_batch::ContactBatch;
-use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns, WallKey};
+use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns, Walk, WallKey};
 use crate::dem::shapes::{WallShape, WallShapes};
 use crate::neighbours::lists::BlockList;
 use crate::view::WallLoad;
@@ -37,8 +37,7 @@ fn evaluate_law(
     let law = &input.laws.all()[number];
     let several = input.laws.reaches.len() > 1;
     let remembers = law.width() > 0;
-    let mut cursor = 0;
-    let mut released = 0.0;
+    let mut walk = Walk::default();
     scratch.batches[number].chunk.len = 0;
     scratch.keys.clear();
     // NeighbourLists of one grain on one wall are looked at together: on a mesh some touch only as the edge of another.
@@ -58,13 +57,12 @@ fn evaluate_law(
         features.at_wall(input, list, own, touching, reach, wall_shapes);
         if remembers {
             let before = WallKey { own, wall: k, patch: 0 };
-            let opened = skip(&history.walls.keys, &mut cursor, |key| *key < before);
-            released += history.walls.stored_energy(opened, law);
-            let old = skip(&history.walls.keys, &mut cursor, |key| (key.own, key.wall) == (own, k));
+            history.walls.open(&mut walk, law, |key| *key < before);
+            let old = history.walls.pass(&mut walk, |key| (key.own, key.wall) == (own, k));
             match_up(wall, &history.walls.keys, &old, (touching, wall_shapes), &mut scratch.went_on);
             let went_on = &scratch.went_on;
             let ended = old.filter(|c| !went_on.contains(&slot(*c)));
-            released += ended.map(|c| history.walls.stored_energy(c..c + 1, law)).sum::<f64>();
+            walk.released += ended.map(|c| history.walls.stored_energy(c..c + 1, law)).sum::<f64>();
         }
         let mut t = 0;
         while t < scratch.touching.len() {
@@ -104,8 +102,8 @@ fn evaluate_law(
     }
     finish(input, number, list, history, scratch, sums, visit);
     if remembers {
-        released += history.walls.stored_energy(cursor..history.walls.keys.len(), law);
-        sums.lost.sliding += power(released, input.dt);
+        history.walls.open(&mut walk, law, |_| true);
+        sums.lost.sliding += power(walk.released, input.dt);
     }
 }
 

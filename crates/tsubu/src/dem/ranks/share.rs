@@ -7,46 +7,55 @@ use crate::neighbours::NeighbourLists;
 use crate::ranks::Reader;
 use crate::state::Grains;
 use glam::DVec3;
-use std::ops::Range;
 
 impl Ranks {
-    /// What moving has done: reports and drifts of all blocks, and where the grains are that others see.
-    pub fn share_motion(&mut self, grains: &mut Grains, neighbours: &mut NeighbourLists, reports: &mut [Report]) {
+    /// What moving has done: drifts or reports of all blocks, and the grains that others see.
+    pub fn share_motion(
+        &mut self,
+        done: Halves,
+        grains: &mut Grains,
+        neighbours: &mut NeighbourLists,
+        reports: &mut [Report],
+    ) {
         if self.cuts.is_empty() {
             return;
         }
+        let all = grains.len();
+        let mut columns = done.columns(grains, self.whole);
         let (own, drifts) = (neighbours.own(), &mut neighbours.drifts.of);
         self.write(|ranks, rank, message| {
             for (drift, report) in drifts[own.clone()].iter().zip(&reports[own.clone()]) {
-                put(message, [drift.offset, drift.velocity, report.fixed_force]);
-                message.extend([drift.farthest, report.correction, report.driven_power]);
+                if done.first {
+                    put(message, [drift.offset, drift.velocity]);
+                    message.push(drift.farthest);
+                }
+                if done.second {
+                    put(message, [report.fixed_force]);
+                    message.extend([report.correction, report.driven_power]);
+                }
             }
             if ranks.whole {
-                return put_grains(message, grains, ranks.grains(ranks.rank(), grains));
-            }
-            for &i in &ranks.seams[rank].gives {
-                let i = i as usize;
-                put(message, [grains.position[i], grains.velocity[i], grains.spin[i]]);
+                put_rows(message, &columns, ranks.grains(ranks.rank(), all));
+            } else {
+                put_rows(message, &columns, ranks.seams[rank].gives.iter().map(|i| *i as usize));
             }
         });
         self.send_and_read(|ranks, rank, message| {
             let from = ranks.blocks(rank);
             for (drift, report) in drifts[from.clone()].iter_mut().zip(&mut reports[from]) {
-                for vector in [&mut drift.offset, &mut drift.velocity, &mut report.fixed_force] {
-                    *vector = message.vector();
+                if done.first {
+                    (drift.offset, drift.velocity) = (message.vector(), message.vector());
+                    drift.farthest = message.number();
                 }
-                for number in [&mut drift.farthest, &mut report.correction, &mut report.driven_power] {
-                    *number = message.number();
+                if done.second {
+                    report.fixed_force = message.vector();
+                    (report.correction, report.driven_power) = (message.number(), message.number());
                 }
             }
             if ranks.whole {
-                return take_grains(message, grains, ranks.grains(rank, grains));
-            }
-            for &i in &ranks.seams[rank].takes {
-                let i = i as usize;
-                for column in [&mut grains.position, &mut grains.velocity, &mut grains.spin] {
-                    column[i] = message.vector();
-                }
+                take_rows(message, &mut columns, ranks.grains(rank, all));
+            } else {
+                take_rows(message, &mut columns, ranks.seams[rank].takes.iter().map(|i| *i as usize));
             }
         });
     }
@@ -90,8 +99,33 @@ impl Ranks {
         if self.cuts.is_empty() {
             return;
         }
-        self.write(|ranks, _, message| put_grains(message, grains, ranks.grains(ranks.rank(), grains)));
-        self.send_and_read(|ranks, rank, message| take_grains(message, grains, ranks.grains(rank, grains)));
+        let all = grains.len();
+        let Grains { position, velocity, acceleration, spin, angular_acceleration, .. } = grains;
+        let mut columns = [position, velocity, acceleration, spin, angular_acceleration];
+        self.write(|ranks, _, message| put_rows(message, &columns, ranks.grains(ranks.rank(), all)));
+        self.send_and_read(|ranks, rank, message| take_rows(message, &mut columns, ranks.grains(rank, all)));
+    }
+}
+
+/// Which halves of a step have been done since grains last went over.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::dem) struct Halves {
+    /// The first: positions have gone on.
+    pub first: bool,
+    /// The second: velocities are complete, and blocks report.
+    pub second: bool,
+}
+
+impl Halves {
+    /// What goes over of grains: where they are and how they move; after the second half alone, where something looks at all
+    /// grains, what forces have made of them.
+    fn columns(self, grains: &mut Grains, whole: bool) -> Vec<&mut Vec<DVec3>> {
+        let Grains { position, velocity, acceleration, spin, angular_acceleration, .. } = grains;
+        match self.first {
+            true => vec![position, velocity, spin],
+            false if whole => vec![velocity, acceleration, spin, angular_acceleration],
+            false => Vec::new(),
+        }
     }
 }
 
@@ -99,17 +133,17 @@ fn put<const N: usize>(message: &mut Vec<f64>, vectors: [DVec3; N]) {
     message.extend(vectors.iter().flat_map(DVec3::to_array));
 }
 
-fn put_grains(message: &mut Vec<f64>, grains: &Grains, own: Range<usize>) {
-    let Grains { position, velocity, acceleration, spin, angular_acceleration, .. } = grains;
-    for i in own {
-        put(message, [position[i], velocity[i], acceleration[i], spin[i], angular_acceleration[i]]);
+fn put_rows(message: &mut Vec<f64>, columns: &[&mut Vec<DVec3>], rows: impl Iterator<Item = usize>) {
+    for i in rows {
+        for column in columns {
+            message.extend_from_slice(column[i].as_ref());
+        }
     }
 }
 
-fn take_grains(message: &mut Reader, grains: &mut Grains, from: Range<usize>) {
-    let Grains { position, velocity, acceleration, spin, angular_acceleration, .. } = grains;
-    for i in from {
-        for column in [&mut *position, velocity, acceleration, spin, angular_acceleration] {
+fn take_rows(message: &mut Reader, columns: &mut [&mut Vec<DVec3>], rows: impl Iterator<Item = usize>) {
+    for i in rows {
+        for column in &mut *columns {
             column[i] = message.vector();
         }
     }
