@@ -67,17 +67,19 @@ fn race_table(race: &Value, name: &str) -> String {
         codes.dedup();
         codes.sort_by_key(|code| *code != "tsubu");
         for code in codes {
+            // Two ranks run on two cores alone.
+            let told = |number: f64, digits| if number.is_nan() { String::new() } else { format!("{number:.digits$}") };
             let over = |cores| match code {
                 "tsubu" => String::new(),
-                _ => format!("{:.2}", median("tsubu", cores) / median(code, cores)),
+                _ => told(median("tsubu", cores) / median(code, cores), 2),
             };
             let _ = writeln!(
                 table,
-                "| {} | {} | {code} | {:.1} | {:.1} | {} | {} |",
+                "| {} | {} | {code} | {} | {} | {} | {} |",
                 workload["about"].as_str().unwrap_or_default(),
                 workload["grains"],
-                median(code, 1),
-                median(code, 2),
+                told(median(code, 1), 1),
+                told(median(code, 2), 1),
                 over(1),
                 over(2),
             );

@@ -58,6 +58,12 @@ impl Heats {
         self.runs.iter().filter(move |run| run.racer == racer && run.cores == cores)
     }
 
+    /// Who ran on so many cores.
+    fn racers(&self, cores: u32) -> impl Iterator<Item = Racer> {
+        let ranks = std::iter::once(Racer::Ranks).filter(move |racer| self.of(*racer, cores).next().is_some());
+        self.course.racers().into_iter().chain(ranks)
+    }
+
     /// Seconds of the timed segment, in the order of the runs.
     fn seconds(&self, racer: Racer, cores: u32) -> Vec<f64> {
         self.of(racer, cores).map(|run| run.end.seconds).collect()
@@ -123,6 +129,9 @@ fn heats(stable: &Stable, host: &mut Host, course: &'static Course, options: &Op
         for cores in [1, 2] {
             for &(racer, skin) in &heats.skins {
                 heats.runs.push(run(host, racer, cores, skin)?);
+                if racer == Racer::Tsubu && cores == 2 && stable.ranks {
+                    heats.runs.push(run(host, Racer::Ranks, cores, skin)?);
+                }
             }
         }
     }

@@ -9,7 +9,7 @@ use tsubu::trial;
 /// Checks the scene of a bundle.
 pub fn judge(bundle: &Bundle, folder: &Path) -> Result<Outcome, String> {
     let Ok(scene) = reading::read(bundle, &folder.join("scene")) else { return Ok(Outcome::Refused) };
-    let text = match trial::check(scene.plan(), None, &mut |_, _| ()) {
+    let text = match trial::check(scene.plan(), trial::Target::default(), &mut |_, _| ()) {
         Ok(verdict) => verdict.to_string(),
         Err(refusal) => refusal.to_string(),
     };

@@ -102,7 +102,7 @@ impl Scene {
 
     /// Whether the run would be refused or would fail, and all judgements: good, text, advice.
     fn check(&self, py: Python<'_>) -> PyResult<(bool, Vec<Line>)> {
-        let judged = py.detach(|| tsubu_cli::judged(&self.scene, PATIENCE));
+        let judged = py.detach(|| tsubu_cli::judged(&self.scene, 1, PATIENCE));
         let verdict = judged.map_err(|failure| error::of(py, &failure))?;
         let lines = verdict.lines.into_iter().map(|line| (line.good, line.text, line.advice)).collect();
         Ok((verdict.fails, lines))

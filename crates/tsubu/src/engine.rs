@@ -3,6 +3,7 @@
 use crate::ledger::{Energies, Ledger};
 use crate::outside::Action;
 use crate::partner::Hosts;
+use crate::ranks::RankShare;
 use crate::view::{View, Wants};
 use crate::wall::{Velocity, Wall};
 use std::any::Any;
@@ -280,6 +281,11 @@ pub trait Engine: Send {
     /// The same without the list of contacts, where that costs less.
     fn glimpse(&self, hosts: &Hosts) -> Frame {
         self.frame(hosts)
+    }
+
+    /// What the busiest of so many ranks would have; `None` where a method runs on one rank alone.
+    fn on_ranks(&self, _ranks: usize) -> Option<RankShare> {
+        None
     }
 
     /// What it can show to those who look on.

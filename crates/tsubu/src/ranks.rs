@@ -20,6 +20,19 @@ pub trait Communicator: Debug + Send + Sync {
     fn broadcast(&self, message: &mut Vec<f64>);
 }
 
+/// What the busiest of several ranks would have of a scene, and what it would send.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RankShare {
+    /// Its own grains.
+    pub grains: usize,
+    /// Messages in a step.
+    pub messages: usize,
+    /// Bytes in a step, all messages together.
+    pub bytes: f64,
+    /// Bytes beside these whenever neighbour lists are made anew.
+    pub bytes_anew: f64,
+}
+
 /// Reads a message in the order in which it was written.
 #[derive(Clone, Debug)]
 pub(crate) struct Reader<'a>(std::slice::Iter<'a, f64>);

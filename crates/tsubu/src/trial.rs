@@ -1,6 +1,7 @@
 //! A scene tried before it is run: its verdict, whether it opens, and what a step costs on this machine.
 
 mod cost;
+mod ranks;
 
 use crate::bench::Bench;
 use crate::check::{Verdict, human_time, verdict};
@@ -22,15 +23,18 @@ pub(crate) fn unsettled(plan: &Plan) -> Plan {
     plan
 }
 
-/// Builds the scene, judges it, and measures for a moment how fast this machine moves it.
-///
-/// Where `bench` knows this machine, the estimate is for all its cores too. `ahead` hears what is known so far, and what comes
+/// What a run is estimated for.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Target<'a> {
+    /// What is known of this machine: with it the estimate is for all its cores too.
+    pub bench: Option<&'a Bench>,
+    /// On how many ranks it is to run; up to 1: on one.
+    pub ranks: usize,
+}
+
+/// Builds the scene, judges it, and measures for a moment how fast this machine moves it. `ahead` hears what is known so far, and what comes
 /// next: a part that may take long.
-pub fn check(
-    plan: &Plan,
-    bench: Option<&Bench>,
-    ahead: &mut dyn FnMut(&Verdict, &'static str),
-) -> Result<Verdict, OpenError> {
+pub fn check(plan: &Plan, target: Target, ahead: &mut dyn FnMut(&Verdict, &'static str)) -> Result<Verdict, OpenError> {
     ahead(&Verdict::default(), "placing the grains");
     let mut hosts = Hosts::new(&plan.hosts);
     let settles = |group: &Particles| matches!(group.start, Start::Settled { time } if time > 0.0);
@@ -66,7 +70,10 @@ pub fn check(
     };
     ahead(&verdict, "the first steps of a settled bed");
     let dense = cost::of_a_bed(plan).map_or(now, |bed| bed.max(now));
-    times(&mut verdict, plan, &hosts, &*engine, [now, dense], bench);
+    times(&mut verdict, plan, &hosts, &*engine, [now, dense], target.bench);
+    if target.ranks > 1 {
+        ranks::tell(&mut verdict, plan, target.ranks, |ranks| engine.on_ranks(ranks), total, [now, dense]);
+    }
     Ok(verdict)
 }
 

@@ -43,6 +43,10 @@ pub enum Bands {
 pub const CONTACTS: f64 = 0.02;
 /// How many times faster tsubu is to be on two cores.
 pub const SCALING: f64 = 1.8;
+/// The same on two ranks.
+pub const SCALING_OF_RANKS: f64 = 1.85;
+/// How many times as long as two threads two ranks may take.
+pub const RANKS_OVER_THREADS: f64 = 1.05;
 /// How many times LAMMPS's peak memory tsubu may take.
 pub const MEMORY: f64 = 2.0;
 /// Where memory is compared.
@@ -121,6 +125,8 @@ pub const COURSES: [Course; 4] = [
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Racer {
     Tsubu,
+    /// The same, a rank of MPI on each of two cores.
+    Ranks,
     /// LAMMPS with the style of that number.
     Lammps(usize),
 }
@@ -129,7 +135,7 @@ impl Racer {
     /// Skins that are tried: tsubu's over the smallest diameter, LAMMPS's over the mean one.
     pub const fn skins(self) -> &'static [f64] {
         match self {
-            Self::Tsubu => &[0.05, 0.1, 0.15, 0.2, 0.3],
+            Self::Tsubu | Self::Ranks => &[0.05, 0.1, 0.15, 0.2, 0.3],
             Self::Lammps(_) => &[0.05, 0.1, 0.2, 0.3],
         }
     }
@@ -137,13 +143,14 @@ impl Racer {
     pub fn name(self, course: &Course) -> String {
         match self {
             Self::Tsubu => "tsubu".to_owned(),
+            Self::Ranks => "tsubu, two ranks".to_owned(),
             Self::Lammps(style) => format!("LAMMPS `{}`", course.styles[style].1),
         }
     }
 }
 
 impl Course {
-    /// All who run here, tsubu first.
+    /// All who run here on one core, tsubu first.
     pub fn racers(&self) -> Vec<Racer> {
         std::iter::once(Racer::Tsubu).chain((0..self.styles.len()).map(Racer::Lammps)).collect()
     }

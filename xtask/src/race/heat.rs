@@ -74,7 +74,7 @@ pub fn run(
             continue;
         }
         let understood = match racer {
-            Racer::Tsubu => of_tsubu(&output),
+            Racer::Tsubu | Racer::Ranks => of_tsubu(&output),
             Racer::Lammps(_) => of_lammps(&output).map(|end| (end, None)),
         };
         let Some((end, own_memory)) = understood else {

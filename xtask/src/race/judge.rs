@@ -1,7 +1,7 @@
 //! What was promised, and whether it holds.
 
 use super::Heats;
-use super::course::{Bands, CONTACTS, Course, LARGE, MEMORY, Racer, SCALING};
+use super::course::{Bands, CONTACTS, Course, LARGE, MEMORY, RANKS_OVER_THREADS, Racer, SCALING, SCALING_OF_RANKS};
 use super::heat::{End, Run};
 use std::fmt;
 
@@ -45,6 +45,7 @@ pub fn judge(heats: &[Heats]) -> Verdict {
     let physics: Vec<Physics> = heats.iter().flat_map(physics).collect();
     let mut claims: Vec<Claim> = heats.iter().flat_map(speed).collect();
     claims.extend(heats.iter().map(scaling));
+    claims.extend(heats.iter().flat_map(ranks));
     claims.extend(heats.iter().filter(|h| h.course.name == LARGE).filter_map(memory));
     let equal = |p: &Physics, (what, found, most): &(String, f64, f64)| Claim {
         text: format!("{}, {}: {what}", p.course.name, p.opponent.name(p.course)),
@@ -78,6 +79,31 @@ fn speed(heats: &Heats) -> Vec<Claim> {
 fn scaling(heats: &Heats) -> Claim {
     let gain = heats.median(Racer::Tsubu, 1) / heats.median(Racer::Tsubu, 2);
     at_least(format!("{} ({}), tsubu on two cores over one", heats.course.name, heats.course.about), SCALING, gain)
+}
+
+/// What is promised of two ranks, if there were any.
+fn ranks(heats: &Heats) -> Vec<Claim> {
+    let course = heats.course;
+    if heats.of(Racer::Ranks, 2).next().is_none() {
+        return Vec::new();
+    }
+    let name = format!("{} ({}), tsubu on two ranks", course.name, course.about);
+    let ranks = heats.median(Racer::Ranks, 2);
+    let over_threads = ranks / heats.median(Racer::Tsubu, 2);
+    let lammps = (0..course.styles.len()).map(|style| {
+        let racer = Racer::Lammps(style);
+        at_least(format!("{name}, speed over {}", racer.name(course)), course.wanted, heats.median(racer, 2) / ranks)
+    });
+    let own = [
+        at_least(format!("{name} over one core"), SCALING_OF_RANKS, heats.median(Racer::Tsubu, 1) / ranks),
+        Claim {
+            text: format!("{name}, time over that of two threads"),
+            wanted: format!("<= {RANKS_OVER_THREADS}"),
+            found: format!("{over_threads:.3}"),
+            holds: over_threads <= RANKS_OVER_THREADS,
+        },
+    ];
+    own.into_iter().chain(lammps).collect()
 }
 
 /// tsubu's most over the least of LAMMPS's styles.

@@ -70,7 +70,7 @@ fn rates(page: &mut String, heats: &[Heats], _: &Verdict) {
         let course = h.course;
         for cores in [1, 2] {
             let tsubu = h.seconds(Racer::Tsubu, cores);
-            for racer in course.racers() {
+            for racer in h.racers(cores) {
                 let seconds = h.seconds(racer, cores);
                 let rate = course.rate(h.median(racer, cores));
                 let (low, high) = range(seconds.iter().map(|s| course.rate(*s)));

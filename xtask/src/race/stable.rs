@@ -1,7 +1,7 @@
 //! What stands ready before the race: programs, decks, scenes and start states in one work folder.
 
 use super::course::{Course, Racer};
-use crate::shell::{cargo_path, command, root};
+use crate::shell::{cargo_path, command, on_path, root};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,6 +13,8 @@ pub struct Stable {
     pub work: PathBuf,
     lammps: PathBuf,
     mpirun: PathBuf,
+    /// Whether tsubu can run on ranks.
+    pub ranks: bool,
     /// Where LAMMPS finds its MPI.
     libraries: Option<PathBuf>,
 }
@@ -31,7 +33,7 @@ impl Stable {
         let beside = |path: &str| lammps.ancestors().map(|folder| folder.join(path)).find(|file| file.exists());
         let libraries = beside("lib/libmpi.so.12").and_then(|file| file.parent().map(Path::to_path_buf));
         let mpirun = beside("bin/mpirun").unwrap_or_else(|| "mpirun".into());
-        let stable = Self { work, lammps: program(&lammps)?, mpirun, libraries };
+        let stable = Self { work, lammps: program(&lammps)?, mpirun, ranks: has_mpi(), libraries };
         stable.version()?;
         Ok(stable)
     }
@@ -42,9 +44,16 @@ impl Stable {
         command.args(["-c", if cores == 1 { "0" } else { "0,1" }]).current_dir(&self.work);
         let (warm, steps) = (course.warm.to_string(), course.steps.to_string());
         match racer {
-            Racer::Tsubu => {
+            Racer::Tsubu | Racer::Ranks => {
+                let ranks = if racer == Racer::Ranks { cores } else { 1 };
+                if ranks > 1 {
+                    command.args(["mpirun", "-np", &ranks.to_string()]);
+                    for variable in ["OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] {
+                        command.env(variable, "1");
+                    }
+                }
                 command.arg("./race").arg(format!("{}.toml", course.scene));
-                command.args([&warm, &steps, &cores.to_string(), &format!("dem.skin={skin}")]);
+                command.args([&warm, &steps, &(cores / ranks).to_string(), &format!("dem.skin={skin}")]);
             }
             Racer::Lammps(style) => {
                 if cores > 1 {
@@ -122,9 +131,18 @@ fn program(lammps: &Path) -> Result<PathBuf, String> {
         .ok_or_else(|| format!("{} is a script, and there is no LAMMPS in the environment around it", lammps.display()))
 }
 
+/// Whether there is an MPI to build with.
+fn has_mpi() -> bool {
+    on_path("mpicc") && on_path("mpirun")
+}
+
 /// Builds the binary and says where it is.
 fn built() -> Result<PathBuf, String> {
-    let words = ["bench", "--package", "tsubu", "--bench", "race", "--no-run", "--message-format=json", "--quiet"];
+    let mut words =
+        vec!["bench", "--package", "tsubu-mpi", "--bench", "race", "--no-run", "--message-format=json", "--quiet"];
+    if has_mpi() {
+        words.extend(["--features", "mpi"]);
+    }
     let told = said(command(&cargo_path(), &words))?;
     let made = told.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
     let made = made.filter(|message| message["target"]["name"] == "race");

@@ -5,12 +5,12 @@ use crate::machine;
 use crate::options::SceneOptions;
 use crate::output;
 use crate::stream::Stream;
-use clap::Args;
+use clap::{Args, value_parser};
 use std::fmt::Write as _;
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 use tsubu::check::Verdict;
-use tsubu::trial::check;
+use tsubu::trial::{Target, check};
 use tsubu_scene::Scene;
 
 /// How long a user waits for a verdict.
@@ -20,10 +20,14 @@ const LIMIT: Duration = Duration::from_secs(9);
 #[command(after_help = "\
 Examples:
   tsubu check damper.toml
-  tsubu check damper.toml --set dem.time-step='20 us' --strict")]
+  tsubu check damper.toml --set dem.time-step='20 us' --strict
+  tsubu check chute.toml --ranks 4")]
 pub struct Options {
     #[command(flatten)]
     scene: SceneOptions,
+    /// Estimate memory, messages and time for so many ranks of MPI, too
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(1..=1024))]
+    ranks: u16,
     /// Exit with 2 if there is a warning
     #[arg(long)]
     strict: bool,
@@ -32,7 +36,7 @@ pub struct Options {
 pub fn run(options: &Options) -> Result<(), Failure> {
     let begun = Instant::now();
     let scene = options.scene.read()?;
-    let verdict = judged(&scene, LIMIT.saturating_sub(begun.elapsed()))?;
+    let verdict = judged(&scene, usize::from(options.ranks), LIMIT.saturating_sub(begun.elapsed()))?;
     let stream = Stream::Data;
     let mut text = String::new();
     for line in &verdict.lines {
@@ -58,8 +62,8 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The verdict; if it takes longer than a user waits, as far as it has come.
-pub fn judged(scene: &Scene, limit: Duration) -> Result<Verdict, Failure> {
+/// The verdict, with an estimate for so many ranks; if it takes longer than a user waits, as far as it has come.
+pub fn judged(scene: &Scene, ranks: usize, limit: Duration) -> Result<Verdict, Failure> {
     let (begun, plans) = (Instant::now(), scene.plans().to_vec());
     let (send, news) = mpsc::channel();
     std::thread::spawn(move || {
@@ -69,7 +73,8 @@ pub fn judged(scene: &Scene, limit: Duration) -> Result<Verdict, Failure> {
             // Nobody listens any more where it came too late.
             let mut ahead =
                 |verdict: &Verdict, next| _ = send.send((Ok(whole.clone().with(stage, verdict.clone())), Some(next)));
-            match check(plan, machine::known().as_ref(), &mut ahead) {
+            let bench = machine::known();
+            match check(plan, Target { bench: bench.as_ref(), ranks }, &mut ahead) {
                 Ok(verdict) => whole = whole.with(stage, verdict),
                 Err(error) => {
                     let _ = send.send((Err(error), None));

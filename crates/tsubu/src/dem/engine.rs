@@ -22,7 +22,7 @@ use crate::neighbours::lists::{BLOCK, shares};
 use crate::neighbours::{NeighbourLists, Search};
 use crate::outside::Action;
 use crate::partner::Hosts;
-use crate::ranks::Communicator;
+use crate::ranks::{Communicator, RankShare};
 use crate::state::Grains;
 use crate::threads::awake;
 use crate::view::{View, WallLoad, Wants};
@@ -268,6 +268,11 @@ impl Engine for DemEngine {
         }
         self.integration.bodies.push(DVec3::from_array(velocity));
         true
+    }
+
+    fn on_ranks(&self, ranks: usize) -> Option<RankShare> {
+        let contacts = |block: usize| self.contacts.blocks[block].sums.contacts;
+        Some(self.ranks.share_of_busiest(ranks, &self.neighbours, contacts, self.walls.len()))
     }
 
     fn worked(&self) -> &[f64] {

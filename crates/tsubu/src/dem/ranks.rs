@@ -4,6 +4,7 @@
 //! exchanges a step: motion when positions have gone on, loads when forces are there. What blocks have summed goes along, and is added up in the
 //! order of the blocks: the same bits on any number of ranks. Before grains are sorted anew, all ranks get all grains.
 
+mod estimate;
 mod share;
 
 pub(super) use share::Halves;
@@ -87,26 +88,14 @@ impl Ranks {
     /// Cuts so many blocks by what they cost, of which `contacts` tells the contacts in the last step. Gives the own ones, where there are several ranks.
     pub fn cut(&mut self, blocks: usize, contacts: impl Fn(usize) -> usize) -> Option<Range<usize>> {
         let size = self.communicator.as_ref()?.size();
-        let costs = self.costs(blocks, contacts);
-        let all: f64 = costs.iter().sum();
-        let (mut cuts, mut before) = (Vec::with_capacity(size + 1), 0.0);
-        for (block, cost) in costs.iter().enumerate() {
-            // A block belongs where most of it does.
-            let middle = before + 0.5 * cost;
-            while cuts.len() as f64 * all <= middle * size as f64 && cuts.len() < size {
-                cuts.push(block);
-            }
-            before += cost;
-        }
-        cuts.resize(size + 1, blocks);
-        self.cuts = cuts;
+        self.cuts = cuts(&self.costs(blocks, contacts), size);
         self.work.before_cut.clone_from(&self.work.all);
         Some(self.blocks(self.rank()))
     }
 
     /// What every block costs: by its contacts, and by how long its rank has worked for such since the last cut.
     fn costs(&self, blocks: usize, contacts: impl Fn(usize) -> usize) -> Vec<f64> {
-        let cost = |block: usize| (4 * BLOCK + 5 * contacts(block)) as f64;
+        let cost = |block: usize| cost(contacts(block));
         let told = |ends: &[usize]| (ends[0]..ends[1]).map(cost).sum::<f64>();
         let worked = self.work.all.iter().zip(&self.work.before_cut).map(|(all, before)| all - before);
         let pace: Vec<f64> = self.cuts.windows(2).zip(worked).map(|(ends, worked)| worked / told(ends)).collect();
@@ -271,4 +260,25 @@ impl Ranks {
     pub fn letters(&self) -> Vec<Vec<f64>> {
         vec![Vec::new(); self.seams.len()]
     }
+}
+
+/// What a block with so many contacts costs, in a unit of its own.
+fn cost(contacts: usize) -> f64 {
+    (4 * BLOCK + 5 * contacts) as f64
+}
+
+/// The first block of every rank, and the number of blocks: each rank gets about as much of the `costs`.
+fn cuts(costs: &[f64], ranks: usize) -> Vec<usize> {
+    let all: f64 = costs.iter().sum();
+    let (mut cuts, mut before) = (Vec::with_capacity(ranks + 1), 0.0);
+    for (block, cost) in costs.iter().enumerate() {
+        // A block belongs where most of it does.
+        let middle = before + 0.5 * cost;
+        while cuts.len() as f64 * all <= middle * ranks as f64 && cuts.len() < ranks {
+            cuts.push(block);
+        }
+        before += cost;
+    }
+    cuts.resize(ranks + 1, costs.len());
+    cuts
 }

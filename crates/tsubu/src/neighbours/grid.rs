@@ -110,6 +110,8 @@ pub struct Grid {
     /// Super-cells along x and y.
     lumps: [usize; 2],
     wraps: [bool; 3],
+    /// How many cells there are, all together.
+    cells: usize,
     /// First entry of each cell in `members`; one more than cells.
     start: Vec<u32>,
     members: Vec<u32>,
@@ -119,16 +121,17 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Sorts the spheres of `members` into cells of at least `size` [m], to be searched.
+    /// Sorts the spheres of `members` into cells of at least `size` [m], to be searched. Where cells lie hangs on `all` of which these are some.
     pub fn fill(
         &mut self,
-        positions: &[DVec3],
-        radii: &[f64],
+        (positions, radii): (&[DVec3], &[f64]),
+        all: impl Iterator<Item = u32>,
         members: impl Iterator<Item = u32> + Clone,
         size: f64,
         periodic: &PeriodicBounds,
     ) {
-        self.sort(Numbering::Rows, positions, members, size, periodic);
+        self.lay(Numbering::Rows, positions, all, size, periodic);
+        self.sort(positions, members);
         self.spheres.clear();
         self.spheres.extend(self.members.iter().map(|&i| {
             let p = positions[i as usize];
@@ -136,19 +139,18 @@ impl Grid {
         }));
     }
 
-    /// Sorts `members` into cells of at least `size` [m]; no more cells than about four a member, however far they fly.
-    /// Members keep their order within a cell.
-    pub fn sort(
+    /// Lays cells of at least `size` [m] over `all`; no more cells than about four a grain, however far they fly.
+    pub fn lay(
         &mut self,
         numbering: Numbering,
         positions: &[DVec3],
-        members: impl Iterator<Item = u32> + Clone,
+        all: impl Iterator<Item = u32>,
         size: f64,
         periodic: &PeriodicBounds,
     ) {
         self.numbering = numbering;
         let (mut low, mut high, mut count) = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0usize);
-        for i in members.clone() {
+        for i in all {
             let p = positions[i as usize];
             (low, high, count) = (low.min(p), high.max(p), count + 1);
         }
@@ -158,7 +160,12 @@ impl Grid {
             Numbering::Lumps => self.extent.map(|n| n.div_ceil(LUMP) * LUMP),
         };
         self.lumps = [nx / LUMP, ny / LUMP];
-        let cells = nx * ny * nz;
+        self.cells = nx * ny * nz;
+    }
+
+    /// Sorts `members` into the cells. They keep their order within a cell.
+    pub fn sort(&mut self, positions: &[DVec3], members: impl Iterator<Item = u32> + Clone) {
+        let cells = self.cells;
         // One entry more, so that a cell's next free place can stand behind its own until all are filled.
         self.start.clear();
         self.start.resize(cells + 2, 0);
@@ -171,7 +178,7 @@ impl Grid {
         for i in 2..cells + 2 {
             self.start[i] += self.start[i - 1];
         }
-        self.members.resize(count, 0);
+        self.members.resize(self.cell_of.len(), 0);
         for (i, &cell) in members.zip(&self.cell_of) {
             let next = &mut self.start[cell as usize + 1];
             self.members[*next as usize] = i;

@@ -125,7 +125,9 @@ impl NeighbourLists {
         // The memory of a level, which is filled anew afterwards.
         self.levels.resize_with(self.levels.len().max(1), Grid::default);
         let order = &mut self.levels[0];
-        order.sort(Numbering::Lumps, &grains.position, 0..grains.len() as u32, size, &search.periodic);
+        let all = 0..grains.len() as u32;
+        order.lay(Numbering::Lumps, &grains.position, all.clone(), size, &search.periodic);
+        order.sort(&grains.position, all);
         grains.permute(order.order());
     }
 
@@ -219,11 +221,35 @@ impl NeighbourLists {
             let largest = &mut self.largest[usize::from(*level)];
             *largest = largest.max(*r);
         }
+        let part = self.part_and_around(grains);
+        let seen = |i: &u32| {
+            part.is_none_or(|[low, high]| {
+                let p = self.reference[*i as usize];
+                p.cmpge(low).all() && p.cmple(high).all()
+            })
+        };
         for (level, grid) in self.levels.iter_mut().enumerate() {
-            let members = (0..grains.len() as u32).filter(|&i| usize::from(self.level_of[i as usize]) == level);
+            let all = (0..grains.len() as u32).filter(|&i| usize::from(self.level_of[i as usize]) == level);
             let size = 2.0 * self.largest[level] + search.skin + search.reach;
-            grid.fill(&self.reference, &grains.radius, members, size, &search.periodic);
+            let spheres = (&self.reference[..], &grains.radius[..]);
+            grid.fill(spheres, all.clone(), all.filter(seen), size, &search.periodic);
         }
+    }
+
+    /// The box that holds all that may be near the blocks whose lists are made here; `None`: it is everywhere.
+    fn part_and_around(&self, grains: &Grains) -> Option<[DVec3; 2]> {
+        let part = self.part.clone()?;
+        let own = (part.start * BLOCK).min(grains.len())..(part.end * BLOCK).min(grains.len());
+        let (low, high) = self.reference[own]
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
+        let reach = 2.0 * self.largest.iter().fold(0.0f64, |a, b| a.max(*b)) + self.search.skin + self.search.reach;
+        let mut ends = [low - reach, high + reach];
+        // What comes round a periodic end may be anywhere along that axis.
+        for (axis, _) in self.search.periodic.iter().enumerate().filter(|(_, end)| end.is_some()) {
+            (ends[0][axis], ends[1][axis]) = (f64::NEG_INFINITY, f64::INFINITY);
+        }
+        Some(ends)
     }
 
     /// Finds the grains that are paired with grain `i` in its list: those of its size in half of the directions, since the

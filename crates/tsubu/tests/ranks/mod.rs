@@ -24,6 +24,8 @@ struct Thread {
     to: Vec<Sender<Vec<f64>>>,
     from: Vec<Mutex<Receiver<Vec<f64>>>>,
     sent: AtomicUsize,
+    /// How many numbers have gone to others.
+    numbers: Arc<AtomicUsize>,
     /// In which exchanges numbers go over wrong by their last bit.
     wrong: Range<usize>,
 }
@@ -32,7 +34,14 @@ impl Thread {
     fn team(size: usize) -> Vec<Self> {
         let counted = || AtomicUsize::new(0);
         let mut team: Vec<Self> = (0..size)
-            .map(|rank| Self { rank, to: Vec::new(), from: Vec::new(), sent: counted(), wrong: 0..0 })
+            .map(|rank| Self {
+                rank,
+                to: Vec::new(),
+                from: Vec::new(),
+                sent: counted(),
+                numbers: Arc::new(counted()),
+                wrong: 0..0,
+            })
             .collect();
         for sender in 0..size {
             for receiver in 0..size {
@@ -67,6 +76,7 @@ impl Communicator for Thread {
             numbers.for_each(|number| *number = f64::from_bits(number.to_bits() ^ 1));
         }
         for &rank in &others {
+            self.numbers.fetch_add(messages[rank].len(), Ordering::Relaxed);
             self.to[rank].send(std::mem::take(&mut messages[rank])).unwrap();
         }
         for &rank in &others {
@@ -211,6 +221,31 @@ time-step = "2e-5 s"
 fn a_damper_has_the_bits_of_one_rank() {
     job(DAMPER).same(&[2, 3, 7]);
     Job { resume: true, ..job(DAMPER) }.same(&[3]);
+}
+
+/// One step, and the gathering of all grains at its end, send what is estimated on one rank; and the number that tells each time how long a rank has worked.
+#[test]
+fn what_goes_over_is_what_is_estimated() {
+    let job = job(DAMPER);
+    let (engine, ..) = job.opened(None);
+    let ranks = 3;
+    let share = engine.on_ranks(ranks).unwrap();
+    let team = Thread::team(ranks);
+    let sent: Vec<_> = team.iter().map(|one| one.numbers.clone()).collect();
+    std::thread::scope(|scope| {
+        for one in team {
+            scope.spawn(|| {
+                let (count, all) = (one.numbers.clone(), Arc::new(one) as Arc<dyn Communicator>);
+                let (mut engine, mut hosts, mut ledger) = job.opened(Some(&all));
+                count.store(0, Ordering::Relaxed);
+                engine.advance(1, &mut hosts, &mut ledger).unwrap();
+            });
+        }
+    });
+    let most = sent.iter().map(|count| 8.0 * count.load(Ordering::Relaxed) as f64).fold(0.0, f64::max);
+    let told = share.bytes + share.bytes_anew + f64::from(8 * 8 * (ranks as u32 - 1));
+    assert!(most <= told && most > 0.95 * told, "{most} of {told} bytes");
+    assert_eq!(share.messages, 2 * (ranks - 1));
 }
 
 /// Of some thousand exchanges a few are wrong by the last bit: the bits are others. One alone may be that of new lists, in which nothing goes over.

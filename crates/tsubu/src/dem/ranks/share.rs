@@ -101,9 +101,12 @@ impl Ranks {
         }
         let all = grains.len();
         let Grains { position, velocity, acceleration, spin, angular_acceleration, .. } = grains;
-        let mut columns = [position, velocity, acceleration, spin, angular_acceleration];
-        self.write(|ranks, _, message| put_rows(message, &columns, ranks.grains(ranks.rank(), all)));
-        self.send_and_read(|ranks, rank, message| take_rows(message, &mut columns, ranks.grains(rank, all)));
+        // One after the other: messages of all grains are large.
+        for column in [position, velocity, acceleration, spin, angular_acceleration] {
+            let mut column = [column];
+            self.write(|ranks, _, message| put_rows(message, &column, ranks.grains(ranks.rank(), all)));
+            self.send_and_read(|ranks, rank, message| take_rows(message, &mut column, ranks.grains(rank, all)));
+        }
     }
 }
 
@@ -122,6 +125,8 @@ impl Halves {
     fn columns(self, grains: &mut Grains, whole: bool) -> Vec<&mut Vec<DVec3>> {
         let Grains { position, velocity, acceleration, spin, angular_acceleration, .. } = grains;
         match self.first {
+            // Orientation turns by the spin of the middle of the step.
+            true if whole => vec![position, velocity, spin, angular_acceleration],
             true => vec![position, velocity, spin],
             false if whole => vec![velocity, acceleration, spin, angular_acceleration],
             false => Vec::new(),

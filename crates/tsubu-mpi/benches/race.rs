@@ -1,5 +1,7 @@
 //! Steps per second of a scene, steps alone: no files, no report.
-//! `cargo bench --bench race -- SCENE WARM STEPS THREADS [KEY=VALUE]...`
+//! `cargo bench --package tsubu-mpi --bench race -- SCENE WARM STEPS THREADS [KEY=VALUE]...`
+//!
+//! With the feature `mpi`, `mpirun -np 2` before it times two ranks.
 //!
 //! A scene with `start-from` begins at the checkpoint in that folder, from the folder of the scene.
 //!
@@ -7,13 +9,16 @@
 //! against other codes.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
-use tsubu::engine::{self, Engine};
+use tsubu::engine;
 use tsubu::ledger::Ledger;
 use tsubu::methods;
 use tsubu::partner::Hosts;
+use tsubu::ranks::Communicator;
 use tsubu::threads::alone;
 use tsubu_frame::{Frame, Kind, Values, checkpoint};
+use tsubu_mpi::Ranks;
 use tsubu_scene::Scene;
 use tsubu_scene::plan::{GrainMotion, Plan};
 
@@ -27,13 +32,16 @@ fn main() {
     let number = |text: &str| text.parse::<u64>().unwrap_or_else(|e| panic!("{text}: {e}"));
     let (warm, steps) = (number(warm), number(steps));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(number(threads) as usize).build();
-    pool.unwrap_or_else(|e| panic!("{e}")).install(|| alone(|| race(Path::new(scene), changes, warm, steps)));
+    let ranks = Ranks::join().unwrap_or_else(|e| panic!("{e}; {}", tsubu_mpi::HOW_TO_BUILD));
+    let ranks = ranks.as_ref().map(Ranks::communicator);
+    let pool = pool.unwrap_or_else(|e| panic!("{e}"));
+    pool.install(|| alone(|| race(Path::new(scene), changes, [warm, steps], ranks)));
 }
 
-fn race(path: &Path, changes: &[String], warm: u64, steps: u64) {
+fn race(path: &Path, changes: &[String], [warm, steps]: [u64; 2], ranks: Option<&Arc<dyn Communicator>>) {
     let scene = Scene::read(path, changes).unwrap_or_else(|c| panic!("{c}"));
     let mut hosts = Hosts::new(&scene.plan().hosts);
-    let mut engine = methods::open(scene.plan(), &hosts).unwrap_or_else(|e| panic!("{e}"));
+    let mut engine = methods::open_on_ranks(scene.plan(), &hosts, ranks.cloned()).unwrap_or_else(|e| panic!("{e}"));
     if let Some(folder) = &scene.plan().start_from {
         let (_, state) = checkpoint::read(&checkpoint::path(Path::new(folder))).unwrap_or_else(|e| panic!("{e}"));
         engine.load(&state).unwrap_or_else(|e| panic!("{e}"));
@@ -49,10 +57,16 @@ fn race(path: &Path, changes: &[String], warm: u64, steps: u64) {
     // Before the picture of the end, which a run without output does not take.
     let memory = peak_memory();
     let energies = engine::energies(&*engine, &hosts);
-    let end = End::of(&*engine, &hosts, scene.plan());
+    let frame = engine.frame(&hosts);
+    // The first rank has the frame, and tells.
+    if ranks.is_some_and(|all| all.rank() > 0) {
+        return;
+    }
+    let end = End::of(&frame, scene.plan());
     let result = serde_json::json!({
         "grains": engine.grains(),
         "threads": rayon::current_num_threads(),
+        "ranks": ranks.map_or(1, |all| all.size()),
         "steps": steps,
         "seconds": seconds,
         "million particle-steps per second": engine.grains() as f64 * steps as f64 / seconds * 1e-6,
@@ -76,13 +90,12 @@ struct End {
 }
 
 impl End {
-    fn of(engine: &dyn Engine, hosts: &Hosts, plan: &Plan) -> Self {
-        let frame = engine.frame(hosts);
+    fn of(frame: &Frame, plan: &Plan) -> Self {
         let free: Vec<bool> = plan.particles.values().map(|p| matches!(p.motion, GrainMotion::Free {})).collect();
-        let group = whole(&frame, Kind::Grain, "group");
-        let id = whole(&frame, Kind::Grain, "id");
+        let group = whole(frame, Kind::Grain, "group");
+        let id = whole(frame, Kind::Grain, "id");
         let is_free = |grain: i64| id.binary_search(&grain).is_ok_and(|i| free[group[i] as usize]);
-        let pairs = whole(&frame, Kind::Contact, "first").iter().zip(whole(&frame, Kind::Contact, "second"));
+        let pairs = whole(frame, Kind::Contact, "first").iter().zip(whole(frame, Kind::Contact, "second"));
         // Walls have numbers below 0.
         let pairs = pairs.filter(|(_, second)| **second >= 0);
         let ends: usize = pairs.map(|(a, b)| usize::from(is_free(*a)) + usize::from(is_free(*b))).sum();

@@ -1,0 +1,57 @@
+//! What a run would send on several ranks, found on one.
+
+use super::{Ranks, cost, cuts};
+use crate::neighbours::NeighbourLists;
+use crate::neighbours::lists::BLOCK;
+use crate::ranks::RankShare;
+
+/// Bytes of a number in a message.
+const NUMBER: usize = 8;
+
+impl Ranks {
+    /// The share of the busiest of so many ranks, from lists of all blocks, the contacts of each, and the number of walls.
+    pub fn share_of_busiest(
+        &self,
+        ranks: usize,
+        neighbours: &NeighbourLists,
+        contacts: impl Fn(usize) -> usize,
+        walls: usize,
+    ) -> RankShare {
+        let lists = &neighbours.lists;
+        let costs: Vec<f64> = (0..lists.len()).map(|block| cost(contacts(block))).collect();
+        let cuts = cuts(&costs, ranks);
+        let owner = |grain: u32| cuts.partition_point(|first| *first <= grain as usize / BLOCK) - 1;
+        let mut loads = vec![0; ranks];
+        let mut seen = Vec::new();
+        let mut own = vec![0; ranks];
+        for (block, list) in lists.iter().enumerate() {
+            let rank = owner((block * BLOCK) as u32);
+            own[rank] += list.own;
+            for halo in list.halo.iter().filter(|halo| owner(halo.grain) != rank) {
+                loads[rank] += 1;
+                seen.push((owner(halo.grain), rank, halo.grain));
+            }
+        }
+        seen.sort_unstable();
+        seen.dedup();
+        let share = |rank: usize| {
+            let others = ranks - 1;
+            let gives = seen.partition_point(|one| one.0 <= rank) - seen.partition_point(|one| one.0 < rank);
+            let grains = if self.whole { 12 * own[rank] * others } else { 9 * gives };
+            let blocks = (cuts[rank + 1] - cuts[rank]) * (18 + 6 * walls) * others;
+            RankShare {
+                grains: own[rank],
+                messages: 2 * others,
+                bytes: (NUMBER * (grains + blocks + 9 * loads[rank])) as f64,
+                bytes_anew: (NUMBER * 15 * own[rank] * others) as f64,
+            }
+        };
+        let larger = |a: RankShare, b: RankShare| RankShare {
+            grains: a.grains.max(b.grains),
+            messages: a.messages,
+            bytes: a.bytes.max(b.bytes),
+            bytes_anew: a.bytes_anew.max(b.bytes_anew),
+        };
+        (0..ranks).map(share).reduce(larger).unwrap_or_default()
+    }
+}
