@@ -206,3 +206,11 @@ fn check_suggests_what_it_judged() {
     let whole = format!("run it: tsubu run balls.toml {set} --set materials.acrylic.young-modulus=1e8");
     assert!(ended.stderr.contains(&whole), "{}{}", ended.stdout, ended.stderr);
 }
+
+#[test]
+fn check_estimates_what_ranks_take() {
+    let desk = Desk::new();
+    let told = desk.done("check balls.toml --ranks 3").stdout;
+    assert!(told.contains("ranks: of 3 each has") && told.contains("4 messages a step"), "{told}");
+    assert!(!desk.done("check balls.toml").stdout.contains("ranks:"));
+}

@@ -61,14 +61,7 @@ impl Drifts {
     ) {
         let margin = MARGIN * skin;
         let bounds: Vec<Bounds> = lists.iter().map(|list| bounds(list, reference, &grains.radius)).collect();
-        self.near.clear();
-        for (b, one) in bounds.iter().enumerate() {
-            for (c, other) in bounds.iter().enumerate().skip(b + 1) {
-                if gap(one, other, ends) <= margin {
-                    self.near.push([b as u32, c as u32]);
-                }
-            }
-        }
+        self.find_near(&bounds, margin, ends);
         let mut found = Vec::new();
         self.near_walls.clear();
         self.near_walls.extend(bounds.iter().map(|b| {
@@ -88,6 +81,30 @@ impl Drifts {
             let velocity = grains.velocity[list.first..list.first + list.own].iter().sum::<DVec3>() / list.own as f64;
             Drift { offset: DVec3::ZERO, velocity, farthest: 0.0 }
         }));
+    }
+
+    /// Which blocks are nearer to each other than `margin` [m]: swept along the longest axis that has no periodic ends.
+    fn find_near(&mut self, bounds: &[Bounds], margin: f64, ends: &PeriodicBounds) {
+        let low = |b: u32, axis: usize| bounds[b as usize].centre[axis] - bounds[b as usize].half[axis];
+        let high = |b: u32, axis: usize| bounds[b as usize].centre[axis] + bounds[b as usize].half[axis];
+        let mut order: Vec<u32> = (0..bounds.len() as u32).collect();
+        let length = |axis: usize| {
+            let ends = order.iter().map(|b| (low(*b, axis), high(*b, axis)));
+            let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+            high - low
+        };
+        let open = (0..3).filter(|axis| ends[*axis].is_none());
+        let axis = open.max_by(|a, b| length(*a).total_cmp(&length(*b)));
+        if let Some(axis) = axis {
+            order.sort_by(|a, b| low(*a, axis).total_cmp(&low(*b, axis)));
+        }
+        self.near.clear();
+        for (k, &b) in order.iter().enumerate() {
+            let reach = axis.map_or(f64::INFINITY, |axis| high(b, axis) + margin);
+            let others = order[k + 1..].iter().take_while(|c| axis.is_none_or(|axis| low(**c, axis) <= reach));
+            let near = others.filter(|c| gap(&bounds[b as usize], &bounds[**c as usize], ends) <= margin);
+            self.near.extend(near.map(|&c| [b, c]));
+        }
     }
 
     /// How far any wall has moved since the search, at most, seen from the grains [m]. An endless wall that turns into itself has
@@ -140,4 +157,34 @@ fn gap(a: &Bounds, b: &Bounds, ends: &PeriodicBounds) -> f64 {
         squared += (apart - a.half[axis] - b.half[axis]).max(0.0).powi(2);
     }
     squared.sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The sweep finds the pairs that all pairs would; with too short a reach it would not.
+    #[test]
+    fn near_blocks_are_those_of_all_pairs() {
+        for periodic in [[false; 3], [true, false, false], [true, true, true]] {
+            let ends: PeriodicBounds = periodic.map(|wraps| wraps.then_some([0.0, 10.0]));
+            // Numbers that look random: multiples of the golden ratio.
+            let number = |k: usize| 10.0 * (f64::from(k as u32) * 0.618_033_988_749_895).fract();
+            let bounds: Vec<Bounds> = (0..300)
+                .map(|k| Bounds {
+                    centre: DVec3::new(number(6 * k), number(6 * k + 1), 2.0 * number(6 * k + 2)),
+                    half: 0.05 * DVec3::new(number(6 * k + 3), number(6 * k + 4), number(6 * k + 5)),
+                })
+                .collect();
+            let (mut drifts, margin) = (Drifts::default(), 0.3);
+            drifts.find_near(&bounds, margin, &ends);
+            let mut found: Vec<[u32; 2]> = drifts.near.iter().map(|[b, c]| [*b.min(c), *b.max(c)]).collect();
+            found.sort_unstable();
+            let all = (0..300u32).flat_map(|b| (b + 1..300).map(move |c| [b, c]));
+            let near = all.filter(|[b, c]| gap(&bounds[*b as usize], &bounds[*c as usize], &ends) <= margin);
+            let near: Vec<[u32; 2]> = near.collect();
+            assert!(near.len() > 100);
+            assert_eq!(found, near);
+        }
+    }
 }
