@@ -282,3 +282,28 @@ fn cuts(costs: &[f64], ranks: usize) -> Vec<usize> {
     cuts.resize(ranks + 1, costs.len());
     cuts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Work of the busiest of two ranks over the mean.
+    fn imbalance(costs: &[f64], cuts: &[usize]) -> f64 {
+        let of = |k: usize| costs[cuts[k]..cuts[k + 1]].iter().sum::<f64>();
+        2.0 * of(0).max(of(1)) / (of(0) + of(1))
+    }
+
+    /// A hopper that has emptied on one side: as many blocks for each rank would leave one of them waiting.
+    #[test]
+    fn cuts_follow_what_blocks_cost() {
+        let costs: Vec<f64> = (0..40).map(|block| cost(if block < 20 { 3 * BLOCK } else { 0 })).collect();
+        assert!(imbalance(&costs, &cuts(&costs, 2)) < 1.05);
+        assert!(imbalance(&costs, &[0, 20, 40]) > 1.5);
+    }
+
+    #[test]
+    fn more_ranks_than_blocks_leave_some_without() {
+        assert_eq!(cuts(&[1.0, 1.0], 4), [0, 0, 1, 1, 2]);
+        assert_eq!(cuts(&[], 2), [0, 0, 0]);
+    }
+}
