@@ -1,7 +1,8 @@
 //! Claims that no wrong model is known to be refused by, and why: a list that may only become shorter.
 
 /// The case is long.
-const WRITTEN: &str = "the wrong models that the case runs since are refused where they are run by themselves: it is to be kept again";
+const WRITTEN: &str =
+    "the wrong models that the case runs since are refused where they are run by themselves: it is to be kept again";
 
 /// They roll without a loss.
 const ROLLS: &str = "it rolls without a loss: gravity and motion are all that its books hold, and no mutation touches one without the other";
