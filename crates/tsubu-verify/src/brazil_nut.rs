@@ -13,9 +13,9 @@ const SHAKES: [f64; 2] = [90.0, 150.0];
 /// Grains that the control follows: those that the lowest row has at the start.
 const LOWEST: usize = 19;
 
-/// A box of 20 diameters, shaken as a whole, so that its walls drag the bed into rolls; one grain of its own size begins at the
-/// middle of the floor.
-fn bed(size: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
+/// A box of 20 diameters, shaken as a whole, so that its walls drag the bed into rolls; one grain of its own size begins in the
+/// middle at a height, on the floor as a rule.
+fn bed(size: f64, height: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
     let text = format!(
         r#"
         title = "one large grain in a shaken bed"
@@ -41,7 +41,6 @@ fn bed(size: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
         "#,
         // Discs of one density.
         mass = size * size,
-        height = 0.5 * size + 0.02,
         above = size + 0.04,
         frequency = 1.0 / period(),
         law = law(5e3, 0.5, 0.6),
@@ -49,9 +48,19 @@ fn bed(size: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
     Rig::new(&text, perturbation)
 }
 
+/// Height of the centre of a grain on the floor.
+fn on_floor(size: f64) -> f64 {
+    0.5 * size + 0.02
+}
+
 /// Of a shake, in sqrt(d/g).
 fn period() -> f64 {
     std::f64::consts::TAU / SHAKEN.sqrt()
+}
+
+/// Of every grain.
+fn all_heights(rig: &Rig) -> Vec<f64> {
+    rig.vectors("position").iter().map(|p| p.z).collect()
 }
 
 /// Mean height of grains over that of all: at the start, and in the mean over the looks.
@@ -61,13 +70,13 @@ fn heights(
     perturbation: f64,
     followed: impl Fn(&[f64]) -> Vec<usize>,
 ) -> Result<[f64; 2], String> {
-    let mut rig = bed(size, seed, perturbation)?;
-    let height = |rig: &Rig| rig.vectors("position").iter().map(|p| p.z).collect::<Vec<_>>();
-    let start = height(&rig);
+    let mut rig = bed(size, on_floor(size), seed, perturbation)?;
+    let start = all_heights(&rig);
     let grains = followed(&start);
     let over = |z: &[f64]| grains.iter().map(|&i| z[i]).sum::<f64>() / grains.len() as f64 / mean(z).0;
-    let looks =
-        sampled(&mut rig, [SHAKES[0] * period(), SHAKES[1] * period(), 0.25 * period()], |rig| over(&height(rig)))?;
+    let looks = sampled(&mut rig, [SHAKES[0] * period(), SHAKES[1] * period(), 0.25 * period()], |rig| {
+        over(&all_heights(rig))
+    })?;
     Ok([over(&start), mean(&looks).0])
 }
 
@@ -100,6 +109,9 @@ pub(super) fn brazil_nut(perturbation: f64) -> Result<Vec<Claim>, String> {
     let name = "shaken bed, the 19 lowest of equal grains: height over the bed's mean after 90 shakes";
     claims.push(within(name, control[1], 1.0, 0.25, source));
     claims.push(refused("a grain of 4 diameters for equal ones", &[within(name, highest, 1.0, 0.25, source)], 1));
+    let on_top = all_heights(&bed(4.0, 40.0, 1, perturbation)?);
+    let above = rises("", [on_top[0] / mean(&on_top).0, f64::NAN]);
+    claims.push(refused("the grain above the bed at the start", &above[..1], 1));
     claims.push(refused("the grain no larger than the others", &rises("", control)[1..], 1));
     Ok(claims)
 }

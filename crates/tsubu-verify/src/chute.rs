@@ -188,18 +188,19 @@ impl Flow {
         counts.into_iter().map(|n| n / mean).fold([f64::MAX, 0.0], |r, n| [r[0].min(n), r[1].max(n)])
     }
 
-    /// Inertial number, shear rate times diameter over the root of pressure over density, in the lower and the upper half
-    /// of the bulk. The pressure is the weight above.
-    fn inertial(&self) -> [f64; 2] {
+    /// Inertial number, shear rate times diameter over the root of pressure over density, in the upper half of the bulk over that
+    /// in the lower. The pressure is the weight above.
+    fn inertial_ratio(&self) -> f64 {
         let (low, high) = (EDGE, self.height() - EDGE);
         let middle = 0.5 * (low + high);
-        [[low, middle], [middle, high]].map(|[from, to]| {
+        let [lower, upper] = [[low, middle], [middle, high]].map(|[from, to]| {
             let third = (to - from) / 3.0;
             let rate = (self.between(to - third, to).1 - self.between(from, from + third).1) / (2.0 * third);
             let above = self.between(0.5 * (from + to), f64::MAX).0 / self.samples.len() as f64;
             let pressure = above * self.degrees.to_radians().cos() / (LENGTH * WIDE);
             rate / (pressure * std::f64::consts::PI / 6.0).sqrt()
-        })
+        });
+        upper / lower
     }
 
     /// The gates, for a flow that is right and for wrong ones.
@@ -222,45 +223,71 @@ impl Flow {
             within(name("mean speed over surface speed"), self.speed() / top, 0.6, 0.06, profile),
             Claim::judge(name("least density of a slab"), least, Some(0.95), None, bulk),
             Claim::judge(name("largest density of a slab"), largest, None, Some(1.05), bulk),
+            within(
+                name("inertial number of the upper half of the bulk over the lower"),
+                self.inertial_ratio(),
+                1.0,
+                0.1,
+                own("mu(I): one slope, one inertial number at every depth").after(),
+            ),
         ]
     }
+
+    /// The gate for a layer at rest.
+    fn rests(&self) -> Claim {
+        let source = own("Silbert et al. 2001: flow from 19.5 to 26 degrees").after();
+        within(format!("chute at {} degrees: speed", self.degrees), self.speed(), 0.0, 1e-3, source)
+    }
+}
+
+/// The gate for a steeper flow, and a gentler one.
+fn quicker(steep: &Flow, gentle: &Flow) -> Claim {
+    let source = own("Silbert et al. 2001: flow from 19.5 to 26 degrees").after();
+    let name = format!("chute: speed at {} over speed at {} degrees", steep.degrees, gentle.degrees);
+    Claim::judge(name, steep.speed() / gentle.speed(), Some(1.2), None, source)
+}
+
+/// The gate for a higher flow, and a lower one.
+fn grows(high: &Flow, low: &Flow) -> Claim {
+    let source = closed_form("mean speed grows with height to the power 3/2; 1 for a plug, 2 for a viscous liquid");
+    let exponent = (high.speed() / low.speed()).ln() / (high.thickness() / low.thickness()).ln();
+    let name = format!(
+        "chute at {} degrees: exponent of the height in the speed, {:.0} to {:.0} layers",
+        high.degrees, low.layers, high.layers
+    );
+    within(name, exponent, 1.5, 0.25, source)
 }
 
 /// V-36: at rest below, steady flow of constant density with Bagnold's profile above the angle of repose.
 pub(super) fn silbert(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let source = own("Silbert et al. 2001: flow from 19.5 to 26 degrees").after();
     let base = base(perturbation)?;
     let slope = |degrees: f64, layers: f64, start: f64| Slope { degrees, layers, friction: 0.5, base: &base, start };
     let still = slope(17.0, 12.0, 1.0).flow([200.0, 220.0], perturbation)?;
-    let mut claims = vec![within("chute at 17 degrees: speed", still.speed(), 0.0, 1e-3, source)];
+    let mut claims = vec![still.rests()];
     let gentle = slope(22.0, 24.0, 5.0).flow([250.0, 450.0], perturbation)?;
     let steep = slope(25.0, 24.0, 12.0).flow([250.0, 450.0], perturbation)?;
-    for flow in [&gentle, &steep] {
-        claims.extend(flow.gates());
-        let [lower, upper] = flow.inertial();
-        let name =
-            format!("chute at {} degrees: inertial number of the upper half of the bulk over the lower", flow.degrees);
-        let source = own("mu(I): one slope, one inertial number at every depth").after();
-        claims.push(within(name, upper / lower, 1.0, 0.1, source));
-    }
-    let name = "chute: speed at 25 over speed at 22 degrees";
-    claims.push(Claim::judge(name, steep.speed() / gentle.speed(), Some(1.2), None, source));
+    claims.extend(gentle.gates());
+    claims.extend(steep.gates());
+    claims.push(quicker(&steep, &gentle));
     let thin = slope(25.0, 12.0, 5.0).flow([200.0, 400.0], perturbation)?;
     let thick = slope(25.0, 40.0, 25.0).flow([400.0, 600.0], perturbation)?;
-    let source = closed_form("mean speed grows with height to the power 3/2; 1 for a plug, 2 for a viscous liquid");
-    for [low, high] in [[&thin, &steep], [&steep, &thick]] {
-        let exponent = (high.speed() / low.speed()).ln() / (high.thickness() / low.thickness()).ln();
-        let name = format!(
-            "chute at 25 degrees: exponent of the height in the speed, {:.0} to {:.0} layers",
-            low.layers, high.layers
-        );
-        claims.push(within(name, exponent, 1.5, 0.25, source));
-    }
+    claims.extend([grows(&steep, &thin), grows(&thick, &steep)]);
     let name = "chute at 25 degrees, 40 layers: speed in the first half of the time over that of all";
     claims.push(within(name, thick.early() / thick.speed(), 1.0, 0.1, own("steady").after()));
+    claims.push(refused("chute, a slope below the angle of repose", &still.gates()[..1], 1));
     let smooth = Slope { base: &[], ..slope(22.0, 12.0, 5.0) }.flow([50.0, 150.0], 1.0)?;
     claims.push(refused("chute, a base that is a plane", &smooth.gates(), 1));
     let slippery = Slope { friction: 0.0, ..slope(22.0, 12.0, 5.0) }.flow([50.0, 150.0], 1.0)?;
     claims.push(refused("chute, grains without friction", &slippery.gates(), 1));
+    claims.push(refused("chute, grains without friction on a plane", &slides()?, 3));
     Ok(claims)
+}
+
+/// What nothing holds back: it slides at 17 degrees, at 25 hardly faster than at 22, and in a high layer as in a low one.
+fn slides() -> Result<[Claim; 3], String> {
+    let slide = |degrees: f64, layers: f64| {
+        Slope { degrees, layers, friction: 0.0, base: &[], start: 5.0 }.flow([20.0, 60.0], 1.0)
+    };
+    let [below, gentle, steep] = [slide(17.0, 12.0)?, slide(22.0, 12.0)?, slide(25.0, 12.0)?];
+    Ok([below.rests(), quicker(&steep, &gentle), grows(&slide(25.0, 24.0)?, &steep)])
 }

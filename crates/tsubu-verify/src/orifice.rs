@@ -2,7 +2,7 @@
 
 use super::beds::{law, mean};
 use super::bench::{Rig, within};
-use super::control::refused_number;
+use super::control::{refused, refused_number};
 use super::outlet::Fit;
 use crate::origin::{own, remembered};
 use glam::DVec3;
@@ -12,9 +12,8 @@ use tsubu_frame::Claim;
 const STARTS: f64 = 4.0;
 /// Grains a unit of volume.
 const PACKED: f64 = 1.1;
-/// Radius of the silo, and height of its bed at the begin and at the end of counting, over the width of the hole.
+/// Radius of the silo over the width of the hole.
 const SILO: f64 = 1.25;
-const HEIGHTS: [f64; 2] = [2.0, 1.2];
 /// Mean volume of a grain: that of diameter 1 times 1 + 3 times the variance of the diameters.
 const VOLUME: f64 = std::f64::consts::PI / 6.0 * 1.0225;
 /// Not counted for the density next to the side, the floor and the surface.
@@ -25,6 +24,25 @@ const SPANS: usize = 6;
 /// Width of a hole, and how many silos with it.
 const HOLES: [(f64, u32); 5] = [(6.0, 3), (8.0, 1), (10.0, 1), (14.0, 1), (20.0, 1)];
 
+/// What is in a silo.
+#[derive(Clone, Copy)]
+struct Bed {
+    /// Mean diameter of its grains.
+    grain: f64,
+    /// Height at the begin and at the end of counting, over the width of the hole.
+    heights: [f64; 2],
+}
+
+const HIGH: Bed = Bed { grain: 1.0, heights: [2.0, 1.2] };
+
+impl Bed {
+    /// Grains in a silo of this hole at the begin or at the end.
+    fn count(&self, hole: f64, end: usize) -> usize {
+        let area = std::f64::consts::PI * (SILO * hole).powi(2);
+        (self.heights[end] * hole * area * PACKED / self.grain.powi(3)) as usize
+    }
+}
+
 /// When a hole opens: the bed has come to rest. The larger the silo the higher grains fall from, and the time of a fall grows
 /// with the root of the height.
 fn opens(hole: f64) -> f64 {
@@ -32,9 +50,8 @@ fn opens(hole: f64) -> f64 {
 }
 
 /// A flat-bottomed cylinder 2.5 holes wide. Its hole is closed by a plate that vanishes; grains below it vanish.
-fn silo(hole: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
+fn silo(hole: f64, bed: &Bed, seed: u32) -> Result<Rig, String> {
     let radius = SILO * hole;
-    let area = std::f64::consts::PI * radius * radius;
     let text = format!(
         r#"
         title = "a silo that empties through a hole"
@@ -46,7 +63,7 @@ fn silo(hole: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
         [particles.grains]
         material = "grain"
         count = {count}
-        size.uniform = {{ smallest = 0.85, largest = 1.15 }}
+        size.uniform = {{ smallest = {smallest}, largest = {largest} }}
         mass = 1
         start.random.region = {{ low = [-{radius}, -{radius}, 0.1], high = [{radius}, {radius}, {top}] }}
         [walls.side]
@@ -63,13 +80,15 @@ fn silo(hole: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
         behind = {{ point = [0, 0, -3], normal = [0, 0, 1] }}
         "#,
         law = law(5e3, 0.5, 0.5),
-        count = (HEIGHTS[0] * hole * area * PACKED) as u32,
+        count = bed.count(hole, 0),
+        smallest = 0.85 * bed.grain,
+        largest = 1.15 * bed.grain,
         // Random places fill a quarter of the room.
-        top = 2.4 * HEIGHTS[0] * hole,
+        top = 2.4 * bed.heights[0] * hole,
         half = 0.5 * hole,
         opens = opens(hole),
     );
-    Rig::new(&text, perturbation)
+    Rig::new(&text, 1.0)
 }
 
 /// A silo that has emptied.
@@ -80,13 +99,12 @@ struct Run {
     rates: Vec<f64>,
 }
 
-fn run(hole: f64, seed: u32, perturbation: f64) -> Result<Run, String> {
-    let mut rig = silo(hole, seed, perturbation)?;
+fn run(hole: f64, bed: &Bed, seed: u32) -> Result<Run, String> {
+    let mut rig = silo(hole, bed, seed)?;
     rig.until(opens(hole))?;
     let density = density(&rig.vectors("position"), SILO * hole);
     rig.until(opens(hole) + STARTS)?;
-    let area = std::f64::consts::PI * (SILO * hole).powi(2);
-    let (first, last) = (rig.engine.grains(), (HEIGHTS[1] * hole * area * PACKED) as usize);
+    let (first, last) = (rig.engine.grains(), bed.count(hole, 1));
     let (mut count, mut time) = (first, rig.engine.time());
     let mut rates = Vec::new();
     for span in 1..=SPANS {
@@ -128,9 +146,21 @@ fn gates(fit: &Fit) -> [Claim; 2] {
 
 /// V-31, in space: rate^(2/5) is straight in the width of the hole, zero at k d, and does not know the height.
 pub(super) fn beverloo(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let (mut claims, points) = discharge(&HOLES, &HIGH, perturbation)?;
+    claims.push(refused_number("hole, the whole width without k d", &gates(&Fit::of(&points, 2.5, 0.0))[1..], 1));
+    claims.push(refused_number("hole, the exponent 3/2 of slots", &gates(&Fit::of(&points, 1.5, 1.4))[..1], 1));
+    let (coarse, _) = discharge(&[(8.0, 1), (10.0, 1), (14.0, 1)], &Bed { grain: 1.5, ..HIGH }, 1.0)?;
+    claims.push(refused("hole, grains half as large again, taken for those of diameter 1", &coarse, 2));
+    let (empty, _) = discharge(&[(8.0, 1), (10.0, 1)], &Bed { heights: [1.0, 0.4], ..HIGH }, 1.0)?;
+    claims.push(refused("hole, beds that run empty", &empty, 4));
+    Ok(claims)
+}
+
+/// What is claimed of holes of so many widths, each with so many silos; and `[D, W, error of W]`, which the fits are made of.
+fn discharge(holes: &[(f64, u32)], bed: &Bed, perturbation: f64) -> Result<(Vec<Claim>, Vec<[f64; 3]>), String> {
     let (mut points, mut claims, mut densities) = (Vec::new(), Vec::new(), Vec::new());
-    for (hole, silos) in HOLES {
-        let all = (1..=silos).map(|seed| run(hole, seed, 1.0)).collect::<Result<Vec<_>, _>>()?;
+    for &(hole, silos) in holes {
+        let all = (1..=silos).map(|seed| run(hole, bed, seed)).collect::<Result<Vec<_>, _>>()?;
         // Spans have equal numbers of grains, so it is times that are added.
         let times: Vec<f64> = all.iter().flat_map(|run| &run.rates).map(|rate| 1.0 / rate).collect();
         let (time, error) = mean(&times);
@@ -163,7 +193,5 @@ pub(super) fn beverloo(perturbation: f64) -> Result<Vec<Claim>, String> {
     claims.push(Claim::judge("hole: standard error of k", fit.end[1], None, Some(0.2), source));
     claims.push(Claim::judge("hole: standard error of the exponent", fit.exponent[1], None, Some(0.05), source));
     claims.push(Claim::judge("hole: standard error of that C", fit.constant[1] / density, None, Some(0.03), source));
-    claims.push(refused_number("hole, the whole width without k d", &gates(&Fit::of(&points, 2.5, 0.0))[1..], 1));
-    claims.push(refused_number("hole, the exponent 3/2 of slots", &gates(&Fit::of(&points, 1.5, 1.4))[..1], 1));
-    Ok(claims)
+    Ok((claims, points))
 }

@@ -2,7 +2,7 @@
 
 use super::beds::{law, line, mean};
 use super::bench::{Rig, within};
-use super::control::refused_number;
+use super::control::{refused, refused_number};
 use crate::origin::{own, remembered};
 use std::fmt::Write;
 use tsubu_frame::Claim;
@@ -19,16 +19,36 @@ const SPANS: usize = 6;
 /// Width of a slot, and how many silos with it: as many as it takes for about 3000 grains or more.
 const SLOTS: [(f64, u32); 5] = [(6.0, 6), (8.0, 4), (10.0, 3), (14.0, 2), (20.0, 1)];
 
-/// A flat-bottomed silo, four slots wide and higher than wide. Its slot, between frozen grains, is closed by a plate that falls
+/// What is in a silo.
+#[derive(Clone, Copy)]
+struct Bed {
+    /// Mean diameter of its grains.
+    grain: f64,
+    /// Height at the begin and at the end of counting: so many widths of the slot, and so many diameters more.
+    heights: [[f64; 2]; 2],
+}
+
+/// Always higher than two slots, which the law asks for.
+const HIGH: Bed = Bed { grain: 1.0, heights: [[4.0, 20.0], [2.0, 10.0]] };
+
+impl Bed {
+    /// Grains in a silo of this slot at the begin or at the end.
+    fn count(&self, slot: f64, end: usize) -> usize {
+        let [slots, more] = self.heights[end];
+        (4.0 * slot * (slots * slot + more) * PACKED / self.grain.powi(2)) as usize
+    }
+}
+
+/// A flat-bottomed silo, four slots wide. Its slot, between frozen grains, is closed by a plate that falls
 /// away faster than grains do; grains below it vanish.
-fn silo(slot: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
+fn silo(slot: f64, bed: &Bed, seed: u32) -> Result<Rig, String> {
     let half = 2.0 * slot;
     let mut floor = String::new();
     for i in 0..(half - 0.5 * slot) as u32 {
         let x = 0.5 * slot + 0.5 + f64::from(i);
         let _ = write!(floor, "[{x}, 0], [-{x}, 0],");
     }
-    let high = 2.0 * half + 20.0;
+    let [slots, more] = bed.heights[0];
     let text = format!(
         r#"
         title = "a silo that empties through a slot"
@@ -45,7 +65,7 @@ fn silo(slot: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
         [particles.b-grains]
         material = "grain"
         count = {count}
-        size.uniform = {{ smallest = 0.85, largest = 1.15 }}
+        size.uniform = {{ smallest = {smallest}, largest = {largest} }}
         mass = 1
         start.rows = {{ spacing = 1.01, jitter = 0.5, region = {{ low = [-{half}, 0.6], high = [{half}, {top}] }} }}
         [walls.plate]
@@ -62,22 +82,24 @@ fn silo(slot: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
         behind = {{ point = [0, -5], normal = [0, 1] }}
         "#,
         law = law(5e3, 0.5, 0.5),
-        count = (2.0 * half * high * PACKED) as u32,
-        top = 1.5 * high + 3.0,
+        count = bed.count(slot, 0),
+        smallest = 0.85 * bed.grain,
+        largest = 1.15 * bed.grain,
+        top = 1.5 * (slots * slot + more) + 3.0,
         gone = OPENS + 5.0,
     );
-    Rig::new(&text, perturbation)
+    Rig::new(&text, 1.0)
 }
 
-/// Grains a unit of time in spans of equal numbers of grains, while the bed sinks to half the silo's width.
-fn rates(slot: f64, seed: u32, perturbation: f64) -> Result<Vec<f64>, String> {
-    let mut rig = silo(slot, seed, perturbation)?;
+/// Grains a unit of time in spans of equal numbers of grains, while the bed sinks.
+fn rates(slot: f64, bed: &Bed, seed: u32) -> Result<Vec<f64>, String> {
+    let mut rig = silo(slot, bed, seed)?;
     rig.until(STEADY)?;
-    let (first, last) = (rig.engine.grains(), (4.0 * slot * (2.0 * slot + 10.0) * PACKED) as usize);
+    let (first, last) = (rig.engine.grains(), bed.count(slot, 1));
     let (mut count, mut time) = (first, rig.engine.time());
     let mut found = Vec::new();
     for span in 1..=SPANS {
-        let target = first - (first - last) * span / SPANS;
+        let target = first - first.saturating_sub(last) * span / SPANS;
         while rig.engine.grains() > target {
             if rig.engine.time() > 500.0 {
                 return Err(format!("the slot of {slot} d is blocked"));
@@ -143,9 +165,23 @@ fn with_error(points: &[[f64; 3]], make: impl Fn(&[[f64; 3]]) -> f64) -> [f64; 2
 
 /// V-31, in the plane: rate^(2/3) is straight in the width of the slot, zero at k d, and does not know the height.
 pub(super) fn beverloo(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let (mut claims, points) = discharge(&SLOTS, &HIGH, perturbation)?;
+    claims.push(refused_number("slot, the whole width without k d", &Fit::of(&points, 1.5, 0.0).claims()[1..], 1));
+    claims.push(refused_number("slot, the exponent 5/2 of round holes", &Fit::of(&points, 2.5, 1.4).claims()[..1], 1));
+    let wide = [(10.0, 1), (14.0, 1), (20.0, 1)];
+    let (coarse, _) = discharge(&wide, &Bed { grain: 1.5, ..HIGH }, 1.0)?;
+    claims.push(refused("slot, grains half as large again", &coarse, 2));
+    let shallow = Bed { grain: 1.0, heights: [[1.2, 0.0], [0.6, 0.0]] };
+    let (empty, _) = discharge(&wide, &shallow, 1.0)?;
+    claims.push(refused("slot, beds that run empty", &empty, 4));
+    Ok(claims)
+}
+
+/// What is claimed of slots of so many widths, each with so many silos; and `[D, W, error of W]`, which the fits are made of.
+fn discharge(slots: &[(f64, u32)], bed: &Bed, perturbation: f64) -> Result<(Vec<Claim>, Vec<[f64; 3]>), String> {
     let (mut points, mut claims) = (Vec::new(), Vec::new());
-    for (slot, silos) in SLOTS {
-        let all = (1..=silos).map(|seed| rates(slot, seed, 1.0)).collect::<Result<Vec<_>, _>>()?;
+    for &(slot, silos) in slots {
+        let all = (1..=silos).map(|seed| rates(slot, bed, seed)).collect::<Result<Vec<_>, _>>()?;
         // Spans have equal numbers of grains, so it is times that are added.
         let times: Vec<f64> = all.iter().flatten().map(|rate| 1.0 / rate).collect();
         let (time, error) = mean(&times);
@@ -171,7 +207,5 @@ pub(super) fn beverloo(perturbation: f64) -> Result<Vec<Claim>, String> {
     let source = own("half of what the claim allows; not a reference").after();
     claims.push(Claim::judge("slot: standard error of k", fit.end[1], None, Some(0.2), source));
     claims.push(Claim::judge("slot: standard error of the exponent", fit.exponent[1], None, Some(0.05), source));
-    claims.push(refused_number("slot, the whole width without k d", &Fit::of(&points, 1.5, 0.0).claims()[1..], 1));
-    claims.push(refused_number("slot, the exponent 5/2 of round holes", &Fit::of(&points, 2.5, 1.4).claims()[..1], 1));
-    Ok(claims)
+    Ok((claims, points))
 }

@@ -74,10 +74,10 @@ fn filled(semi_axes: [f64; 3], friction: f64, seed: u64) -> Result<[f64; 1], Str
     Ok([sum / (4.0 * HALF * HALF * (high - low))])
 }
 
-/// Three beds.
+/// Five beds.
 fn beds(semi_axes: [f64; 3], friction: f64) -> Result<Ensemble, String> {
     let of = format!("{semi_axes:?}, friction {friction}");
-    let [filled] = ensemble::members(&of, 1..=3, |seed| filled(semi_axes, friction, seed))?;
+    let [filled] = ensemble::members(&of, 1..=5, |seed| filled(semi_axes, friction, seed))?;
     Ok(filled)
 }
 
@@ -97,7 +97,7 @@ fn gate(semi_axes: [f64; 3], friction: f64) -> Result<Claim, String> {
 pub(super) fn ellipsoids(_: f64) -> Result<Vec<Claim>, String> {
     let all = |friction: f64| [SPHERE, [1.5, 1.0, 1.0], [1.25, 1.0, 0.8]].map(|axes| gate(axes, friction));
     let mut claims = all(0.0).into_iter().collect::<Result<Vec<_>, _>>()?;
-    let rough = all(0.5).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let rough = all(1.0).into_iter().collect::<Result<Vec<_>, _>>()?;
     claims.push(refused("bodies that rub", &rough, 3));
     Ok(claims)
 }

@@ -119,11 +119,11 @@ pub static CASES: &[Case] = &[
     case("pushed-plate", "cl-ca-2001", 2, "a plate pushed into a bed", cl_ca_2001::plate),
     case("cl-ca-invariants", "cl-ca-2001", 2, "what holds after every step", cl_ca_2001::invariants),
     case("turning", "cl-ca-2001", 1, "the collapse of triangles that may turn", cl_ca_2001::turning),
-    gap(case("plate-twin", "cl-ca-2001", 10, "the network of the plate beside forces of DEM", cl_ca_2001::plate_twin)),
+    gap(case("plate-twin", "cl-ca-2001", 60, "the network of the plate beside forces of DEM", cl_ca_2001::plate_twin)),
     gap(case(
         "collapse-twin",
         "cl-ca-2001",
-        10,
+        30,
         "the same by DEM, and what both cost (figures 9 to 11)",
         cl_ca_2001::twin,
     )),

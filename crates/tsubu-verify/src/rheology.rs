@@ -25,9 +25,26 @@ fn published(inertial: f64) -> [f64; 2] {
     [0.25 + 1.1 * inertial, 0.81 - 0.3 * inertial]
 }
 
+/// What flows, and when it is looked at.
+#[derive(Clone, Copy)]
+struct Run {
+    degrees: f64,
+    friction: f64,
+    /// Speed at the begin over about that of the steady flow.
+    begins: f64,
+    looked: [f64; 2],
+}
+
+impl Run {
+    fn steady(degrees: f64, friction: f64) -> Self {
+        Self { degrees, friction, begins: 1.0, looked: LOOKED }
+    }
+}
+
 /// Discs of the published study (a fifth larger or smaller, friction 0.4, restitution 0.1) on a row of frozen ones with gaps. They
-/// begin with about the profile that they will have.
-fn slope(degrees: f64, friction: f64, perturbation: f64) -> Result<Rig, String> {
+/// begin with a profile like that which they will have.
+fn slope(run: &Run, perturbation: f64) -> Result<Rig, String> {
+    let Run { degrees, friction, begins, .. } = *run;
     let (sin, cos) = degrees.to_radians().sin_cos();
     let mut groups = String::new();
     let (sheets, high) = (4, LAYERS * 2.2 / 4.0);
@@ -46,7 +63,7 @@ fn slope(degrees: f64, friction: f64, perturbation: f64) -> Result<Rig, String> 
             start.random = {{ velocity = [{along}, 0], speed = 0.3, region = {{ low = [0, {low}], high = [{LENGTH}, {top}] }} }}
             "#,
             count = (LENGTH * LAYERS / f64::from(sheets)) as u32,
-            along = 2.0 / 3.0 * inertial * LAYERS.powf(1.5) * (1.0 - (1.0 - middle).powf(1.5)),
+            along = begins * 2.0 / 3.0 * inertial * LAYERS.powf(1.5) * (1.0 - (1.0 - middle).powf(1.5)),
             top = low + high,
         );
     }
@@ -89,10 +106,11 @@ struct Flow {
 }
 
 impl Flow {
-    fn of(degrees: f64, friction: f64, perturbation: f64) -> Result<Self, String> {
-        let mut rig = slope(degrees, friction, perturbation)?;
+    fn of(run: &Run, perturbation: f64) -> Result<Self, String> {
+        let degrees = run.degrees;
+        let mut rig = slope(run, perturbation)?;
         let radii = scalars(&rig.frame(), Kind::Grain, "radius");
-        let samples = sampled(&mut rig, [LOOKED[0], LOOKED[1], 0.5], |rig| {
+        let samples = sampled(&mut rig, [run.looked[0], run.looked[1], 0.5], |rig| {
             let grains = rig.vectors("position").into_iter().zip(rig.vectors("velocity")).zip(&radii).skip(BASE);
             grains.map(|((p, v), r)| [p.z, v.x, *r]).collect::<Vec<_>>()
         })?;
@@ -149,19 +167,31 @@ impl Flow {
     }
 }
 
-/// V-35: four slopes lie on the published straight lines, which are those of flows sheared under a constant pressure.
-pub(super) fn friction(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let flows = SLOPES.map(|degrees| Flow::of(degrees, 0.4, perturbation));
-    let flows = flows.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let mut claims: Vec<Claim> = Vec::new();
-    for flow in &flows {
-        claims.extend(flow.gates());
-    }
+/// The gates of the straight line through flows.
+fn straight(flows: &[Flow]) -> [Claim; 2] {
     let (steep, rest) = line(&flows.iter().map(|f| (f.inertial, f.friction())).collect::<Vec<_>>());
     let source = remembered("da Cruz et al. 2005: mu = 0.25 + 1.1 I");
-    claims.push(within("discs: friction at I = 0", rest, 0.25, 0.03, source));
-    claims.push(within("discs: rise of the friction with I", steep, 1.1, 0.25, source));
-    let slippery = Flow::of(20.0, 0.0, perturbation)?;
+    [
+        within("discs: friction at I = 0", rest, 0.25, 0.03, source),
+        within("discs: rise of the friction with I", steep, 1.1, 0.25, source),
+    ]
+}
+
+/// V-35: four slopes lie on the published straight lines, which are those of flows sheared under a constant pressure.
+pub(super) fn friction(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let flows = |runs: &[Run], perturbation: f64| {
+        runs.iter().map(|run| Flow::of(run, perturbation)).collect::<Result<Vec<_>, _>>()
+    };
+    let all = flows(&SLOPES.map(|degrees| Run::steady(degrees, 0.4)), perturbation)?;
+    let mut claims: Vec<Claim> = all.iter().flat_map(Flow::gates).collect();
+    claims.extend(straight(&all));
+    let slippery = Flow::of(&Run::steady(20.0, 0.0), perturbation)?;
     claims.push(refused("discs without friction, 20 degrees", &slippery.gates(), 1));
+    let slippery = [10.0, 16.0].map(|degrees| Run { looked: [60.0, 120.0], ..Run::steady(degrees, 0.0) });
+    claims.push(refused("discs without friction", &straight(&flows(&slippery, 1.0)?)[..1], 1));
+    let quickening = [20.0, 24.0].map(|degrees| Run { begins: 0.0, looked: [5.0, 25.0], ..Run::steady(degrees, 0.4) });
+    let quickening = flows(&quickening, 1.0)?;
+    let gates = [quickening[0].gates()[3..].to_vec(), straight(&quickening)[1..].to_vec()].concat();
+    claims.push(refused("discs that begin at rest, while they quicken", &gates, 2));
     Ok(claims)
 }

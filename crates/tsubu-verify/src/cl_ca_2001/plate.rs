@@ -82,46 +82,70 @@ fn scatter(loads: &[f64]) -> f64 {
     (loads.iter().map(|load| (load - mean).powi(2)).sum::<f64>() / n).sqrt() / mean
 }
 
-/// C-x4 beside DEM: the forces of a bed of discs into which the same plate has been pushed as far.
-pub(in super::super) fn plate_twin(perturbation: f64) -> Result<Vec<Claim>, String> {
+/// The scene of the plate by a method, with changes; without a plate if `pressed` is false.
+fn bed(method: &str, pressed: bool, changes: &[String]) -> Result<Rig, String> {
     let text = include_str!("../../../../studies/cl-ca-2001/plate.toml");
-    let at = |method: &str, time: Option<f64>, contacts: Contacts| -> Result<Network, String> {
-        let changes = [format!("method={method}")];
-        let scene = Scene::parse("plate", text, Path::new("."), &changes).map_err(|c| c.to_string())?;
-        let mut plan = scene.plan().clone();
-        if perturbation != 1.0 {
-            plan.particles.retain(|name, _| name != "plate");
-            plan.cl_ca.rule = tsubu_scene::plan::ClCaRule::Passive;
-        }
-        let mut rig = Rig::of(plan, 1.0)?;
-        if let Some(time) = time {
-            rig.until(time)?;
-        } else {
-            // A settled bed of discs is lower: 20 ms after the plate has met it.
-            rig.until(0.3)?;
-            while !met(&rig) && rig.engine.time() < 1.7 {
-                rig.until(rig.engine.time() + 1e-3)?;
-            }
-            rig.until(rig.engine.time() + 0.02)?;
-        }
-        Ok(network(&rig, contacts))
-    };
-    let lattice = at("cl-ca", Some(PUSHED), Contacts::Places)?;
-    let discs = at("dem", None, Contacts::Forces)?;
+    let changes: Vec<String> = changes.iter().cloned().chain([format!("method={method}")]).collect();
+    let scene = Scene::parse("plate", text, Path::new("."), &changes).map_err(|c| c.to_string())?;
+    let mut plan = scene.plan().clone();
+    if !pressed {
+        plan.particles.retain(|name, _| name != "plate");
+        plan.cl_ca.rule = tsubu_scene::plan::ClCaRule::Passive;
+    }
+    Rig::of(plan, 1.0)
+}
+
+/// The forces of a bed of discs into which the plate has been pushed for a time [s] since it met it, which is looked for from a time on:
+/// a settled bed is lower than one of hexagons.
+fn pushed_discs(pressed: bool, changes: &[String], from: f64, pushed: f64) -> Result<Network, String> {
+    let mut rig = bed("dem", pressed, changes)?;
+    rig.until(from)?;
+    while !met(&rig) && rig.engine.time() < 1.7 {
+        rig.until(rig.engine.time() + 1e-3)?;
+    }
+    rig.until(rig.engine.time() + pushed)?;
+    Ok(network(&rig, Contacts::Forces))
+}
+
+/// What the forces in a bed of discs look like.
+fn chains(discs: &Network) -> Vec<Claim> {
     let broad =
         own("forces of a pushed bed spread about as far as their mean (Radjai et al. 1996; Mueth et al. 1998)").after();
     let strong =
         own("forces above their mean run through chains, not through every grain (Radjai et al. 1996)").after();
-    let twin = own("the same plate, pushed 1 mm into discs by DEM; a third either way").after();
-    let alike = |name: &str, spread: f64| between(name, spread / scatter(&discs.loads), 0.67, 1.5, twin);
-    Ok(vec![
+    vec![
         between("DEM: spread of forces over their mean", scatter(&discs.loads), 0.6, 1.5, broad),
         between("DEM: share of grains with more than the mean force", discs.carry, 0.05, 0.9, strong),
         between("DEM: of those, share below the plate", discs.under, 0.37, 1.0, own("0.37 if all alike").after()),
+    ]
+}
+
+/// C-x4 beside DEM: the forces of a bed of discs into which the same plate has been pushed as far.
+pub(in super::super) fn plate_twin(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let pressed = perturbation == 1.0;
+    let mut hexagons = bed("cl-ca", pressed, &[])?;
+    hexagons.until(PUSHED)?;
+    let lattice = network(&hexagons, Contacts::Places);
+    // 1 mm at 50 mm/s.
+    let discs = pushed_discs(pressed, &[], 0.3, 0.02)?;
+    let twin = own("the same plate, pushed 1 mm into discs by DEM; a third either way").after();
+    let alike = |name: &str, spread: f64| between(name, spread / scatter(&discs.loads), 0.67, 1.5, twin);
+    let mut claims = chains(&discs);
+    claims.extend([
         alike("spread of loads, CL-CA over DEM", scatter(&lattice.loads)),
         refused_number("a network where all pairs carry alike", &[alike("", 0.0)], 1),
         between("share of grains that carry, CL-CA over DEM", lattice.carry / discs.carry, 0.67, 1.5, twin),
-    ])
+    ]);
+    let aside: Vec<String> = (0..9).map(|i| format!("['{} mm', '116 mm']", 2 + 3 * i)).collect();
+    let aside = format!("particles.plate.start.at.position=[{}]", aside.join(", "));
+    let deep = chains(&pushed_discs(true, &[aside], 0.3, 0.1)?);
+    claims.push(refused("a plate at the side, pushed 5 mm", &deep[2..], 1));
+    let weightless = chains(&pushed_discs(true, &["gravity=0".to_owned()], 0.3, 0.02)?);
+    claims.push(refused("discs without weight", &weightless[1..2], 1));
+    let quick = "particles.plate.motion.driven.signal.steady.rate='1 m/s'".to_owned();
+    let blow = chains(&pushed_discs(true, &[quick], 0.05, 0.0)?);
+    claims.push(refused("a blow of 1 m/s", &blow[..1], 1));
+    Ok(claims)
 }
 
 /// Whether a grain of the plate touches one of the bed.

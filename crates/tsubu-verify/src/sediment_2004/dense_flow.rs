@@ -21,6 +21,12 @@ const PAUSE: f64 = 0.02;
 const FOLLOWED: usize = 10;
 /// Layers, a diameter thick each.
 const LAYERS: usize = 24;
+/// The paper's stream, with a concentration of 0.3.
+const DRIVEN: [&str; 3] = [
+    "particles.b-sand.count=234",
+    "water.flow={log-law={depth='1.48 cm',zero-level='1.635 mm'}}",
+    "water.hindrance={none={}}",
+];
 /// The turbulence of a stream over a rough bed.
 const TURBULENT: &str = "water.fluctuation={strength=1.78,directions='stream'}";
 /// Speed of a layer over that of the fastest from which it flows.
@@ -115,14 +121,8 @@ pub(in super::super) fn dense_flow(perturbation: f64) -> Result<Vec<Claim>, Stri
         let name = format!("dense flow, {what}: way up and down in 0.2 s, upper half, diameters");
         Claim::judge(name, value, Some(1.0), None, source)
     };
-    let driven = flow(
-        &[
-            "particles.b-sand.count=234",
-            "water.flow={log-law={depth='1.48 cm',zero-level='1.635 mm'}}",
-            "water.hindrance={none={}}",
-        ],
-        perturbation,
-    )?;
+    let driven = flow(&DRIVEN, perturbation)?;
+    let driven_gently = flow(&[DRIVEN.as_slice(), &["slope='2 deg'"]].concat(), perturbation)?;
     let coupled = flow(&[], perturbation)?;
     let turbulent = flow(&[TURBULENT], perturbation)?;
     let gentle = flow(&["slope='2 deg'", TURBULENT], perturbation)?;
@@ -131,6 +131,11 @@ pub(in super::super) fn dense_flow(perturbation: f64) -> Result<Vec<Claim>, Stri
     let equal = |value: f64, what: &str, friction: f64| {
         let name = format!("dense flow, {what}: solid fraction over Takahashi's for {friction} degrees");
         within(name, value / takahashi(15.2, friction), 1.0, 0.25, printed("Takahashi 1978: 0.324 at 15.2 degrees"))
+    };
+    let faster = |driven: &Flow| {
+        let source = closed_form("grains slow a stream that hears of them");
+        let name = "dense flow: speed in the log law over that of the coupled stream";
+        Claim::judge(name, driven.speed / coupled.speed, Some(1.0), None, source)
     };
     let mut claims = vec![
         upper(driven.upper, "log law"),
@@ -143,14 +148,9 @@ pub(in super::super) fn dense_flow(perturbation: f64) -> Result<Vec<Claim>, Stri
         strong(turbulent.zigzag, "coupled and turbulent"),
         deep(turbulent.depth, "coupled and turbulent"),
         equal(turbulent.fraction, "coupled and turbulent", 38.0),
-        Claim::judge(
-            "dense flow: speed in the log law over that of the coupled stream",
-            driven.speed / coupled.speed,
-            Some(1.0),
-            None,
-            closed_form("grains slow a stream that hears of them"),
-        ),
+        faster(&driven),
     ];
+    claims.push(refused("the log law of a slope of 2 degrees", &[faster(&driven_gently)], 1));
     let wrong =
         [upper(gentle.upper, ""), strong(gentle.zigzag, ""), deep(gentle.depth, ""), equal(gentle.fraction, "", 38.0)];
     claims.push(refused("a slope of 2 degrees", &wrong, 2));
