@@ -36,7 +36,7 @@ impl WallShapes {
                     let overlap = normal.dot(shift) + radius - touch.nearest.distance;
                     if overlap > -reach {
                         let patch = wall.key(touch.element) + (corner as u32 + 1) * PLACES;
-                        self.found.push(WallShape { shift, overlap, patch, ..WallShape::sphere(wall, touch, radius) });
+                        self.found.push(WallShape { overlap, shift, patch, ..WallShape::sphere(wall, touch, radius) });
                     }
                 }
             }

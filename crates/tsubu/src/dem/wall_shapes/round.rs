@@ -22,6 +22,8 @@ pub(super) struct Place {
     contact: AtWall,
     patch: u32,
     face: bool,
+    /// Its number among those that were found.
+    number: usize,
 }
 
 impl WallShapes {
@@ -44,14 +46,14 @@ impl WallShapes {
             Surface::Frustum(frustum) => {
                 let mut found = Vec::new();
                 around(outline, wall, frustum, centre, reach, &mut found);
-                self.places.extend(found.into_iter().map(|contact| Place { contact, patch: 0, face: true }));
+                self.places.extend(found.into_iter().map(|contact| Place { contact, patch: 0, face: true, number: 0 }));
             }
             Surface::HalfSpaces { .. } | Surface::Shell(_) => {
                 wall.touching(elements, centre, holds + reach, &mut self.touching);
                 for touch in &self.touching {
                     let contact = outline.at_plane(-touch.nearest.normal, touch.nearest.distance);
                     if contact.overlap > -reach {
-                        self.places.push(Place { contact, patch: wall.key(touch.element), face: true });
+                        self.places.push(Place { contact, patch: wall.key(touch.element), face: true, number: 0 });
                     }
                 }
             }
@@ -77,7 +79,7 @@ impl WallShapes {
         let mut push = |contact: AtWall, patch: u32, face: bool| {
             // A place beyond the body is none of it, however far the body reaches over the plane of a face elsewhere.
             if contact.overlap > -reach && (contact.overlap <= 0.0 || outline.holds(contact.foot())) {
-                places.push(Place { contact, patch, face });
+                places.push(Place { contact, patch, face, number: places.len() });
             }
         };
         for t in elements {
@@ -116,7 +118,7 @@ impl WallShapes {
         }
     }
 
-    /// Of places on one plane, on one bent surface, and at one spot the deepest is left.
+    /// Of places on one plane, on one bent surface, and at one spot the deepest is left. Faces stay before edges and corners, so that histories find their contacts.
     fn judge(&mut self, wall: &Wall, size: f64) {
         let places = &mut self.places;
         places.sort_by(|a, b| b.contact.overlap.total_cmp(&a.contact.overlap));
@@ -136,6 +138,7 @@ impl WallShapes {
             }
         }
         places.truncate(kept);
+        places.sort_by_key(|place| place.number);
     }
 }
 
