@@ -15,7 +15,7 @@ impl Template {
     /// The files that the scene names: what each is called, and what is in it.
     pub fn files(&self) -> &'static [(&'static str, &'static str)] {
         match self.name {
-            "mixer" => &[("mixer-blade.stl", include_str!("../../../scenes/mixer-blade.stl"))],
+            "mixer" | "mixed" => &[("mixer-blade.stl", include_str!("../../../scenes/mixer-blade.stl"))],
             _ => &[],
         }
     }
@@ -97,6 +97,11 @@ pub static TEMPLATES: &[Template] = &[
         name: "polygons",
         about: "in the plane: squares, triangles and hexagons with rounded corners fall into a box beside discs",
         text: include_str!("../../../scenes/polygons.toml"),
+    },
+    Template {
+        name: "mixed",
+        about: "in space: balls, clumps, ellipsoids and cubes side by side in a round vessel, stirred by a blade from an STL file",
+        text: include_str!("../../../scenes/mixed.toml"),
     },
     Template {
         name: "heap",

@@ -5,9 +5,11 @@
 //! one with every edge of the other. Each is a contact of two spheres of the rounding radii. What it stores is a function of its distance alone, so that force and torque
 //! are the slopes of an energy; and each distance has slopes without jumps, so that no force jumps as a contact wanders from one feature to another.
 
+pub mod at_wall;
 mod crossing;
 mod nearest;
 pub mod touch;
+pub mod with_round;
 
 use glam::{DMat3, DVec3};
 use std::ops::Range;
@@ -28,6 +30,8 @@ pub struct Polyhedron {
     /// Where those of each face are.
     faces: Vec<Range<usize>>,
     edges: Vec<[usize; 2]>,
+    /// The faces on both sides of each edge.
+    sides: Vec<[usize; 2]>,
     rounding: f64,
 }
 
@@ -47,6 +51,7 @@ impl Polyhedron {
             offsets: plan.faces.iter().map(|face| face.offset).collect(),
             round,
             edges: plan.edges.clone(),
+            sides: plan.edges.iter().map(|edge| sides(plan, edge)).collect(),
             rounding: plan.rounding,
         }
     }
@@ -67,6 +72,14 @@ impl Polyhedron {
     }
 }
 
+/// The faces on both sides of an edge.
+fn sides(plan: &plan::Polyhedron, edge: &[usize; 2]) -> [usize; 2] {
+    let mut of =
+        (0..plan.faces.len()).filter(|face| edge.iter().all(|corner| plan.faces[*face].corners.contains(corner)));
+    let first = of.next().unwrap_or_default();
+    [first, of.next().unwrap_or(first)]
+}
+
 /// The core of a sphere: a point.
 static POINT: Polyhedron = Polyhedron {
     corners: Vec::new(),
@@ -75,6 +88,7 @@ static POINT: Polyhedron = Polyhedron {
     round: Vec::new(),
     faces: Vec::new(),
     edges: Vec::new(),
+    sides: Vec::new(),
     rounding: 0.5,
 };
 

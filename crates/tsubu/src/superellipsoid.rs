@@ -12,6 +12,7 @@
 
 #![allow(clippy::inline_always, reason = "a call inside a row would end the vector code of its loop")]
 
+pub mod at_wall;
 pub mod ellipsoids;
 pub mod symmetric;
 pub mod touch;

@@ -3,8 +3,9 @@
 use glam::{DMat3, DQuat, DVec3};
 use std::f64::consts::TAU;
 use tsubu::polyhedron::touch::{Contact, Search, touch};
-use tsubu::polyhedron::{Polyhedron, TurnedBodies};
+use tsubu::polyhedron::{Polyhedron, TurnedBodies, with_round};
 use tsubu::random::{Purpose, unit, words};
+use tsubu::superellipsoid::Superellipsoid;
 use tsubu_scene::plan::{ClumpOrientation, GrainShape};
 
 /// Numbers between 0 and 1, one after the other.
@@ -236,4 +237,42 @@ fn bodies_touch_where_they_are_near() {
         }
     }
     assert!(touching > 20 && apart_yet_near > 50, "{touching} {apart_yet_near}");
+}
+
+/// A superellipsoid overlaps a cube by the least, over all directions, of what both reach along it: no direction of many tells less, and one near the normal tells hardly more. The
+/// line of centres tells more.
+#[test]
+fn a_superellipsoid_overlaps_by_the_least() {
+    let mut draw = Draw(1);
+    let shapes = [body(&CUBE, 0.15)];
+    let (mut found, mut naive) = (0, 0);
+    for exponents in [[2.0, 2.0], [4.0, 3.0]] {
+        for _ in 0..300 {
+            let semi_axes = DVec3::new(0.2 + 0.3 * draw.next(), 0.2 + 0.3 * draw.next(), 0.2 + 0.3 * draw.next());
+            let round = Superellipsoid { semi_axes, exponents, reach: 0.5 }.turned(&DMat3::from_quat(draw.turned()));
+            let mut bodies = TurnedBodies::default();
+            let axes = DMat3::from_quat(draw.turned());
+            bodies.push(&shapes, Some((0, 1.0, &axes)));
+            let cube = bodies.at(0, &shapes).unwrap();
+            let apart = (draw.turned() * DVec3::Z) * (0.6 + 0.2 * draw.next());
+            let Some(touch) = with_round::touch(&round, &cube, apart, 0.0) else { continue };
+            if touch.overlap > 0.1 {
+                continue;
+            }
+            found += 1;
+            let least = |n: DVec3| {
+                let core = cube.corners().map(|(_, corner)| n.dot(corner)).fold(f64::INFINITY, f64::min);
+                n.dot(round.support(n).point) - n.dot(apart) - core + cube.rounding
+            };
+            assert!((least(touch.normal) - touch.overlap).abs() < 1e-9, "{} {}", least(touch.normal), touch.overlap);
+            for k in 0..400 {
+                let spread = if k % 2 == 0 { 1.0 } else { 1e-3 };
+                let n = (touch.normal + draw.vector() * spread).normalize();
+                assert!(least(n) > touch.overlap - 1e-12, "{} {}", least(n), touch.overlap);
+            }
+            let line = apart.normalize();
+            naive += usize::from(least(line) > touch.overlap + 1e-3);
+        }
+    }
+    assert!(found > 100 && naive > found / 2, "{found} {naive}");
 }

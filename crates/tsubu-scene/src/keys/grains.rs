@@ -75,7 +75,7 @@ static SHAPE: &[Variant] = &[
     },
     Variant {
         name: "superellipsoid",
-        about: "(|x/a|^r + |y/b|^r)^(p/r) + |z/c|^p = 1, scaled so that it just fits a sphere of the grain's `diameter`; only in space, between walls of planes and boxes. A contact is that of two spheres as round as the bodies are there, sqrt(R1 R2) of both radii of curvature, at most ten times half the `diameter` where a place is flat; the place of contact of two flat faces is not unique",
+        about: "(|x/a|^r + |y/b|^r)^(p/r) + |z/c|^p = 1, scaled so that it just fits a sphere of the grain's `diameter`; only in space. A contact is that of two spheres as round as the bodies are there, sqrt(R1 R2) of both radii of curvature, at most ten times half the `diameter` where a place is flat; the place of contact of two flat faces is not unique",
         keys: &[
             Key::new("semi-axes", Kind::Vector(&NUMBER), "Semi-axes a, b and c, in any unit"),
             Key::new(
@@ -91,7 +91,7 @@ static SHAPE: &[Variant] = &[
     },
     Variant {
         name: "polyhedron",
-        about: "A convex body with rounded edges, scaled so that it just fits a sphere of the grain's `diameter` about its centre of mass; only in space, between walls of planes and boxes. Bodies touch where a corner of one comes near the other and where two edges cross, each a contact of two spheres of the rounding radii",
+        about: "A convex body with rounded edges, scaled so that it just fits a sphere of the grain's `diameter` about its centre of mass; only in space. Bodies touch where a corner of one comes near the other and where two edges cross, each a contact of two spheres of the rounding radii",
         keys: &[
             Key::new("corners", Kind::Vectors(&NUMBER), "Corners before edges are rounded, in any unit and any order"),
             ROUNDING,
@@ -114,7 +114,7 @@ static SHAPE: &[Variant] = &[
     },
     Variant {
         name: "polygon",
-        about: "A convex polygon with rounded corners, scaled so that it just fits a circle of the grain's `diameter` about its centre of mass; only in the plane, between walls of planes and boxes",
+        about: "A convex polygon with rounded corners, scaled so that it just fits a circle of the grain's `diameter` about its centre of mass; only in the plane",
         keys: &[
             Key::new("corners", Kind::Vectors(&NUMBER), "Corners one after the other, in any unit"),
             ROUNDING,

@@ -23,8 +23,9 @@ use super::immersion::{BlockImmersion, WaterAtTime};
 use super::narrow_phase::{Spheres, TouchingPairs};
 use super::outside::Outside;
 use super::ranks::Ranks;
-use super::shapes::{PairShapes, WallShapes};
+use super::shapes::PairShapes;
 use super::sweep::{Direction, sweep};
+use super::wall_shapes::WallShapes;
 use crate::check;
 use crate::contact::chunk::ROWS;
 use crate::contact::{Law, Table};
@@ -33,7 +34,7 @@ use crate::neighbours::lists::{BLOCK, BlockList, shares};
 use crate::partner::Hosts;
 use crate::state::Grains;
 use crate::view::WallLoad;
-use crate::wall::{self, Wall};
+use crate::wall::Wall;
 use crate::water::Parcel;
 use glam::{DVec3, Vec3};
 use std::sync::{Mutex, PoisonError};
@@ -173,7 +174,6 @@ struct Scratch {
     wall_shapes: WallShapes,
     features: PairFeatures,
     elements: Vec<u32>,
-    touching: Vec<wall::Touch>,
     went_on: Vec<u32>,
     parcel: Parcel,
 }
@@ -191,7 +191,6 @@ impl Scratch {
             wall_shapes: WallShapes::default(),
             features: PairFeatures::default(),
             elements: Vec::with_capacity(64),
-            touching: Vec::with_capacity(64),
             went_on: Vec::with_capacity(64),
             parcel: Parcel::default(),
         }

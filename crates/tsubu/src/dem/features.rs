@@ -7,12 +7,10 @@ use super::contact_batch::ContactBatch;
 use super::contact_forces::ForceInput;
 use super::contact_history::FeatureKey;
 use super::narrow_phase::{Spheres, TouchingPair, TouchingPairs};
-use super::shapes::{WallShape, WallShapes};
 use crate::contact::chunk::Chunk;
 use crate::neighbours::lists::BlockList;
 use crate::polyhedron::touch::{Contact, Search, touch};
 use crate::polyhedron::{Turned, TurnedBodies};
-use crate::wall;
 use glam::DVec3;
 use std::ops::Range;
 
@@ -48,7 +46,9 @@ impl PairFeatures {
         touching.keep(|pair| {
             let locals = [pair.first, list.pairs[pair.pair as usize].second];
             let [first, second] = locals.map(shape);
-            if first.is_none() && second.is_none() {
+            // Superellipsoids touch polyhedra as they touch all: once, see [`super::shapes`].
+            let round = |local: u32| input.bodies.superellipsoid(list.grain_at[local as usize] as usize).is_some();
+            if first.is_none() && second.is_none() || input.bodies.shaped() && locals.into_iter().any(round) {
                 return true;
             }
             let [p, q] = locals.map(|local| spheres.at(local));
@@ -60,40 +60,9 @@ impl PairFeatures {
         });
     }
 
-    /// Of what the sphere of a grain touches of a wall, keeps what the grain touches within `reach` [m], once for each corner of a polyhedron; and tells how.
-    pub fn at_wall(
-        &self,
-        input: &ForceInput,
-        list: &BlockList,
-        own: u32,
-        touching: &mut Vec<wall::Touch>,
-        reach: f64,
-        shapes: &mut WallShapes,
-    ) {
-        let i = list.first + own as usize;
-        shapes.found.clear();
-        if input.bodies.shaped()
-            && !touching.is_empty()
-            && let Some(outline) = input.bodies.outline(i)
-        {
-            shapes.find(&outline, touching, reach);
-        } else if input.bodies.faceted()
-            && let Some(body) = self.bodies.at(own as usize, input.bodies.polyhedra())
-        {
-            let count = touching.len();
-            for t in 0..count {
-                let normal = -touching[t].nearest.normal;
-                for (corner, shift) in body.corners() {
-                    let overlap = normal.dot(shift) + body.rounding - touching[t].nearest.distance;
-                    if overlap > -reach {
-                        let (radius, patch) = (body.rounding, (corner as u32 + 1) << 16);
-                        shapes.found.push(WallShape { overlap, radius, shift, patch, rounding: DVec3::ZERO });
-                        touching.push(touching[t]);
-                    }
-                }
-            }
-            touching.drain(..count);
-        }
+    /// The polyhedron that a grain is which the block sees, as it is turned.
+    pub fn polyhedron<'a>(&'a self, input: &ForceInput<'a>, local: u32) -> Option<Turned<'a>> {
+        if input.bodies.faceted() { self.bodies.at(local as usize, input.bodies.polyhedra()) } else { None }
     }
 
     /// All contacts with their pairs.

@@ -30,6 +30,7 @@ mod stage;
 mod start;
 mod step;
 mod sweep;
+mod wall_shapes;
 
 use crate::about::About;
 pub use engine::DemEngine;

@@ -6,7 +6,8 @@
 use super::contact_forces::ForceInput;
 use super::features::PairFeatures;
 use super::narrow_phase::{Spheres, TouchingPairs};
-use super::shapes::{PairShapes, WallShapes};
+use super::shapes::PairShapes;
+use super::wall_shapes::WallShapes;
 use crate::view::Contact;
 use glam::DVec3;
 
@@ -15,7 +16,6 @@ pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
     let (mut spheres, mut pairs) = (Spheres::default(), TouchingPairs::default());
     let (mut shapes, mut wall_shapes) = (PairShapes::default(), WallShapes::default());
     let mut features = PairFeatures::default();
-    let mut touches = Vec::new();
     let mut elements = Vec::new();
     let mut contacts = Vec::new();
     let g = input.grains;
@@ -23,7 +23,7 @@ pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
         spheres.load(g, list, &input.neighbours.shifts);
         pairs.find(list, &spheres, 0.0);
         features.take(&mut pairs, input, list, &spheres);
-        shapes.find(&mut pairs, input, list, &spheres);
+        shapes.find(&mut pairs, input, &features, list, &spheres);
         for touching in pairs.under(0) {
             let second = list.pairs[touching.pair as usize].second;
             let ([ax, ay, az, a], [bx, by, bz, b]) = (spheres.at(touching.first), spheres.at(second));
@@ -64,18 +64,12 @@ pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
         }
         for near in list.walls.chunk_by(|a, b| (a.own, a.wall) == (b.own, b.wall)) {
             let first = list.first + near[0].own as usize;
-            let (centre, radius) = (g.position[first], g.radius[first]);
+            let centre = g.position[first];
             elements.clear();
             elements.extend(near.iter().map(|near| near.element));
-            input.walls[near[0].wall as usize].touching(&elements, centre, radius, &mut touches);
-            features.at_wall(input, list, near[0].own, &mut touches, 0.0, &mut wall_shapes);
-            contacts.extend(touches.iter().enumerate().map(|(t, touch)| {
-                let (normal, mut overlap) = (-touch.nearest.normal, radius - touch.nearest.distance);
-                let mut branch = normal * (radius - 0.5 * overlap);
-                if let Some(shape) = wall_shapes.of(t) {
-                    overlap = shape.overlap;
-                    branch = shape.shift + normal * (shape.radius - 0.5 * overlap);
-                }
+            wall_shapes.find(input, &features, list, (near[0].own, near[0].wall), &elements, 0.0);
+            contacts.extend(wall_shapes.found.iter().map(|shape| {
+                let branch = shape.shift + shape.normal * (shape.radius - 0.5 * shape.overlap);
                 Contact {
                     first,
                     second: near[0].wall as usize,
@@ -83,8 +77,8 @@ pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
                     position: centre + branch,
                     branch,
                     force: DVec3::ZERO,
-                    normal,
-                    overlap,
+                    normal: shape.normal,
+                    overlap: shape.overlap,
                 }
             }));
         }

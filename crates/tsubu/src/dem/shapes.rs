@@ -7,14 +7,14 @@
 use super::bodies::Bodies;
 use super::contact_batch::ContactBatch;
 use super::contact_forces::ForceInput;
+use super::features::PairFeatures;
 use super::narrow_phase::{Spheres, TouchingPair, TouchingPairs};
 use crate::contact::Law;
 use crate::contact::chunk::{Chunk, Column};
 use crate::neighbours::lists::{BlockList, Pair};
-use crate::superellipsoid::Outline;
+use crate::polyhedron::with_round;
 use crate::superellipsoid::ellipsoids::{Ellipsoid, Pairs};
 use crate::superellipsoid::touch::{Rounding, Touch, touch};
-use crate::wall;
 use glam::DVec3;
 
 /// A pair of which one at least is no sphere.
@@ -54,16 +54,24 @@ enum Form {
     Ellipsoid,
     /// A superellipsoid with other exponents.
     Other,
+    Polyhedron,
 }
 
 impl PairShapes {
     /// Looks at the pairs whose spheres touch, and leaves out those whose bodies are apart by more than a law reaches.
-    pub fn find(&mut self, pairs: &mut TouchingPairs, input: &ForceInput, list: &BlockList, spheres: &Spheres) {
+    pub fn find(
+        &mut self,
+        pairs: &mut TouchingPairs,
+        input: &ForceInput,
+        features: &PairFeatures,
+        list: &BlockList,
+        spheres: &Spheres,
+    ) {
         self.found.clear();
         if !input.bodies.shaped() {
             return;
         }
-        self.load(input, list, spheres);
+        self.load(input, features, list, spheres);
         for pair in pairs.all() {
             let second = list.pairs[pair.pair as usize].second;
             let (a, b) = (&self.members[pair.first as usize], &self.members[second as usize]);
@@ -80,11 +88,12 @@ impl PairShapes {
                     }
                 }
                 Form::Other => self.search(pair.pair, input, list, spheres),
+                Form::Polyhedron => self.search_faceted(pair.pair, input, features, list, spheres),
             }
         }
         self.ellipsoids.sieve(input.laws.reach());
         self.descend(input, list, spheres);
-        if input.bodies.powers() {
+        if input.bodies.powers() || input.bodies.faceted() {
             self.found.sort_unstable_by_key(|shaped| shaped.pair);
         }
         let (mut k, found, members) = (0, &self.found, &self.members);
@@ -97,15 +106,18 @@ impl PairShapes {
     }
 
     /// Takes the grains of a block.
-    fn load(&mut self, input: &ForceInput, list: &BlockList, spheres: &Spheres) {
+    fn load(&mut self, input: &ForceInput, features: &PairFeatures, list: &BlockList, spheres: &Spheres) {
         self.members.clear();
-        self.members.extend(list.grain_at.iter().enumerate().map(|(local, grain)| {
+        self.members.extend((0..).zip(&list.grain_at).map(|(local, grain)| {
             match input.bodies.superellipsoid(*grain as usize) {
                 Some((body, shape)) => Member {
                     ellipsoid: body.ellipsoid,
                     form: if shape.is_ellipsoid() { Form::Ellipsoid } else { Form::Other },
                 },
-                None => Member { ellipsoid: Ellipsoid::sphere(spheres.at(local as u32)[3]), form: Form::Sphere },
+                None => Member {
+                    ellipsoid: Ellipsoid::sphere(spheres.at(local)[3]),
+                    form: if features.polyhedron(input, local).is_some() { Form::Polyhedron } else { Form::Sphere },
+                },
             }
         }));
     }
@@ -144,6 +156,29 @@ impl PairShapes {
         }
     }
 
+    /// Where a superellipsoid touches a polyhedron.
+    fn search_faceted(
+        &mut self,
+        pair: u32,
+        input: &ForceInput,
+        features: &PairFeatures,
+        list: &BlockList,
+        spheres: &Spheres,
+    ) {
+        let Pair { first, second } = list.pairs[pair as usize];
+        let outline = |local: u32| input.bodies.outline(list.grain_at[local as usize] as usize);
+        let (apart, reach) = (between(spheres, first, second), input.laws.reach());
+        let touch = match (features.polyhedron(input, first), features.polyhedron(input, second)) {
+            (Some(body), _) => outline(second).and_then(|round| with_round::touched(&body, &round, apart, reach)),
+            (_, Some(body)) => outline(first).and_then(|round| with_round::touch(&round, &body, apart, reach)),
+            _ => None,
+        };
+        if let Some(touch) = touch {
+            let turning = self.turning(&touch, pair, input, list);
+            self.found.push(Shaped { pair, touch, turning });
+        }
+    }
+
     /// How much both bodies of a pair give way by turning.
     #[inline]
     fn turning(&self, touch: &Touch, pair: u32, input: &ForceInput, list: &BlockList) -> f64 {
@@ -153,6 +188,9 @@ impl PairShapes {
             if member.form == Form::Sphere {
                 // Of a clump perhaps.
                 return input.bodies.turning(list.grain_at[local as usize] as usize, DVec3::ZERO, touch.normal);
+            }
+            if member.form == Form::Polyhedron {
+                return input.bodies.turning(list.grain_at[local as usize] as usize, point, touch.normal);
             }
             let lever = point.cross(touch.normal);
             lever.dot(member.ellipsoid.inverse_inertia.times(lever))
@@ -243,86 +281,7 @@ fn between(spheres: &Spheres, first: u32, second: u32) -> DVec3 {
     DVec3::new(q[0] - p[0], q[1] - p[1], q[2] - p[2])
 }
 
-fn add(column: &mut [Column; 3], r: usize, more: DVec3) {
+pub(super) fn add(column: &mut [Column; 3], r: usize, more: DVec3) {
     let sum = Chunk::vector(column, r) + more;
     Chunk::set(column, r, sum);
-}
-
-/// Where a body that is no sphere touches a wall.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct WallShape {
-    pub overlap: f64,
-    pub radius: f64,
-    /// Centre of the sphere that stands for the body, from that of the body [m].
-    pub shift: DVec3,
-    /// Which feature of a polyhedron it is, in the upper half; 0 for others.
-    pub patch: u32,
-    /// Torque on the body, its opposite on the wall, for each unit of the slope of energy over radius [m]; see [`Rounding`].
-    pub rounding: DVec3,
-}
-
-/// Where one grain touches the elements of a wall.
-#[derive(Clone, Debug, Default)]
-pub(super) struct WallShapes {
-    /// Of each touch; empty where they are those of a sphere.
-    pub found: Vec<WallShape>,
-    /// [`WallShape::rounding`] of the rows of a batch.
-    rounding: Vec<DVec3>,
-}
-
-impl WallShapes {
-    /// Of all that the sphere of a body touches, keeps what the body touches within `reach` [m].
-    pub fn find(&mut self, outline: &Outline, touching: &mut Vec<wall::Touch>, reach: f64) {
-        self.found.clear();
-        touching.retain(|touch| {
-            let shape = against_plane(outline, touch);
-            let near = shape.overlap > -reach;
-            self.found.extend(near.then_some(shape));
-            near
-        });
-    }
-
-    /// Of the touch with that number; `None`: it is a sphere that touches.
-    pub fn of(&self, touch: usize) -> Option<WallShape> {
-        self.found.get(touch).copied()
-    }
-
-    /// Takes a row of a batch.
-    pub fn push(&mut self, batch: &mut ContactBatch, r: usize, shape: &WallShape) {
-        batch.set_shift(0, r, shape.shift);
-        self.rounding.push(shape.rounding);
-    }
-
-    /// After the law: adds what turns bodies to where they are less round.
-    pub fn round(&mut self, batch: &mut ContactBatch, law: &Law) {
-        if batch.shifted {
-            let slopes = law.energy_slopes(&batch.chunk);
-            for (r, rounding) in self.rounding.drain(..).enumerate() {
-                let torque = rounding * slopes[r];
-                add(&mut batch.torque[0], r, torque);
-                // The wall hears of the torques of the law.
-                add(&mut batch.chunk.torque, r, torque);
-            }
-        }
-    }
-}
-
-impl WallShape {
-    /// Of a sphere.
-    pub fn sphere(radius: f64, distance: f64) -> Self {
-        Self { overlap: radius - distance, radius, shift: DVec3::ZERO, patch: 0, rounding: DVec3::ZERO }
-    }
-}
-
-/// Against a plane, which is as far from the centre of the body as the touch of its sphere says.
-fn against_plane(outline: &Outline, touch: &wall::Touch) -> WallShape {
-    let normal = -touch.nearest.normal;
-    let (point, (radius, slope)) = (outline.support(normal).point, outline.roundness(normal));
-    WallShape {
-        overlap: normal.dot(point) - touch.nearest.distance,
-        radius,
-        shift: point - normal * radius,
-        patch: 0,
-        rounding: normal.cross(slope),
-    }
 }

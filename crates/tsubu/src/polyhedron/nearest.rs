@@ -40,7 +40,7 @@ impl Turned<'_> {
     }
 
     /// Whether a point lies straight above a face; a side of a polygon has no answer to that.
-    fn is_over(&self, face: usize, point: DVec3) -> bool {
+    pub(super) fn is_over(&self, face: usize, point: DVec3) -> bool {
         let normal = self.normals[face];
         self.shape.faces[face].len() > 2 && self.sides(face, |a, side| normal.dot(side.cross(point - a)) >= 0.0)
     }

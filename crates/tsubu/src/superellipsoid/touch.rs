@@ -147,45 +147,61 @@ impl Pair<'_> {
 /// Where two bodies touch whose centres are `apart` [m]; nothing where the gap is `reach` [m] or more.
 pub fn touch(bodies: [&Outline; 2], apart: DVec3, reach: f64) -> Option<Touch> {
     let pair = Pair { bodies, apart, size: apart.length() };
-    let mut at = Look::at(pair.first_guess(), &pair);
-    let mut looks = 1;
-    while at.overlap > -reach
-        && looks < LOOKS
-        && let Some(Descent { leads, way, slope }) = pair.descent(&at)
-    {
-        // Near the end rounding hides the fall of the overlap; its slope still tells, and no step is worth a second try.
-        let last = -slope <= 1e-12 * pair.size;
-        let mut share = 1.0;
-        let next = loop {
-            let (to, rate) = leads.walk(at.normal, way, share);
-            let length = to.length();
-            let look = Look::at(to / length, &pair);
-            looks += 1;
-            let along = rate.dot(look.beside()) / length;
-            let better = if last {
-                look.beside().length() < 0.9 * at.beside().length()
-            } else {
-                look.overlap <= at.overlap + 1e-2 * share * slope && along <= -0.3 * slope
-            };
-            if better || look.overlap <= -reach {
-                break Some(look);
-            }
-            if last || share < 1e-8 || looks >= LOOKS {
-                break None;
-            }
-            // Where it goes up again, to where a straight line between both slopes would have none.
-            share *= if along > 0.0 { (slope / (slope - along)).clamp(0.1, 0.9) } else { 0.5 };
-        };
-        let Some(next) = next else { break };
-        at = next;
-    }
-    if at.overlap <= -reach {
-        return None;
-    }
+    let (at, looks) = pair.search(pair.first_guess(), reach)?;
     let round = bodies.map(|body| body.roundness(at.normal));
     let radii = round.map(|(radius, _)| radius);
     // Both points belong on one line; the flatter body knows its own less well.
     let (beside, share) = (at.beside(), radii[0] / (radii[0] + radii[1]));
     let points = [at.supports[0].point - beside * share, at.supports[1].point + beside * (1.0 - share)];
     Some(Touch { normal: at.normal, overlap: at.overlap, points, radii, rounding: pair.rounding(&at, round), looks })
+}
+
+/// The same with a point in the place of the second body; but the law is told of something flat there, as of all that belongs to a wall.
+pub(super) fn touch_point(body: &Outline, point: DVec3, reach: f64) -> Option<Touch> {
+    let pair = Pair { bodies: [body, &Outline::sphere(0.0)], apart: point, size: point.length() };
+    let first = (body.squared.inverse() * point).try_normalize()?;
+    let (at, looks) = pair.search(first, reach)?;
+    let round = [body.roundness(at.normal), (f64::INFINITY, DVec3::ZERO)];
+    let points = [at.supports[0].point - at.beside(), point];
+    let (radii, rounding) = (round.map(|(radius, _)| radius), pair.rounding(&at, round));
+    Some(Touch { normal: at.normal, overlap: at.overlap, points, radii, rounding, looks })
+}
+
+impl Pair<'_> {
+    /// The direction of the least overlap, from a first one, and how many were looked at; nothing where the gap is `reach` [m] or more.
+    fn search(&self, first: DVec3, reach: f64) -> Option<(Look, usize)> {
+        let mut at = Look::at(first, self);
+        let mut looks = 1;
+        while at.overlap > -reach
+            && looks < LOOKS
+            && let Some(Descent { leads, way, slope }) = self.descent(&at)
+        {
+            // Near the end rounding hides the fall of the overlap; its slope still tells, and no step is worth a second try.
+            let last = -slope <= 1e-12 * self.size;
+            let mut share = 1.0;
+            let next = loop {
+                let (to, rate) = leads.walk(at.normal, way, share);
+                let length = to.length();
+                let look = Look::at(to / length, self);
+                looks += 1;
+                let along = rate.dot(look.beside()) / length;
+                let better = if last {
+                    look.beside().length() < 0.9 * at.beside().length()
+                } else {
+                    look.overlap <= at.overlap + 1e-2 * share * slope && along <= -0.3 * slope
+                };
+                if better || look.overlap <= -reach {
+                    break Some(look);
+                }
+                if last || share < 1e-8 || looks >= LOOKS {
+                    break None;
+                }
+                // Where it goes up again, to where a straight line between both slopes would have none.
+                share *= if along > 0.0 { (slope / (slope - along)).clamp(0.1, 0.9) } else { 0.5 };
+            };
+            let Some(next) = next else { break };
+            at = next;
+        }
+        (at.overlap > -reach).then_some((at, looks))
+    }
 }

@@ -121,8 +121,17 @@ impl Frustum {
         Some((from_end - self.axis * s).length() < radius)
     }
 
+    /// Cosine and sine of the angle by which it widens along the axis, and how far its surface is from `point` [m]: what is x from the axis and s along it is cos x - sin s - that
+    /// above it.
+    pub fn slope(&self) -> ([f64; 2], f64) {
+        let [r0, r1] = self.radius;
+        let Some(length) = self.length else { return ([1.0, 0.0], r0) };
+        let slant = length.hypot(r1 - r0);
+        ([length / slant, (r1 - r0) / slant], r0 * length / slant)
+    }
+
     /// A direction across the axis.
-    pub(super) fn across_axis(&self) -> DVec3 {
+    pub fn across_axis(&self) -> DVec3 {
         let across = self.axis.cross(DVec3::Y);
         if across.length_squared() > 1e-12 { across.normalize() } else { DVec3::X }
     }

@@ -2,12 +2,14 @@
 
 use super::Pose;
 use super::nearest::Nearest;
+use super::ridges::Ridges;
 use super::section::{section, strips};
 use super::topology::{Topology, edge, weld};
 use super::tree::Tree;
 use super::triangle::Triangle;
 use crate::about::About;
 use glam::DVec3;
+use std::sync::OnceLock;
 
 pub(crate) const MESH: About = About {
     key: "walls.NAME.shape.mesh",
@@ -26,6 +28,8 @@ const WELD: f64 = 1e-7;
 pub struct Mesh {
     triangles: Vec<Triangle>,
     pub(super) topology: Topology,
+    /// Found when a body first asks for them: spheres never do.
+    ridges: OnceLock<Ridges>,
     tree: Tree,
     /// Corners nearer than this are one [m].
     pub(super) tolerance: f64,
@@ -50,7 +54,7 @@ impl Mesh {
         let closed = closed(&vertices);
         let topology = Topology::new(&triangles, vertices, &tree, tolerance);
         let radius = triangles.iter().flat_map(|t| t.corners).map(|p| p.distance(centre)).fold(0.0, f64::max);
-        Self { triangles, topology, tree, tolerance, radius, closed, lines: Vec::new() }
+        Self { triangles, topology, ridges: OnceLock::new(), tree, tolerance, radius, closed, lines: Vec::new() }
     }
 
     /// The section with the plane y = 0, for 2-D scenes.
@@ -71,6 +75,17 @@ impl Mesh {
     /// The triangles that are left; their indices are the elements.
     pub fn triangles(&self) -> &[Triangle] {
         &self.triangles
+    }
+
+    /// Corners nearer than this are one [m].
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Its sharp edges and corners.
+    pub fn ridges(&self) -> &Ridges {
+        let Self { triangles, topology, tree, tolerance, .. } = self;
+        self.ridges.get_or_init(|| Ridges::new(triangles, (&topology.vertices, &topology.patch), tree, *tolerance))
     }
 
     /// Adds the triangles within `reach` of a point to `out`.

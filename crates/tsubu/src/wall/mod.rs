@@ -19,6 +19,7 @@ pub mod mover;
 pub mod nearest;
 pub mod outline;
 pub mod pose;
+pub mod ridges;
 mod section;
 pub mod servo;
 pub mod shell;
@@ -87,7 +88,7 @@ pub struct Wall {
     vanished: bool,
     outline: Outline,
     /// In the plane y is an exact zero, whatever rounding says.
-    in_plane: bool,
+    pub(crate) in_plane: bool,
 }
 
 impl Wall {

@@ -370,9 +370,5 @@ fn what_polyhedra_cannot_have_is_refused() {
     refused(FLOOR, &["dem.integrator=forward-euler"], "dem.integrator");
     let watched = format!("{FLOOR}\n[watch.height.profile]\nregion = {{ low = [-1, -1, -1], high = [1, 1, 1] }}");
     refused(&watched, &[], "watch.height");
-    let seeds = format!(
-        "{FLOOR}\n[particles.seeds]\nmaterial = \"wood\"\ndiameter = 0.004\nshape.superellipsoid.semi-axes = [3, 2, 1]\nstart.at.position = [[0, 0, 0.05]]"
-    );
-    refused(&seeds, &[], "particles.seeds.shape");
     refused(FLOOR, &["method=lattice"], "particles.dice.shape");
 }

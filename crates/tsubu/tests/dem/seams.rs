@@ -28,7 +28,7 @@ fn scene(restitution: f64, start: &str, shape: &str) -> String {
     SCENE.replace("RESTITUTION", &restitution.to_string()).replace("START", start).replace("SHAPE", shape)
 }
 
-fn stl(triangles: &[[[f64; 3]; 3]]) -> String {
+pub fn stl(triangles: &[[[f64; 3]; 3]]) -> String {
     let mut text = "solid s\n".to_owned();
     for t in triangles {
         text.push_str("facet normal 0 0 0\nouter loop\n");
@@ -59,7 +59,7 @@ fn patchwork() -> Vec<[[f64; 3]; 3]> {
 }
 
 /// Twelve triangles of a closed box.
-fn crate_of(low: [f64; 3], high: [f64; 3]) -> Vec<[[f64; 3]; 3]> {
+pub fn crate_of(low: [f64; 3], high: [f64; 3]) -> Vec<[[f64; 3]; 3]> {
     let corner = |k: usize| std::array::from_fn(|axis| if k >> axis & 1 == 0 { low[axis] } else { high[axis] });
     let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let halves = |[a, b, c, d]: [usize; 4]| [[a, b, c], [a, c, d]];

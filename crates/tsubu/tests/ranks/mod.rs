@@ -15,7 +15,7 @@ use tsubu::partner::Hosts;
 use tsubu::ranks::Communicator;
 use tsubu::view::Wants;
 use tsubu_frame::State;
-use tsubu_scene::Scene;
+use tsubu_scene::{Scene, TEMPLATES};
 
 /// A rank that is a thread.
 #[derive(Debug)]
@@ -350,6 +350,18 @@ fn clumps_and_bonds_have_the_bits_of_one_rank() {
 fn polyhedra_have_the_bits_of_one_rank() {
     let crowd = CROWD.replace("count = 120", "count = 400").replace("110 mm", "300 mm");
     Job { steps: &[2500, 1, 1500], resume: true, ..job(&crowd) }.same(&[3]);
+}
+
+/// Balls, clumps, ellipsoids and cubes at a mesh that turns in a drum.
+#[test]
+fn all_shapes_have_the_bits_of_one_rank() {
+    let mixed = TEMPLATES.iter().find(|template| template.name == "mixed").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in mixed.files() {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let more = mixed.text.replace("count = 30", "count = 110").replace("\"120 mm\"", "\"450 mm\"");
+    Job { text: &more, folder: folder.path(), steps: &[1500, 1, 1000], resume: true }.same(&[3]);
 }
 
 #[test]

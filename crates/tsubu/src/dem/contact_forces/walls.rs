@@ -4,10 +4,10 @@ use super::{ContactSums, ForceInput, Load, Scratch, apply_law, power};
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::dem::contact_batch::ContactBatch;
 use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns, Walk, WallKey};
-use crate::dem::shapes::{WallShape, WallShapes};
+use crate::dem::wall_shapes::WallShape;
 use crate::neighbours::lists::BlockList;
 use crate::view::WallLoad;
-use crate::wall::{self, Wall};
+use crate::wall::Wall;
 
 /// Walks the grain-wall candidates of a block, law by law; `visit` sees every finished batch.
 pub(super) fn evaluate(
@@ -37,6 +37,7 @@ fn evaluate_law(
     let law = &input.laws.all()[number];
     let several = input.laws.reaches.len() > 1;
     let remembers = law.width() > 0;
+    let shaped = input.bodies.shaped() || input.bodies.faceted();
     let mut walk = Walk::default();
     scratch.batches[number].chunk.len = 0;
     scratch.keys.clear();
@@ -49,32 +50,27 @@ fn evaluate_law(
         if several && input.laws.table.law(material) != number {
             continue;
         }
-        let Scratch { elements, touching, wall_shapes, features, .. } = scratch;
+        let Scratch { elements, wall_shapes, features, .. } = scratch;
         elements.clear();
         elements.extend(near.iter().map(|candidate| candidate.element));
         let reach = input.laws.reaches[number];
-        wall.touching(elements, g.position[i], g.radius[i] + reach, touching);
-        features.at_wall(input, list, own, touching, reach, wall_shapes);
+        wall_shapes.find(input, features, list, (own, k), elements, reach);
         if remembers {
             let before = WallKey { own, wall: k, patch: 0 };
             history.walls.open(&mut walk, law, |key| *key < before);
             let old = history.walls.pass(&mut walk, |key| (key.own, key.wall) == (own, k));
-            match_up(wall, &history.walls.keys, &old, (touching, wall_shapes), &mut scratch.went_on);
+            match_up(wall, &history.walls.keys, &old, (&wall_shapes.found, shaped), &mut scratch.went_on);
             let went_on = &scratch.went_on;
             let ended = old.filter(|c| !went_on.contains(&slot(*c)));
             walk.released += ended.map(|c| history.walls.stored_energy(c..c + 1, law)).sum::<f64>();
         }
-        let mut t = 0;
-        while t < scratch.touching.len() {
-            let wall::Touch { element, nearest, .. } = scratch.touching[t];
-            let shape = scratch.wall_shapes.of(t).unwrap_or_else(|| WallShape::sphere(g.radius[i], nearest.distance));
-            let WallShape { overlap, radius, shift, patch, .. } = shape;
+        for t in 0..scratch.wall_shapes.found.len() {
+            let shape = scratch.wall_shapes.found[t];
+            let WallShape { overlap, normal, radius, shift, patch, .. } = shape;
             let batch = &mut scratch.batches[number];
             let r = batch.chunk.len;
-            scratch.keys.push(WallKey { own, wall: k, patch: wall.key(element) | patch });
+            scratch.keys.push(WallKey { own, wall: k, patch });
             scratch.old[r] = if remembers { scratch.went_on[t] } else { FRESH };
-            t += 1;
-            let normal = -nearest.normal;
             batch.first[r] = own;
             batch.second[r] = k;
             batch.chunk.overlap[r] = overlap;
@@ -85,7 +81,7 @@ fn evaluate_law(
             batch.lever_arm[1][r] = 0.0;
             batch.material_pair[r] = material;
             let (mut centre, mut velocity) = (g.position[i], g.velocity[i]);
-            batch.shifted = input.bodies.shaped() || input.bodies.faceted();
+            batch.shifted = shaped;
             if batch.shifted {
                 (centre, velocity) = (centre + shift, velocity + g.spin[i].cross(shift));
                 scratch.wall_shapes.push(batch, r, &shape);
@@ -113,22 +109,22 @@ fn match_up(
     wall: &Wall,
     keys: &[WallKey],
     old: &std::ops::Range<usize>,
-    (touching, shapes): (&[wall::Touch], &WallShapes),
+    (places, shaped): (&[WallShape], bool),
     went_on: &mut Vec<u32>,
 ) {
-    let patch = |t: usize| wall.key(touching[t].element) | shapes.of(t).map_or(0, |shape| shape.patch);
     went_on.clear();
-    went_on.extend((0..touching.len()).map(|t| old.clone().find(|&c| keys[c].patch == patch(t)).map_or(FRESH, slot)));
-    for t in 1..touching.len() {
+    let same = |place: &WallShape| old.clone().find(|&c| keys[c].patch == place.patch).map_or(FRESH, slot);
+    went_on.extend(places.iter().map(same));
+    for t in 1..places.len() {
         // Two contacts of one patch share a name; the one history goes on once.
         if went_on[..t].contains(&went_on[t]) {
             went_on[t] = FRESH;
         }
     }
-    for t in 0..touching.len() {
+    for (t, place) in places.iter().enumerate() {
         if went_on[t] == FRESH {
             let free = |c: &usize| !went_on.contains(&slot(*c));
-            let before = old.clone().filter(free).find(|&c| wall.adjacent(keys[c].patch, patch(t)));
+            let before = old.clone().filter(free).find(|&c| place.may_follow(wall, keys[c].patch, shaped));
             went_on[t] = before.map_or(FRESH, slot);
         }
     }
@@ -153,6 +149,7 @@ fn finish(
     let remembers = input.laws.all()[number].width() > 0;
     let n = batch.chunk.rows();
     batch.relative_motion(input.laws.rotation);
+    wall_shapes.lie_back(batch);
     input.bodies.show_mass(batch, list, true, |_| true);
     if remembers {
         history.walls.gather(&old[..n], &mut batch.chunk.history);

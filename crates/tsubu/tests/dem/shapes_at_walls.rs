@@ -1,0 +1,277 @@
+//! Polyhedra and superellipsoids at meshes, drums and other walls that are no planes.
+
+use super::seams::{crate_of, stl};
+use super::{hash, missing, run_text};
+use std::fmt::Write as _;
+use tsubu::engine::Engine;
+use tsubu::partner::Hosts;
+use tsubu_frame::Kind;
+use tsubu_scene::{Scene, TEMPLATES};
+
+/// Bodies that lose nothing, without gravity.
+const SCENE: &str = r#"
+dimension = 3
+duration = "1 s"
+gravity = 0
+[dem]
+largest-overlap = 1
+[materials.wood]
+young-modulus = "200 MPa"
+poisson-ratio = 0.3
+density = "1000 kg/m^3"
+restitution = 1
+friction = 0
+[contact]
+normal.hertz = {}
+[particles.bodies]
+material = "wood"
+diameter = "8 mm"
+"#;
+
+const CUBE: &str = "polyhedron = { corners = [[-1, -1, -1], [1, -1, -1], [-1, 1.2, -1], [1, 1.2, -1], [-1, -1, 1], [1, -1, 1], [-1, 1.2, 1], [1, 1.2, 1]], rounding = 0.2 }";
+const EGG: &str = "superellipsoid = { semi-axes = [3, 2, 1.5] }";
+const TIN: &str = "superellipsoid = { semi-axes = [2, 2, 2.5], exponents = [4, 3] }";
+
+const PAIR: &str = "clump = { centre = [[-1, 0, 0], [1, 0, 0]], diameter = [2, 2] }";
+
+type Triangles = Vec<[[f64; 3]; 3]>;
+
+fn walls(all: &[&str]) -> String {
+    all.iter().enumerate().fold(String::new(), |mut text, (k, wall)| {
+        let _ = write!(text, "[walls.w{k}]\nmaterial = \"wood\"\n{wall}\n");
+        text
+    })
+}
+
+fn crowd(shape: &str, count: usize, region: &str, all: &[&str]) -> String {
+    format!(
+        "{SCENE}count = {count}\nshape.{shape}\nstart.random = {{ region = {region}, speed = 0.6 }}\n{}",
+        walls(all)
+    )
+}
+
+/// A mesh of two cuts along each edge.
+fn finer(triangles: &Triangles) -> Triangles {
+    let middle = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| 0.5 * (a[k] + b[k]));
+    let cut = |[a, b, c]: &[[f64; 3]; 3]| {
+        let [d, e, f] = [middle(*a, *b), middle(*b, *c), middle(*c, *a)];
+        [[*a, d, f], [d, *b, e], [f, e, *c], [d, e, f]]
+    };
+    triangles.iter().flat_map(cut).collect()
+}
+
+/// A roof with its ridge along y, on a floor.
+fn roof() -> Triangles {
+    let [a, b, c, d] = [[-0.008, -0.012, 0.004], [0.008, -0.012, 0.004], [0.008, 0.012, 0.004], [-0.008, 0.012, 0.004]];
+    let [e, f] = [[0.0, -0.009, 0.014], [0.0, 0.009, 0.014]];
+    vec![[a, b, e], [b, c, f], [b, f, e], [c, d, f], [d, a, e], [d, e, f], [a, c, b], [a, d, c]]
+}
+
+fn run<R>(
+    text: &str,
+    mesh: &Triangles,
+    changes: &[&str],
+    seconds: f64,
+    look: impl Fn(&dyn Engine) -> R,
+) -> (R, [f64; 4]) {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("mesh.stl"), stl(mesh)).unwrap();
+    let (mut engine, mut hosts, mut ledger) = run_text(text, folder.path(), changes);
+    let before = engine.grain_energies().kinetic;
+    engine.advance((seconds / engine.time_step()) as u64, &mut hosts, &mut ledger).unwrap();
+    let after = engine.grain_energies();
+    let held = (after.kinetic + after.rotational + after.elastic) / before - 1.0;
+    (look(&*engine), [held, after.rotational / before, missing(&*engine, &hosts, &ledger), engine.time_step()])
+}
+
+fn place(engine: &dyn Engine) -> Vec<f64> {
+    let frame = engine.frame(&Hosts::default());
+    ["position", "velocity", "spin"].iter().flat_map(|name| frame.vectors(Kind::Grain, name)[0]).collect()
+}
+
+/// One body that flies about in a box of planes and in boxes of triangles goes the same way; in a box that is 0.1 % wider it does not.
+#[test]
+fn a_box_of_triangles_is_a_box_of_planes() {
+    let (low, high) = ([-0.011, -0.011, 0.0], [0.011, 0.011, 0.022]);
+    for shape in [CUBE, EGG, TIN] {
+        let start =
+            "start.at = { position = [[0, 0.001, 0.01]], velocity = [[0.7, 0.5, -0.3]], spin = [[40, -30, 90]] }";
+        let text = |wall: &str| format!("{SCENE}shape.{shape}\n{start}\n{}", walls(&[wall]));
+        let changes = ["materials.wood.restitution=0.8", "materials.wood.friction=0.3"];
+        let end = |wall: &str, mesh: &Triangles| run(&text(wall), mesh, &changes, 0.08, place).0;
+        let planes = end("shape.box = { width = 0.022, depth = 0.022, height = 0.022 }", &vec![]);
+        let far = |mesh: &Triangles| {
+            let other = end("shape.mesh.path = \"mesh.stl\"", mesh);
+            let size = planes.iter().map(|x| x * x).sum::<f64>();
+            (planes.iter().zip(&other).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / size).sqrt()
+        };
+        let whole = crate_of(low, high);
+        for mesh in [&whole, &finer(&finer(&whole))] {
+            assert!(far(mesh) < 1e-6, "{shape}: {:e}", far(mesh));
+        }
+        let wider = crate_of([-0.011_022, -0.011, 0.0], high);
+        assert!(far(&wider) > 1e-4, "{shape}: {:e}", far(&wider));
+    }
+}
+
+/// Bodies that lose nothing keep their energy among sharp edges and corners of a mesh, in a drum, about a roller and about a globe; at a step five times as long they do not.
+#[test]
+fn bodies_that_lose_nothing_keep_their_energy() {
+    let region = "{ low = [-0.02, -0.02, 0.015], high = [0.02, 0.02, 0.055] }";
+    let outer = "shape.box = { width = 0.042, depth = 0.042, height = 0.06 }";
+    let roof_mesh = "shape.mesh.path = \"mesh.stl\"";
+    let drum = [
+        "shape.cylinder = { point = [0, -0.02, 0.03], axis = [0, 1, 0], radius = 0.026, length = 0.04 }",
+        "shape.plane = { point = [0, -0.02, 0], normal = [0, 1, 0] }",
+        "shape.plane = { point = [0, 0.02, 0], normal = [0, -1, 0] }",
+    ];
+    let roller = "shape.cylinder = { point = [0, 0, 0], axis = [0, 1, 0], radius = 0.012 }";
+    let funnel = [
+        "shape.cone = { point = [0, 0, 0], axis = [0, 0, 1], radius = 0.01, end-radius = 0.03, length = 0.06 }",
+        "shape.plane = { point = [0, 0, 0], normal = [0, 0, 1] }",
+        "shape.plane = { point = [0, 0, 0.06], normal = [0, 0, -1] }",
+    ];
+    let globe = "shape.sphere = { centre = [0, 0, 0.0], radius = 0.012 }";
+    let in_drum = "{ low = [-0.015, -0.015, 0.018], high = [0.015, 0.015, 0.042] }";
+    let in_funnel = "{ low = [-0.014, -0.014, 0.035], high = [0.014, 0.014, 0.055] }";
+    let mut cases = vec![(CUBE, region, vec![outer, globe], 14)];
+    for shape in [CUBE, EGG, TIN] {
+        cases.extend([
+            (shape, region, vec![outer, roof_mesh], 14),
+            (shape, in_drum, drum.to_vec(), 10),
+            (shape, region, vec![outer, roller], 14),
+            (shape, in_funnel, funnel.to_vec(), 8),
+        ]);
+    }
+    for (shape, region, walls, count) in cases {
+        let text = crowd(shape, count, region, &walls);
+        let ((), [off, turning, books, step]) = run(&text, &roof(), &[], 0.1, |_| ());
+        assert!(turning > 0.05, "they turn: {turning}");
+        assert!(off.abs() < 1e-3 && books < 1e-3, "{shape} {walls:?}: {off:e} {books:e}");
+        let longer = format!("dem.time-step={}", 5.0 * step);
+        let ((), [wrong, ..]) = run(&text, &roof(), &[&longer], 0.1, |_| ());
+        assert!(wrong.abs() > off.abs(), "{shape} {walls:?}: {wrong:e}");
+    }
+}
+
+/// Cubes, eggs, tins, clumps and spheres that lose nothing keep their energy among each other, and the momentum of two that meet; at a step five times as long they do not.
+#[test]
+fn all_shapes_side_by_side_keep_their_energy() {
+    let region = "{ low = [-0.02, -0.02, 0.002], high = [0.02, 0.02, 0.055] }";
+    let outer = "shape.box = { width = 0.042, depth = 0.042, height = 0.06 }";
+    let more = [("egg", EGG), ("tin", TIN), ("ball", "sphere = {}"), ("pair", PAIR)];
+    let groups = more.iter().fold(String::new(), |mut text, (name, shape)| {
+        let _ = write!(
+            text,
+            "[particles.{name}]\nmaterial = \"wood\"\ndiameter = \"7 mm\"\ncount = 6\nshape.{shape}\nstart.random = {{ region = {region}, speed = 0.6 }}\n"
+        );
+        text
+    });
+    let text = crowd(CUBE, 10, region, &[outer]) + &groups;
+    let ((), [off, turning, books, step]) = run(&text, &roof(), &[], 0.1, |_| ());
+    assert!(turning > 0.05, "they turn: {turning}");
+    assert!(off.abs() < 1e-3 && books < 1e-3, "{off:e} {books:e}");
+    let longer = format!("dem.time-step={}", 5.0 * step);
+    let ((), [wrong, ..]) = run(&text, &roof(), &[&longer], 0.1, |_| ());
+    assert!(wrong.abs() > 1e-3, "{wrong:e}");
+}
+
+/// Polygons in the plane: about a disc, in a drum, and over the corner of a section of a mesh.
+#[test]
+fn polygons_keep_their_energy() {
+    let shape =
+        "polygon = { corners = [[1, 0.9], [-1, 1.1], [-0.8, -1], [1, -0.7]], rounding = 0.2, thickness = 0.01 }";
+    let outer = "shape.box = { width = 0.042, height = 0.06 }";
+    let region = "{ low = [-0.02, 0.015], high = [0.02, 0.055] }";
+    let disc = "shape.cylinder = { point = [0, 0], axis = [0, 1, 0], radius = 0.012 }";
+    let drum = "shape.cylinder = { point = [0, 0.03], axis = [0, 1, 0], radius = 0.03 }";
+    for walls in [vec![outer, disc], vec![drum], vec![outer, "shape.mesh.path = \"mesh.stl\""]] {
+        let region = if walls.len() == 1 { "{ low = [-0.015, 0.015], high = [0.015, 0.045] }" } else { region };
+        let text = crowd(shape, 6, region, &walls);
+        let ((), [off, turning, books, step]) = run(&text, &roof(), &["dimension=2"], 0.2, |_| ());
+        assert!(turning > 0.02, "they turn: {turning}");
+        assert!(off.abs() < 1e-3 && books < 1e-3, "{walls:?}: {off:e} {books:e}");
+        let longer = format!("dem.time-step={}", 8.0 * step);
+        let ((), [wrong, ..]) = run(&text, &roof(), &["dimension=2", &longer], 0.2, |_| ());
+        assert!(wrong.abs() > off.abs(), "{walls:?}: {wrong:e}");
+    }
+}
+
+/// Heavy bodies with friction and losses on a mesh that turns and one that shakes: the books close, and the bits are the same whoever computes and after a resume.
+#[test]
+fn a_stirred_heap_gives_the_same_bits_for_all() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("mesh.stl"), stl(&roof())).unwrap();
+    let outer = "shape.box = { width = 0.042, depth = 0.042, height = 0.06 }";
+    let turning = "shape.mesh.path = \"mesh.stl\"\nrotation = { centre = [0, 0, 0.008], axis = [0, 0, 1], signal.steady.rate = \"25 rad/s\" }";
+    let shaking = "shape.mesh = { path = \"mesh.stl\", shift = [0, 0, 0.02] }\nmotion = { direction = [0, 0, 1], signal.sine = { amplitude = \"1 mm\", frequency = \"40 Hz\" } }";
+    for shape in [CUBE, EGG] {
+        let region = "{ low = [-0.02, -0.02, 0.036], high = [0.02, 0.02, 0.06] }";
+        let text = crowd(shape, 12, region, &[outer, turning, shaking]);
+        let changes = ["gravity=150", "materials.wood.restitution=0.6", "materials.wood.friction=0.4"];
+        let run = |steps, threads, resume| {
+            let look =
+                |engine: &dyn Engine, hosts: &Hosts, ledger: &_| (missing(engine, hosts, ledger), engine.contacts());
+            hash(|| run_text(&text, folder.path(), &changes), steps, threads, resume, look)
+        };
+        let (alone, (residual, contacts)) = run([6000, 8000], 1, false);
+        assert!(contacts > 0, "{contacts}");
+        assert!(residual < 1e-3, "{residual}");
+        for (steps, threads, resume) in [([7100, 6900], 2, false), ([6000, 8000], 7, true)] {
+            assert_eq!(alone, run(steps, threads, resume).0, "{shape} {threads} threads, resumed: {resume}");
+        }
+    }
+}
+
+/// All shapes side by side in a drum with a blade: the books close, and the bits are the same whoever computes and after a resume.
+#[test]
+fn the_mixed_drum_gives_the_same_bits_for_all() {
+    let mixed = TEMPLATES.iter().find(|template| template.name == "mixed").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in mixed.files() {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let run = |steps, threads, resume| {
+        let look = |engine: &dyn Engine, hosts: &Hosts, ledger: &_| (missing(engine, hosts, ledger), engine.contacts());
+        hash(
+            || run_text(mixed.text, folder.path(), &["gravity=80", "dem.largest-overlap=1"]),
+            steps,
+            threads,
+            resume,
+            look,
+        )
+    };
+    let (alone, (residual, contacts)) = run([5000, 5060], 1, false);
+    assert!(contacts > 30, "{contacts}");
+    assert!(residual < 1e-3, "{residual}");
+    for (steps, threads, resume) in [([6100, 3960], 2, false), ([5000, 5060], 7, true)] {
+        assert_eq!(alone, run(steps, threads, resume).0, "{threads} threads, resumed: {resume}");
+    }
+}
+
+/// Rims of open ends, and shells for superellipsoids, are refused by name; closed ends and no ends are not.
+#[test]
+fn rims_are_refused() {
+    let told = |shape: &str, all: &[&str]| {
+        let start = "start.at = { position = [[0, 0, 0.02]] }";
+        let text = format!("{SCENE}shape.{shape}\n{start}\n{}", walls(all));
+        let scene = Scene::parse("bodies", &text, std::path::Path::new("."), &[]).unwrap_or_else(|c| panic!("{c}"));
+        tsubu::methods::open(scene.plan(), &Hosts::default()).err().map(|error| error.to_string())
+    };
+    let pipe = "shape.cylinder = { point = [0, 0, 0], axis = [0, 0, 1], radius = 0.02, length = 0.05 }";
+    let floor = "shape.plane = { point = [0, 0, 0], normal = [0, 0, 1] }";
+    let lid = "shape.plane = { point = [0, 0, 0.05], normal = [0, 0, -1] }";
+    let gate = format!("{lid}\nuntil = \"1 s\"");
+    let endless = "shape.cylinder = { point = [0, 0, 0], axis = [0, 0, 1], radius = 0.02 }";
+    let shell = "shape.sphere = { centre = [0, 0, 0.02], radius = 0.02 }";
+    for shape in [CUBE, EGG] {
+        for open in [vec![pipe], vec![pipe, floor], vec![pipe, floor, &gate]] {
+            let told = told(shape, &open).unwrap();
+            assert!(told.contains("walls.w0.shape") && told.contains("rims"), "{told}");
+        }
+        assert_eq!(told(shape, &[pipe, floor, lid]), None);
+        assert_eq!(told(shape, &[endless]), None);
+    }
+    assert_eq!(told(CUBE, &[shell]), None);
+    assert!(told(EGG, &[shell]).unwrap().contains("walls.w0.shape"));
+}
