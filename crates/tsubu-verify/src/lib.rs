@@ -49,6 +49,7 @@ mod reasons;
 mod recorded;
 mod registry;
 mod rheology;
+mod rods;
 mod rolling;
 mod sediment_2004;
 mod shapes;
