@@ -37,7 +37,8 @@ impl Ranks {
         let share = |rank: usize| {
             let others = ranks - 1;
             let gives = seen.partition_point(|one| one.0 <= rank) - seen.partition_point(|one| one.0 < rank);
-            let grains = if self.whole { 12 * own[rank] * others } else { 9 * gives };
+            // Where something looks at all grains they go over after each half of a step.
+            let grains = if self.whole { 27 * own[rank] * others } else { 9 * gives };
             let blocks = (cuts[rank + 1] - cuts[rank]) * (18 + 6 * walls) * others;
             RankShare {
                 grains: own[rank],

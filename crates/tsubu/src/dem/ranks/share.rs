@@ -125,8 +125,8 @@ impl Halves {
     fn columns(self, grains: &mut Grains, whole: bool) -> Vec<&mut Vec<DVec3>> {
         let Grains { position, velocity, acceleration, spin, angular_acceleration, .. } = grains;
         match self.first {
-            // Orientation turns by the spin of the middle of the step.
-            true if whole => vec![position, velocity, spin, angular_acceleration],
+            // Who looks at all of them takes back by accelerations what velocities and spins are ahead.
+            true if whole => vec![position, velocity, acceleration, spin, angular_acceleration],
             true => vec![position, velocity, spin],
             false if whole => vec![velocity, acceleration, spin, angular_acceleration],
             false => Vec::new(),
