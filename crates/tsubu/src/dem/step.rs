@@ -115,7 +115,7 @@ impl DemEngine {
         if self.ranks.is_alone() {
             return own;
         }
-        let mut message = Vec::with_capacity(15 * own.len());
+        let mut message = Vec::new();
         for contact in own {
             contact.put(&mut message);
         }

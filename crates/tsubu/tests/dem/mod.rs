@@ -18,7 +18,7 @@ mod rest;
 mod same_bits;
 mod seams;
 mod search;
-mod shapes_at_walls;
+pub mod shapes_at_walls;
 mod start;
 mod superellipsoid;
 

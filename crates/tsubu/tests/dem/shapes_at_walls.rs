@@ -223,23 +223,23 @@ fn a_stirred_heap_gives_the_same_bits_for_all() {
     }
 }
 
+/// The template with all shapes in a drum, and beside it in a folder its blade.
+pub fn mixed(folder: &std::path::Path) -> &'static str {
+    let mixed = TEMPLATES.iter().find(|template| template.name == "mixed").unwrap();
+    for (name, text) in mixed.files() {
+        std::fs::write(folder.join(name), text).unwrap();
+    }
+    mixed.text
+}
+
 /// All shapes side by side in a drum with a blade: the books close, and the bits are the same whoever computes and after a resume.
 #[test]
 fn the_mixed_drum_gives_the_same_bits_for_all() {
-    let mixed = TEMPLATES.iter().find(|template| template.name == "mixed").unwrap();
     let folder = tempfile::tempdir().unwrap();
-    for (name, text) in mixed.files() {
-        std::fs::write(folder.path().join(name), text).unwrap();
-    }
+    let mixed = mixed(folder.path());
     let run = |steps, threads, resume| {
         let look = |engine: &dyn Engine, hosts: &Hosts, ledger: &_| (missing(engine, hosts, ledger), engine.contacts());
-        hash(
-            || run_text(mixed.text, folder.path(), &["gravity=80", "dem.largest-overlap=1"]),
-            steps,
-            threads,
-            resume,
-            look,
-        )
+        hash(|| run_text(mixed, folder.path(), &["gravity=80", "dem.largest-overlap=1"]), steps, threads, resume, look)
     };
     let (alone, (residual, contacts)) = run([5000, 5060], 1, false);
     assert!(contacts > 30, "{contacts}");

@@ -3,6 +3,7 @@
 //! The ranks of these tests are threads that talk through channels. What goes over MPI is in `crates/tsubu-mpi/tests`.
 
 use crate::dem::polyhedron::CROWD;
+use crate::dem::shapes_at_walls::mixed;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -15,7 +16,7 @@ use tsubu::partner::Hosts;
 use tsubu::ranks::Communicator;
 use tsubu::view::Wants;
 use tsubu_frame::State;
-use tsubu_scene::{Scene, TEMPLATES};
+use tsubu_scene::Scene;
 
 /// A rank that is a thread.
 #[derive(Debug)]
@@ -355,12 +356,8 @@ fn polyhedra_have_the_bits_of_one_rank() {
 /// Balls, clumps, ellipsoids and cubes at a mesh that turns in a drum.
 #[test]
 fn all_shapes_have_the_bits_of_one_rank() {
-    let mixed = TEMPLATES.iter().find(|template| template.name == "mixed").unwrap();
     let folder = tempfile::tempdir().unwrap();
-    for (name, text) in mixed.files() {
-        std::fs::write(folder.path().join(name), text).unwrap();
-    }
-    let more = mixed.text.replace("count = 30", "count = 110").replace("\"120 mm\"", "\"450 mm\"");
+    let more = mixed(folder.path()).replace("count = 30", "count = 110").replace("\"120 mm\"", "\"450 mm\"");
     Job { text: &more, folder: folder.path(), steps: &[1500, 1, 1000], resume: true }.same(&[3]);
 }
 
