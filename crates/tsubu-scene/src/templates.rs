@@ -184,6 +184,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/debris-flow.toml"),
     },
     Template {
+        name: "pebbles",
+        about: "in space: balls, ellipsoids, cubes and pairs of balls fall through the surface of water, each with the drag of its shape",
+        text: include_str!("../../../scenes/pebbles.toml"),
+    },
+    Template {
         name: "settling",
         about: "a quartz grain sinks in still water",
         text: include_str!("../../../scenes/settling.toml"),

@@ -75,6 +75,11 @@ fn a_rounded_cube_is_the_sum_of_its_parts() {
     let ball = 2.0 * (half * half * area + 2.0 * half * first + second);
     let moment = 2.0 * (plates + along + across + ball) / volume;
     cube.moments.iter().for_each(|found| near(*found, moment * unit * unit, 1e-12));
+    // So is its surface, to which that of the sphere of its volume is compared.
+    let surface = (6.0 * a * a + 6.0 * PI * a * r + 4.0 * PI * r * r) * unit * unit;
+    near(cube.sphericity(), (36.0 * PI * cube.volume.powi(2)).cbrt() / surface, 1e-12);
+    near(body(CUBE, 1e-7).sphericity(), (PI / 6.0).cbrt(), 1e-6);
+    near(body(TETRAHEDRON, 1e-7).sphericity(), (PI / 6.0 / 3.0_f64.sqrt()).cbrt(), 1e-6);
     // Taken for sharp it would be heavier by a tenth.
     assert!(8.0 / volume > 1.05);
 }

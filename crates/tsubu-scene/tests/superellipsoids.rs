@@ -25,6 +25,33 @@ fn body(shape: &str) -> Clump {
     body
 }
 
+/// Of spheroids the surface has a closed form: flat ones 2 pi a^2 (1 + (1 - e^2)/e artanh e), long ones 2 pi a^2 (1 + c/(a e) asin e).
+#[test]
+fn sphericity_is_that_of_closed_forms() {
+    let sphericity = |volume: f64, surface: f64| (36.0 * PI * volume * volume).cbrt() / surface;
+    let near = |shape: &str, told: f64, within: f64| {
+        let found = body(shape).sphericity();
+        assert!((found / told - 1.0).abs() < within, "{shape} {found} {told}");
+    };
+    near("{ semi-axes = [1, 1, 1] }", 1.0, 1e-9);
+    let (c, e) = (0.25_f64, (1.0 - 0.0625_f64).sqrt());
+    let flat = 2.0 * PI * (1.0 + (1.0 - e * e) / e * e.atanh());
+    near("{ semi-axes = [1, 1, 0.25] }", sphericity(4.0 / 3.0 * PI * c, flat), 1e-4);
+    let (c, e) = (3.0_f64, (1.0 - 1.0 / 9.0_f64).sqrt());
+    let long = 2.0 * PI * (1.0 + c / e * e.asin());
+    near("{ semi-axes = [1, 1, 3] }", sphericity(4.0 / 3.0 * PI * c, long), 1e-4);
+    // A body of revolution, of slices of cones: r^8 + z^8 = 1.
+    let profile = |k: u32| {
+        let (sin, cos) = (f64::from(k) / 20_000.0 * std::f64::consts::FRAC_PI_2).sin_cos();
+        (cos.powf(0.25), sin.powf(0.25))
+    };
+    let cones = (0..20_000).map(|k| (profile(k), profile(k + 1)));
+    let surface: f64 = cones.map(|((r, z), (s, w))| 2.0 * PI * (r + s) * (r - s).hypot(w - z)).sum();
+    let drum = "{ semi-axes = [1, 1, 1], exponents = [8, 2] }";
+    let unit = body(drum).superellipsoid.expect("a superellipsoid").semi_axes[0];
+    near(drum, sphericity(body(drum).volume / unit.powi(3), surface), 1e-4);
+}
+
 /// An ellipsoid has 4/3 pi a b c and (b^2 + c^2) / 5, in any unit; of bodies nearer to boxes a sum over cells says how much.
 #[test]
 fn volume_and_moments_are_those_of_the_body() {

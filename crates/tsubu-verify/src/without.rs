@@ -22,5 +22,4 @@ pub(crate) const CONTROL: &[(&str, &str, &str)] = &[
     ("janssen", "Janssen: largest standard error", "how sure the stresses are, not what they are"),
     ("figure-3b", "", WRITTEN),
     ("figure-12", "cost: DEM", "a cost: a wrong law takes as long"),
-    ("avalanche-stiff", "avalanche, ", WRITTEN),
 ];

@@ -3,8 +3,7 @@
 use super::Parts;
 use super::place::millimetres;
 use crate::complaint::Complaint;
-use crate::plan::{Drag, Flow, GrainMotion, GrainShape, Hindrance, Lid, Lift, Start, Torque, Water};
-use std::f64::consts::PI;
+use crate::plan::{Drag, Flow, GrainMotion, GrainShape, Hindrance, Lid, Lift, Particles, Start, Torque, Water};
 
 pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
     let Some(water) = parts.resolved.get("water").and_then(|water| water.clone().try_into::<Water>().ok()) else {
@@ -13,32 +12,18 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
     let at = |keys: &[&str]| parts.root.locate(&[&["water"], keys].concat());
     for (name, group) in &parts.particles {
         let here = parts.root.locate(&["particles", name]);
-        if matches!(group.shape, GrainShape::Disc { .. }) {
-            complaints.push(
-                Complaint::new(format!("the grains `{name}` are discs; drag and buoyancy are those of spheres"))
-                    .at(&parts.root.locate(&["particles", name, "shape", "disc"]), "not in water")
-                    .also(&at(&[]), "there is water")
-                    .hint("write shape.sphere = {}: spheres whose centres stay in the plane"),
-            );
+        if group.shape.is_flat() {
+            complaints.push(flat(parts, name, group));
             continue;
         }
-        if let Some(clump) = group.shape.clump_key() {
-            complaints.push(
-                Complaint::new(format!(
-                    "the grains `{name}` are {}; drag and buoyancy are those of spheres",
-                    group.shape.plural()
-                ))
-                .at(&parts.root.locate(&["particles", name, "shape", clump]), "not in water")
-                .also(&at(&[]), "there is water")
-                .hint("write shape.sphere = {}"),
-            );
-            continue;
+        if group.shape.is_clump() {
+            not_round(parts, &water, name, group, complaints);
         }
-        let density = group.mass / (PI / 6.0 * group.diameter.powi(3));
+        let density = group.mass / group.shape.mass(1.0, group.diameter);
         if density <= water.density && !water.float {
             complaints.push(
                 Complaint::new(format!("the grains `{name}` are lighter than the water"))
-                    .at(&here, format!("{density:.6} kg/m^3 as spheres"))
+                    .at(&here, format!("{density:.6} kg/m^3"))
                     .also(&at(&["density"]), format!("{} kg/m^3", water.density))
                     .hint("if they shall float write float = true in [water]"),
             );
@@ -91,6 +76,43 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
                 ));
             }
         }
+    }
+}
+
+/// Discs and polygons have no volume that water could be displaced by.
+fn flat(parts: &Parts<'_>, name: &str, group: &Particles) -> Complaint {
+    let (plural, key, instead) = match &group.shape {
+        GrainShape::Disc { .. } => ("discs", "disc", "spheres whose centres stay in the plane"),
+        shape => (shape.plural(), "polygon", "spheres, or shape.polyhedron with dimension = 3"),
+    };
+    Complaint::new(format!("the grains `{name}` are {plural}; drag and buoyancy are those of bodies with a volume"))
+        .at(&parts.root.locate(&["particles", name, "shape", key]), "not in water")
+        .also(&parts.root.locate(&["water"]), "there is water")
+        .hint(format!("write shape.sphere = {{}}: {instead}"))
+}
+
+/// What is known of spheres alone.
+fn not_round(parts: &Parts<'_>, water: &Water, name: &str, group: &Particles, complaints: &mut Vec<Complaint>) {
+    let shape = group.shape.clump_key().unwrap_or("sphere");
+    let body = parts.root.locate(&["particles", name, "shape", shape]);
+    if let Some(law) = water.drag.of_spheres() {
+        complaints.push(
+            Complaint::new(format!(
+                "the grains `{name}` are {}; the drag `{law}` is that of spheres",
+                group.shape.plural()
+            ))
+            .at(&parts.root.locate(&["water", "drag"]), "knows no other bodies")
+            .also(&body, "no sphere")
+            .hint("write drag.haider-levenspiel = {} in [water]: it goes by how round a body is"),
+        );
+    }
+    if !water.lift.is_empty() {
+        complaints.push(
+            Complaint::new(format!("the grains `{name}` are {}; a lift is that of spheres", group.shape.plural()))
+                .at(&parts.root.locate(&["water", "lift"]), "knows no other bodies")
+                .also(&body, "no sphere")
+                .hint("leave `lift` out"),
+        );
     }
 }
 

@@ -219,6 +219,11 @@ static DRAG: &[Variant] = &[
         keys: &[],
     },
     Variant { name: "abraham", about: "One formula for all Re (Dalla Valle 1948; Abraham 1970)", keys: &[] },
+    Variant {
+        name: "haider-levenspiel",
+        about: "The measured drag of bodies by their sphericity, spheres included (Haider and Levenspiel 1989)",
+        keys: &[],
+    },
 ];
 
 static TORQUE: &[Variant] = &[

@@ -76,6 +76,16 @@ impl Packing {
 }
 
 impl Clump {
+    /// Surface of the sphere of its volume over its own; of a body in space.
+    pub fn sphericity(&self) -> f64 {
+        let surface = match (&self.superellipsoid, &self.polyhedron) {
+            (Some(body), _) => body.surface(),
+            (_, Some(body)) => body.surface(),
+            _ => surface(&self.pieces),
+        };
+        std::f64::consts::PI.cbrt() * (6.0 * self.volume).powf(2.0 / 3.0) / surface
+    }
+
     /// Radius of the smallest sphere, and of the largest.
     pub fn radii(&self) -> [f64; 2] {
         let radii = || self.pieces.iter().map(|(_, radius)| *radius);

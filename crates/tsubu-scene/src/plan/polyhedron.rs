@@ -95,6 +95,26 @@ pub(super) fn of_faces(faces: &[(Vector, f64)], rounding: f64, orientation: Clum
 }
 
 impl Polyhedron {
+    /// Surface of one in space: of its faces, its edges, which are parts of cylinders, and its corners, which are a sphere together (Steiner 1840).
+    pub(super) fn surface(&self) -> f64 {
+        let corner = |k: &usize| Vector3::from(self.corners[*k]);
+        let normal = |face: &PolyhedronFace| Vector3::from(face.normal);
+        let area = |face: &PolyhedronFace| {
+            let next = face.corners.iter().cycle().skip(1);
+            let twice: Vector3<f64> = face.corners.iter().zip(next).map(|(a, b)| corner(a).cross(&corner(b))).sum();
+            0.5 * twice.dot(&normal(face))
+        };
+        let turned = |edge: &[usize; 2]| {
+            let mut beside = self.faces.iter().filter(|face| edge.iter().all(|end| face.corners.contains(end)));
+            let angle = beside.next().zip(beside.next()).map_or(0.0, |(a, b)| normal(a).angle(&normal(b)));
+            angle * (corner(&edge[1]) - corner(&edge[0])).norm()
+        };
+        let r = self.rounding;
+        self.faces.iter().map(area).sum::<f64>()
+            + r * self.edges.iter().map(turned).sum::<f64>()
+            + 4.0 * std::f64::consts::PI * r * r
+    }
+
     /// Diameter of what it fills however it is turned.
     pub(super) fn sure(&self) -> f64 {
         2.0 * (self.rounding + self.faces.iter().map(|face| face.offset).fold(0.5, f64::min))

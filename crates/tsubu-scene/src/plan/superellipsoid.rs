@@ -52,6 +52,29 @@ impl Superellipsoid {
         (volume, moments.map(|moment| moment / volume))
     }
 
+    /// Its surface, to about 1e-4: of a direction u of the solid angle dw it is |grad F| / F^3 dw, F(u) = 1 on the surface.
+    pub(super) fn surface(&self) -> f64 {
+        const ROWS: u32 = 400;
+        let [a, b, c] = self.semi_axes;
+        let [p, r] = self.exponents;
+        let middle = |k: u32| (f64::from(k) + 0.5) / f64::from(ROWS);
+        // Of one octant, with rows of equal solid angle.
+        let element = |(i, k): (u32, u32)| {
+            let z = middle(i);
+            let (sin, cos) = (middle(k) * std::f64::consts::FRAC_PI_2).sin_cos();
+            let across = (1.0 - z * z).sqrt();
+            let [x, y, z] = [across * cos / a, across * sin / b, z / c];
+            let equator = x.powf(r) + y.powf(r);
+            let sum = equator.powf(p / r) + z.powf(p);
+            let (f, outer) = (sum.powf(1.0 / p), sum.powf(1.0 / p - 1.0));
+            let inner = outer * equator.powf(p / r - 1.0);
+            let slope = [inner * x.powf(r - 1.0) / a, inner * y.powf(r - 1.0) / b, outer * z.powf(p - 1.0) / c];
+            slope.iter().map(|s| s * s).sum::<f64>().sqrt() / f.powi(3)
+        };
+        let all = (0..ROWS).flat_map(|i| (0..ROWS).map(move |k| (i, k)));
+        4.0 * std::f64::consts::PI / f64::from(ROWS * ROWS) * all.map(element).sum::<f64>()
+    }
+
     /// As a body: in the place of the one sphere that holds it.
     pub(super) fn body(self, orientation: ClumpOrientation) -> Clump {
         let (volume, moments) = self.solid();

@@ -206,6 +206,21 @@ pub enum Drag {
     Gidaspow {},
     /// `water.drag.abraham`.
     Abraham {},
+    /// `water.drag.haider-levenspiel`.
+    HaiderLevenspiel {},
+}
+
+impl Drag {
+    /// Its name in a scene, where it is a law of spheres alone.
+    pub fn of_spheres(&self) -> Option<&'static str> {
+        match self {
+            Self::None {} | Self::Constant { .. } | Self::HaiderLevenspiel {} => None,
+            Self::StokesNewton { .. } => Some("stokes-newton"),
+            Self::SchillerNaumann {} => Some("schiller-naumann"),
+            Self::Gidaspow {} => Some("gidaspow"),
+            Self::Abraham {} => Some("abraham"),
+        }
+    }
 }
 
 /// The torque of the water on a grain that turns at another spin than it.

@@ -17,8 +17,7 @@ pub use water::blows_up;
 use crate::contact::Table;
 use crate::partner::Hosts;
 use crate::sizes;
-use std::f64::consts::PI;
-use tsubu_scene::plan::{self, GrainMotion, Plan, Shape, Start, Water};
+use tsubu_scene::plan::{self, GrainMotion, Particles, Plan, Shape, Start, Water};
 
 /// Time step of DEM [s]: told, or the shortest contact time at the scene's speed scale, and under the weight of the bed, over
 /// the wanted steps per contact; shorter where a bed's dashpots or the drag of water ask for it.
@@ -81,8 +80,8 @@ impl Bodies {
 pub fn bodies(plan: &Plan, table: &Table, hosts: &Hosts) -> Bodies {
     let mut kinds = Vec::new();
     // What an impact moves is the grain with its added mass.
-    let added = |diameter: f64| {
-        let displaced = |water: &Water| water.density * PI / 6.0 * diameter.powi(3);
+    let added = |group: &Particles, diameter: f64| {
+        let displaced = |water: &Water| water.density * group.shape.mass(1.0, diameter);
         plan.water.as_ref().map_or(0.0, |water| water.added_mass * displaced(water))
     };
     for (name, group) in plan.particles.iter().filter(|(_, group)| group.count > 0) {
@@ -98,7 +97,7 @@ pub fn bodies(plan: &Plan, table: &Table, hosts: &Hosts) -> Bodies {
             radius: thin * smallest,
             size: if group.shape.is_polyhedron() { 0.5 } else { thin } * smallest,
             largest: thick * largest,
-            mass: if free { sizes::mass(group, smallest) / lightness + added(smallest) } else { f64::INFINITY },
+            mass: if free { sizes::mass(group, smallest) / lightness + added(group, smallest) } else { f64::INFINITY },
         });
     }
     for wall in plan.walls.values() {

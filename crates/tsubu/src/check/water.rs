@@ -2,7 +2,7 @@
 
 use super::{Verdict, speed_scale};
 use crate::partner::Hosts;
-use crate::water::{KARMAN, Stream, Water};
+use crate::water::{KARMAN, Stream, Submerged, Water};
 use glam::DVec3;
 use std::f64::consts::PI;
 use tsubu_scene::plan::{self, GrainMotion, Particles, Plan, Torque};
@@ -12,10 +12,11 @@ use tsubu_scene::plan::{self, GrainMotion, Particles, Plan, Torque};
 /// velocity and acceleration whose trace is 1 - 3/2 dt/T and whose determinant is -dt/(2 T), so it shrinks for dt < T.
 pub const OF_RELAXATION: f64 = 0.1;
 
-/// A sphere of a group in the water of a scene.
+/// A grain of a group in the water of a scene.
 struct Sunk<'a> {
     water: &'a Water,
     diameter: f64,
+    grain: Submerged,
     /// Without added mass [kg].
     mass: f64,
 }
@@ -27,13 +28,13 @@ impl Sunk<'_> {
     }
 
     fn displaced(&self) -> f64 {
-        self.water.density * PI / 6.0 * self.diameter.powi(3)
+        self.water.density * self.grain.volume()
     }
 
     /// Time in which drag takes a motion of this speed away from a grain alone, mass times speed over drag [s]; infinite without
     /// drag.
     fn alone(&self, speed: f64) -> f64 {
-        self.moved() * speed / self.water.drag(0.5 * self.diameter, speed)
+        self.moved() * speed / self.water.drag(self.grain, speed)
     }
 
     /// The same in the scene. Where grains slow the stream it is the water of a bed, half of the room there, that answers first; a
@@ -48,7 +49,7 @@ impl Sunk<'_> {
 
     /// Time in which the water takes this spin [rad/s] away, inertia times spin over torque [s]; infinite without torque.
     fn spin_down(&self, spin: f64) -> f64 {
-        let radius = 0.5 * self.diameter;
+        let radius = self.grain.radius;
         0.4 * self.mass * radius * radius * spin / self.water.torque(radius, spin)
     }
 }
@@ -59,7 +60,8 @@ fn sunk<'a>(plan: &'a Plan, water: &'a Water) -> impl Iterator<Item = (&'a Strin
     let groups = plan.particles.iter().filter(move |(_, group)| moved(group));
     groups.map(move |(name, group)| {
         let diameter = group.smallest_diameter();
-        (name, group, Sunk { water, diameter, mass: group.mass * (diameter / group.diameter).powi(3) })
+        let grain = Submerged::of(&group.shape, diameter);
+        (name, group, Sunk { water, diameter, grain, mass: group.mass * (diameter / group.diameter).powi(3) })
     })
 }
 
@@ -139,16 +141,16 @@ pub(super) fn judge(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64) 
         }
         turning(verdict, plan, name, &sunk, speed, dt);
         linear |= contacts(verdict, (plan, hosts), (name, group), &sunk, time);
-        let terminal = water.terminal(0.5 * sunk.diameter, sunk.mass, gravity);
+        let terminal = water.terminal(sunk.grain, sunk.mass, gravity);
         if let Some(terminal) = terminal {
-            let reynolds = terminal * sunk.diameter / water.viscosity;
+            let reynolds = terminal * 2.0 * sunk.grain.radius / water.viscosity;
             let way = if sunk.mass < sunk.displaced() { "rises" } else { "sinks" };
             verdict.say(format!("{name} in water: {way} at {terminal:.4} m/s in the end (Re = {reynolds:.3})"));
         }
         let Some(shear) = water.stream.shear_velocity() else { continue };
         // At the mean grain, as in published transport rates.
         let d = group.diameter;
-        let density = group.mass / (PI / 6.0 * d.powi(3));
+        let density = group.mass / group.shape.mass(1.0, d);
         let relative = density / water.density - 1.0;
         if relative > 0.0 && gravity > 0.0 {
             let shields = shear * shear / (relative * gravity * d);

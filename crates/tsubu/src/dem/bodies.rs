@@ -7,6 +7,7 @@
 
 mod assemble;
 mod body;
+mod in_water;
 mod refused;
 mod told;
 
@@ -18,7 +19,7 @@ use crate::ledger::Energies;
 use crate::neighbours::joined::NO_BODY;
 use crate::neighbours::lists::{BlockList, shares};
 use crate::polyhedron::Polyhedron;
-use crate::state::Grains;
+use crate::state::{Grains, moved_along};
 use crate::superellipsoid::{Outline, Superellipsoid};
 use crate::threads::each_in_parts;
 use crate::view;
@@ -141,6 +142,10 @@ impl Bodies {
             let pieces = &mut self.list[sorted[*place as usize].body as usize].pieces;
             *pieces = if pieces.end == 0 { k..k + 1 } else { pieces.start..k + 1 };
         }
+        for body in self.list.iter_mut().filter(|body| body.is_there()) {
+            let inverse = grains.inverse_mass[self.places[body.pieces.start] as usize];
+            body.added_mass = moved_along(body.mass, inverse);
+        }
     }
 
     /// Those that are there.
@@ -246,16 +251,18 @@ impl Bodies {
     pub fn energies(&self, gravity: DVec3) -> Energies {
         let mut energies = Energies::default();
         for body in self.there() {
-            energies.kinetic += 0.5 * body.mass * body.velocity.length_squared();
+            let squared = body.velocity.length_squared();
+            energies.kinetic += 0.5 * body.mass * squared;
+            energies.added_mass += 0.5 * body.added_mass * squared;
             energies.rotational += 0.5 * body.angular_momentum.dot(body.spin);
             energies.potential -= body.mass * gravity.dot(body.centre);
         }
         energies
     }
 
-    /// Total momentum [N.s].
+    /// Total momentum [N.s], that of the water that moves along with them included.
     pub fn momentum(&self) -> DVec3 {
-        self.there().map(|body| body.mass * body.velocity).sum()
+        self.there().map(|body| (body.mass + body.added_mass) * body.velocity).sum()
     }
 
     /// Sum of mass times centre [kg.m].

@@ -283,7 +283,7 @@ impl BlockContacts {
         scratch.forget(input.laws.all());
         // The grains are in the cache now.
         if let Some(water) = &input.water {
-            water.apply_forces(input.grains, list.first, loads, immersion, &mut scratch.parcel);
+            water.apply_forces((input.grains, input.bodies), list.first, loads, immersion, &mut scratch.parcel);
         }
     }
 }

@@ -304,6 +304,7 @@ impl Engine for DemEngine {
         );
         Energies {
             kinetic: spheres.kinetic + bodies.kinetic,
+            added_mass: spheres.added_mass + bodies.added_mass,
             rotational: spheres.rotational + bodies.rotational,
             potential: spheres.potential + bodies.potential,
             elastic: self.contacts.sums.stored,

@@ -1,5 +1,6 @@
 //! Immersion: the forces of the water on the grains join those of the contacts, block by block.
 
+use super::bodies::Bodies;
 use super::contact_forces::{BlockContacts, Load};
 use super::engine::DemEngine;
 use crate::contact::chunk::{Chunk, ROWS};
@@ -7,7 +8,7 @@ use crate::ledger::{Account, Ledger};
 use crate::neighbours::lists::BLOCK;
 use crate::ranks::Reader;
 use crate::state::Grains;
-use crate::water::{EVERY, Gust, LayerReaction, Parcel, Stream, Water, WaterPowers};
+use crate::water::{EVERY, Gust, LayerReaction, Parcel, Stream, Submerged, Water, WaterPowers};
 use glam::DVec3;
 
 /// The water of a run.
@@ -99,10 +100,11 @@ impl Immersion {
 
 impl WaterAtTime<'_> {
     /// Adds the forces on the grains of a block that begins with grain `first` to its `loads`, parcel by parcel: those that
-    /// forces move, then the others. What fixed grains feel is nobody's business but that of a stream, which they slow as well.
+    /// forces move, then the others. What fixed grains feel is nobody's business but that of a stream, which they slow as well. A body of several
+    /// pieces feels it at the first of them.
     pub fn apply_forces(
         &self,
-        grains: &Grains,
+        (grains, bodies): (&Grains, &Bodies),
         first: usize,
         loads: &mut [Load],
         immersion: &mut BlockImmersion,
@@ -119,9 +121,9 @@ impl WaterAtTime<'_> {
             gusts.resize(BLOCK, Gust::default());
         }
         let slows = !reaction.is_empty();
-        let mut forces = WaterForces { at: self, grains, first, loads, reaction, gusts, parcel };
+        let mut forces = WaterForces { at: self, grains, bodies, first, loads, reaction, gusts, parcel };
         let fixed = own.iter().filter(|m| **m == 0.0).count();
-        if fixed == 0 {
+        if fixed == 0 && bodies.is_empty() {
             // Nobody need be looked up in a list.
             for begin in (0..own.len()).step_by(ROWS) {
                 forces.free((own.len() - begin).min(ROWS), |r| begin + r, powers);
@@ -132,7 +134,7 @@ impl WaterAtTime<'_> {
             let (mut rows, mut len) = ([0u16; BLOCK], 0);
             for (i, m) in own.iter().enumerate() {
                 rows[len] = i as u16;
-                len += usize::from((*m == 0.0) == fixed);
+                len += usize::from((*m == 0.0) == fixed && !bodies.follows(first + i));
             }
             (rows, len)
         };
@@ -155,6 +157,7 @@ impl WaterAtTime<'_> {
 struct WaterForces<'a> {
     at: &'a WaterAtTime<'a>,
     grains: &'a Grains,
+    bodies: &'a Bodies,
     first: usize,
     loads: &'a mut [Load],
     reaction: &'a mut [LayerReaction],
@@ -165,17 +168,23 @@ struct WaterForces<'a> {
 impl WaterForces<'_> {
     /// Forces on so many grains, of which `own` tells the places in the block, and what they take from a stream.
     fn act(&mut self, len: usize, own: impl Fn(usize) -> usize, powers: &mut WaterPowers) {
-        let Self { at, grains, first, reaction, gusts, parcel, .. } = self;
+        let Self { at, grains, bodies, first, reaction, gusts, parcel, .. } = self;
         let WaterAtTime { water, time, held, .. } = **at;
         let rotates = water.rotates();
         parcel.len = len;
         for r in 0..parcel.rows() {
             let i = *first + own(r);
-            parcel.height[r] = grains.position[i].z;
-            parcel.radius[r] = grains.radius[i];
-            Chunk::set(&mut parcel.velocity, r, grains.velocity[i]);
+            let (mut height, mut seen) = (grains.position[i].z, Submerged::sphere(grains.radius[i]));
+            let (mut velocity, mut spin) = (grains.velocity[i], grains.spin[i]);
+            if let Some((body, arm)) = bodies.led_by(i) {
+                (height, seen) = (height - arm.z, body.submerged);
+                (velocity, spin) = (body.velocity, body.spin);
+            }
+            parcel.height[r] = height;
+            (parcel.radius[r], parcel.sphericity[r]) = (seen.radius, seen.sphericity);
+            Chunk::set(&mut parcel.velocity, r, velocity);
             if rotates {
-                Chunk::set(&mut parcel.spin, r, grains.spin[i]);
+                Chunk::set(&mut parcel.spin, r, spin);
             }
             if let Some(fluctuation) = &water.fluctuation {
                 let fluctuation = fluctuation.at(&mut gusts[own(r)], grains.id[i], time);
@@ -200,9 +209,14 @@ impl WaterForces<'_> {
         let rotates = water.rotates();
         for r in 0..self.parcel.rows() {
             let load = &mut self.loads[own(r)];
-            load.force += self.parcel.total(r) - weight * self.parcel.volume[r];
+            let force = self.parcel.total(r) - weight * self.parcel.volume[r];
+            load.force += force;
             if rotates {
                 load.torque += self.parcel.total_torque(r);
+            }
+            // It acts at the centre of mass.
+            if let Some((_, arm)) = self.bodies.led_by(self.first + own(r)) {
+                load.torque -= arm.cross(force);
             }
         }
     }
@@ -212,7 +226,7 @@ impl WaterForces<'_> {
 /// which height what momentum [N.s] that water has gained, and with which velocity: `ahead` [s] of its last acceleration less
 /// than it has.
 fn update_added_mass(
-    grains: &mut Grains,
+    (grains, bodies): (&mut Grains, &mut Bodies),
     water: &Water,
     level: f64,
     ahead: f64,
@@ -226,7 +240,7 @@ fn update_added_mass(
         }
         for i in rows {
             let height = grains.position[i].z;
-            if height < level || grains.inverse_mass[i] == 0.0 {
+            if height < level || grains.inverse_mass[i] == 0.0 || grains.inertia[i] == 0.0 {
                 continue;
             }
             let added = water.added_mass(grains.radius[i], height);
@@ -235,13 +249,22 @@ fn update_added_mass(
             grains.inverse_mass[i] = 1.0 / (grains.mass[i] + added);
         }
     }
+    bodies.add_mass(grains, |body, height| {
+        let added = water.added_mass(body.submerged.radius, height);
+        let velocity = body.velocity - ahead * body.acceleration;
+        gains(height, (added - body.added_mass) * velocity, velocity);
+        added
+    });
 }
 
 impl DemEngine {
     /// Gives every grain the added mass of where it begins.
     pub(super) fn init_added_mass(&mut self) {
         if let Some(immersion) = &self.immersion {
-            update_added_mass(&mut self.grains, &immersion.water, f64::NEG_INFINITY, 0.0, |_, _, _| ());
+            let bodies = &mut self.integration.bodies;
+            bodies.find(&self.grains);
+            let all = (&mut self.grains, bodies);
+            update_added_mass(all, &immersion.water, f64::NEG_INFINITY, 0.0, |_, _, _| ());
         }
     }
 
@@ -255,7 +278,8 @@ impl DemEngine {
         // Whatever is a diameter down now has been under water in the last step as well. The mass changes between the two halves of
         // the step, so what it brings has the velocity between them, not the predicted one.
         let level = water.surface() - self.limits.largest_diameter;
-        update_added_mass(&mut self.grains, water, level, ahead, |height, momentum, velocity| {
+        let all = (&mut self.grains, &mut self.integration.bodies);
+        update_added_mass(all, water, level, ahead, |height, momentum, velocity| {
             ledger.post(Account::Buoyancy, 0.5 * momentum.dot(velocity));
             for (axis, impulse) in ledger.water_impulse.iter_mut().enumerate() {
                 *impulse += momentum[axis];
@@ -281,7 +305,8 @@ impl DemEngine {
                 let mut turned = coupled.step(&immersion.reaction, &immersion.entrained, dt);
                 if looks {
                     let seconds = EVERY as f64 * dt;
-                    let mixed = coupled.look(&self.grains.position, &self.grains.radius, seconds);
+                    let (position, radius) = self.integration.bodies.spheres_in_water(&self.grains);
+                    let mixed = coupled.look(&position, &radius, seconds);
                     (turned.work, turned.lost) = (turned.work + mixed.work, turned.lost + mixed.lost);
                 }
                 ledger.post(Account::StreamWork, turned.work);
@@ -289,7 +314,8 @@ impl DemEngine {
                 ledger.post(Account::StreamFriction, turned.lost);
             }
             Stream::Column { layers, .. } if looks => {
-                layers.porosity = layers.measure(&self.grains.position, &self.grains.radius);
+                let (position, radius) = self.integration.bodies.spheres_in_water(&self.grains);
+                layers.porosity = layers.measure(&position, &radius);
             }
             _ => {}
         }
@@ -307,10 +333,10 @@ impl DemEngine {
     /// Porosity of the layers of the water, before anything moves.
     pub(super) fn init_porosity(&mut self) {
         let Some(immersion) = &mut self.immersion else { return };
-        let (position, radius) = (&self.grains.position, &self.grains.radius);
+        let (position, radius) = self.integration.bodies.spheres_in_water(&self.grains);
         match &mut immersion.water.stream {
-            Stream::Coupled(coupled) => coupled.init_porosity(position, radius),
-            Stream::Column { layers, .. } => layers.porosity = layers.measure(position, radius),
+            Stream::Coupled(coupled) => coupled.init_porosity(&position, &radius),
+            Stream::Column { layers, .. } => layers.porosity = layers.measure(&position, &radius),
             Stream::Still | Stream::LogLaw { .. } | Stream::Table { .. } => {}
         }
     }

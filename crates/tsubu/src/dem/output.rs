@@ -119,13 +119,17 @@ impl DemEngine {
     fn water_forces(&self, contact: &[DVec3]) -> Vec<DVec3> {
         let g = &self.grains;
         let rest = |i: usize| {
-            let all = (g.mass[i] + g.added_mass(i)) * g.acceleration[i];
-            all - g.mass[i] * self.integration.gravity
+            let added = if g.inertia[i] == 0.0 { 0.0 } else { g.added_mass(i) };
+            (g.mass[i] + added) * g.acceleration[i]
+                - g.mass[i] * self.integration.gravity
                 - contact[i]
                 - self.contacts.outside.on(i)
                 - self.contacts.bonds.on(i)
         };
-        (0..g.len()).map(|i| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { rest(i) }).collect()
+        let mut forces: Vec<DVec3> =
+            (0..g.len()).map(|i| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { rest(i) }).collect();
+        self.integration.bodies.share_water_force(g, &mut forces);
+        forces
     }
 
     /// What those see who look on. A pair that only the reach of the law holds near each other is no contact.

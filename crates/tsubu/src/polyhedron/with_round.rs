@@ -13,12 +13,37 @@ use glam::DVec3;
 /// Over the size of the bodies: where features meet both may tell.
 const MEET: f64 = 1e-9;
 
+/// The same where one must tell.
+const SURE: f64 = 1e-6;
+
 /// Where they touch, the first the superellipsoid; nothing where the gap is `reach` [m] or more. The centre of the polyhedron is `apart` [m] from that of the other.
 pub fn touch(round: &Outline, body: &Turned, apart: DVec3, reach: f64) -> Option<Touch> {
     let radius = body.rounding;
     let cut = radius + reach;
+    let mut contact = least(round, body, apart, MEET * body.size, cut)?;
+    // Where bodies are apart and the nearest is a corner out of reach, the far side of a thin one is what is left, and seems to be deep inside.
+    if contact.overlap > 0.0 && !round.holds(contact.foot()) {
+        contact = least(round, body, apart, SURE * body.size, f64::INFINITY)?;
+    }
+    if contact.overlap <= -cut {
+        return None;
+    }
+    let share = (radius / (contact.radius + radius)).powi(2);
+    let (force, torque) = (contact.force * share, contact.torque * share);
+    Some(Touch {
+        normal: contact.normal,
+        overlap: contact.overlap + radius,
+        points: [contact.point, contact.foot() - apart - contact.normal * radius],
+        radii: [contact.radius, radius],
+        // What one feels the other feels, too, and together they do not turn.
+        rounding: Rounding { force, torques: [torque, apart.cross(force) - torque] },
+        looks: 1,
+    })
+}
+
+/// The least of what features tell of a core; nothing where a face says that the gap is `cut` [m] or more. Corners farther away are not looked at.
+fn least(round: &Outline, body: &Turned, apart: DVec3, tolerance: f64, cut: f64) -> Option<AtWall> {
     let from = -apart;
-    let tolerance = MEET * body.size;
     let mut least: Option<AtWall> = None;
     let mut take = |contact: AtWall| {
         if least.is_none_or(|least| contact.overlap < least.overlap) {
@@ -58,18 +83,7 @@ pub fn touch(round: &Outline, body: &Turned, apart: DVec3, reach: f64) -> Option
             }
         }
     }
-    let contact = least.filter(|least| least.overlap > -cut)?;
-    let share = (radius / (contact.radius + radius)).powi(2);
-    let (force, torque) = (contact.force * share, contact.torque * share);
-    Some(Touch {
-        normal: contact.normal,
-        overlap: contact.overlap + radius,
-        points: [contact.point, contact.foot() - apart - contact.normal * radius],
-        radii: [contact.radius, radius],
-        // What one feels the other feels, too, and together they do not turn.
-        rounding: Rounding { force, torques: [torque, apart.cross(force) - torque] },
-        looks: 1,
-    })
+    least
 }
 
 /// The same the other way round: the first is the polyhedron.

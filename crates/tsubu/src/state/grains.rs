@@ -71,9 +71,7 @@ impl Grains {
 
     /// Mass of the water that moves along with a grain that forces move [kg]; without water an exact zero.
     pub fn added_mass(&self, i: usize) -> f64 {
-        // The mass is one over its inverse only up to rounding.
-        let added = 1.0 / self.inverse_mass[i] - self.mass[i];
-        if added > 1e-12 * self.mass[i] { added } else { 0.0 }
+        moved_along(self.mass[i], self.inverse_mass[i])
     }
 
     /// Total momentum [N.s] of the grains that forces move, and of the water that moves along with them, but for pieces of bodies.
@@ -99,4 +97,11 @@ impl Grains {
         order.sort_unstable_by_key(|&i| self.id[i]);
         order
     }
+}
+
+/// Mass of the water that moves along with a mass [kg], of one over both [1/kg]; without water an exact zero.
+pub fn moved_along(mass: f64, inverse_mass: f64) -> f64 {
+    // The mass is one over its inverse only up to rounding.
+    let added = 1.0 / inverse_mass - mass;
+    if added > 1e-12 * mass { added } else { 0.0 }
 }

@@ -4,4 +4,4 @@ pub mod columns;
 pub mod grains;
 pub mod sphere;
 
-pub use grains::{Grain, Grains};
+pub use grains::{Grain, Grains, moved_along};

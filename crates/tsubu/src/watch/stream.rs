@@ -4,7 +4,7 @@ use super::{Sample, Sheet, Watch};
 use crate::about::About;
 use crate::state::sphere;
 use crate::view::{View, Wants};
-use crate::water::{Coupled, KARMAN, Layers, Stream, Water};
+use crate::water::{Coupled, KARMAN, Layers, Stream, Submerged, Water};
 use glam::DVec3;
 use tsubu_scene::plan::{self, Flow, Plan, watch};
 
@@ -65,7 +65,7 @@ impl Watched {
         let shear = water.stream.shear_velocity().unwrap_or(f64::NAN);
         let stress = water.bed_stress().unwrap_or(f64::NAN);
         let numbers = self.grain.map(|grain @ (density, d)| {
-            let terminal = water.terminal(0.5 * d, density * sphere::volume(0.5 * d), self.gravity);
+            let terminal = water.terminal(Submerged::sphere(0.5 * d), density * sphere::volume(0.5 * d), self.gravity);
             let rouse = terminal.map_or(0.0, |speed| speed / (KARMAN * (stress / water.density).sqrt()));
             [water.shields(stress, grain, self.gravity), rouse]
         });

@@ -19,6 +19,7 @@ mod part;
 mod saffman;
 mod shields;
 mod stream;
+mod submerged;
 mod torque;
 
 pub(crate) use coupled::EVERY;
@@ -30,6 +31,7 @@ pub use parcel::{Parcel, WaterPowers};
 pub use part::{Part, WorkKind};
 pub use shields::{FORMULAS, Formula};
 pub use stream::Stream;
+pub use submerged::Submerged;
 
 use crate::about::About;
 use crate::mutation::{Mutation, mutated};
@@ -58,6 +60,7 @@ pub const ABOUT: &[&About] = &[
     &drag::SCHILLER_NAUMANN,
     &drag::GIDASPOW,
     &drag::ABRAHAM,
+    &drag::HAIDER_LEVENSPIEL,
     &torque::STOKES,
     &torque::FINITE_REYNOLDS,
     &saffman::SAFFMAN,
@@ -178,11 +181,10 @@ impl Water {
         self.added_mass * self.density * sphere::volume(radius) * sphere::below((self.surface() - height) / radius)
     }
 
-    /// Drag of a sphere of this radius [m] in water that passes it at `speed` [m/s]: the size of all forces that go with the
-    /// motion relative to the water, in N.
-    pub fn drag(&self, radius: f64, speed: f64) -> f64 {
+    /// Drag of a grain in water that passes it at `speed` [m/s]: the size of all forces that go with the motion relative to the water, in N.
+    pub fn drag(&self, grain: Submerged, speed: f64) -> f64 {
         let mut parcel = Parcel { len: 1, ..Parcel::default() };
-        parcel.radius[0] = radius;
+        (parcel.radius[0], parcel.sphericity[0]) = (grain.radius, grain.sphericity);
         parcel.begin(f64::INFINITY);
         parcel.flow[0][0] = speed;
         parcel.slip();
@@ -193,20 +195,20 @@ impl Water {
         parcel.total(0).length()
     }
 
-    /// Speed at which a sphere of this radius [m] and mass [kg] sinks or rises in the end in still water [m/s], where drag carries its
+    /// Speed at which a grain of this mass [kg] sinks or rises in the end in still water [m/s], where drag carries its
     /// weight under water; by bisection. `None` without weight or drag.
-    pub fn terminal(&self, radius: f64, mass: f64, gravity: f64) -> Option<f64> {
-        let weight = (mass - self.density * sphere::volume(radius)).abs() * gravity;
-        if weight <= 0.0 || self.drag(radius, 1.0) <= 0.0 {
+    pub fn terminal(&self, grain: Submerged, mass: f64, gravity: f64) -> Option<f64> {
+        let weight = (mass - self.density * grain.volume()).abs() * gravity;
+        if weight <= 0.0 || self.drag(grain, 1.0) <= 0.0 {
             return None;
         }
         let (mut low, mut high) = (0.0, 1e-9);
-        while self.drag(radius, high) < weight {
+        while self.drag(grain, high) < weight {
             (low, high) = (high, 2.0 * high);
         }
         for _ in 0..100 {
             let middle = 0.5 * (low + high);
-            if self.drag(radius, middle) < weight { low = middle } else { high = middle }
+            if self.drag(grain, middle) < weight { low = middle } else { high = middle }
         }
         Some(high)
     }

@@ -17,8 +17,10 @@ pub struct Parcel {
 
     /// Height z of the centre [m].
     pub height: Column,
-    /// Radius [m].
+    /// Radius; of a body that is no sphere that of the sphere of its volume [m].
     pub radius: Column,
+    /// Surface of that sphere over that of the grain [-]; 1 in rows that nobody fills in.
+    pub sphericity: Column,
     /// Velocity [m/s].
     pub velocity: [Column; 3],
     /// Spin [rad/s].
@@ -130,6 +132,7 @@ impl Default for Parcel {
             len: 0,
             height: ZERO,
             radius: ZERO,
+            sphericity: Column([1.0; ROWS + 8]),
             velocity: VECTOR,
             spin: VECTOR,
             fluctuation: VECTOR,

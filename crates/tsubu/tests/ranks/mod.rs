@@ -4,6 +4,7 @@
 
 use crate::dem::polyhedron::CROWD;
 use crate::dem::shapes_at_walls::mixed;
+use crate::water::bodies::splash;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -359,6 +360,12 @@ fn all_shapes_have_the_bits_of_one_rank() {
     let folder = tempfile::tempdir().unwrap();
     let more = mixed(folder.path()).replace("count = 30", "count = 110").replace("\"120 mm\"", "\"450 mm\"");
     Job { text: &more, folder: folder.path(), steps: &[1500, 1, 1000], resume: true }.same(&[3]);
+}
+
+/// The same shapes but for the mesh, that fall into water.
+#[test]
+fn bodies_in_water_have_the_bits_of_one_rank() {
+    Job { steps: &[1500, 1, 700], resume: true, ..job(&splash(60)) }.same(&[3]);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Grains in water by their outcome.
 
+pub mod bodies;
 mod coupled;
 mod float;
 mod fluctuation;

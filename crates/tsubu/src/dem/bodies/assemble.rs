@@ -8,6 +8,7 @@ use crate::random::{Purpose, unit, words};
 use crate::sizes;
 use crate::state::{Grain, Grains};
 use crate::superellipsoid::Superellipsoid;
+use crate::water::Submerged;
 use glam::{DMat3, DQuat, DVec3};
 use tsubu_scene::plan::{Clump, ClumpOrientation, Particles, Plan, Start};
 
@@ -26,25 +27,27 @@ impl Bodies {
             shapes.push(polyhedron.map(|_| bodies.polyhedra.len() as u32));
             bodies.polyhedra.extend(polyhedron.map(Polyhedron::new));
         }
+        // Of diameter 1; only water looks at it.
+        let in_water = |group: &Particles| plan.water.as_ref().map(|_| Submerged::of(&group.shape, 1.0));
+        let seen: Vec<Submerged> =
+            plan.particles.values().map(|group| in_water(group).unwrap_or(Submerged::sphere(0.5))).collect();
         let whole = std::mem::take(grains);
         for i in 0..whole.len() {
             let grain = whole.row(i);
-            let first = grains.len() as u32;
-            if let Some(clump) = &clumps[grain.group as usize] {
-                bodies.expect(clump, shapes[grain.group as usize], grain.mass, 2.0 * grain.radius);
+            let (first, group) = (grains.len() as u32, grain.group as usize);
+            if let Some(clump) = &clumps[group] {
+                bodies.expect(clump, shapes[group], seen[group], grain.mass, 2.0 * grain.radius);
                 bodies.enter(clump, &grain, first, plan).into_iter().for_each(|piece| grains.push(piece));
             } else {
                 grains.push(Grain { id: first, ..grain });
                 bodies.by_id.push(ALONE);
             }
         }
-        for ((group, clump), shape) in
-            plan.particles.values().zip(&clumps).zip(&shapes).filter(|((group, _), _)| is_stream(group))
-        {
+        for (k, group) in plan.particles.values().enumerate().filter(|(_, group)| is_stream(group)) {
             for _ in 0..group.count {
                 let diameter = sizes::diameter(group, plan.seed, bodies.by_id.len() as u32);
-                match clump {
-                    Some(clump) => bodies.expect(clump, *shape, sizes::mass(group, diameter), diameter),
+                match &clumps[k] {
+                    Some(clump) => bodies.expect(clump, shapes[k], seen[k], sizes::mass(group, diameter), diameter),
                     None => bodies.by_id.push(ALONE),
                 }
             }
@@ -60,7 +63,7 @@ impl Bodies {
     }
 
     /// Makes room for a body: what of it never changes.
-    fn expect(&mut self, clump: &Clump, polyhedron: Option<u32>, mass: f64, diameter: f64) {
+    fn expect(&mut self, clump: &Clump, polyhedron: Option<u32>, seen: Submerged, mass: f64, diameter: f64) {
         let body = self.list.len() as u32;
         let superellipsoid = clump.superellipsoid.map(|shape| Superellipsoid {
             semi_axes: DVec3::from_array(shape.semi_axes) * diameter,
@@ -69,6 +72,8 @@ impl Bodies {
         });
         self.list.push(Body {
             mass,
+            submerged: Submerged { radius: seen.radius * diameter, ..seen },
+            added_mass: 0.0,
             moments: DVec3::from_array(clump.moments) * (mass * diameter * diameter),
             ellipsoid: superellipsoid.map(|shape| shape.ellipsoid(&DMat3::IDENTITY)).unwrap_or_default(),
             superellipsoid,

@@ -6,6 +6,7 @@ use super::Piece;
 use crate::superellipsoid::Superellipsoid;
 use crate::superellipsoid::ellipsoids::Ellipsoid;
 use crate::superellipsoid::symmetric::Symmetric;
+use crate::water::Submerged;
 use glam::{DMat3, DQuat, DVec3};
 use multiversion::multiversion;
 use std::ops::Range;
@@ -17,6 +18,10 @@ const ROUNDS: usize = 60;
 #[derive(Clone, Debug)]
 pub struct Body {
     pub mass: f64,
+    /// What water sees of it.
+    pub submerged: Submerged,
+    /// Mass of the water that moves along with it [kg].
+    pub added_mass: f64,
     /// Moments of inertia about the principal axes [kg.m^2].
     pub moments: DVec3,
     /// What is in the place of its one sphere.
@@ -125,7 +130,7 @@ impl Body {
 
     /// Takes forces and torques, and completes the velocities, which the old ones have brought `share` [s] of the way.
     pub fn second_half(&mut self, felt: &Felt, gravity: DVec3, share: f64, plane: bool) {
-        let acceleration = felt.force / self.mass + gravity;
+        let acceleration = felt.force / (self.mass + self.added_mass) + gravity;
         let change = (acceleration - self.acceleration) * share;
         self.acceleration = acceleration;
         self.velocity += change;
