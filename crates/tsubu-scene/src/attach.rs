@@ -45,7 +45,8 @@ pub(crate) fn shape(shape: &mut GrainShape, files: &Files, space: bool) {
         | GrainShape::Clump { .. }
         | GrainShape::Superellipsoid { .. }
         | GrainShape::Polyhedron { .. }
-        | GrainShape::Polygon { .. } => {}
+        | GrainShape::Polygon { .. }
+        | GrainShape::Cells { .. } => {}
     }
 }
 

@@ -35,6 +35,7 @@ pub mod plan;
 pub mod units;
 
 mod attach;
+mod cells;
 mod change;
 mod check;
 mod choices;
@@ -70,6 +71,7 @@ pub mod mesh {
     pub use crate::mesh_check::{Diagnosis, Found, diagnose, ends};
 }
 
+pub use cells::Cells;
 pub use choices::{Choice, KeyText, choices, paths};
 pub use complaint::Complaints;
 pub use going_on::Difference;

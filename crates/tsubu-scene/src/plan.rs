@@ -10,6 +10,7 @@
 #![allow(rustdoc::broken_intra_doc_links, reason = "[s] is a unit, not a link")]
 
 mod bonds;
+mod cells;
 mod clumps;
 mod contact;
 mod gases;
@@ -29,6 +30,8 @@ pub mod watch;
 mod water;
 
 pub use bonds::Bond;
+pub use cells::CellError;
+pub(crate) use cells::planes as planes_of_cells;
 pub use clumps::{Clump, ClumpOrientation, Packing, PackingError};
 pub use contact::{
     Cohesion, Contact, Damping, Film, Material, MaterialPair, MindlinForm, Normal, Rolling, SlipLever, Strength,
@@ -39,7 +42,7 @@ pub use gases::{BaxterBehringer, Fhp, FhpRules, GasWalls, KarolyiKertesz, PengHe
 pub use grains::{GrainMotion, GrainShape, GrainTable, Particles, Periodic, Removal, Size, Start, submerged};
 pub use hosts::{Dwell, Host, Interface, Mode, Scale, Signal, Structure};
 pub use methods::{
-    Arithmetic, ClCa, ClCaRule, Collision, Dem, GrainPoints, GravitySwitch, Integrator, Lattice, LatticeMode,
+    Arithmetic, ClCa, ClCaRule, Collision, Dem, GrainPoints, GravitySwitch, Integrator, Lattice, LatticeMode, NO_GRAIN,
     ObliqueGravity,
 };
 pub use polyhedron::{Polyhedron, PolyhedronFace};

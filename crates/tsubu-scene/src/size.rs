@@ -49,7 +49,7 @@ fn sieve_mean(diameter: &[f64], passing: &[f64], shape: &GrainShape) -> Option<f
                 number += share * square;
                 moment += share * inverse;
             }
-            GrainShape::Disc { .. } | GrainShape::Polygon { .. } => {
+            GrainShape::Disc { .. } | GrainShape::Polygon { .. } | GrainShape::Cells { .. } => {
                 number += share * inverse;
                 moment += share * (b / a).ln();
             }
@@ -93,7 +93,7 @@ impl GrainShape {
             | Self::PolyhedronMesh { .. } => {
                 density * self.clump().map_or(std::f64::consts::PI / 6.0, |clump| clump.volume) * diameter.powi(3)
             }
-            Self::Polygon { thickness, .. } => {
+            Self::Polygon { thickness, .. } | Self::Cells { thickness, .. } => {
                 let area = self.clump().map_or(std::f64::consts::PI / 4.0, |clump| clump.volume);
                 density * area * diameter.powi(2) * thickness
             }

@@ -99,6 +99,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/polygons.toml"),
     },
     Template {
+        name: "cells",
+        about: "hexagons, rods and hooks made of lattice cells lose a side wall, by CL-CA; the same file runs by DEM with the same outlines",
+        text: include_str!("../../../scenes/cells.toml"),
+    },
+    Template {
         name: "mixed",
         about: "in space: balls, clumps, ellipsoids and cubes side by side in a round vessel, stirred by a blade from an STL file",
         text: include_str!("../../../scenes/mixed.toml"),

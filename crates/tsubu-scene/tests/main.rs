@@ -1,6 +1,7 @@
 //! One binary for all integration tests of the crate: it links once.
 
 mod bonds;
+mod cells;
 /// `--set` and programmatic changes.
 mod changes;
 mod clump_meshes;

@@ -9,6 +9,9 @@ mod heap;
 mod hopper;
 mod seen;
 mod shaken;
+mod shapes;
+
+pub(super) use shapes::shapes;
 
 use super::Judged;
 use tsubu_frame::RunFolder;

@@ -174,6 +174,31 @@ const REASONS: &[(&str, &str, &str)] = &[
     ("common-hopper", "hopper, litwiniszyn", "not known; it is one draw of voids that walk at random"),
     ("common-collapse", "", "CL-CA has no friction to set, and stands for one larger than that of the common test"),
     (
+        "common-shapes",
+        "rods by",
+        "the front is that of the second of 120 rods, and scatters by half of its way: six draws leave open whether rods that turn go farther",
+    ),
+    (
+        "common-shapes",
+        "rods that turn: alignment",
+        "rods of CL-CA turn by 60 degrees, and only where they are stuck and can go on after that: most lie as they fell; by DEM an end that lands first is turned by the weight",
+    ),
+    (
+        "common-shapes",
+        "rods that turn: height",
+        "rods of CL-CA do not lie down, and lie 9 % higher: six draws leave an interval about the end of the range",
+    ),
+    (
+        "common-shapes",
+        "rods that do not turn: height",
+        "by DEM rods that do not turn meet at any angle and hold each other up; those of CL-CA have three directions and fit together: six draws leave an interval about the end of the range",
+    ),
+    (
+        "common-shapes",
+        "",
+        "CL-CA has no friction to set, and the same outlines do not change that: beside hexagons of DEM that do not turn it stands for a friction between 0.5 and 0.9, not for 0.3",
+    ),
+    (
         "common-shaken",
         "shaken, cl-ca: deepest",
         "grains of CL-CA stand on points that are 1 mm apart, and the box moves by less: the deepest was 0.44 mm below the floor in an earlier \

@@ -150,6 +150,13 @@ pub static CASES: &[Case] = &[
             common_test::collapse(s, None)
         }))
     },
+    gap(case(
+        "common-shapes",
+        "common-test",
+        200,
+        "beds of hexagons and rods lose a wall, by CL-CA and DEM",
+        common_test::shapes,
+    )),
     case("litwiniszyn", "lattice-review", 1, "voids that walk up at random", voids::litwiniszyn_case),
     case("caram-hong", "lattice-review", 2, "many voids, exclusion, a surface", voids::caram_hong_case),
     case("savage", "lattice-review", 2, "a chute on the square lattice that sorts by size", sieving::chute),

@@ -145,9 +145,13 @@ impl Refusal {
         Self { method: "of this scene", notes: vec![Note { key, verdict: Verdict::Refused, text }] }
     }
 
-    /// A method that knows no grains of several spheres.
-    pub fn clumps(method: &'static str, group: &str) -> Self {
-        let text = "its grains are no clumps; `dem` computes them".to_owned();
+    /// A method that knows no grains of several spheres, or of cells.
+    pub fn clumps(method: &'static str, group: &str, cells: bool) -> Self {
+        let text = if cells {
+            "its grains are not made of cells; `cl-ca` and `dem` compute them".to_owned()
+        } else {
+            "its grains are no clumps; `dem` computes them".to_owned()
+        };
         Self { method, notes: vec![Note { key: format!("particles.{group}.shape"), verdict: Verdict::Refused, text }] }
     }
 

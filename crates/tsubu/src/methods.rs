@@ -10,7 +10,7 @@ use crate::memory::refuse_more_than_there_is;
 use crate::partner::Hosts;
 use crate::ranks::Communicator;
 use std::sync::Arc;
-use tsubu_scene::plan::{Method, Plan};
+use tsubu_scene::plan::{GrainShape, Method, Particles, Plan};
 
 /// Builds the engine that the plan's method names, at time 0.
 pub fn open(plan: &Plan, hosts: &Hosts) -> Result<Box<dyn Engine>, OpenError> {
@@ -29,9 +29,10 @@ pub fn open_on_ranks(
     if plan.stage.len() > 1 && plan.method != Method::Dem {
         return Err(Refusal::stages(plan.method.name()).into());
     }
-    let clump = plan.particles.iter().find(|(_, group)| group.shape.is_clump());
-    if let Some((name, _)) = clump.filter(|_| plan.method != Method::Dem) {
-        return Err(Refusal::clumps(plan.method.name(), name).into());
+    let cells = |group: &Particles| matches!(group.shape, GrainShape::Cells { .. });
+    let takes = |group: &Particles| plan.method == Method::Dem || (plan.method == Method::ClCa && cells(group));
+    if let Some((name, group)) = plan.particles.iter().find(|(_, group)| group.shape.is_clump() && !takes(group)) {
+        return Err(Refusal::clumps(plan.method.name(), name, cells(group)).into());
     }
     if !plan.bond.is_empty() && plan.method != Method::Dem {
         return Err(Refusal::bonds(plan.method.name()).into());

@@ -3,7 +3,7 @@
 use super::{Parts, polyhedron};
 use crate::complaint::Complaint;
 use crate::grain_file::{How, clump::MOST_PIECES};
-use crate::plan::{GrainMotion, GrainShape, Particles, Size, Start, Vector};
+use crate::plan::{GrainMotion, GrainShape, NO_GRAIN, Particles, Size, Start, Vector};
 
 /// Longest semi-axis of a superellipsoid over its shortest; the search for contacts has been tried so far.
 const MOST_SLENDER: f64 = 10.0;
@@ -20,6 +20,7 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
         }
         clump(parts, name, group, complaints);
         superellipsoid(parts, name, group, complaints);
+        cells(parts, name, group, complaints);
         polyhedron::check(parts, name, group, complaints);
         sizes_and_places(parts, name, group, complaints);
         held(parts, name, group, complaints);
@@ -93,6 +94,31 @@ fn superellipsoid(parts: &Parts<'_>, name: &str, group: &Particles, complaints: 
             Complaint::new(format!("the superellipsoid `{name}` is {:.1} times as long as it is thick", long / short))
                 .at(&at(&["semi-axes"]), format!("at most {MOST_SLENDER}"))
                 .hint("for longer bodies write shape.clump"),
+        );
+    }
+}
+
+/// Cells are in the plane, hang together, and have one size.
+fn cells(parts: &Parts<'_>, name: &str, group: &Particles, complaints: &mut Vec<Complaint>) {
+    let GrainShape::Cells { outline, .. } = &group.shape else { return };
+    let at = |keys: &[&str]| parts.root.locate(&[&["particles", name], keys].concat());
+    if outline.cells().is_none() {
+        let path: Vec<&str> = ["shape", "cells", "outline"].into_iter().chain(outline.key().split('.')).collect();
+        complaints.push(Complaint::new(format!("the cells of `{name}` are no grain")).at(&at(&path), NO_GRAIN));
+    } else if parts.space() && !group.shape.is_polyhedron() {
+        complaints.push(
+            Complaint::new(format!("the grains `{name}` are made of cells, which only the plane has"))
+                .at(&at(&["shape", "cells"]), "the scene has dimension 3")
+                .hint("set dimension = 2"),
+        );
+    }
+    let in_file = matches!(&group.start, Start::File { grains, .. } if !grains.diameter.is_empty());
+    if group.size != (Size::Equal {}) || in_file {
+        let (path, what) = if in_file { ("start", "the file has diameters") } else { ("size", "drawn here") };
+        complaints.push(
+            Complaint::new(format!("the grains `{name}` are made of cells, whose spacing is their size"))
+                .at(&at(&[path]), what)
+                .hint("make a group for each size, with other cells"),
         );
     }
 }

@@ -2,12 +2,12 @@
 
 use super::Parts;
 use crate::complaint::Complaint;
-use crate::plan::{GrainShape, Particles, Vector};
+use crate::plan::{GrainShape, Particles, Vector, planes_of_cells};
 use crate::polyhedron::{Flaw, MOST_CORNERS, Plane, core, crossing, faces, largest_rounding};
 use nalgebra::Vector3;
 
 pub(super) fn check(parts: &Parts<'_>, name: &str, group: &Particles, complaints: &mut Vec<Complaint>) {
-    let space = !matches!(group.shape, GrainShape::Polygon { .. });
+    let space = !group.shape.is_flat();
     if !group.shape.is_polyhedron() {
         return;
     }
@@ -46,6 +46,9 @@ pub(super) fn check(parts: &Parts<'_>, name: &str, group: &Particles, complaints
         GrainShape::PolyhedronMesh { faces, rounding, .. } => {
             let plane = |(normal, offset): &(Vector, f64)| Plane { normal: Vector3::from(*normal), offset: *offset };
             (faces.iter().map(plane).collect(), *rounding)
+        }
+        GrainShape::Cells { rounding, .. } => {
+            (group.shape.cells().and_then(|cells| planes_of_cells(&cells)).unwrap_or_default(), *rounding)
         }
         _ => return,
     };

@@ -83,7 +83,10 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
 fn flat(parts: &Parts<'_>, name: &str, group: &Particles) -> Complaint {
     let (plural, key, instead) = match &group.shape {
         GrainShape::Disc { .. } => ("discs", "disc", "spheres whose centres stay in the plane"),
-        shape => (shape.plural(), "polygon", "spheres, or shape.polyhedron with dimension = 3"),
+        shape => {
+            let key = shape.clump_key().unwrap_or("polygon");
+            (shape.plural(), key, "spheres, or shape.polyhedron with dimension = 3")
+        }
     };
     Complaint::new(format!("the grains `{name}` are {plural}; drag and buoyancy are those of bodies with a volume"))
         .at(&parts.root.locate(&["particles", name, "shape", key]), "not in water")

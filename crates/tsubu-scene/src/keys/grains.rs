@@ -1,6 +1,6 @@
 //! Groups of grains: what they are, how large, where they begin, who moves them.
 
-use super::{Family, Key, Kind, Variant, Word, signals};
+use super::{Family, Key, Kind, Variant, Word, methods, signals};
 use crate::plan::Region;
 use crate::units::{LENGTH, MASS, NUMBER, RATE, SPEED, SPIN, TIME};
 
@@ -12,7 +12,7 @@ pub(crate) static PARTICLES: &[Key] = &[
         .derived("with `start.at` and `start.file` the number of positions, otherwise required"),
     Key::new("diameter", Kind::Quantity(&LENGTH), "Diameter")
         .above(0.0)
-        .derived("the mean of `size` or of the diameters in the file, otherwise required"),
+        .derived("the mean of `size` or of the diameters in the file, or that of the circle that holds `shape.cells`, otherwise required"),
     Key::new("mass", Kind::Quantity(&MASS), "Mass of a grain of that diameter; others scale with their volume")
         .above(0.0)
         .derived("sphere or disc of the material's density"),
@@ -120,6 +120,28 @@ static SHAPE: &[Variant] = &[
             ROUNDING,
             Key::new("thickness", Kind::Quantity(&LENGTH), "Thickness along y").above(0.0),
             TURNED,
+        ],
+    },
+    Variant {
+        name: "cells",
+        about: "Cells of a triangular lattice that are one body, with their mass and moment of inertia; only in the plane. CL-CA moves the cells; DEM takes their outline, as a polygon with rounded corners where it has no bays, otherwise as discs of the cells at its rim",
+        keys: &[
+            Key::new("outline", Kind::Choice(methods::SHAPES), "Which cells"),
+            Key::new("spacing", Kind::Quantity(&LENGTH), "Distance of the middles of neighbouring cells").above(0.0),
+            Key::new(
+                "rounding",
+                Kind::Quantity(&NUMBER),
+                "Radius of the rounded corners of the polygon, in spacings; sides stay where they are. Discs do not read it",
+            )
+            .default("0.3")
+            .above(0.0),
+            Key::new("thickness", Kind::Quantity(&LENGTH), "Thickness along y").above(0.0),
+            Key::new(
+                "orientation",
+                Kind::OneOf(ORIENTATION),
+                "How each grain is turned at first; by CL-CA to one of six directions",
+            )
+            .default("'random'"),
         ],
     },
 ];

@@ -130,12 +130,13 @@ pub(super) static CL_CA: &[Key] = &[
         .default("1")
         .at_least(1.0)
         .at_most(100.0),
-    Key::new("turning", Kind::Flag, "Grains that cannot move turn by 60 degrees where that lets them move on").default("false"),
+    Key::new("turning", Kind::Flag, "Grains that cannot move turn by 60 degrees where that lets them move on")
+        .derived("`contact.rotation` where grains have `shape.cells`, else false"),
     Key::new("gravity-switch", Kind::Table(GRAVITY_SWITCH), "Shaking: gravity points up and down in turn").optional(),
     Key::new(
         "shapes",
         Kind::NamedChoice(SHAPES, "The shape of the grains of a group, by its name"),
-        "Shapes of groups; without one a grain is the hexagon whose area is nearest",
+        "Shapes of groups for this method alone; without one, and without `shape.cells`, a grain is the hexagon whose area is nearest",
     )
     .default("{}"),
 ];
@@ -151,7 +152,7 @@ static GRAVITY_SWITCH: &[Key] = &[
     Key::new("up", Kind::Whole, "Steps with gravity up, which come first").at_least(1.0).at_most(1e6),
 ];
 
-static SHAPES: &[Variant] = &[
+pub(super) static SHAPES: &[Variant] = &[
     Variant {
         name: "hexagon",
         about: "A hexagon: 7, 19, 37, 61 points for radius 1 to 4",

@@ -1,7 +1,7 @@
 //! Clumps: grains that are several spheres; and what they have in common with other bodies that are no spheres.
 
 use super::polyhedron::{self, Polyhedron};
-use super::{GrainShape, Superellipsoid, Vector};
+use super::{GrainShape, Superellipsoid, Vector, cells};
 use crate::clump::{Solid, surface};
 use serde::{Deserialize, Serialize};
 
@@ -140,6 +140,7 @@ impl GrainShape {
             Self::Polyhedron { .. } => Some("polyhedron"),
             Self::PolyhedronMesh { .. } => Some("polyhedron-mesh"),
             Self::Polygon { .. } => Some("polygon"),
+            Self::Cells { .. } => Some("cells"),
         }
     }
 
@@ -149,17 +150,21 @@ impl GrainShape {
             Self::Superellipsoid { .. } => "superellipsoids",
             Self::Polyhedron { .. } | Self::PolyhedronMesh { .. } => "polyhedra",
             Self::Polygon { .. } => "polygons",
+            Self::Cells { .. } => "grains of cells",
             _ => "clumps",
         }
     }
 
-    /// Whether it is a disc or a polygon, whose mass goes with the square of the diameter.
+    /// Whether it is a disc, a polygon or cells, whose mass goes with the square of the diameter.
     pub fn is_flat(&self) -> bool {
-        matches!(self, Self::Disc { .. } | Self::Polygon { .. })
+        matches!(self, Self::Disc { .. } | Self::Polygon { .. } | Self::Cells { .. })
     }
 
-    /// Whether it is a polyhedron or a polygon.
+    /// Whether it is a polyhedron or a polygon, or cells that become one.
     pub fn is_polyhedron(&self) -> bool {
+        if let Self::Cells { outline, .. } = self {
+            return outline.cells().is_some_and(|cells| cells::planes(&cells).is_some());
+        }
         matches!(self, Self::Polyhedron { .. } | Self::PolyhedronMesh { .. } | Self::Polygon { .. })
     }
 
@@ -172,7 +177,7 @@ impl GrainShape {
             // Even one sphere has the mass and inertia of the mesh.
             Self::ClumpMesh { packing, .. } => !packing.spheres.is_empty(),
             Self::PolyhedronMesh { faces, .. } => !faces.is_empty(),
-            Self::Superellipsoid { .. } | Self::Polyhedron { .. } | Self::Polygon { .. } => true,
+            Self::Superellipsoid { .. } | Self::Polyhedron { .. } | Self::Polygon { .. } | Self::Cells { .. } => true,
         }
     }
 
@@ -223,6 +228,9 @@ impl GrainShape {
             Self::Polygon { corners, rounding, orientation, .. } => {
                 polyhedron::of_corners(corners, *rounding, false, *orientation)
             }
+            Self::Cells { outline, rounding, orientation, .. } => {
+                cells::body(&outline.cells()?, *rounding, *orientation)
+            }
             Self::PolyhedronMesh { faces, rounding, orientation, .. } => {
                 polyhedron::of_faces(faces, *rounding, *orientation)
             }
@@ -231,7 +239,7 @@ impl GrainShape {
 }
 
 /// To a diameter of 1, of what reaches as far from its centre of mass as its spheres do, and at least that far.
-fn scaled(spheres: &[(Vector, f64)], solid: &Solid, reach: f64, orientation: ClumpOrientation) -> Clump {
+pub(super) fn scaled(spheres: &[(Vector, f64)], solid: &Solid, reach: f64, orientation: ClumpOrientation) -> Clump {
     let arm = |c: &Vector| [0, 1, 2].map(|k| c[k] - solid.centre[k]);
     let dot = |a: &Vector, b: &Vector| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
     let reach = spheres.iter().map(|(c, r)| dot(&arm(c), &arm(c)).sqrt() + r).fold(reach, f64::max);

@@ -1,6 +1,6 @@
 //! Groups of grains, and where they come and go.
 
-use super::{ClumpOrientation, Packing, Region, Signal, Vector};
+use super::{ClumpOrientation, GrainPoints, Packing, Region, Signal, Vector};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ pub struct Particles {
     pub diameter: f64,
     /// Mass of a grain of that diameter [kg]: given, or from density and diameter. Others scale with their volume.
     pub mass: f64,
-    /// Sphere, disc, clump, superellipsoid, polyhedron or polygon.
+    /// Sphere, disc, clump, superellipsoid, polyhedron, polygon or cells.
     pub shape: GrainShape,
     /// How the diameters are distributed.
     pub size: Size,
@@ -99,6 +99,20 @@ pub enum GrainShape {
         /// Thickness along y [m].
         thickness: f64,
         /// How each grain is turned at first.
+        orientation: ClumpOrientation,
+    },
+    /// Cells of a triangular lattice that are one body, with their mass and inertia; only in the plane. CL-CA moves the cells; DEM takes
+    /// their outline, as a polygon where it has no bays, or else as discs.
+    Cells {
+        /// Which cells.
+        outline: GrainPoints,
+        /// Distance of neighbours [m].
+        spacing: f64,
+        /// Radius of the rounded corners of the polygon [spacings].
+        rounding: f64,
+        /// Thickness along y [m].
+        thickness: f64,
+        /// How each grain is turned at first; by CL-CA to the nearest of six directions.
         orientation: ClumpOrientation,
     },
     /// Spheres within a closed mesh, with the mass and inertia of what it encloses; the diameter is that of the sphere about its centre of mass

@@ -1,6 +1,7 @@
 //! Settings of the methods.
 
 use super::{Region, Vector};
+use crate::cells::Cells;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -170,3 +171,32 @@ pub enum GrainPoints {
         at: Vec<Vector>,
     },
 }
+
+impl GrainPoints {
+    /// The cells of such a grain; `None`: it is none.
+    pub fn cells(&self) -> Option<Cells> {
+        match self {
+            Self::Hexagon { radius } => Some(Cells::hexagon(*radius as usize)),
+            Self::Polygon { corners } => Cells::polygon(&whole(corners)?),
+            Self::Points { at } => Cells::new(&whole(at)?),
+        }
+    }
+
+    /// The key that holds what may be wrong with it.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Hexagon { .. } => "hexagon",
+            Self::Polygon { .. } => "polygon.corners",
+            Self::Points { .. } => "points.at",
+        }
+    }
+}
+
+/// Whole numbers, if they are.
+fn whole(points: &[Vector]) -> Option<Vec<[i64; 2]>> {
+    let number = |x: f64| (x.fract() == 0.0 && x.abs() < 1e6).then_some(x as i64);
+    points.iter().map(|[h, _, k]| Some([number(*h)?, number(*k)?])).collect()
+}
+
+/// What is wrong where there are no cells.
+pub const NO_GRAIN: &str = "this is no grain: it needs whole numbers [column, half spacings up] with even sums, no point twice, all points connected, and for a polygon sides along the lattice";

@@ -36,6 +36,11 @@ fn body(planes: &[Plane], rounding: f64, space: bool, orientation: ClumpOrientat
     if !space {
         solid = in_plane(&core, rounding);
     }
+    Some(with_mass(core, rounding, &solid, space, orientation))
+}
+
+/// A rounded core whose mass is spread as in a solid.
+pub(super) fn with_mass(core: Core, rounding: f64, solid: &Solid, space: bool, orientation: ClumpOrientation) -> Clump {
     let core = core.about(&Vector3::from(solid.centre));
     let reach = rounding + core.corners.iter().map(Vector3::norm).fold(0.0, f64::max);
     let unit = 0.5 / reach;
@@ -52,7 +57,7 @@ fn body(planes: &[Plane], rounding: f64, space: bool, orientation: ClumpOrientat
         edges: core.edges().into_iter().map(|(corners, _)| corners).collect(),
         rounding: unit * rounding,
     };
-    Some(Clump {
+    Clump {
         pieces: vec![([0.0; 3], 0.5)],
         volume: solid.volume * unit.powi(if space { 3 } else { 2 }),
         moments: solid.moments.map(|moment| moment * unit * unit),
@@ -60,7 +65,7 @@ fn body(planes: &[Plane], rounding: f64, space: bool, orientation: ClumpOrientat
         orientation,
         superellipsoid: None,
         polyhedron: Some(polyhedron),
-    })
+    }
 }
 
 /// A polygon turns about y alone: its axes are those of the plane.

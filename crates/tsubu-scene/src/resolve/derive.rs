@@ -152,6 +152,12 @@ fn settings(resolved: &mut toml::Table, root: &Node) {
         lattice.entry("resting-impulses").or_insert(Value::Boolean(extended));
         lattice.entry("collision").or_insert(Value::String(collision.to_string()));
     }
+    let turns = resolved.get("contact").and_then(|contact| contact.get("rotation")).and_then(Value::as_bool);
+    let groups = resolved.get("particles").and_then(Value::as_table);
+    let cells = groups.is_some_and(|groups| groups.values().any(tells_cells));
+    if let Some(cl_ca) = resolved.get_mut("cl-ca").and_then(Value::as_table_mut) {
+        cl_ca.entry("turning").or_insert(Value::Boolean(turns == Some(true) && cells));
+    }
     if let (Some(output), Some(duration)) = (resolved.get_mut("output").and_then(Value::as_table_mut), duration) {
         output.entry("history-interval").or_insert(Value::Float(duration / 1000.0));
         output.entry("checkpoint-interval").or_insert(Value::Float(duration / 10.0));
@@ -172,6 +178,10 @@ fn settings(resolved: &mut toml::Table, root: &Node) {
             contact.insert(key.clone(), value.clone());
         }
     }
+}
+
+fn tells_cells(group: &Value) -> bool {
+    group.get("shape").is_some_and(|shape| shape.get("cells").is_some())
 }
 
 fn rolling_ratio(contact: &mut toml::Table, ratio: f64) {

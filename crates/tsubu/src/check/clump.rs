@@ -1,4 +1,4 @@
-//! The verdict on clumps in place of meshes: how well their spheres stand for them.
+//! The verdict on clumps in place of meshes, and on bodies in place of cells: how well they stand for them.
 
 use super::Verdict;
 use tsubu_scene::plan::{GrainShape, Plan};
@@ -32,6 +32,21 @@ pub(super) fn packings(verdict: &mut Verdict, plan: &Plan) {
         verdict.say(format!(
             "grains `{name}`: mass and moments of inertia are those of the mesh; as it is drawn its diameter is {} of its units",
             short(2.0 * packing.reach)
+        ));
+    }
+}
+
+/// Says what stands for cells in DEM.
+pub(super) fn cells(verdict: &mut Verdict, plan: &Plan) {
+    for (name, group) in &plan.particles {
+        let Some(error) = group.shape.cell_error() else { continue };
+        let body =
+            error.discs.map_or_else(|| "a rounded polygon".to_owned(), |discs| format!("{discs} discs at its rim"));
+        verdict.say(format!(
+            "grains `{name}`: by DEM {body} for the outline of the cells, with an area {} and a moment of inertia {} off theirs; mass and moment of inertia of \
+             the grains are those of the cells",
+            percent(error.area),
+            percent(error.inertia),
         ));
     }
 }

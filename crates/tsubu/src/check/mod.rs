@@ -88,8 +88,10 @@ pub fn bodies(plan: &Plan, table: &Table, hosts: &Hosts) -> Bodies {
         let (smallest, largest) = (group.smallest_diameter(), group.largest_diameter());
         let free = matches!(group.motion, GrainMotion::Free {});
         let clump = group.shape.clump();
-        let ([thin, thick], lightness) =
-            clump.map_or(([0.5; 2], 1.0), |clump| (clump.contact_radii(), clump.lightness()));
+        let ([thin, thick], lightness) = clump.map_or(([0.5; 2], 1.0), |clump| {
+            // What does not turn shows all of its mass.
+            (clump.contact_radii(), if plan.contact.rotation { clump.lightness() } else { 1.0 })
+        });
         kinds.push(Kind {
             name: name.clone(),
             group: Some(name.clone()),

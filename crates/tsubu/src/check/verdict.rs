@@ -108,6 +108,7 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
     }
     mesh::meshes(&mut verdict, plan);
     clump::packings(&mut verdict, plan);
+    clump::cells(&mut verdict, plan);
     idle::gates(&mut verdict, plan);
     let period = shortest_period(hosts);
     if period.is_finite() {

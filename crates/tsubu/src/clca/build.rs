@@ -1,10 +1,10 @@
 //! From a plan to grains on a lattice: what CL-CA honours, what it approximates and by how much, and what it refuses.
 
-use super::bed::{Bed, GrainKind};
+use super::bed::Bed;
+use super::kinds::{kinds, shapes, spacing};
 use super::place::{self, Grain};
-use super::shape::{Shape, polygon};
+use crate::check;
 use crate::engine::{Note, Refusal};
-use crate::lattice::direction::Vector;
 use crate::lattice::grid::WALL;
 use crate::lattice::reach::{self, Ways};
 use crate::lattice::remarks::{Remarks, World};
@@ -14,10 +14,9 @@ use crate::memory::refuse_more_than_there_is;
 use crate::partner::Hosts;
 use crate::view::{Contacts, Wants};
 use crate::wall::{Mover, Wall};
-use crate::{check, sizes};
 use glam::DVec3;
 use std::collections::BTreeMap;
-use tsubu_scene::plan::{self, ClCaRule, GrainMotion, GrainPoints, Plan, Removal, Signal, Start};
+use tsubu_scene::plan::{self, ClCaRule, GrainMotion, Plan, Removal, Signal, Start};
 
 /// Everything that the engine needs from a plan.
 pub(super) struct Built {
@@ -46,13 +45,7 @@ pub(super) struct GrainStream {
 }
 
 /// What a watch may look at.
-pub(super) const OFFERED: Wants = Wants { contacts: Contacts::Places, ..Wants::GRAINS };
-
-/// The largest hexagon that stands for a disc.
-const LARGEST_RADIUS: usize = 12;
-
-/// How far the points of a grain may lie from its reference point, in columns and rows: less than the lattice's rim.
-const REACH: i64 = stage::RIM as i64 - 2;
+pub(super) const OFFERED: Wants = Wants { contacts: Contacts::Places, bodies: true, ..Wants::GRAINS };
 
 /// Takes the plan apart, every field by name, so that a new field does not compile until it has been decided on here.
 pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
@@ -112,7 +105,10 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
     if let Some(refusal) = remarks.refusal() {
         return Err(refusal);
     }
-    let spacing = cl_ca.spacing.unwrap_or_else(|| automatic_spacing(plan, &shapes));
+    let spacing = spacing(plan, &shapes, &mut remarks);
+    if let Some(refusal) = remarks.refusal() {
+        return Err(refusal);
+    }
     let (kinds, grains) = kinds(plan, &shapes, spacing, &mut remarks);
     let travel = plan.walls.values().filter_map(|wall| wall.motion.as_ref());
     let travel = travel.map(|motion| farthest(&motion.signal, *duration)).fold(0.0, f64::max);
@@ -242,109 +238,9 @@ fn movers<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Vec<&'a Signal> {
         );
     }
     if plan.cl_ca.turning && (plan.cl_ca.rule == ClCaRule::Passive || !moved.is_empty()) {
-        remarks.refuse("cl-ca.turning", "grains turn under the active rule alone; leave it out");
+        remarks.refuse("cl-ca.turning", "grains turn under the active rule alone; set it to false");
     }
     moved
-}
-
-/// The shapes that the scene draws, by group.
-fn shapes(plan: &Plan, remarks: &mut Remarks) -> Vec<Option<Shape>> {
-    for name in plan.cl_ca.shapes.keys().filter(|name| !plan.particles.contains_key(*name)) {
-        remarks.refuse(format!("cl-ca.shapes.{name}"), "there is no group of grains of that name");
-    }
-    let drawn = |name: &String, remarks: &mut Remarks| {
-        let key = |part: &str| format!("cl-ca.shapes.{name}.{part}");
-        let (shape, key) = match plan.cl_ca.shapes.get(name)? {
-            GrainPoints::Hexagon { radius } => (Some(Shape::hexagon(*radius as usize)), key("hexagon")),
-            GrainPoints::Polygon { corners } => {
-                let points = whole(corners).and_then(|corners| polygon(&corners));
-                (points.and_then(|points| Shape::new(&points)), key("polygon.corners"))
-            }
-            GrainPoints::Points { at } => (whole(at).and_then(|at| Shape::new(&at)), key("points.at")),
-        };
-        let fits = |p: &Vector| p.h.abs() <= REACH && p.k.abs() <= 2 * REACH;
-        match &shape {
-            None => remarks.refuse(
-                key,
-                "this is no grain: it needs whole numbers [column, half spacings up] with even sums, no point twice, all points connected, and for a polygon sides along the lattice",
-            ),
-            Some(shape) if !shape.points().iter().all(fits) => {
-                remarks.refuse(key, format!("it reaches more than {REACH} spacings from its middle"));
-            }
-            Some(_) => {}
-        }
-        shape
-    };
-    plan.particles.keys().map(|name| drawn(name, remarks)).collect()
-}
-
-/// Whole numbers, if they are.
-fn whole(points: &[plan::Vector]) -> Option<Vec<Vector>> {
-    let number = |x: f64| (x.fract() == 0.0 && x.abs() < 1e6).then_some(x as i64);
-    points.iter().map(|[h, _, k]| Some(Vector { h: number(*h)?, k: number(*k)? })).collect()
-}
-
-/// The spacing at which the smallest grains have their own shape's size, or that of a hexagon of radius 1 [m].
-fn automatic_spacing(plan: &Plan, shapes: &[Option<Shape>]) -> f64 {
-    let one = Shape::hexagon(1).diameter();
-    let of = |(group, shape): (&plan::Particles, &Option<Shape>)| {
-        group.smallest_diameter() / shape.as_ref().map_or(one, Shape::diameter)
-    };
-    let smallest = plan.particles.values().zip(shapes).map(of).fold(f64::INFINITY, f64::min);
-    if smallest.is_finite() { smallest } else { 1e-3 }
-}
-
-/// Kinds of grains, and the grains of every group with their kinds.
-fn kinds(
-    plan: &Plan,
-    shapes: &[Option<Shape>],
-    spacing: f64,
-    remarks: &mut Remarks,
-) -> (Vec<GrainKind>, Vec<Vec<Grain>>) {
-    let hexagons: Vec<f64> = (0..=LARGEST_RADIUS).map(|radius| Shape::hexagon(radius).diameter() * spacing).collect();
-    let mut kinds: Vec<GrainKind> = Vec::new();
-    let mut all = Vec::new();
-    let mut id = 0;
-    for (number, ((name, group), drawn)) in plan.particles.iter().zip(shapes).enumerate() {
-        let free = matches!(group.motion, GrainMotion::Free {});
-        let mut own = Vec::new();
-        let mut off = 0.0_f64;
-        for place in 0..group.count {
-            let diameter = match &group.start {
-                Start::File { grains, .. } => grains.diameter.get(place).copied(),
-                _ => None,
-            };
-            let diameter = diameter.unwrap_or_else(|| sizes::diameter(group, plan.seed, id));
-            let near = |radius: &usize| (hexagons[*radius] / diameter).ln().abs();
-            let radius = (0..=LARGEST_RADIUS).min_by(|a, b| near(a).total_cmp(&near(b))).unwrap_or(0);
-            let shape = drawn.clone().unwrap_or_else(|| Shape::hexagon(radius));
-            off = off.max((shape.diameter() * spacing / diameter - 1.0).abs());
-            let kind = kinds.iter().position(|kind| kind.group == number as u32 && kind.shape == shape);
-            let kind = kind.unwrap_or_else(|| {
-                let mass = sizes::mass(group, if drawn.is_some() { diameter } else { shape.diameter() * spacing });
-                // Grains that are all equal keep the mass they were given.
-                let mass = if matches!(group.size, plan::Size::Equal {}) { group.mass } else { mass };
-                kinds.push(GrainKind { group: number as u32, shape, stencil: 0, orientations: 1, mass, free });
-                kinds.len() - 1
-            });
-            own.push(Grain { id, kind });
-            id += 1;
-        }
-        if off > 0.5 {
-            remarks.refuse(
-                format!("particles.{name}.diameter"),
-                format!(
-                    "its lattice grains would be {:.0} % off in size; change `cl-ca.spacing` ({spacing:.3e} m now), or draw `cl-ca.shapes.{name}`",
-                    100.0 * off
-                ),
-            );
-        } else if off > 1e-3 {
-            let text = format!("taken to the nearest shape of lattice points, at most {:.1} % off", 100.0 * off);
-            remarks.approximate(format!("particles.{name}.diameter"), text);
-        }
-        all.push(own);
-    }
-    (kinds, all)
 }
 
 /// How far a motion takes a wall from where it stands at time 0 in a run, at most [m].

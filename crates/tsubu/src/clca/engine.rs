@@ -13,7 +13,7 @@ use crate::lattice::direction::{Direction, Vector};
 use crate::lattice::stage::Stage;
 use crate::ledger::{Account, Energies, Ledger};
 use crate::partner::Hosts;
-use crate::view::{Columns, Contacts, View, Wants};
+use crate::view::{Body, Columns, Contacts, View, Wants};
 use crate::wall::Wall;
 use glam::DVec3;
 use tsubu_frame::frame::Kind as Of;
@@ -35,6 +35,8 @@ pub struct ClCaEngine {
     pub(super) rule: Rule,
     pub(super) streams: Vec<GrainStream>,
     pub(super) removal: Vec<Removal>,
+    /// Whether the grains of each group are bodies with cells of their own, no discs.
+    bodies: Vec<bool>,
     /// Groups that move as told: number, direction, displacement.
     pub(super) driven: Vec<(u32, DVec3, Signal)>,
     /// Where the driven grains were drawn.
@@ -81,6 +83,7 @@ impl ClCaEngine {
             rule,
             streams,
             removal: plan.removal.values().cloned().collect(),
+            bodies: plan.particles.values().map(|group| group.shape.is_clump()).collect(),
             driven: driven.collect(),
         };
         engine.place_movers(0);
@@ -152,6 +155,19 @@ impl ClCaEngine {
     /// Reference point of a grain [m].
     pub(super) fn position(&self, grain: usize) -> DVec3 {
         self.stage.position(self.bed.vector(self.bed.grains.cell[grain] as usize))
+    }
+
+    /// The bodies among the grains that are there: where the middle of their cells is, and which way these lie longest.
+    fn bodies_of(&self, present: &[usize]) -> Vec<Body> {
+        let vector = |[x, z]: [f64; 2]| DVec3::new(x, 0.0, z);
+        let bodies = present.iter().enumerate().filter(|(_, grain)| self.bodies[self.bed.kind(**grain).group as usize]);
+        let body = |(index, &grain): (usize, &usize)| {
+            let turn = usize::from(self.bed.grains.turn[grain]);
+            let shape = (0..turn).fold(self.bed.kind(grain).shape.clone(), |shape, _| shape.turned());
+            let centre = self.position(grain) + self.stage.spacing * vector(shape.cells().centroid());
+            Body { grain: index, centre, long: vector(shape.cells().long()), short: DVec3::Y }
+        };
+        bodies.map(body).collect()
     }
 
     /// Velocity in the last step [m/s].
@@ -270,7 +286,8 @@ impl Engine for ClCaEngine {
             id: present.iter().map(|&grain| self.bed.grains.id[grain]).collect(),
         };
         let contacts = if wants.contacts > Contacts::Nothing { self.contacts_of(&present) } else { Vec::new() };
-        View { time: self.time(), periodic: [None; 3], grains, contacts, ..View::default() }
+        let bodies = if wants.bodies { self.bodies_of(&present) } else { Vec::new() };
+        View { time: self.time(), periodic: [None; 3], grains, contacts, bodies, ..View::default() }
     }
 
     fn save(&self, state: &mut State) {

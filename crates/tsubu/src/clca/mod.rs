@@ -4,13 +4,14 @@
 //! rests; forces do not exist. Under the [`active`] rule gravity lets it go down where there is room; under the
 //! [`passive`] rule walls and driven grains push, grains overlap, and the number of shared points stands for the force.
 //! Many grains take their turns in strips of the lattice side by side. [`bed`] holds the grains and [`order`] says who goes
-//! first; [`build`] reads a plan and [`engine`] runs it, with walls and driven grains in `movers` and those that come and go in
+//! first; [`build`] reads a plan, `kinds` which points its grains have, and [`engine`] runs it, with walls and driven grains in `movers` and those that come and go in
 //! `sources`.
 
 pub mod active;
 pub mod bed;
 pub mod build;
 pub mod engine;
+mod kinds;
 mod movers;
 pub mod order;
 mod output;

@@ -40,6 +40,7 @@ struct Piece {
 /// All bodies of several spheres, in the order of the ids of their pieces, with those that are yet to come and those that have gone, which have
 /// no pieces; empty where every grain is a sphere.
 #[derive(Clone, Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "each is another question about all of them")]
 pub(super) struct Bodies {
     list: Vec<Body>,
     /// By the ids of grains.
@@ -50,6 +51,8 @@ pub(super) struct Bodies {
     places: Vec<u32>,
     /// Whether all stay in the plane: what rounding would bring out of it is an exact zero.
     plane: bool,
+    /// Whether none turns, whatever torques it feels.
+    locked: bool,
     /// Whether some are superellipsoids.
     shaped: bool,
     /// Whether some of these are no ellipsoids.
@@ -189,8 +192,8 @@ impl Bodies {
     /// After the forces: sums what the pieces feel, which their columns carry ([`super::integrate`]), finds the new accelerations and completes
     /// the velocities, which the old ones have brought `share` [s] of the way. Returns the correction of the losses, as for spheres.
     pub fn second_half(&mut self, grains: &Grains, gravity: DVec3, share: f64) -> f64 {
-        let Self { list, sorted, places, plane, .. } = self;
-        let plane = *plane;
+        let Self { list, sorted, places, plane, locked, .. } = self;
+        let (plane, locked) = (*plane, *locked);
         each_in_parts(list, shares(places.len()), &|body: &mut Body| {
             let mut felt = Felt::default();
             for &place in &places[body.pieces.clone()] {
@@ -202,6 +205,9 @@ impl Bodies {
                 felt.torque += torque + arm.cross(force);
                 felt.loss[0] += dissipative;
                 felt.loss[1] += torque + arm.cross(dissipative);
+            }
+            if locked {
+                (felt.torque, felt.loss[1]) = (DVec3::ZERO, DVec3::ZERO);
             }
             if body.is_there() {
                 body.second_half(&felt, gravity, share, plane);
@@ -242,7 +248,7 @@ impl Bodies {
     /// How much a body gives way by turning, to a push along a normal on a piece of it, or on what is `shift` [m] beside that [1/kg].
     pub fn turning(&self, i: usize, shift: DVec3, normal: DVec3) -> f64 {
         let piece = &self.sorted[i];
-        let Some(body) = self.list.get(piece.body as usize) else { return 0.0 };
+        let Some(body) = self.list.get(piece.body as usize).filter(|_| !self.locked) else { return 0.0 };
         let lever = (body.arm(piece, self.plane) + shift).cross(normal);
         lever.dot(body.inverse_inertia * lever)
     }

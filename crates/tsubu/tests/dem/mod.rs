@@ -2,6 +2,7 @@
 
 mod bonds;
 mod books;
+mod cells;
 mod clump;
 mod clump_traffic;
 mod come_and_go;

@@ -140,7 +140,10 @@ impl Derive<'_> {
         let size: Option<Size> = group.get("size").and_then(|size| size.clone().try_into().ok());
         let equal = size == Some(Size::Equal {});
         let sized = size.as_ref().is_some_and(|size| *size != Size::Equal {});
-        let mean = if sized {
+        let own = shape.and_then(GrainShape::own_diameter);
+        let mean = if own.is_some() {
+            own
+        } else if sized {
             if !self.size_is_right(size.as_ref(), name) {
                 return;
             }
@@ -151,18 +154,29 @@ impl Derive<'_> {
         let typed = self.typed(&["particles", name, "diameter"]);
         match (group.get("diameter").and_then(Value::as_float), mean) {
             (Some(diameter), Some(mean)) if (diameter - mean).abs() > SAME * mean => {
-                let of = if sized { "of `size`" } else { "in the file" };
+                let (of, what) = if own.is_some() {
+                    ("that of the circle that holds `shape.cells`", "that of its cells")
+                } else if sized {
+                    ("the mean of `size`", "the mean")
+                } else {
+                    ("the mean in the file", "the mean")
+                };
                 self.complain(
-                    Complaint::new(format!("`diameter` is {diameter} m, but the mean {of} is {mean} m"))
-                        .at(&self.root.locate(&["particles", name, "diameter"]), "not the mean")
-                        .hint("leave `diameter` out: it is the mean"),
+                    Complaint::new(format!("`diameter` is {diameter} m, but {of} is {mean} m"))
+                        .at(&self.root.locate(&["particles", name, "diameter"]), format!("not {what}"))
+                        .hint(format!("leave `diameter` out: it is {what}")),
                 );
             }
             (_, Some(mean)) => {
                 group.insert("diameter".into(), Value::Float(mean));
             }
             // Where size or file are wrong they may be what would have told.
-            (None, None) if !typed && equal && !matches!(file, File::Wrong) => {
+            (None, None)
+                if !typed
+                    && equal
+                    && !matches!(file, File::Wrong)
+                    && !self.typed(&["particles", name, "shape", "cells"]) =>
+            {
                 let in_a_file = matches!(file, File::Read(_))
                     .then(|| "or put a column of diameters or radii into the file".to_string());
                 self.complain(

@@ -17,7 +17,7 @@ impl Bodies {
     /// have the numbers behind, see [`super::super::sources`].
     pub fn assemble(plan: &Plan, grains: &mut Grains) -> Self {
         let clumps: Vec<Option<Clump>> = plan.particles.values().map(|group| group.shape.clump()).collect();
-        let mut bodies = Self { plane: plan.dimension == 2, ..Self::default() };
+        let mut bodies = Self { plane: plan.dimension == 2, locked: !plan.contact.rotation, ..Self::default() };
         if clumps.iter().all(Option::is_none) {
             return bodies;
         }
@@ -107,7 +107,8 @@ impl Bodies {
         let axes = DMat3::from_quat(body.orientation);
         let inertia = axes * DMat3::from_diagonal(body.moments) * axes.transpose();
         (body.centre, body.velocity, body.acceleration) = (grain.position, grain.velocity, grain.acceleration);
-        (body.angular_momentum, body.torque, body.correction) = (inertia * grain.spin, DVec3::ZERO, 0.0);
+        let spin = if self.locked { DVec3::ZERO } else { grain.spin };
+        (body.angular_momentum, body.torque, body.correction) = (inertia * spin, DVec3::ZERO, 0.0);
         body.follow(plane);
         let volume: f64 = clump.pieces.iter().map(|(_, radius)| radius.powi(3)).sum();
         let piece = |(k, (piece, (_, radius))): (usize, (&Piece, &([f64; 3], f64)))| {

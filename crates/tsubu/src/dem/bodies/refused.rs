@@ -16,9 +16,6 @@ pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
         let text = "bodies that are no spheres are moved by `velocity-verlet` alone; leave the key out";
         refuse("dem.integrator".to_owned(), text);
     }
-    if !plan.contact.rotation {
-        refuse("contact.rotation".to_owned(), "bodies that are no spheres turn; leave the key out");
-    }
     one_piece(plan, refuse);
     if notes.is_empty() { Ok(()) } else { Err(Refusal { method: "dem", notes }) }
 }
