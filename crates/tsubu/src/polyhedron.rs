@@ -7,11 +7,13 @@
 
 pub mod at_wall;
 mod crossing;
+pub mod near;
 mod nearest;
 pub mod touch;
 pub mod with_round;
 
 use glam::{DMat3, DVec3};
+use multiversion::multiversion;
 use std::ops::Range;
 use tsubu_scene::plan;
 
@@ -22,6 +24,8 @@ const LANES: usize = 4;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polyhedron {
     corners: Vec<DVec3>,
+    /// The same as columns, the first once more up to whole lots.
+    columns: [Vec<f64>; 3],
     normals: Vec<DVec3>,
     /// Distances of the faces from the centre.
     offsets: Vec<f64>,
@@ -44,8 +48,11 @@ impl Polyhedron {
             round.extend(face.corners.iter().map(|corner| *corner as u32));
             start..round.len()
         });
+        let more = plan.corners.len().next_multiple_of(LANES) - plan.corners.len();
+        let lots = plan.corners.iter().chain(plan.corners.iter().take(1).cycle().take(more));
         Self {
             faces: faces.collect(),
+            columns: [0, 1, 2].map(|axis| lots.clone().map(|corner| corner[axis]).collect()),
             corners: plan.corners.iter().map(|corner| DVec3::from_array(*corner)).collect(),
             normals: plan.faces.iter().map(|face| DVec3::from_array(face.normal)).collect(),
             offsets: plan.faces.iter().map(|face| face.offset).collect(),
@@ -83,6 +90,7 @@ fn sides(plan: &plan::Polyhedron, edge: &[usize; 2]) -> [usize; 2] {
 /// The core of a sphere: a point.
 static POINT: Polyhedron = Polyhedron {
     corners: Vec::new(),
+    columns: [const { Vec::new() }; 3],
     normals: Vec::new(),
     offsets: Vec::new(),
     round: Vec::new(),
@@ -134,7 +142,8 @@ impl<'a> Turned<'a> {
     /// How far the corner that reaches farthest against a direction does, below 0 [m].
     #[inline]
     fn lowest(&self, n: DVec3) -> f64 {
-        let [x, y, z] = self.corners.map(|column| column.as_chunks::<LANES>().0);
+        let [x, y, z] = self.corners;
+        let [x, y, z] = [x.as_chunks::<LANES>().0, y.as_chunks::<LANES>().0, z.as_chunks::<LANES>().0];
         let mut low = [f64::INFINITY; LANES];
         for ((x, y), z) in x.iter().zip(y).zip(z) {
             for l in 0..LANES {
@@ -146,64 +155,71 @@ impl<'a> Turned<'a> {
     }
 }
 
-/// Many bodies as they are turned.
-#[derive(Clone, Debug, Default)]
-pub struct TurnedBodies {
-    corners: [Vec<f64>; 3],
-    normals: Vec<DVec3>,
-    list: Vec<Option<Entry>>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Entry {
-    shape: u32,
-    size: f64,
+/// The memory of a body as it is turned.
+#[derive(Clone, Debug)]
+pub struct TurnedBody {
+    /// The number of its shape.
+    pub shape: u32,
+    /// Diameter [m].
+    pub size: f64,
     rounding: f64,
-    corners: usize,
-    normals: usize,
+    /// A column of x after the other, then y, then z.
+    corners: Box<[f64]>,
+    normals: Box<[DVec3]>,
 }
 
-impl TurnedBodies {
-    /// Forgets all.
-    pub fn clear(&mut self) {
-        self.corners.iter_mut().for_each(Vec::clear);
-        self.normals.clear();
-        self.list.clear();
-    }
-
-    /// Takes a body of one of these shapes, with a diameter [m], whose principal axes have these directions; `None`: no polyhedron.
-    pub fn push(&mut self, shapes: &[Polyhedron], body: Option<(u32, f64, &DMat3)>) {
-        let Some((number, size, axes)) = body else { return self.list.push(None) };
-        let (shape, corners, normals) = (&shapes[number as usize], self.corners[0].len(), self.normals.len());
-        self.list.push(Some(Entry { shape: number, size, rounding: shape.rounding * size, corners, normals }));
-        let turned = |corner: &DVec3| *axes * (*corner * size);
-        let missing = shape.corners.len().next_multiple_of(LANES) - shape.corners.len();
-        for corner in shape.corners.iter().chain(shape.corners.iter().take(1).cycle().take(missing)).map(turned) {
-            for (column, x) in self.corners.iter_mut().zip(corner.to_array()) {
-                column.push(x);
-            }
-        }
-        self.normals.extend(shape.normals.iter().map(|normal| *axes * *normal));
-    }
-
-    /// Rounding radius of body number `k` [m]; `None`: no polyhedron.
-    pub fn rounding(&self, k: usize) -> Option<f64> {
-        self.list[k].map(|entry| entry.rounding)
-    }
-
-    /// Body number `k`, with the shapes it was taken with; `None`: no polyhedron.
-    pub fn at<'a>(&'a self, k: usize, shapes: &'a [Polyhedron]) -> Option<Turned<'a>> {
-        let Entry { shape, size, rounding, corners, normals } = self.list[k]?;
-        let shape = &shapes[shape as usize];
-        let (count, first) = (shape.corners.len(), corners);
-        let lots = first..first + count.next_multiple_of(LANES);
-        Some(Turned {
+impl TurnedBody {
+    /// A body of one of these shapes, with a diameter [m], along its principal axes.
+    pub fn new(shape: u32, size: f64, shapes: &[Polyhedron]) -> Self {
+        let of = &shapes[shape as usize];
+        let (corners, normals) = (3 * of.columns[0].len(), of.normals.len());
+        let mut body = Self {
             shape,
             size,
-            rounding,
-            corners: [0, 1, 2].map(|axis| &self.corners[axis][lots.clone()]),
-            count,
-            normals: &self.normals[normals..normals + shape.normals.len()],
-        })
+            rounding: of.rounding * size,
+            corners: vec![0.0; corners].into(),
+            normals: vec![DVec3::ZERO; normals].into(),
+        };
+        body.turn(shapes, &DMat3::IDENTITY);
+        body
+    }
+
+    /// Rounding radius [m].
+    pub fn rounding(&self) -> f64 {
+        self.rounding
+    }
+
+    /// Turns it so that its principal axes have these directions.
+    pub fn turn(&mut self, shapes: &[Polyhedron], axes: &DMat3) {
+        let shape = &shapes[self.shape as usize];
+        turn(&shape.columns, self.size, axes, &mut self.corners);
+        for (turned, normal) in self.normals.iter_mut().zip(&shape.normals) {
+            *turned = *axes * *normal;
+        }
+    }
+
+    /// As it is turned.
+    #[inline]
+    pub fn at<'a>(&'a self, shapes: &'a [Polyhedron]) -> Turned<'a> {
+        let shape = &shapes[self.shape as usize];
+        let (x, others) = self.corners.split_at(self.corners.len() / 3);
+        let (y, z) = others.split_at(x.len());
+        let (count, corners) = (shape.corners.len(), [x, y, z]);
+        Turned { shape, size: self.size, rounding: self.rounding, corners, count, normals: &self.normals }
+    }
+}
+
+/// Corners of a body of some size from those of diameter 1.
+#[multiversion(targets = "simd")]
+fn turn([x, y, z]: &[Vec<f64>; 3], size: f64, axes: &DMat3, corners: &mut [f64]) {
+    let [x, y, z] = [x, y, z].map(|column| column.as_chunks::<LANES>().0);
+    let columns = axes.to_cols_array_2d();
+    for (row, turned) in corners.chunks_exact_mut(corners.len() / 3).enumerate() {
+        let [a, b, c] = [columns[0][row], columns[1][row], columns[2][row]];
+        for (turned, ((x, y), z)) in turned.as_chunks_mut::<LANES>().0.iter_mut().zip(x.iter().zip(y).zip(z)) {
+            for l in 0..LANES {
+                turned[l] = a * (x[l] * size) + b * (y[l] * size) + c * (z[l] * size);
+            }
+        }
     }
 }

@@ -18,14 +18,14 @@ use crate::contact::chunk::Chunk;
 use crate::ledger::Energies;
 use crate::neighbours::joined::NO_BODY;
 use crate::neighbours::lists::{BlockList, shares};
-use crate::polyhedron::Polyhedron;
+use crate::polyhedron::{Polyhedron, Turned};
 use crate::state::{Grains, moved_along};
 use crate::superellipsoid::{Outline, Superellipsoid};
 use crate::threads::each_in_parts;
 use crate::view;
 pub(super) use body::Body;
 use body::{Felt, TOGETHER};
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DQuat, DVec3};
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 
@@ -97,21 +97,21 @@ impl Bodies {
         !self.polyhedra.is_empty()
     }
 
-    /// Polyhedra of diameter 1, by number.
-    pub fn polyhedra(&self) -> &[Polyhedron] {
-        &self.polyhedra
+    /// The body that a grain is a piece of.
+    #[inline]
+    pub fn body(&self, i: usize) -> Option<&Body> {
+        self.list.get(self.sorted.get(i)?.body as usize)
     }
 
-    /// The number of the polyhedron that a grain is, its diameter [m], and the directions of its principal axes.
-    pub fn polyhedron(&self, i: usize) -> Option<(u32, f64, &DMat3)> {
-        let body = self.list.get(self.sorted.get(i)?.body as usize)?;
-        let (shape, size) = body.polyhedron?;
-        Some((shape, size, &body.axes))
+    /// The polyhedron that a grain is, as it is turned.
+    #[inline]
+    pub fn polyhedron(&self, i: usize) -> Option<Turned<'_>> {
+        Some(self.body(i)?.polyhedron.as_ref()?.at(&self.polyhedra))
     }
 
     /// Rounding radius of the polyhedron that a grain is [m].
     pub fn rounding(&self, i: usize) -> Option<f64> {
-        self.polyhedron(i).map(|(shape, size, _)| self.polyhedra[shape as usize].rounding() * size)
+        self.polyhedron(i).map(|body| body.rounding)
     }
 
     /// Twice the smallest rounding radius of all polyhedra, those that are yet to come included [m]; infinite where there are none.
@@ -140,7 +140,7 @@ impl Bodies {
         self.places = grains.by_id().into_iter().map(|place| place as u32).collect();
         let sorted = &self.sorted;
         self.places.retain(|place| sorted[*place as usize].body != NO_BODY);
-        self.list.iter_mut().for_each(|body| body.pieces = 0..0);
+        self.list.iter_mut().for_each(|body| (body.pieces, body.path) = (0..0, 0.0));
         for (k, place) in self.places.iter().enumerate() {
             let pieces = &mut self.list[sorted[*place as usize].body as usize].pieces;
             *pieces = if pieces.end == 0 { k..k + 1 } else { pieces.start..k + 1 };
@@ -163,10 +163,13 @@ impl Bodies {
 
     /// Before the forces: bodies go to the end of the step. Their pieces follow block by block, see [`Bodies::place`].
     pub fn first_half(&mut self, dt: f64) {
-        let (plane, pieces) = (self.plane, self.places.len());
-        let (many, others) = self.list.as_chunks_mut::<TOGETHER>();
-        each_in_parts(many, shares(pieces), &|bodies: &mut [Body; TOGETHER]| Body::first_half(bodies, dt, plane));
-        Body::first_half(others, dt, plane);
+        let Self { list, places, polyhedra, plane, .. } = self;
+        let (plane, shapes) = (*plane, &**polyhedra);
+        let (many, others) = list.as_chunks_mut::<TOGETHER>();
+        each_in_parts(many, shares(places.len()), &|bodies: &mut [Body; TOGETHER]| {
+            Body::first_half(bodies, dt, plane, shapes);
+        });
+        Body::first_half(others, dt, plane, shapes);
     }
 
     /// Puts the pieces of a block where their bodies have them. Returns, of all of its grains, the sum of the velocities [m/s] and how far the
@@ -357,7 +360,7 @@ impl Bodies {
         }
         for (body, turned) in self.list.iter_mut().zip(turned) {
             body.orientation = DQuat::from_array(*turned);
-            body.follow(self.plane);
+            body.follow(self.plane, &self.polyhedra);
         }
         Ok(())
     }

@@ -32,6 +32,7 @@ use crate::contact::{Law, Table};
 use crate::neighbours::NeighbourLists;
 use crate::neighbours::lists::{BLOCK, BlockList, shares};
 use crate::partner::Hosts;
+use crate::polyhedron::near::Near;
 use crate::state::Grains;
 use crate::view::WallLoad;
 use crate::wall::Wall;
@@ -138,6 +139,8 @@ pub(super) struct BlockContacts {
     pub walls: Vec<WallLoad>,
     pub sums: ContactSums,
     pub immersion: BlockImmersion,
+    /// Which features of its polyhedra may touch soon.
+    near: Near,
 }
 
 /// The contacts of all blocks.
@@ -222,6 +225,7 @@ impl ContactForces {
             let loads = if own.contains(&(list.first / BLOCK)) { list.own + list.halo.len() } else { 0 };
             block.loads.resize(loads, Load::default());
             block.walls.resize(input.walls.len(), WallLoad::default());
+            block.near.forget(if input.bodies.faceted() { list.pairs.len() } else { 0 });
             if block.history.is_empty() {
                 block.history.extend(laws.iter().map(|law| ContactHistory::new(law.width())));
             }
@@ -234,6 +238,7 @@ impl ContactForces {
     /// Other laws hold from now on: batches keep the constants of the last pair of materials.
     pub fn forget_laws(&mut self) {
         self.scratch.clear();
+        self.blocks.iter_mut().for_each(|block| block.near.forget_all());
     }
 
     /// Evaluates all contacts, and the forces of the water.
@@ -271,14 +276,16 @@ impl ContactForces {
 
 impl BlockContacts {
     fn evaluate(&mut self, input: &ForceInput, list: &BlockList, scratch: &mut Scratch) {
-        let Self { history, loads, walls, sums, immersion } = self;
+        let Self { history, loads, walls, sums, immersion, near } = self;
         let rotation = input.laws.rotation;
         loads.fill(Load::default());
         walls.fill(WallLoad::default());
         *sums = ContactSums::default();
+        std::mem::swap(near, &mut scratch.features.near);
         pairs::evaluate(input, list, history, scratch, sums, |batch| pairs::scatter(batch, loads, rotation));
         features::evaluate(input, list, history, scratch, sums, |batch| pairs::scatter(batch, loads, rotation));
         walls::evaluate(input, list, history, scratch, sums, |batch| walls::scatter(input, list, batch, loads, walls));
+        std::mem::swap(near, &mut scratch.features.near);
         history.swap_with_slice(&mut scratch.next);
         scratch.forget(input.laws.all());
         // The grains are in the cache now.

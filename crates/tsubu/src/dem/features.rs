@@ -9,16 +9,19 @@ use super::contact_history::FeatureKey;
 use super::narrow_phase::{Spheres, TouchingPair, TouchingPairs};
 use crate::contact::chunk::Chunk;
 use crate::neighbours::lists::BlockList;
+use crate::polyhedron::Turned;
+use crate::polyhedron::near::Near;
 use crate::polyhedron::touch::{Contact, Search, touch};
-use crate::polyhedron::{Turned, TurnedBodies};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use std::ops::Range;
 
 /// The contacts of a block in which a polyhedron takes part, in the order of the neighbour list and of the features.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PairFeatures {
-    /// All that the block sees, by local index.
-    bodies: TurnedBodies,
+    /// What pairs of polyhedra of the block may touch soon; changes places with what the block has kept.
+    pub near: Near,
+    /// How polyhedra give way that the block sees, by local index.
+    gives: Vec<Option<Gives>>,
     search: Search,
     /// Pairs of the block, the pair once more for each of its contacts.
     pairs: Vec<TouchingPair>,
@@ -28,41 +31,74 @@ pub(super) struct PairFeatures {
     rows: Vec<u32>,
 }
 
+/// What rows ask of a polyhedron, side by side.
+#[derive(Clone, Copy, Debug)]
+struct Gives {
+    /// Rounding radius [m].
+    rounding: f64,
+    /// Inverse inertia in space [1/(kg.m^2)].
+    inverse_inertia: DMat3,
+}
+
+/// A grain that the block sees.
+#[derive(Clone, Copy)]
+struct Seen<'a> {
+    /// The polyhedron that it is.
+    body: Option<Turned<'a>>,
+    /// How far that has gone [m].
+    path: f64,
+}
+
 impl PairFeatures {
     /// Takes the pairs with a polyhedron from those whose spheres touch.
     pub fn take(&mut self, touching: &mut TouchingPairs, input: &ForceInput, list: &BlockList, spheres: &Spheres) {
-        let Self { bodies, search, pairs, contacts, .. } = self;
+        let Self { near, gives, search, pairs, contacts, .. } = self;
         if !input.bodies.faceted() {
             return;
         }
         pairs.clear();
         contacts.clear();
-        bodies.clear();
-        let own = list.first..list.first + list.own;
-        let halo = list.halo.iter().map(|halo| halo.grain as usize);
-        let shapes = input.bodies.polyhedra();
-        own.chain(halo).for_each(|i| bodies.push(shapes, input.bodies.polyhedron(i)));
-        let shape = |local: u32| bodies.at(local as usize, shapes);
+        gives.clear();
+        let mut seen = Vec::with_capacity(list.grain_at.len());
+        for grain in &list.grain_at {
+            let body = input.bodies.body(*grain as usize);
+            let turned = input.bodies.polyhedron(*grain as usize);
+            seen.push(Seen { body: turned, path: body.map_or(0.0, |body| body.path) });
+            gives.push(turned.zip(body).map(|(turned, body)| {
+                // Without rotation no body gives way by turning.
+                let inverse_inertia = if input.laws.rotation { body.inverse_inertia } else { DMat3::ZERO };
+                Gives { rounding: turned.rounding, inverse_inertia }
+            }));
+        }
+        let reach = input.laws.reach();
+        let shaped = input.bodies.shaped();
         touching.keep(|pair| {
-            let locals = [pair.first, list.pairs[pair.pair as usize].second];
-            let [first, second] = locals.map(shape);
-            // Superellipsoids touch polyhedra as they touch all: once, see [`super::shapes`].
-            let round = |local: u32| input.bodies.superellipsoid(list.grain_at[local as usize] as usize).is_some();
-            if first.is_none() && second.is_none() || input.bodies.shaped() && locals.into_iter().any(round) {
+            let (first, second) = (pair.first, list.pairs[pair.pair as usize].second);
+            let (a, b) = (&seen[first as usize], &seen[second as usize]);
+            let (pair_of, path) = (pair.pair as usize, a.path + b.path);
+            if near.is_apart(pair_of, path) {
+                return false;
+            }
+            if a.body.is_none() && b.body.is_none() {
                 return true;
             }
-            let [p, q] = locals.map(|local| spheres.at(local));
+            // Superellipsoids touch polyhedra as they touch all: once, see [`super::shapes`].
+            let round = |local: u32| input.bodies.superellipsoid(list.grain_at[local as usize] as usize).is_some();
+            if shaped && (round(first) || round(second)) {
+                return true;
+            }
+            let (p, q) = (spheres.at(first), spheres.at(second));
             let apart = DVec3::new(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
-            let [a, b] = [(first, p), (second, q)].map(|(body, at)| body.unwrap_or_else(|| Turned::sphere(at[3])));
-            touch([&a, &b], apart, input.laws.reach(), search, contacts);
+            if let (Some(a), Some(b)) = (&a.body, &b.body) {
+                near.touch(pair_of, path, ([a, b], apart, reach), search, contacts);
+            } else {
+                let a = a.body.unwrap_or_else(|| Turned::sphere(p[3]));
+                let b = b.body.unwrap_or_else(|| Turned::sphere(q[3]));
+                touch([&a, &b], apart, reach, search, contacts);
+            }
             pairs.resize(contacts.len(), *pair);
             false
         });
-    }
-
-    /// The polyhedron that a grain is which the block sees, as it is turned.
-    pub fn polyhedron<'a>(&'a self, input: &ForceInput<'a>, local: u32) -> Option<Turned<'a>> {
-        if input.bodies.faceted() { self.bodies.at(local as usize, input.bodies.polyhedra()) } else { None }
     }
 
     /// All contacts with their pairs.
@@ -108,23 +144,49 @@ impl PairFeatures {
 
     /// Puts the spheres that stand for features into the rows of a batch.
     pub fn gather(&self, batch: &mut ContactBatch, range: Range<usize>, input: &ForceInput, list: &BlockList) {
+        let rotation = input.laws.rotation;
         batch.shifted = true;
         for (r, contact) in self.rows(range).enumerate() {
-            let locals = [batch.first[r], batch.second[r]].map(|local| local as usize);
             let branch = Chunk::vector(&batch.branch, r) + contact.points[1] - contact.points[0];
             // Cores that touch have no distance, but a normal all the same.
             let least = 1e-6 * branch.length().max(contact.points[0].length());
             let along = branch.dot(contact.normal);
             let branch = if along < least { contact.normal * least } else { branch };
             Chunk::set(&mut batch.branch, r, branch);
-            let mut relative = Chunk::vector(&batch.relative_velocity, r);
-            for (body, (local, sign)) in locals.into_iter().zip([1.0, -1.0]).enumerate() {
-                let i = list.grain_at[local] as usize;
-                batch.radius[body][r] = self.bodies.rounding(local).unwrap_or(input.grains.radius[i]);
+            for (body, local) in [batch.first[r], batch.second[r]].into_iter().enumerate() {
+                if let Some(gives) = &self.gives[local as usize] {
+                    batch.radius[body][r] = gives.rounding;
+                }
                 batch.set_shift(body, r, contact.points[body]);
-                relative += sign * input.grains.spin[i].cross(contact.points[body]);
             }
-            Chunk::set(&mut batch.relative_velocity, r, relative);
+            let spin = |body: usize, local: u32| {
+                if rotation {
+                    Chunk::vector(&batch.spin[body], r)
+                } else {
+                    input.grains.spin[list.grain_at[local as usize] as usize]
+                }
+            };
+            let [first, second] = [spin(0, batch.first[r]), spin(1, batch.second[r])];
+            let relative = Chunk::vector(&batch.relative_velocity, r) + first.cross(contact.points[0]);
+            Chunk::set(&mut batch.relative_velocity, r, relative - second.cross(contact.points[1]));
+        }
+    }
+
+    /// Gives the rows the mass that their bodies show there, see [`super::bodies::Bodies::show_mass`].
+    pub fn show_mass(&self, batch: &mut ContactBatch, input: &ForceInput, list: &BlockList) {
+        for r in 0..batch.chunk.rows() {
+            let normal = Chunk::vector(&batch.chunk.normal, r);
+            let turning = |local: u32, shift: DVec3| match &self.gives[local as usize] {
+                Some(gives) => {
+                    let lever = shift.cross(normal);
+                    lever.dot(gives.inverse_inertia * lever)
+                }
+                None => input.bodies.turning(list.grain_at[local as usize] as usize, shift, normal),
+            };
+            let more = turning(batch.first[r], batch.shift(0, r)) + turning(batch.second[r], batch.shift(1, r));
+            if more > 0.0 {
+                batch.chunk.effective_mass[r] = 1.0 / (1.0 / batch.chunk.effective_mass[r] + more);
+            }
         }
     }
 

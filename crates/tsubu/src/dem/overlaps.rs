@@ -22,8 +22,9 @@ pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
     for list in &input.neighbours.lists[input.neighbours.own()] {
         spheres.load(g, list, &input.neighbours.shifts);
         pairs.find(list, &spheres, 0.0);
+        features.near.forget(list.pairs.len());
         features.take(&mut pairs, input, list, &spheres);
-        shapes.find(&mut pairs, input, &features, list, &spheres);
+        shapes.find(&mut pairs, input, list, &spheres);
         for touching in pairs.under(0) {
             let second = list.pairs[touching.pair as usize].second;
             let ([ax, ay, az, a], [bx, by, bz, b]) = (spheres.at(touching.first), spheres.at(second));
@@ -67,7 +68,7 @@ pub(super) fn overlaps(input: &ForceInput) -> Vec<Contact> {
             let centre = g.position[first];
             elements.clear();
             elements.extend(near.iter().map(|near| near.element));
-            wall_shapes.find(input, &features, list, (near[0].own, near[0].wall), &elements, 0.0);
+            wall_shapes.find(input, list, (near[0].own, near[0].wall), &elements, 0.0);
             contacts.extend(wall_shapes.found.iter().map(|shape| {
                 let branch = shape.shift + shape.normal * (shape.radius - 0.5 * shape.overlap);
                 Contact {

@@ -7,7 +7,6 @@
 use super::bodies::Bodies;
 use super::contact_batch::ContactBatch;
 use super::contact_forces::ForceInput;
-use super::features::PairFeatures;
 use super::narrow_phase::{Spheres, TouchingPair, TouchingPairs};
 use crate::contact::Law;
 use crate::contact::chunk::{Chunk, Column};
@@ -59,19 +58,12 @@ enum Form {
 
 impl PairShapes {
     /// Looks at the pairs whose spheres touch, and leaves out those whose bodies are apart by more than a law reaches.
-    pub fn find(
-        &mut self,
-        pairs: &mut TouchingPairs,
-        input: &ForceInput,
-        features: &PairFeatures,
-        list: &BlockList,
-        spheres: &Spheres,
-    ) {
+    pub fn find(&mut self, pairs: &mut TouchingPairs, input: &ForceInput, list: &BlockList, spheres: &Spheres) {
         self.found.clear();
         if !input.bodies.shaped() {
             return;
         }
-        self.load(input, features, list, spheres);
+        self.load(input, list, spheres);
         for pair in pairs.all() {
             let second = list.pairs[pair.pair as usize].second;
             let (a, b) = (&self.members[pair.first as usize], &self.members[second as usize]);
@@ -88,7 +80,7 @@ impl PairShapes {
                     }
                 }
                 Form::Other => self.search(pair.pair, input, list, spheres),
-                Form::Polyhedron => self.search_faceted(pair.pair, input, features, list, spheres),
+                Form::Polyhedron => self.search_faceted(pair.pair, input, list, spheres),
             }
         }
         self.ellipsoids.sieve(input.laws.reach());
@@ -106,7 +98,7 @@ impl PairShapes {
     }
 
     /// Takes the grains of a block.
-    fn load(&mut self, input: &ForceInput, features: &PairFeatures, list: &BlockList, spheres: &Spheres) {
+    fn load(&mut self, input: &ForceInput, list: &BlockList, spheres: &Spheres) {
         self.members.clear();
         self.members.extend((0..).zip(&list.grain_at).map(|(local, grain)| {
             match input.bodies.superellipsoid(*grain as usize) {
@@ -116,7 +108,11 @@ impl PairShapes {
                 },
                 None => Member {
                     ellipsoid: Ellipsoid::sphere(spheres.at(local)[3]),
-                    form: if features.polyhedron(input, local).is_some() { Form::Polyhedron } else { Form::Sphere },
+                    form: if input.bodies.polyhedron(*grain as usize).is_some() {
+                        Form::Polyhedron
+                    } else {
+                        Form::Sphere
+                    },
                 },
             }
         }));
@@ -157,18 +153,12 @@ impl PairShapes {
     }
 
     /// Where a superellipsoid touches a polyhedron.
-    fn search_faceted(
-        &mut self,
-        pair: u32,
-        input: &ForceInput,
-        features: &PairFeatures,
-        list: &BlockList,
-        spheres: &Spheres,
-    ) {
+    fn search_faceted(&mut self, pair: u32, input: &ForceInput, list: &BlockList, spheres: &Spheres) {
         let Pair { first, second } = list.pairs[pair as usize];
         let outline = |local: u32| input.bodies.outline(list.grain_at[local as usize] as usize);
+        let polyhedron = |local: u32| input.bodies.polyhedron(list.grain_at[local as usize] as usize);
         let (apart, reach) = (between(spheres, first, second), input.laws.reach());
-        let touch = match (features.polyhedron(input, first), features.polyhedron(input, second)) {
+        let touch = match (polyhedron(first), polyhedron(second)) {
             (Some(body), _) => outline(second).and_then(|round| with_round::touched(&body, &round, apart, reach)),
             (_, Some(body)) => outline(first).and_then(|round| with_round::touch(&round, &body, apart, reach)),
             _ => None,

@@ -7,7 +7,6 @@ mod round;
 
 use super::contact_batch::ContactBatch;
 use super::contact_forces::ForceInput;
-use super::features::PairFeatures;
 use super::shapes::add;
 use crate::contact::Law;
 use crate::neighbours::lists::BlockList;
@@ -59,7 +58,6 @@ impl WallShapes {
     pub fn find(
         &mut self,
         input: &ForceInput,
-        features: &PairFeatures,
         list: &BlockList,
         (own, number): (u32, u32),
         elements: &[u32],
@@ -72,7 +70,7 @@ impl WallShapes {
             && let Some(outline) = input.bodies.outline(i)
         {
             self.round_body(&outline, wall, centre, radius, elements, reach);
-        } else if let Some(body) = features.polyhedron(input, own) {
+        } else if let Some(body) = input.bodies.polyhedron(i) {
             self.faceted_body(&body, wall, centre, radius, elements, reach);
         } else {
             wall.touching(elements, centre, radius + reach, &mut self.touching);

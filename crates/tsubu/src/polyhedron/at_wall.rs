@@ -37,11 +37,7 @@ pub struct Bulge {
 
 impl Turned<'_> {
     fn edges(&self) -> impl Iterator<Item = Edge> {
-        self.shape.edges.iter().enumerate().map(|(number, [a, b])| {
-            let (a, b) = (self.corner(*a), self.corner(*b));
-            let way = b - a;
-            Edge { number, middle: (a + b) * 0.5, way, squared: way.length_squared() }
-        })
+        (0..self.shape.edges.len()).map(|number| self.edge(number))
     }
 
     /// Tells where edges of the body cross a sharp edge with these ends, from the centre of the body [m], nearer than `reach` [m] to its rounded edge.
@@ -72,7 +68,7 @@ impl Turned<'_> {
 
     /// Where the core is nearest to a point from its centre, if the rounded body is nearer than `reach` [m]: the point of the core, the overlap, and the unit normal to the point.
     pub fn at_point(&self, point: DVec3, reach: f64) -> Option<(DVec3, f64, DVec3)> {
-        let (distance, away) = self.distance(point, self.rounding + reach)?;
+        let (distance, away) = self.distance(point, self.rounding + reach).ok()?;
         Some((point - away * distance, self.rounding - distance, away))
     }
 

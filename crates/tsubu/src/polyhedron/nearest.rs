@@ -4,10 +4,10 @@ use super::Turned;
 use glam::DVec3;
 
 impl Turned<'_> {
-    /// Distance of a point from the core [m], and the unit direction from it; within the core the distance from the nearest face, below 0. Nothing where it is `cut` [m] or farther.
+    /// Distance of a point from the core [m], and the unit direction from it; within the core the distance from the nearest face, below 0. An error where it is `cut` [m] or farther, with how far beyond at least.
     ///
     /// The slope of the distance is that direction, which turns without a jump as the nearest feature changes; the core is convex.
-    pub(super) fn distance(&self, point: DVec3, cut: f64) -> Option<(f64, DVec3)> {
+    pub(super) fn distance(&self, point: DVec3, cut: f64) -> Result<(f64, DVec3), f64> {
         let (mut face, mut height) = (0, f64::NEG_INFINITY);
         for k in 0..self.normals.len() {
             let above = self.above(k, point);
@@ -16,11 +16,11 @@ impl Turned<'_> {
             }
         }
         if height >= cut {
-            return None;
+            return Err(height - cut);
         }
         let normal = self.normals[face];
         if height <= 0.0 || self.is_over(face, point) {
-            return Some((height, normal));
+            return Ok((height, normal));
         }
         let (mut nearest, mut away) = (f64::INFINITY, DVec3::ZERO);
         for k in (0..self.normals.len()).filter(|k| self.above(*k, point) > 0.0) {
@@ -36,7 +36,7 @@ impl Turned<'_> {
             });
         }
         let distance = nearest.sqrt();
-        (distance < cut).then(|| (distance, away / distance))
+        if distance < cut { Ok((distance, away / distance)) } else { Err(distance - cut) }
     }
 
     /// Whether a point lies straight above a face; a side of a polygon has no answer to that.

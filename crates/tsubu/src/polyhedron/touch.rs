@@ -45,9 +45,73 @@ struct Axis {
     height: f64,
 }
 
+/// How near features count.
+#[derive(Clone, Copy, Debug)]
+pub struct Cut {
+    /// Sum of the rounding radii [m].
+    pub radii: f64,
+    /// Gap up to which bodies may hold each other [m].
+    pub reach: f64,
+}
+
+impl Cut {
+    fn distance(self) -> f64 {
+        self.radii + self.reach
+    }
+
+    /// The contact of two features by their number, see [`Contact::feature`], or how far they are from being one at least [m].
+    pub fn at(self, [a, b]: [&Turned; 2], apart: DVec3, feature: u32) -> Result<Contact, f64> {
+        match [feature >> 16, feature & 0xffff] {
+            [0, second] => self.second_at(a, apart, second - 1, b.corner(second as usize - 1)),
+            [first, 0] => self.first_at(b, apart, first - 1, a.corner(first as usize - 1)),
+            [first, second] => {
+                let (p, mut q) = (a.edge((first ^ EDGE) as usize), b.edge((second ^ EDGE) as usize));
+                q.middle += apart;
+                self.crossing(&p, &q, apart)
+            }
+        }
+    }
+
+    /// A corner of the first body at the core of the second.
+    fn first_at(self, core: &Turned, apart: DVec3, number: u32, corner: DVec3) -> Result<Contact, f64> {
+        let point = corner - apart;
+        let (distance, away) = core.distance(point, self.distance())?;
+        let points = [corner, point - away * distance];
+        let feature = feature(number + 1, 0);
+        Ok(Contact { feature, points, overlap: self.radii - distance, normal: -away, share: 1.0 })
+    }
+
+    /// A corner of the second body at the core of the first.
+    fn second_at(self, core: &Turned, apart: DVec3, number: u32, corner: DVec3) -> Result<Contact, f64> {
+        let point = apart + corner;
+        let (distance, away) = core.distance(point, self.distance())?;
+        let points = [point - away * distance, corner];
+        let feature = feature(0, number + 1);
+        Ok(Contact { feature, points, overlap: self.radii - distance, normal: away, share: 1.0 })
+    }
+
+    /// Two edges; that of the second from the centre of the first.
+    fn crossing(self, p: &Edge, q: &Edge, apart: DVec3) -> Result<Contact, f64> {
+        let (points, squared) = nearest(p, q, 8.0 * CROWN * self.radii * self.radii);
+        let cut = self.distance();
+        if squared >= cut * cut {
+            return Err(squared.sqrt() - cut);
+        }
+        let (way, distance) = (points[1] - points[0], squared.sqrt());
+        let between = way.length();
+        Ok(Contact {
+            feature: feature(EDGE | p.number as u32, EDGE | q.number as u32),
+            points: [points[0], points[1] - apart],
+            overlap: self.radii - distance,
+            normal: way / (between + f64::MIN_POSITIVE),
+            share: between / distance,
+        })
+    }
+}
+
 impl Turned<'_> {
-    /// Which face of this body separates it most from another, `apart` [m] away; nothing where one does by more than `cut` [m].
-    fn separating(&self, other: &Self, apart: DVec3, cut: f64) -> Option<Axis> {
+    /// Which face of this body separates it most from another, `apart` [m] away; an error where one does by more than `cut` [m], with how far.
+    fn separating(&self, other: &Self, apart: DVec3, cut: f64) -> Result<Axis, f64> {
         let mut axis = Axis { face: 0, height: f64::NEG_INFINITY };
         for face in 0..self.normals.len() {
             // The centre of the other is not below its corners.
@@ -55,14 +119,23 @@ impl Turned<'_> {
             if centre > axis.height {
                 let height = centre + other.lowest(self.normals[face]);
                 if height >= cut {
-                    return None;
+                    return Err(height);
                 }
                 if height > axis.height {
                     axis = Axis { face, height };
                 }
             }
         }
-        Some(axis)
+        Ok(axis)
+    }
+
+    /// One of its edges.
+    #[inline]
+    pub(super) fn edge(&self, number: usize) -> Edge {
+        let [a, b] = self.shape.edges[number];
+        let (a, b) = (self.corner(a), self.corner(b));
+        let way = b - a;
+        Edge { number, middle: (a + b) * 0.5, way, squared: way.length_squared() }
     }
 
     /// Appends the edges of which a part within `within` of their middle, over their length, is nearer than `margin` [m] to the end of the body along a direction.
@@ -73,55 +146,48 @@ impl Turned<'_> {
         for (number, [a, b]) in self.shape.edges.iter().enumerate() {
             let (p, q) = (heights[*a], heights[*b]);
             if 0.5 * (p + q) + within * (p - q).abs() >= least {
-                let (a, b) = (self.corner(*a), self.corner(*b));
-                let way = b - a;
-                edges.push(Edge { number, middle: (a + b) * 0.5, way, squared: way.length_squared() });
+                edges.push(self.edge(number));
             }
         }
     }
 }
 
-/// Appends where two bodies touch, or are nearer than `reach` [m]; the centre of the second is `apart` [m] from that of the first. In the order of features.
-pub fn touch(bodies: [&Turned; 2], apart: DVec3, reach: f64, search: &mut Search, found: &mut Vec<Contact>) {
+/// Appends where two bodies touch, or are nearer than `reach` [m]; the centre of the second is `apart` [m] from that of the first. In the order of features. Returns how far the bodies are from
+/// being so near at least [m].
+pub fn touch(bodies: [&Turned; 2], apart: DVec3, reach: f64, search: &mut Search, found: &mut Vec<Contact>) -> f64 {
     let [a, b] = bodies;
-    let radii = a.rounding + b.rounding;
-    let cut = radii + reach;
-    let Some(first) = a.separating(b, apart, cut) else { return };
-    let Some(second) = b.separating(a, -apart, cut) else { return };
+    let limit = Cut { radii: a.rounding + b.rounding, reach };
+    let cut = limit.distance();
+    let axes = a.separating(b, apart, cut).and_then(|first| Ok([first, b.separating(a, -apart, cut)?]));
+    let [first, second] = match axes {
+        Ok(axes) => axes,
+        Err(height) => return height - cut,
+    };
     if !a.normals.is_empty() {
         for (i, corner) in b.corners() {
-            let point = apart + corner;
-            if a.above(first.face, point) < cut
-                && let Some((distance, away)) = a.distance(point, cut)
-            {
-                let points = [point - away * distance, corner];
-                let feature = feature(0, i as u32 + 1);
-                found.push(Contact { feature, points, overlap: radii - distance, normal: away, share: 1.0 });
+            if a.above(first.face, apart + corner) < cut {
+                found.extend(limit.second_at(a, apart, i as u32, corner));
             }
         }
     }
     if b.normals.is_empty() {
-        return;
+        return 0.0;
     }
     for (i, corner) in a.corners() {
-        let point = corner - apart;
-        if b.above(second.face, point) < cut
-            && let Some((distance, away)) = b.distance(point, cut)
-        {
-            let points = [corner, point - away * distance];
-            let feature = feature(i as u32 + 1, 0);
-            found.push(Contact { feature, points, overlap: radii - distance, normal: -away, share: 1.0 });
+        if b.above(second.face, corner - apart) < cut {
+            found.extend(limit.first_at(b, apart, i as u32, corner));
         }
     }
     if a.shape.edges.is_empty() || b.shape.edges.is_empty() {
-        return;
+        return 0.0;
     }
     let (n, height) = if first.height > second.height {
         (a.normals[first.face], first.height)
     } else {
         (-b.normals[second.face], second.height)
     };
-    crossings(bodies, apart, (n, height), (radii, cut), search, found);
+    crossings(bodies, apart, (n, height), limit, search, found);
+    0.0
 }
 
 /// Appends the edges that cross. `n` is a direction from the first to the second along which the cores are `height` [m] apart.
@@ -129,13 +195,14 @@ fn crossings(
     [a, b]: [&Turned; 2],
     apart: DVec3,
     (n, height): (DVec3, f64),
-    (radii, cut): (f64, f64),
+    limit: Cut,
     search: &mut Search,
     found: &mut Vec<Contact>,
 ) {
     let Search { heights, edges } = search;
+    let cut = limit.distance();
     // What is lower than this below the end of a body is too far from the other; and what lies back so far.
-    let back = 8.0 * CROWN * radii * radii;
+    let back = 8.0 * CROWN * limit.radii * limit.radii;
     let deepest = height.max(0.0);
     let within = ((cut * cut - deepest * deepest) / back).sqrt().min(0.5);
     edges.clear();
@@ -147,20 +214,6 @@ fn crossings(
         edge.middle += apart;
     }
     for p in of_a.iter() {
-        for q in of_b.iter() {
-            let (points, squared) = nearest(p, q, back);
-            if squared >= cut * cut {
-                continue;
-            }
-            let (way, distance) = (points[1] - points[0], squared.sqrt());
-            let between = way.length();
-            found.push(Contact {
-                feature: feature(EDGE | p.number as u32, EDGE | q.number as u32),
-                points: [points[0], points[1] - apart],
-                overlap: radii - distance,
-                normal: way / (between + f64::MIN_POSITIVE),
-                share: between / distance,
-            });
-        }
+        found.extend(of_b.iter().filter_map(|q| limit.crossing(p, q, apart).ok()));
     }
 }

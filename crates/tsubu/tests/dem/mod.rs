@@ -10,6 +10,7 @@ pub mod everything;
 mod gates;
 mod idle;
 mod lever;
+mod monostatic;
 mod orientation;
 mod pairs;
 mod place;

@@ -4,6 +4,7 @@ use super::after;
 use crate::dem::{hash, open_text};
 use glam::DVec3;
 use std::f64::consts::PI;
+use std::fmt::Write as _;
 use tsubu::engine::{self, Engine};
 use tsubu::view::Wants;
 
@@ -116,7 +117,8 @@ torque.finite-reynolds = {}
         ("cubes", &CUBE.replace("0.001", "0.2")),
     ];
     for (name, shape) in shapes {
-        text += &format!(
+        let _ = write!(
+            text,
             "[particles.{name}]\nmaterial = \"stone\"\ncount = {count}\ndiameter = \"9 mm\"\nshape.{shape}\nstart.random.region = {{ low = [0, 0, \"6 mm\"], high = [\"60 mm\", \"60 mm\", \"160 mm\"] }}\n"
         );
     }

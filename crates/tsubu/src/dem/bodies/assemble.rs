@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::{Bodies, Piece};
 use crate::neighbours::joined::NO_BODY;
-use crate::polyhedron::Polyhedron;
+use crate::polyhedron::{Polyhedron, TurnedBody};
 use crate::random::{Purpose, unit, words};
 use crate::sizes;
 use crate::state::{Grain, Grains};
@@ -54,8 +54,7 @@ impl Bodies {
         }
         let shapes = || bodies.list.iter().filter_map(|body| body.superellipsoid.as_ref());
         (bodies.shaped, bodies.powers) = (shapes().next().is_some(), shapes().any(|shape| !shape.is_ellipsoid()));
-        let rounding =
-            |body: &Body| body.polyhedron.map(|(shape, size)| bodies.polyhedra[shape as usize].rounding() * size);
+        let rounding = |body: &Body| body.polyhedron.as_ref().map(TurnedBody::rounding);
         bodies.finest = bodies.list.iter().filter_map(rounding).reduce(f64::min).map(|radius| 2.0 * radius);
         bodies.find(grains);
         bodies.show(grains);
@@ -77,7 +76,7 @@ impl Bodies {
             moments: DVec3::from_array(clump.moments) * (mass * diameter * diameter),
             ellipsoid: superellipsoid.map(|shape| shape.ellipsoid(&DMat3::IDENTITY)).unwrap_or_default(),
             superellipsoid,
-            polyhedron: polyhedron.map(|shape| (shape, diameter)),
+            polyhedron: polyhedron.map(|shape| TurnedBody::new(shape, diameter, &self.polyhedra)),
             pieces: 0..0,
             centre: DVec3::ZERO,
             velocity: DVec3::ZERO,
@@ -88,6 +87,7 @@ impl Bodies {
             axes: DMat3::IDENTITY,
             inverse_inertia: DMat3::ZERO,
             spin: DVec3::ZERO,
+            path: 0.0,
             correction: 0.0,
         });
         let piece = |(offset, _): &([f64; 3], f64)| Piece { body, offset: DVec3::from_array(*offset) * diameter };
@@ -109,7 +109,7 @@ impl Bodies {
         (body.centre, body.velocity, body.acceleration) = (grain.position, grain.velocity, grain.acceleration);
         let spin = if self.locked { DVec3::ZERO } else { grain.spin };
         (body.angular_momentum, body.torque, body.correction) = (inertia * spin, DVec3::ZERO, 0.0);
-        body.follow(plane);
+        body.follow(plane, &self.polyhedra);
         let volume: f64 = clump.pieces.iter().map(|(_, radius)| radius.powi(3)).sum();
         let piece = |(k, (piece, (_, radius))): (usize, (&Piece, &([f64; 3], f64)))| {
             let arm = body.arm(piece, plane);

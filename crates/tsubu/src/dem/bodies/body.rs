@@ -3,6 +3,7 @@
 #![allow(clippy::inline_always, reason = "a call inside a row would end the vector code of its loop")]
 
 use super::Piece;
+use crate::polyhedron::{Polyhedron, TurnedBody};
 use crate::superellipsoid::Superellipsoid;
 use crate::superellipsoid::ellipsoids::Ellipsoid;
 use crate::superellipsoid::symmetric::Symmetric;
@@ -26,8 +27,8 @@ pub struct Body {
     pub moments: DVec3,
     /// What is in the place of its one sphere.
     pub superellipsoid: Option<Superellipsoid>,
-    /// The number of the polyhedron that is there, and its diameter [m].
-    pub polyhedron: Option<(u32, f64)>,
+    /// The polyhedron that is there.
+    pub polyhedron: Option<TurnedBody>,
     /// Where its pieces are in the list of places; none where it is not there.
     pub pieces: Range<usize>,
     /// Centre of mass, never wrapped [m].
@@ -49,6 +50,8 @@ pub struct Body {
     /// Inverse inertia in space [1/(kg.m^2)].
     pub inverse_inertia: DMat3,
     pub spin: DVec3,
+    /// Of a polyhedron a path that no point of it has exceeded since the lists were made [m].
+    pub path: f64,
     /// What the losses of its contacts must be corrected by [W].
     pub correction: f64,
 }
@@ -70,8 +73,11 @@ impl Body {
     }
 
     /// Finds what follows from attitude and angular momentum.
-    pub fn follow(&mut self, plane: bool) {
+    pub fn follow(&mut self, plane: bool, shapes: &[Polyhedron]) {
         self.axes = DMat3::from_quat(self.orientation);
+        if let Some(body) = &mut self.polyhedron {
+            body.turn(shapes, &self.axes);
+        }
         if let Some(shape) = &self.superellipsoid {
             self.ellipsoid.squared = Symmetric::along(shape.semi_axes * shape.semi_axes, &self.axes);
             self.ellipsoid.inverse_inertia = Symmetric::along(self.moments.recip(), &self.axes);
@@ -101,12 +107,13 @@ impl Body {
     }
 
     /// Up to [`TOGETHER`] bodies go to the end of a step, velocities predicted with the old acceleration as those of spheres are.
-    pub fn first_half(bodies: &mut [Self], dt: f64, plane: bool) {
+    pub fn first_half(bodies: &mut [Self], dt: f64, plane: bool, shapes: &[Polyhedron]) {
         let mut turns = Turns::default();
         for (k, body) in bodies.iter_mut().enumerate().filter(|(_, body)| body.is_there()) {
             let kick = body.acceleration * (0.5 * dt);
             let half = body.velocity + kick;
             body.centre += half * dt;
+            body.go(half.length() * dt);
             body.velocity = half + kick;
             body.angular_momentum += body.torque * (0.5 * dt);
             turns.set(k, body.orientation, body.angular_momentum, body.moments, dt);
@@ -114,8 +121,17 @@ impl Body {
         turn(&mut turns);
         for (k, body) in bodies.iter_mut().enumerate().filter(|(_, body)| body.is_there()) {
             body.orientation = turns.turned(k, body.orientation);
+            // It turns by twice the arc tangent of this, about its centre.
+            body.go(body.polyhedron.as_ref().map_or(0.0, |body| at(&turns.a, k).length() * body.size));
             body.angular_momentum += body.torque * (0.5 * dt);
-            body.follow(plane);
+            body.follow(plane, shapes);
+        }
+    }
+
+    /// Adds to the path of a polyhedron, with what rounding may lose.
+    fn go(&mut self, way: f64) {
+        if let Some(body) = &self.polyhedron {
+            self.path += (1.0 + 1e-9) * way + 1e-12 * body.size;
         }
     }
 

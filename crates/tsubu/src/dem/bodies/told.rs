@@ -13,7 +13,7 @@ impl Bodies {
         }
         let number = |i: &usize| {
             let body = self.sorted.get(*i).and_then(|piece| self.list.get(piece.body as usize));
-            body.and_then(|body| body.polyhedron).map_or(-1, |(shape, _)| i64::from(shape))
+            body.and_then(|body| body.polyhedron.as_ref()).map_or(-1, |body| i64::from(body.shape))
         };
         frame.integer(Kind::Grain, "polyhedron", "-", order.iter().map(number).collect());
         let (mut of_face, mut normal, mut offset) = (Vec::new(), Vec::new(), Vec::new());

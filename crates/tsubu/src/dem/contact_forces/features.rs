@@ -32,7 +32,7 @@ pub(super) fn evaluate(
             features.gather(batch, range.clone(), input, list);
             batch.sphere_geometry(laws.rotation, laws.lever_share);
             features.lie_back(batch, range.clone());
-            input.bodies.show_mass(batch, list, false, |_| true);
+            features.show_mass(batch, input, list);
             if remembers {
                 history.follow(features.keys(range.clone()), old, &mut walk, law);
                 history.gather(&old[..range.len()], &mut batch.chunk.history);

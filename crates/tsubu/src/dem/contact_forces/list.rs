@@ -33,6 +33,7 @@ pub(in crate::dem) fn contact_list(forces: &ContactForces, input: &ForceInput) -
             }
         };
         let mut sums = ContactSums::default();
+        scratch.features.near.forget(list.pairs.len());
         pairs::evaluate(&input, list, &block.history, &mut scratch, &mut sums, |batch| take(batch, false));
         features::evaluate(&input, list, &block.history, &mut scratch, &mut sums, |batch| take(batch, false));
         walls::evaluate(&input, list, &block.history, &mut scratch, &mut sums, |batch| take(batch, true));

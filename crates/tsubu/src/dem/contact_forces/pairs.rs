@@ -21,7 +21,7 @@ pub(super) fn evaluate(
     spheres.load(grains, list, &input.neighbours.shifts);
     touching_pairs.find(list, spheres, laws.reach());
     features.take(touching_pairs, input, list, spheres);
-    shapes.find(touching_pairs, input, features, list, spheres);
+    shapes.find(touching_pairs, input, list, spheres);
     if laws.reaches.len() > 1 {
         touching_pairs.group_by_law(grains, list, spheres, &laws.table, &laws.reaches);
         shapes.part(touching_pairs, &laws.reaches);

@@ -50,11 +50,11 @@ fn evaluate_law(
         if several && input.laws.table.law(material) != number {
             continue;
         }
-        let Scratch { elements, wall_shapes, features, .. } = scratch;
+        let Scratch { elements, wall_shapes, .. } = scratch;
         elements.clear();
         elements.extend(near.iter().map(|candidate| candidate.element));
         let reach = input.laws.reaches[number];
-        wall_shapes.find(input, features, list, (own, k), elements, reach);
+        wall_shapes.find(input, list, (own, k), elements, reach);
         if remembers {
             let before = WallKey { own, wall: k, patch: 0 };
             history.walls.open(&mut walk, law, |key| *key < before);
