@@ -20,6 +20,5 @@ pub(crate) const CONTROL: &[(&str, &str, &str)] = &[
     ("litwiniszyn", "Litwiniszyn: B of the lattice", "it compares two constants; nothing is run"),
     ("beverloo-3d", "", WRITTEN),
     ("janssen", "Janssen: largest standard error", "how sure the stresses are, not what they are"),
-    ("figure-3b", "", WRITTEN),
     ("figure-12", "cost: DEM", "a cost: a wrong law takes as long"),
 ];
