@@ -81,14 +81,13 @@ impl Bodies {
     /// The superellipsoid that a grain is; `None`: it is a sphere.
     #[inline]
     pub fn superellipsoid(&self, i: usize) -> Option<(&Body, &Superellipsoid)> {
-        let body = self.list.get(self.sorted.get(i)?.body as usize)?;
+        let body = self.body(i)?;
         Some((body, body.superellipsoid.as_ref()?))
     }
 
     /// The same as it is turned.
     pub fn outline(&self, i: usize) -> Option<Outline> {
-        let body = self.list.get(self.sorted.get(i)?.body as usize)?;
-        let shape = body.superellipsoid.as_ref()?;
+        let (body, shape) = self.superellipsoid(i)?;
         Some(if shape.is_ellipsoid() { body.ellipsoid.outline() } else { shape.turned(&body.axes) })
     }
 

@@ -1,7 +1,6 @@
 //! Bodies in water, which acts on each as on the sphere of its volume, with the drag that its sphericity gives it.
 
 use super::{Bodies, Body};
-use crate::neighbours::joined::NO_BODY;
 use crate::state::{Grains, moved_along};
 use glam::DVec3;
 use std::borrow::Cow;
@@ -9,15 +8,14 @@ use std::borrow::Cow;
 impl Bodies {
     /// Whether a grain is a piece of a body, but not the one that water acts on for the whole.
     pub fn follows(&self, i: usize) -> bool {
-        self.sorted.get(i).is_some_and(|piece| piece.body != NO_BODY) && self.led_by(i).is_none()
+        self.body(i).is_some() && self.led_by(i).is_none()
     }
 
     /// The body that water acts on where this grain is, its first piece, and the way there from the centre of mass [m].
     #[inline]
     pub fn led_by(&self, i: usize) -> Option<(&Body, DVec3)> {
-        let piece = self.sorted.get(i)?;
-        let body = self.list.get(piece.body as usize)?;
-        (self.places[body.pieces.start] as usize == i).then(|| (body, body.arm(piece, self.plane)))
+        let body = self.body(i)?;
+        (self.places[body.pieces.start] as usize == i).then(|| (body, body.arm(&self.sorted[i], self.plane)))
     }
 
     /// Centres [m] and radii [m] of the spheres that make room in water: of the grains, and in the place of bodies one of the volume of each.
