@@ -71,8 +71,9 @@ impl Failure {
         Self { code: 130, message: Some(Message::Ready(message.into())), hints: Vec::new() }
     }
 
-    /// The reader of stdout has gone away, as in `tsubu schema | head`: no failure of ours.
-    pub fn nobody_reads() -> Self {
+    /// An end before the end that is no failure of ours: the reader of stdout has gone away, as in `tsubu schema | head`, or another rank
+    /// has the failure.
+    pub fn none() -> Self {
         Self::default()
     }
 

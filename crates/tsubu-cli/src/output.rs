@@ -8,7 +8,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Ok(()) => Ok(()),
-        Err(error) if error.kind() == ErrorKind::BrokenPipe => Err(Failure::nobody_reads()),
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Err(Failure::none()),
         Err(error) => Err(Failure::failed(format!("cannot write to stdout: {error}"))),
     }
 }

@@ -1,6 +1,7 @@
 //! Commands that were started on several ranks.
 
 use crate::failure::Failure;
+use crate::{output, stop};
 use tsubu::ranks::Communicator;
 use tsubu::threads::alone;
 use tsubu_mpi::{HOW_TO_BUILD, Ranks};
@@ -21,9 +22,10 @@ pub fn refuse() -> Result<(), Failure> {
     Err(said_once(Failure::wrong(message).hint(hint)))
 }
 
-/// What all ranks have to say, said by the first.
+/// What all ranks have to say, said by the first. The others end as if all were well: a launcher ends everybody when one ends with an error,
+/// and the first may not have spoken yet.
 fn said_once(failure: Failure) -> Failure {
-    if tsubu_mpi::is_first() { failure } else { failure.quiet() }
+    if tsubu_mpi::is_first() { failure } else { Failure::none() }
 }
 
 /// Work of a rank: its threads may look for work with open eyes where every one of all ranks has a core.
@@ -47,4 +49,15 @@ pub fn together<T>(communicator: &dyn Communicator, mine: Result<T, Failure>) ->
         Err(failure) if rank > 0 => Err(failure.on(&format!("rank {rank}"))),
         mine => mine,
     }
+}
+
+/// The end of a command on several ranks: all have said what they have to say before one of them goes, after which a launcher may end the others.
+pub fn part(communicator: &dyn Communicator, done: Result<(), Failure>) -> Result<(), Failure> {
+    let done = done.map_err(|failure| {
+        output::report(&failure);
+        failure.quiet()
+    });
+    communicator.exchange(&mut vec![Vec::new(); communicator.size()]);
+    stop::nothing_to_save();
+    done
 }

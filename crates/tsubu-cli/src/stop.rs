@@ -33,7 +33,7 @@ pub fn listen() {
     let _ = ctrlc::set_handler(|| {
         let again = INTERRUPT.ask();
         match WORDS.get() {
-            Some(_) if DONE.load(Ordering::Relaxed) => {}
+            _ if DONE.load(Ordering::Relaxed) => {}
             Some(_) if again => exit(INTERRUPTED),
             Some(words) => {
                 output::tell("\nstopping at the next step; once more to stop at once\n");

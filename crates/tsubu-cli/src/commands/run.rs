@@ -61,8 +61,11 @@ pub fn run(options: &Options) -> Result<(), Failure> {
         true => Err(Failure::wrong("`--view` shows a run on one rank; look at one on several with `tsubu view`")),
         false => session(),
     };
-    let session = ranks::together(&**communicator, session)?;
-    if communicator.rank() > 0 { follow(&session, communicator) } else { lead(&session, existing, communicator) }
+    let done = ranks::together(&**communicator, session).and_then(|session| match communicator.rank() {
+        0 => lead(&session, existing, communicator),
+        _ => follow(&session, communicator),
+    });
+    ranks::part(&**communicator, done)
 }
 
 /// The run on rank 0 of several.

@@ -32,8 +32,10 @@ pub(super) struct Ranks {
 /// How long ranks work. It decides who has which blocks, and no bit.
 #[derive(Debug, Default)]
 struct Work {
-    /// Each rank from the first step on [s].
+    /// Each rank from the first step on, as it last told all others [s]: the same on all ranks, for all of them cut by it.
     all: Vec<f64>,
+    /// This rank up to now [s].
+    own: f64,
     /// The same up to the last cut [s].
     before_cut: Vec<f64>,
     /// Since when this rank works.
@@ -63,7 +65,7 @@ impl Ranks {
             cuts: Vec::new(),
             seams: vec![Seam::default(); size],
             messages: vec![Vec::new(); size],
-            work: Work { all: vec![0.0; size], before_cut: vec![0.0; size], since: None },
+            work: Work { all: vec![0.0; size], before_cut: vec![0.0; size], ..Work::default() },
         }
     }
 
@@ -179,8 +181,9 @@ impl Ranks {
         let mut messages = std::mem::take(&mut self.messages);
         let own = self.rank();
         self.note_work();
+        self.work.all[own] = self.work.own;
         for message in &mut messages {
-            message.push(self.work.all[own]);
+            message.push(self.work.own);
         }
         self.pass(&mut messages);
         for (rank, message) in messages.iter().enumerate().filter(|(rank, _)| *rank != own) {
@@ -196,8 +199,7 @@ impl Ranks {
     fn note_work(&mut self) {
         if let Some(since) = &mut self.work.since {
             let now = Instant::now();
-            let rank = self.communicator.as_ref().map_or(0, |all| all.rank());
-            self.work.all[rank] += now.duration_since(std::mem::replace(since, now)).as_secs_f64();
+            self.work.own += now.duration_since(std::mem::replace(since, now)).as_secs_f64();
         }
     }
 
@@ -299,6 +301,41 @@ mod tests {
         let costs: Vec<f64> = (0..40).map(|block| cost(if block < 20 { 3 * BLOCK } else { 0 })).collect();
         assert!(imbalance(&costs, &cuts(&costs, 2)) < 1.05);
         assert!(imbalance(&costs, &[0, 20, 40]) > 1.5);
+    }
+
+    /// The other of two ranks, which says that it has worked for a second, and lets this one wait.
+    #[derive(Debug)]
+    struct Other;
+
+    impl Communicator for Other {
+        fn rank(&self) -> usize {
+            0
+        }
+
+        fn size(&self) -> usize {
+            2
+        }
+
+        fn exchange(&self, messages: &mut [Vec<f64>]) {
+            messages[1] = vec![1.0];
+        }
+
+        fn broadcast(&self, _: &mut Vec<f64>) {}
+    }
+
+    /// All ranks cut by the same numbers: what this one has worked since it last told the others is not among them.
+    #[test]
+    fn a_cut_takes_what_all_ranks_know() {
+        let mut ranks = Ranks::new(Some(Arc::new(Other)), false);
+        ranks.cut(40, |_| 0);
+        ranks.begin_to_work();
+        ranks.send_and_read(|_, _, _| {});
+        let told = ranks.costs(40, |_| 0);
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        ranks.pass(&mut [Vec::new(), Vec::new()]);
+        assert_eq!(ranks.costs(40, |_| 0), told);
+        ranks.send_and_read(|_, _, _| {});
+        assert_ne!(ranks.costs(40, |_| 0), told);
     }
 
     #[test]
