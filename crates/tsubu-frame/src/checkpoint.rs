@@ -15,7 +15,7 @@
 //! "END." + crc32 of the whole file        4 bytes + u32
 //! ```
 
-use std::io::Read;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 use crate::FileError;
@@ -97,9 +97,7 @@ pub fn path(run_folder: &Path) -> PathBuf {
 
 /// Writes the state as the run folder's checkpoint. The one before it stays until this one is whole on the disk.
 pub fn write(run_folder: &Path, state: &State, header: &Header) -> Result<(), FileError> {
-    let target = path(run_folder);
-    let bytes = encode(state, header).map_err(FileError::write(&target))?;
-    write_atomically(&target, |out| out.write_all(&bytes))
+    write_atomically(&path(run_folder), |out| encode(state, header, out))
 }
 
 /// Reads a checkpoint file.
@@ -108,37 +106,52 @@ pub fn read(path: &Path) -> Result<(Header, State), CheckpointError> {
     decode(&bytes).map_err(|damage| damage.at(path))
 }
 
-fn encode(state: &State, header: &Header) -> std::io::Result<Vec<u8>> {
-    let mut out = Vec::new();
-    out.extend_from_slice(MAGIC);
-    out.extend_from_slice(&VERSION.to_le_bytes());
-    put_text(&mut out, &header.tsubu_version);
-    put_text(&mut out, &header.scene_hash);
-    out.extend_from_slice(&header.step.to_le_bytes());
-    out.extend_from_slice(&header.time.to_bits().to_le_bytes());
-    out.extend_from_slice(&(state.sections().count() as u32).to_le_bytes());
-    let crc = crc32fast::hash(&out);
-    out.extend_from_slice(&crc.to_le_bytes());
+/// Section by section: in memory there is never more than one of them beside the state.
+fn encode(state: &State, header: &Header, out: &mut dyn Write) -> std::io::Result<()> {
+    let mut whole = crc32fast::Hasher::new();
+    let mut put = |part: &[u8]| {
+        whole.update(part);
+        out.write_all(part)
+    };
+    let mut part = MAGIC.to_vec();
+    part.extend_from_slice(&VERSION.to_le_bytes());
+    put_text(&mut part, &header.tsubu_version);
+    put_text(&mut part, &header.scene_hash);
+    part.extend_from_slice(&header.step.to_le_bytes());
+    part.extend_from_slice(&header.time.to_bits().to_le_bytes());
+    part.extend_from_slice(&(state.sections().count() as u32).to_le_bytes());
+    put(&part)?;
+    put(&crc32fast::hash(&part).to_le_bytes())?;
     for (name, section) in state.sections() {
-        let start = out.len();
-        let (kind, count, plain) = match section {
-            Section::Real(v) => (0u8, v.len(), v.iter().flat_map(|x| x.to_bits().to_le_bytes()).collect()),
-            Section::Integer(v) => (1, v.len(), v.iter().flat_map(|x| x.to_le_bytes()).collect()),
-            Section::Text(t) => (2, t.len(), t.as_bytes().to_vec()),
+        let (kind, count, packed) = match section {
+            Section::Real(v) => (0u8, v.len(), pack(v, |x| x.to_bits().to_le_bytes())),
+            Section::Integer(v) => (1, v.len(), pack(v, |x| x.to_le_bytes())),
+            Section::Text(t) => (2, t.len(), pack(t.as_bytes(), |x| [*x])),
         };
-        let packed = zstd::encode_all(plain.as_slice(), LEVEL)?;
-        put_text(&mut out, name);
-        out.push(kind);
-        out.extend_from_slice(&(count as u64).to_le_bytes());
-        out.extend_from_slice(&(packed.len() as u64).to_le_bytes());
-        out.extend_from_slice(&packed);
-        let crc = crc32fast::hash(&out[start..]);
-        out.extend_from_slice(&crc.to_le_bytes());
+        let packed = packed?;
+        part.clear();
+        put_text(&mut part, name);
+        part.push(kind);
+        part.extend_from_slice(&(count as u64).to_le_bytes());
+        part.extend_from_slice(&(packed.len() as u64).to_le_bytes());
+        let mut crc = crc32fast::Hasher::new();
+        for piece in [&part, &packed] {
+            crc.update(piece);
+            put(piece)?;
+        }
+        put(&crc.finalize().to_le_bytes())?;
     }
-    out.extend_from_slice(END);
-    let crc = crc32fast::hash(&out);
-    out.extend_from_slice(&crc.to_le_bytes());
-    Ok(out)
+    put(END)?;
+    out.write_all(&whole.finalize().to_le_bytes())
+}
+
+/// Values as packed bytes.
+fn pack<T, const N: usize>(values: &[T], bytes: impl Fn(&T) -> [u8; N]) -> std::io::Result<Vec<u8>> {
+    let mut packed = zstd::stream::write::Encoder::new(Vec::new(), LEVEL)?;
+    for some in values.chunks(4096) {
+        packed.write_all(some.iter().map(&bytes).collect::<Vec<_>>().as_flattened())?;
+    }
+    packed.finish()
 }
 
 fn put_text(out: &mut Vec<u8>, text: &str) {
