@@ -15,6 +15,11 @@ pub fn check(tests: bool) -> Result<(), String> {
     if tests {
         test::test()?;
     }
-    variants::quick()?;
+    variants::quick()
+}
+
+/// What takes longer.
+pub fn patient() -> Result<(), String> {
+    test::patient()?;
     guard::quick()
 }

@@ -32,11 +32,11 @@ const HELP: &str = "\
 cargo xtask CHORE
 
   check [--no-test]   what must pass before a change goes in: format, spelling, lints, documentation, generated pages, all
-                      tests, every scene in ten ways for a moment, some of the guards
+                      tests, every scene in ten ways for a moment
   fmt [--check]       lay all code out, or only say what is not: cargo fmt, and the watches, which it does not come to
   test                the tests; with Python 3, also those that read written frames back with VTK
   patient             the tests that take from five seconds to a minute each: every scene checked, run and reported, large beds,
-                      the slower of the quick verification cases
+                      the slower of the quick verification cases; and some of the guards
   gen [--check]       write the generated pages and tables, or only say which are out of date
   spelling            look for misspelt words in all texts, where there is a Python 3
   book                build the book, where there is an mdbook
@@ -87,7 +87,7 @@ fn main() -> ExitCode {
         ["claims", names @ ..] => claims::claims(names),
         ["spelling"] => spelling::check(),
         ["book"] => book::book(),
-        ["patient"] => test::patient(),
+        ["patient"] => check::patient(),
         ["optional"] => optional::optional(),
         ["python", rest @ ..] => python::python(rest),
         ["fmu", rest @ ..] => fmu::fmu(rest),

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::path::Path;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Instant;
 use tsubu_frame::{FileError, RunFolder, summary::read_json};
 
@@ -24,10 +24,7 @@ pub struct Archive {
 impl Archive {
     /// In a folder of results.
     pub fn new(folder: RunFolder) -> Result<Self, FileError> {
-        let here = Path::new("the running program");
-        let program = std::env::current_exe().map_err(FileError::read(here))?;
-        let content = std::fs::read(&program).map_err(FileError::read(&program))?;
-        Ok(Self { folder, program: blake3::hash(&content).to_hex()[..16].to_owned() })
+        Ok(Self { folder, program: running_program()? })
     }
 
     /// The folder.
@@ -36,7 +33,7 @@ impl Archive {
     }
 
     /// A case that was done by the same program.
-    pub(crate) fn case(&self, case: &str, controls: bool) -> Option<Done> {
+    pub fn case(&self, case: &str, controls: bool) -> Option<Done> {
         let kept: KeptCase = read_json(&self.folder.file(&case_file(case))).ok()?;
         (kept.fingerprint == self.fingerprint(&[case, &controls.to_string()])).then_some(kept.done)
     }
@@ -54,6 +51,18 @@ impl Archive {
         }
         hasher.finalize().to_hex()[..16].to_owned()
     }
+}
+
+/// Hash of the program that runs.
+fn running_program() -> Result<String, FileError> {
+    static KNOWN: OnceLock<String> = OnceLock::new();
+    if let Some(known) = KNOWN.get() {
+        return Ok(known.clone());
+    }
+    let here = Path::new("the running program");
+    let program = std::env::current_exe().map_err(FileError::read(here))?;
+    let content = std::fs::read(&program).map_err(FileError::read(&program))?;
+    Ok(KNOWN.get_or_init(|| blake3::hash(&content).to_hex()[..16].to_owned()).clone())
 }
 
 /// The file of a case in a folder of results.

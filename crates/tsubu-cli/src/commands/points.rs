@@ -2,7 +2,7 @@
 
 use super::{claims, run::warnings};
 use crate::failure::Failure;
-use crate::launch::{LaunchOptions, Left, Logs};
+use crate::launch::{LaunchOptions, Left, Logs, OfStudy};
 use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
 use crate::session::{Session, judge, resume};
 use clap::Args;
@@ -71,7 +71,8 @@ pub fn apart(
     study: &mut (impl Gathered + Send),
     table: fn(&Path) -> Result<String, Failure>,
 ) -> Result<(), Failure> {
-    let Left::Gather = launch.go(name, study, session, &options.folder, &options.work)? else { return Ok(()) };
+    let runs = &mut OfStudy { study: &mut *study, session };
+    let Left::Gather = launch.go(name, runs, options.folder.overwrite, &options.work)? else { return Ok(()) };
     let logs = Logs::read(&session.folder);
     let gathered = study.gather(&|run| logs.why(run));
     let summary = gathered.map_err(|error| Failure::of_cases(&error, &session.scene, &session.folder))?;

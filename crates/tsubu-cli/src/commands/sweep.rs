@@ -2,7 +2,7 @@
 
 use super::run::warnings;
 use crate::failure::Failure;
-use crate::launch::{LaunchOptions, Left, Logs};
+use crate::launch::{LaunchOptions, Left, Logs, OfStudy};
 use crate::options::{FolderOptions, SceneOptions, WorkOptions};
 use crate::session::{Session, judge, resume};
 use crate::table;
@@ -74,7 +74,8 @@ fn apart(options: &Options, session: &Session) -> Result<(), Failure> {
     let Session { scene, folder, .. } = session;
     let broken = |error| Failure::of_cases(&error, scene, folder);
     let mut sweep = Sweep::new(scene, folder).map_err(broken)?;
-    let Left::Gather = options.launch.go("sweep", &mut sweep, session, &options.folder, &options.work)? else {
+    let runs = &mut OfStudy { study: &mut sweep, session };
+    let Left::Gather = options.launch.go("sweep", runs, options.folder.overwrite, &options.work)? else {
         return Ok(());
     };
     let logs = Logs::read(folder);

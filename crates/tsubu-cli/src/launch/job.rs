@@ -1,12 +1,12 @@
 //! What is handed to a cluster: tasks of runs, and what a task needs.
 
+use super::{Estimate, Runs};
 use crate::failure::Failure;
 use crate::options::program;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::mpsc;
 use std::time::Duration;
-use tsubu::study::apart::{Need, need};
-use tsubu_scene::Plan;
+use tsubu::study::apart::Need;
 
 /// Tasks shorter than this [s] keep a cluster busier with starting them than with them.
 const SHORTEST: f64 = 60.0;
@@ -31,6 +31,8 @@ pub struct Job {
     pub threads: u16,
     /// What the longest run needs; none where that cannot be told soon.
     pub need: Option<Need>,
+    /// Words by which a task knows the study.
+    words: Vec<String>,
     program: PathBuf,
 }
 
@@ -38,19 +40,20 @@ impl Job {
     /// Shares the runs out, `per_task` each unless what they take says how many.
     pub fn new(
         name: &'static str,
-        folder: &Path,
+        runs: &dyn Runs,
         missing: &[String],
         per_task: Option<usize>,
         threads: u16,
-        plans: Vec<(Plan, f64)>,
     ) -> Result<Self, Failure> {
+        let folder = runs.folder();
         let folder = std::path::absolute(folder)
             .map_err(|error| Failure::wrong(format!("{} cannot be named from the root: {error}", folder.display())))?;
-        let need = soon(plans);
+        let need = soon(runs.need()?);
         let short = need.map_or(1, |need| (SHORTEST / need.seconds.max(1e-3)).round() as usize);
         let size = per_task.unwrap_or(short).clamp(1, missing.len().max(1)).max(missing.len().div_ceil(MOST));
         let tasks = missing.chunks(size).map(<[String]>::to_vec).collect();
-        Ok(Self { name, folder, tasks, per_task, threads, need, program: program() })
+        let words = runs.words(&folder.display().to_string());
+        Ok(Self { name, folder, tasks, per_task, threads, need, words, program: program() })
     }
 
     /// Runs of all tasks.
@@ -63,11 +66,13 @@ impl Job {
         self.tasks.iter().map(Vec::len).max().unwrap_or_default()
     }
 
-    /// The command of a task, but for its cases. The scene is the one in the folder: what a user edits meanwhile is not run.
+    /// The command of a task, but for its cases.
     pub fn command(&self) -> Vec<String> {
-        let folder = self.folder.display().to_string();
-        let words = [self.name, &folder, "-o", &folder, "--quiet", "--threads"].map(str::to_owned);
-        [self.program.display().to_string()].into_iter().chain(words).chain([self.threads.to_string()]).collect()
+        let mut words = vec![self.program.display().to_string(), self.name.to_owned()];
+        words.extend_from_slice(&self.words);
+        words.extend(["-o", &self.folder.display().to_string(), "--quiet", "--threads"].map(str::to_owned));
+        words.push(self.threads.to_string());
+        words
     }
 
     /// The folder of what tasks have said.
@@ -77,8 +82,8 @@ impl Job {
 }
 
 /// The estimate, if it is there before a user loses patience.
-fn soon(plans: Vec<(Plan, f64)>) -> Option<Need> {
+fn soon(estimate: Estimate) -> Option<Need> {
     let (send, told) = mpsc::channel();
-    std::thread::spawn(move || _ = send.send(need(&plans)));
+    std::thread::spawn(move || _ = send.send(estimate()));
     told.recv_timeout(PATIENCE).ok().flatten()
 }

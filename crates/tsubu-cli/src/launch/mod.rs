@@ -9,18 +9,20 @@ mod dask;
 mod job;
 mod logs;
 mod slurm;
+mod study;
 
 pub use logs::Logs;
+pub use study::OfStudy;
 
 use crate::failure::Failure;
-use crate::options::{FolderOptions, WorkOptions};
+use crate::options::WorkOptions;
 use crate::output;
-use crate::session::Session;
 use clap::{Args, ValueEnum};
 use job::Job;
 use std::collections::BTreeSet;
 use std::path::Path;
-use tsubu::study::apart::Apart;
+use tsubu::study::apart::Need;
+use tsubu_frame::Status;
 
 /// Who starts the runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -57,24 +59,29 @@ pub struct LaunchOptions {
     gather: bool,
 }
 
-/// Of a study whose runs cannot be done apart.
-#[derive(Args)]
-pub struct LocalOnly {
-    /// Who starts the runs; `local` alone
-    #[arg(long, value_enum, default_value_t, value_name = "WHO", hide_possible_values = true)]
-    launcher: Launcher,
+/// Runs that are done apart, each by a process of its own: whoever shares them out and whoever does one meet in the folder alone.
+pub trait Runs {
+    /// The folder.
+    fn folder(&self) -> &Path;
+
+    /// Makes it, or takes the one that was begun.
+    fn begin(&mut self, overwrite: bool) -> Result<(), Failure>;
+
+    /// Names of the runs that are to be done.
+    fn missing(&mut self) -> Result<Vec<String>, Failure>;
+
+    /// Does one of them.
+    fn run(&mut self, name: &str) -> Result<Status, Failure>;
+
+    /// How to find out what the longest needs, which takes a while.
+    fn need(&self) -> Result<Estimate, Failure>;
+
+    /// Words of the command line by which a task knows the study, whose folder has this name from the root.
+    fn words(&self, folder: &str) -> Vec<String>;
 }
 
-impl LocalOnly {
-    /// Refuses other launchers, and says why, and what else to do.
-    pub fn check(&self, name: &str, why: &str, instead: &'static str) -> Result<(), Failure> {
-        if self.launcher == Launcher::Local {
-            return Ok(());
-        }
-        let who = if self.launcher == Launcher::Slurm { "slurm" } else { "dask" };
-        Err(Failure::wrong(format!("`tsubu {name}` has no `--launcher {who}`: {why}")).hint(instead))
-    }
-}
+/// What tells what a run needs, where that can be told.
+pub type Estimate = Box<dyn FnOnce() -> Option<Need> + Send>;
 
 /// What is left to do for the command itself.
 pub enum Left {
@@ -101,44 +108,41 @@ impl LaunchOptions {
     pub fn go(
         &self,
         name: &'static str,
-        study: &mut (dyn Apart + Send),
-        session: &Session,
-        folder: &FolderOptions,
+        runs: &mut dyn Runs,
+        overwrite: bool,
         work: &WorkOptions,
     ) -> Result<Left, Failure> {
         if !self.cases.is_empty() {
-            return cases::cases(study, session, &self.cases).map(|()| Left::Nothing);
+            return cases::cases(runs, &self.cases).map(|()| Left::Nothing);
         }
         let scheduler = self.scheduler.as_deref();
-        let broken = |error| Failure::of_cases(&error, &session.scene, &session.folder);
+        let folder = runs.folder().to_owned();
         if !self.dry_run && !self.gather {
             // What cannot be started leaves nothing behind.
             match self.launcher {
                 Launcher::Local => {}
-                Launcher::Slurm => slurm::ready(&session.folder)?,
+                Launcher::Slurm => slurm::ready(&folder)?,
                 Launcher::Dask => dask::ready(scheduler)?,
             }
-            study.begin(folder.overwrite).map_err(broken)?;
+            runs.begin(overwrite)?;
         }
-        if self.gather && !session.folder.exists() {
+        if self.gather && !folder.exists() {
             // So begins who starts the tasks by other means.
-            study.begin(false).map_err(broken)?;
+            runs.begin(false)?;
         }
         let mut waited = self.gather;
         loop {
-            let missing = study.missing().map_err(broken)?;
+            let missing = runs.missing()?;
             if self.dry_run && (missing.is_empty() || self.launcher == Launcher::Local) {
                 let lines: Vec<&str> = missing.iter().flat_map(|name| [name.as_str(), "\n"]).collect();
                 return output::print(&lines.concat()).map(|()| Left::Nothing);
             }
             // What was asked for and is missing is not asked for again; a next round of runs is.
-            if missing.is_empty() || self.launcher == Launcher::Local || waited && asked_for(&session.folder, &missing)
-            {
+            if missing.is_empty() || self.launcher == Launcher::Local || waited && asked_for(&folder, &missing) {
                 return Ok(Left::Gather);
             }
-            let plans = study.plans().map_err(broken)?;
             let per_task = self.per_task.map(|n| n as usize);
-            let job = Job::new(name, &session.folder, &missing, per_task, work.told().unwrap_or(1), plans)?;
+            let job = Job::new(name, runs, &missing, per_task, work.told().unwrap_or(1))?;
             match (self.launcher, self.dry_run) {
                 (Launcher::Dask, true) => return output::print(&dask::script(&job, scheduler)).map(|()| Left::Nothing),
                 (_, true) => return output::print(&slurm::script(&job)).map(|()| Left::Nothing),

@@ -233,6 +233,19 @@ def test_slurm_does_a_design_round_by_round(cluster, tmp_path):
         assert (out / file).read_text() == (tmp_path / "local" / file).read_text()
 
 
+def test_slurm_does_a_verification(cluster, tmp_path):
+    cases, out = ["contact-time", "added-mass", "haff"], tmp_path / "out"
+    tsubu("verify", *cases, "-q", "-o", tmp_path / "local")
+    command = ["verify", *cases, "-o", out, "--launcher", "slurm"]
+    tsubu(*command, env=cluster.environment)
+    slurm.wait(cluster.over, "the end of the array")
+    claims = [json.loads((folder / "verify.json").read_text())["claims"] for folder in (out, tmp_path / "local")]
+    assert claims[0] == claims[1] and (out / "report.html").exists()
+    numbers = (out / "launch/slurm").read_text()
+    tsubu(*command, env=cluster.environment)
+    assert numbers == (out / "launch/slurm").read_text(), "something was submitted though nothing is missing"
+
+
 class Dask:
     """A scheduler and three workers, one thread each; without a nanny, which would start them again."""
 

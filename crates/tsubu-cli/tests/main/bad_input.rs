@@ -131,6 +131,7 @@ fn several_ranks_without_mpi_are_refused() {
     assert_eq!(code, Some(2));
     assert!(said.contains("3 ranks were started, and this program was built without MPI"), "{said}");
     assert!(said.contains("libopenmpi-dev"), "{said}");
-    assert_eq!(started("1"), (Some(2), String::new()));
+    // With an error of its own it would have a launcher end the first, perhaps before that has spoken.
+    assert_eq!(started("1"), (Some(0), String::new()));
     assert!(!desk.path("out").exists());
 }

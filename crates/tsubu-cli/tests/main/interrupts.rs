@@ -24,28 +24,6 @@ fn stops(desk: &Desk, line: &str, after: Duration, how: &str) {
     assert_eq!(child.wait().unwrap().code(), Some(130), "tsubu {line}, SIG{how}");
 }
 
-/// While grains settled before time 0 nobody listened: the program lived on for more than 40 s.
-#[test]
-fn settling_stops() {
-    let desk =
-        Desk::with(&SCENE.replace("start.rows = { spacing = 1.1, jitter = 0.5, speed = 0.3 }", "start.settled = {}"));
-    for (command, how) in [("run", "INT"), ("run", "TERM"), ("response", "INT"), ("check", "TERM")] {
-        stops(&desk, &format!("{command} balls.toml {SLOW}"), Duration::from_millis(700), how);
-    }
-    assert_eq!(desk.files(), ["balls.toml"], "something was left behind");
-}
-
-/// A verification died of the signal without a word, and a response went on to the end of a frequency.
-#[test]
-fn long_commands_stop() {
-    let desk = Desk::with(&SCENE.replace("measure-periods = 2", "measure-periods = 100000"));
-    stops(&desk, "verify --all", Duration::from_millis(500), "INT");
-    stops(&desk, "bench --seconds 600", Duration::from_millis(500), "TERM");
-    stops(&desk, "sweep balls.toml -o swept --set 'duration=100 s'", Duration::from_millis(1500), "TERM");
-    stops(&desk, "response balls.toml -o out --threads 2", Duration::from_millis(2500), "INT");
-    assert_eq!(desk.summary("out")["status"], "interrupted");
-}
-
 /// Nobody could tell from an interrupted verification how much of it was done.
 #[test]
 fn an_interrupted_verification_says_how_far_it_came() {
@@ -128,4 +106,33 @@ fn a_folder_has_one_writer() {
     signal(&child, "INT");
     assert_eq!(child.wait().unwrap().code(), Some(130));
     desk.done("report one");
+}
+
+mod patient {
+    use super::*;
+
+    /// While grains settled before time 0 nobody listened: the program lived on for more than 40 s.
+    #[test]
+    #[ignore = "7 s: cargo xtask patient"]
+    fn settling_stops() {
+        let desk = Desk::with(
+            &SCENE.replace("start.rows = { spacing = 1.1, jitter = 0.5, speed = 0.3 }", "start.settled = {}"),
+        );
+        for (command, how) in [("run", "INT"), ("run", "TERM"), ("response", "INT"), ("check", "TERM")] {
+            stops(&desk, &format!("{command} balls.toml {SLOW}"), Duration::from_millis(700), how);
+        }
+        assert_eq!(desk.files(), ["balls.toml"], "something was left behind");
+    }
+
+    /// A verification died of the signal without a word, and a response went on to the end of a frequency.
+    #[test]
+    #[ignore = "5 s: cargo xtask patient"]
+    fn long_commands_stop() {
+        let desk = Desk::with(&SCENE.replace("measure-periods = 2", "measure-periods = 100000"));
+        stops(&desk, "verify --all", Duration::from_millis(500), "INT");
+        stops(&desk, "bench --seconds 600", Duration::from_millis(500), "TERM");
+        stops(&desk, "sweep balls.toml -o swept --set 'duration=100 s'", Duration::from_millis(1500), "TERM");
+        stops(&desk, "response balls.toml -o out --threads 2", Duration::from_millis(2500), "INT");
+        assert_eq!(desk.summary("out")["status"], "interrupted");
+    }
 }

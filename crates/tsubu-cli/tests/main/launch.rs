@@ -110,26 +110,6 @@ fn a_task_given_twice_does_nothing() {
     assert_eq!(missing(&desk, "sweep"), ["0.4", "0.6", "0.7", "0.8"].map(|value| format!("restitution={value}")));
 }
 
-/// A task that is preempted is asked to stop, and goes on from its checkpoint; one that is killed from the last it has written.
-#[test]
-fn a_task_goes_on_where_it_was_stopped() {
-    let desk = Desk::new();
-    let long = "--set 'duration=4 s' --set 'output.checkpoint-interval=20 ms'";
-    desk.done(&format!("sweep balls.toml -q -o here {long} --set 'sweep.vary={{ seed = [1] }}'"));
-    let ended = desk.run(&format!("sweep balls.toml -o out {long} --set 'sweep.vary={{ seed = [1] }}' --gather"));
-    assert_eq!(ended.code, Some(3), "{}", ended.stderr);
-    for (name, code) in [("TERM", Some(130)), ("KILL", None)] {
-        let _ = fs::remove_file(desk.path("out/cases/seed=1/checkpoint/state.tsubu"));
-        let mut child = desk.start("sweep out -o out -q --case seed=1");
-        wait_for(&desk.path("out/cases/seed=1/checkpoint/state.tsubu"));
-        signal(&child, name);
-        assert_eq!(child.wait().unwrap().code(), code, "the task ended before it could be stopped");
-    }
-    desk.done("sweep out -o out -q --case seed=1");
-    desk.done("sweep out -o out --gather");
-    assert_eq!(desk.hash("out/cases/seed=1"), desk.hash("here/cases/seed=1"));
-}
-
 /// A worker that its cluster has given up may still be at work: its case is waited for, and not run beside it.
 #[test]
 fn a_case_that_somebody_works_at_is_waited_for() {
@@ -257,8 +237,38 @@ fn without_slurm_or_dask_it_says_what_to_install() {
         let ended = desk.run(&format!("sweep balls.toml -o out {option}"));
         assert!(ended.code == Some(2) && ended.stderr.contains("is for `--launcher"), "{}", ended.stderr);
     }
-    let ended = desk.run("verify restitution --launcher slurm");
-    assert!(ended.code == Some(2) && ended.stderr.contains("tsubu verify NAME -o out/NAME"), "{}", ended.stderr);
+    let ended = desk.run("verify contact-time --launcher slurm");
+    assert!(ended.code == Some(2) && ended.stderr.contains("name it with `-o DIR`"), "{}", ended.stderr);
+}
+
+/// The claims of a verification by tasks are those of one by a single process; what is missing is named, and done by the same command.
+#[test]
+fn the_job_script_does_a_verification() {
+    let desk = Desk::new();
+    let claims = |out: &str| {
+        let results: serde_json::Value = serde_json::from_str(&desk.read(&format!("{out}/verify.json"))).unwrap();
+        results["claims"].clone()
+    };
+    desk.done("verify contact-time added-mass haff -q -o here");
+    let line = "verify contact-time added-mass haff -q -o out";
+    let script = desk.done(&format!("{line} --launcher slurm --dry-run --per-task 2")).stdout;
+    assert!(script.contains("--array=0-1 FILE"), "{script}");
+    assert!(!desk.path("out").exists(), "a dry run has written something");
+    let begun = desk.run(&format!("{line} --gather"));
+    assert!(begun.code == Some(3) && begun.stderr.contains("3 of 3 cases have no result"), "{}", begun.stderr);
+    let first = bash(&desk, &script, Some(0));
+    assert!(first.code == Some(0) && first.stderr.contains(": finished"), "{}", first.stderr);
+    let last = bash(&desk, &script, None);
+    assert!(last.code == Some(3) && last.stderr.contains("1 of 3 cases have no result"), "{}", last.stderr);
+    assert!(last.stderr.contains("has no result: it was not begun"), "{}", last.stderr);
+    let left = desk.done(&format!("{line} --dry-run")).stdout;
+    assert_eq!(left.lines().count(), 1, "{left}");
+    desk.done(&format!("{line} --case {}", left.trim()));
+    desk.done(&format!("{line} --gather"));
+    assert_eq!(claims("out"), claims("here"));
+    assert!(desk.path("out/report.html").exists());
+    let wrong = desk.run(&format!("{line} --case janssen"));
+    assert!(wrong.code == Some(2) && wrong.stderr.contains("no case `janssen`"), "{}", wrong.stderr);
 }
 
 #[test]
@@ -268,4 +278,29 @@ fn the_tasks_of_dask_are_a_program_of_python() {
         desk.done("sweep balls.toml -o out --launcher dask --scheduler tcp://node:8786 --dry-run --per-task 1").stdout;
     assert!(script.starts_with("SCHEDULER = \"tcp://node:8786\"\n"), "{script}");
     assert!(script.contains("    [\"--case\",\"restitution=0.7\"],\n"), "{script}");
+}
+
+mod patient {
+    use super::*;
+
+    /// A task that is preempted is asked to stop, and goes on from its checkpoint; one that is killed from the last it has written.
+    #[test]
+    #[ignore = "10 s: cargo xtask patient"]
+    fn a_task_goes_on_where_it_was_stopped() {
+        let desk = Desk::new();
+        let long = "--set 'duration=4 s' --set 'output.checkpoint-interval=20 ms'";
+        desk.done(&format!("sweep balls.toml -q -o here {long} --set 'sweep.vary={{ seed = [1] }}'"));
+        let ended = desk.run(&format!("sweep balls.toml -o out {long} --set 'sweep.vary={{ seed = [1] }}' --gather"));
+        assert_eq!(ended.code, Some(3), "{}", ended.stderr);
+        for (name, code) in [("TERM", Some(130)), ("KILL", None)] {
+            let _ = fs::remove_file(desk.path("out/cases/seed=1/checkpoint/state.tsubu"));
+            let mut child = desk.start("sweep out -o out -q --case seed=1");
+            wait_for(&desk.path("out/cases/seed=1/checkpoint/state.tsubu"));
+            signal(&child, name);
+            assert_eq!(child.wait().unwrap().code(), code, "the task ended before it could be stopped");
+        }
+        desk.done("sweep out -o out -q --case seed=1");
+        desk.done("sweep out -o out --gather");
+        assert_eq!(desk.hash("out/cases/seed=1"), desk.hash("here/cases/seed=1"));
+    }
 }

@@ -42,34 +42,6 @@ fn self_contained(html: &str) {
     assert_eq!(unique.len(), ids.len(), "ids are unique: {ids:?}");
 }
 
-#[test]
-fn a_run_is_told_whole() {
-    let dir = tempfile::tempdir().unwrap();
-    fixture::run(dir.path(), "dem", 60);
-    let html = written(dir.path());
-    self_contained(&html);
-    for said in [
-        "<h1>Swinging box</h1>",
-        "0° is where the host passes its middle going up",
-        "30 grains by DEM",
-        "The host structure displacement reaches 4.069 mm",
-        "2.7·10⁻⁷",
-        "the overlap reached 1.3 %",
-        "60 steps per contact",
-        "&lt;script&gt;alert(1)&lt;/script&gt;",
-        "9f2c1ab0d4e85f1170ac66d2381b7c55",
-        "The grains, to be turned, played and looked into.",
-    ] {
-        assert!(html.contains(said), "the page does not say {said}");
-    }
-    for file in ["host_displacement.svg", "strip.svg", "energy_by_cause.svg", "animation.gif", "last.png"] {
-        assert!(dir.path().join("figures").join(file).exists(), "{file}");
-    }
-    let report = build(dir.path()).unwrap();
-    // Charts once came first, and the grains below the second screen, where nobody looked for them.
-    assert_eq!(titles(&report), ["To be noted", "Grains", "Motion", "Energy", "Claims", "Results", "Cost", "Scene"]);
-}
-
 /// Once the picture of a hopper by its grains' sizes was three screens tall, and the animation stood below it.
 #[test]
 fn a_tall_vessel_fits_on_a_screen() {
@@ -373,4 +345,40 @@ fn nothing_typed_reaches_the_page_as_markup() {
     page.section(nasty, vec![Block::Text(nasty.into()), Block::Typed(nasty.into())]);
     let html = page.to_html();
     assert!(!html.contains("<img") && !html.contains('\u{1}'));
+}
+
+mod patient {
+    use super::*;
+
+    #[test]
+    #[ignore = "7 s: cargo xtask patient"]
+    fn a_run_is_told_whole() {
+        let dir = tempfile::tempdir().unwrap();
+        fixture::run(dir.path(), "dem", 60);
+        let html = written(dir.path());
+        self_contained(&html);
+        for said in [
+            "<h1>Swinging box</h1>",
+            "0° is where the host passes its middle going up",
+            "30 grains by DEM",
+            "The host structure displacement reaches 4.069 mm",
+            "2.7·10⁻⁷",
+            "the overlap reached 1.3 %",
+            "60 steps per contact",
+            "&lt;script&gt;alert(1)&lt;/script&gt;",
+            "9f2c1ab0d4e85f1170ac66d2381b7c55",
+            "The grains, to be turned, played and looked into.",
+        ] {
+            assert!(html.contains(said), "the page does not say {said}");
+        }
+        for file in ["host_displacement.svg", "strip.svg", "energy_by_cause.svg", "animation.gif", "last.png"] {
+            assert!(dir.path().join("figures").join(file).exists(), "{file}");
+        }
+        let report = build(dir.path()).unwrap();
+        // Charts once came first, and the grains below the second screen, where nobody looked for them.
+        assert_eq!(
+            titles(&report),
+            ["To be noted", "Grains", "Motion", "Energy", "Claims", "Results", "Cost", "Scene"]
+        );
+    }
 }

@@ -218,19 +218,23 @@ impl ContactForces {
         let laws = input.laws.all();
         let (lists, own) = (&input.neighbours.lists, input.neighbours.own());
         self.blocks.resize_with(lists.len(), BlockContacts::default);
-        // Blocks pass their history on, so each is as large as the largest.
-        let pairs = lists.iter().map(|list| list.pairs.len()).max().unwrap_or_default();
+        // Blocks pass their history on, so each is as large as the largest; and a few contacts more come before lists are made again.
+        let contacts = self.blocks.iter().map(|block| block.sums.contacts).max().unwrap_or_default();
+        let contacts = contacts + contacts / 8;
         for (block, list) in self.blocks.iter_mut().zip(lists) {
-            // Of a block of another rank its loads on own grains alone are here.
-            let loads = if own.contains(&(list.first / BLOCK)) { list.own + list.halo.len() } else { 0 };
-            block.loads.resize(loads, Load::default());
             block.walls.resize(input.walls.len(), WallLoad::default());
+            // Of a block of another rank its loads on own grains alone are here, as they come.
+            if !own.contains(&(list.first / BLOCK)) {
+                (block.history, block.loads) = Default::default();
+                continue;
+            }
+            block.loads.resize(list.own + list.halo.len(), Load::default());
             block.near.forget(if input.bodies.faceted() { list.pairs.len() } else { 0 });
             if block.history.is_empty() {
                 block.history.extend(laws.iter().map(|law| ContactHistory::new(law.width())));
             }
             for (history, _) in block.history.iter_mut().zip(laws).filter(|(_, law)| law.width() > 0) {
-                history.pairs.reserve(pairs);
+                history.pairs.reserve(contacts);
             }
         }
     }

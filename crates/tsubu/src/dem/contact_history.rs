@@ -42,9 +42,9 @@ impl<K> HistoryColumns<K> {
 
     /// Makes room, so that a step need not.
     pub fn reserve(&mut self, contacts: usize) {
-        self.keys.reserve(contacts.saturating_sub(self.keys.len()));
+        self.keys.reserve_exact(contacts.saturating_sub(self.keys.len()));
         for column in &mut self.columns {
-            column.reserve((contacts + 1).saturating_sub(column.len()));
+            column.reserve_exact((contacts + 1).saturating_sub(column.len()));
         }
     }
 

@@ -84,6 +84,21 @@ pub fn hash<R: Send>(
     })
 }
 
+/// The same bits whoever computes a scene, and after a resume between two lots of steps; the same steps come in two ways to share them out. The books
+/// close. Gives the number of contacts at the end.
+pub fn same_for_all(open: impl Fn() -> (Box<dyn Engine>, Hosts, Ledger) + Sync, lots: [[u64; 2]; 2]) -> usize {
+    let run = |steps, threads, resume| {
+        let look = |engine: &dyn Engine, hosts: &Hosts, ledger: &_| (missing(engine, hosts, ledger), engine.contacts());
+        hash(&open, steps, threads, resume, look)
+    };
+    let (alone, (residual, contacts)) = run(lots[0], 1, false);
+    assert!(residual < 1e-3, "{residual}");
+    for (steps, threads, resume) in [(lots[1], 2, false), (lots[0], 7, true)] {
+        assert_eq!(alone, run(steps, threads, resume).0, "{steps:?}, {threads} threads, resumed: {resume}");
+    }
+    contacts
+}
+
 /// Energy residual over the energy turned over.
 pub fn missing(engine: &dyn Engine, hosts: &Hosts, ledger: &Ledger) -> f64 {
     ledger.residual_relative(&engine::energies(engine, hosts)).abs()

@@ -1,17 +1,19 @@
 //! `tsubu verify`: claims held against their sources.
 
 mod against;
+mod apart;
 pub mod runner;
 
 use super::{claims, origins};
 use crate::failure::Failure;
-use crate::launch::LocalOnly;
+use crate::launch::{LaunchOptions, Left, Runs as _};
 use crate::options::WorkOptions;
 use crate::output;
 use crate::session;
 use crate::stream::Stream;
 use crate::table;
 use against::Against;
+use apart::Cases;
 use clap::Args;
 use runner::Outcome;
 use std::fmt::Write as _;
@@ -32,6 +34,8 @@ Examples:
   tsubu verify --all -o out/verify   everything, with a report
   tsubu verify --all --against stored -o out/night
                                      what moved since the claims were stored
+  tsubu verify --all -o out/night --launcher slurm
+                                     each case a task of its own
 
 A line a claim: pass, FAIL or undecided, study, name, value, accepted range, source. Exit code 1 unless all pass.
 With -o, cases and runs of ensembles that are done are kept: an interrupted verification goes on where it was
@@ -68,12 +72,10 @@ pub struct Options {
     #[command(flatten)]
     work: WorkOptions,
     #[command(flatten)]
-    launch: LocalOnly,
+    launch: LaunchOptions,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
-    let why = "one process holds the folder that keeps all of its cases";
-    options.launch.check("verify", why, "make each case a job of its own: tsubu verify NAME -o out/NAME")?;
     let mut chosen = verify::chosen(&options.names, options.all || options.list).map_err(Failure::wrong)?;
     if options.list {
         return if options.origins { output::print(&origins::list(&chosen)) } else { list(&chosen) };
@@ -81,36 +83,71 @@ pub fn run(options: &Options) -> Result<(), Failure> {
     if options.against.is_some() {
         against::telling_first(&mut chosen);
     }
+    if !options.launch.is_here()? {
+        return apart(options, chosen);
+    }
     let archive = options.output.as_ref().map(|path| archive(path, options)).transpose()?;
     let how = How { archive, controls: options.controls };
     let threads = options.work.pool()?.current_num_threads();
-    let lines = |case: &Case, outcome: &Outcome| match options.against {
-        Some(Against::Stored) => against::lines(case, outcome),
-        None => outcome.claims.iter().map(claims::line).collect(),
-    };
-    let outcomes = runner::judge(&chosen, &how, threads, options.work.quiet, lines)?;
-    let all = outcomes.iter().flat_map(|outcome| &outcome.claims);
-    let wrong = match options.against {
-        Some(Against::Stored) => {
-            let (text, moved) = against::end(&chosen, &outcomes);
-            output::print(&text)?;
-            moved
-        }
-        None => {
-            let claims: Vec<&Claim> = all.collect();
-            output::print(&verdicts(&claims))?;
-            claims.iter().any(|claim| !claim.pass)
-        }
-    };
+    let outcomes =
+        runner::judge(&chosen, &how, threads, options.work.quiet, |case, outcome| lines(options, case, outcome))?;
+    let wrong = told(options, &chosen, &outcomes)?;
     if let Some(archive) = how.archive {
         write(archive.folder(), &outcomes)?;
         let path = archive.folder().path().to_owned();
         // The report takes the folder for itself.
         drop(archive);
-        let page = session::page(&path)?;
-        output::tell(&format!("results in {}; open {}\n", path.display(), page.display()));
+        page(&path)?;
     }
     if wrong { Err(Failure::claim()) } else { Ok(()) }
+}
+
+/// The cases are done apart, or what is there of them is gathered.
+fn apart(options: &Options, chosen: Vec<&'static Case>) -> Result<(), Failure> {
+    let mut cases = Cases::new(options, chosen)?;
+    let Left::Gather = options.launch.go("verify", &mut cases, options.overwrite, &options.work)? else {
+        return Ok(());
+    };
+    let (done, missing) = cases.gather();
+    let (chosen, outcomes): (Vec<&'static Case>, Vec<Outcome>) = done.into_iter().unzip();
+    for (case, outcome) in chosen.iter().zip(&outcomes) {
+        output::print(&lines(options, case, outcome))?;
+    }
+    let wrong = told(options, &chosen, &outcomes)?;
+    write(&cases.results()?, &outcomes)?;
+    page(cases.folder())?;
+    if !missing.is_empty() {
+        output::tell(&missing.concat());
+        let message = format!("{} of {} cases have no result", missing.len(), missing.len() + chosen.len());
+        return Err(Failure::failed(message).hint("the same command as before does what is missing, and nothing else"));
+    }
+    if wrong { Err(Failure::claim()) } else { Ok(()) }
+}
+
+/// What is told of a case.
+fn lines(options: &Options, case: &Case, outcome: &Outcome) -> String {
+    match options.against {
+        Some(Against::Stored) => against::lines(case, outcome),
+        None => outcome.claims.iter().map(claims::line).collect(),
+    }
+}
+
+/// Tells what came of all; gives whether something is not as it should be.
+fn told(options: &Options, chosen: &[&'static Case], outcomes: &[Outcome]) -> Result<bool, Failure> {
+    if let Some(Against::Stored) = options.against {
+        let (text, moved) = against::end(chosen, outcomes);
+        return output::print(&text).map(|()| moved);
+    }
+    let claims: Vec<&Claim> = outcomes.iter().flat_map(|outcome| &outcome.claims).collect();
+    output::print(&verdicts(&claims))?;
+    Ok(claims.iter().any(|claim| !claim.pass))
+}
+
+/// Makes the page of the results in a folder, and says where they are.
+fn page(path: &Path) -> Result<(), Failure> {
+    let page = session::page(path)?;
+    output::tell(&format!("results in {}; open {}\n", path.display(), page.display()));
+    Ok(())
 }
 
 /// The folder, with what is kept in it. One in which a verification was begun and did not come to its end is gone on with.
