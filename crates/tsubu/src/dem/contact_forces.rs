@@ -218,9 +218,10 @@ impl ContactForces {
         let laws = input.laws.all();
         let (lists, own) = (&input.neighbours.lists, input.neighbours.own());
         self.blocks.resize_with(lists.len(), BlockContacts::default);
-        // Blocks pass their history on, so each is as large as the largest; and a few contacts more come before lists are made again.
+        // Blocks pass their history on, so each is as large as the largest; and a few contacts more come before lists are made again. In
+        // steps, so that memory is not asked for each time.
         let contacts = self.blocks.iter().map(|block| block.sums.contacts).max().unwrap_or_default();
-        let contacts = contacts + contacts / 8;
+        let contacts = (contacts + contacts / 8).next_multiple_of(128);
         for (block, list) in self.blocks.iter_mut().zip(lists) {
             block.walls.resize(input.walls.len(), WallLoad::default());
             // Of a block of another rank its loads on own grains alone are here, as they come.
@@ -228,7 +229,9 @@ impl ContactForces {
                 (block.history, block.loads) = Default::default();
                 continue;
             }
-            block.loads.resize(list.own + list.halo.len(), Load::default());
+            let loads = list.own + list.halo.len();
+            block.loads.reserve_exact(loads.saturating_sub(block.loads.len()));
+            block.loads.resize(loads, Load::default());
             block.near.forget(if input.bodies.faceted() { list.pairs.len() } else { 0 });
             if block.history.is_empty() {
                 block.history.extend(laws.iter().map(|law| ContactHistory::new(law.width())));
