@@ -31,7 +31,7 @@ pub fn script(job: &Job) -> String {
     let mut text = format!(
         "#!/bin/bash\n\
          # tsubu {}: {runs} runs in {tasks} tasks, and a last job that gathers what is there. By hand, where\n\
-         # an earlier launch or `tsubu {} SCENE -o DIR --gather` has made the folder:\n\
+         # an earlier launch, or the same command with `--gather`, has made the folder:\n\
          #   job=$(sbatch --parsable {array} FILE) && sbatch --dependency=afterany:$job FILE\n\
          #SBATCH --job-name=tsubu-{}\n\
          #SBATCH --output=\"{}/%A_%a.txt\"\n\
@@ -42,7 +42,6 @@ pub fn script(job: &Job) -> String {
          #SBATCH --nodes=1\n\
          #SBATCH --ntasks=1\n\
          #SBATCH --cpus-per-task={}\n",
-        job.name,
         job.name,
         job.name,
         job.logs().display(),

@@ -234,7 +234,7 @@ def test_slurm_does_a_design_round_by_round(cluster, tmp_path):
 
 
 def test_slurm_does_a_verification(cluster, tmp_path):
-    cases, out = ["contact-time", "added-mass", "haff"], tmp_path / "out"
+    cases, out = ["drop-lattice", "gutt-haff", "damped-contact"], tmp_path / "out"
     tsubu("verify", *cases, "-q", "-o", tmp_path / "local")
     command = ["verify", *cases, "-o", out, "--launcher", "slurm"]
     tsubu(*command, env=cluster.environment)

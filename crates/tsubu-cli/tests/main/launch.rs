@@ -249,8 +249,8 @@ fn the_job_script_does_a_verification() {
         let results: serde_json::Value = serde_json::from_str(&desk.read(&format!("{out}/verify.json"))).unwrap();
         results["claims"].clone()
     };
-    desk.done("verify contact-time added-mass haff -q -o here");
-    let line = "verify contact-time added-mass haff -q -o out";
+    desk.done("verify drop-lattice gutt-haff damped-contact -q -o here");
+    let line = "verify drop-lattice gutt-haff damped-contact -q -o out";
     let script = desk.done(&format!("{line} --launcher slurm --dry-run --per-task 2")).stdout;
     assert!(script.contains("--array=0-1 FILE"), "{script}");
     assert!(!desk.path("out").exists(), "a dry run has written something");

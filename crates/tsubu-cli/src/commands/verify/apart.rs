@@ -3,7 +3,7 @@
 //! A task has a folder of its own in that of the verification, as a verification of that case alone has: nobody else holds it, and what is done of an ensemble is kept there.
 
 use super::runner::Outcome;
-use super::{Options, RESULTS, claims};
+use super::{Against, Options, RESULTS, claims};
 use crate::failure::Failure;
 use crate::launch::{Estimate, Logs, Runs};
 use crate::options::WorkOptions;
@@ -19,7 +19,7 @@ use tsubu_verify::{Archive, Case, Done, How, recorded_run};
 
 /// The folders of the tasks.
 const TASKS: &str = "tasks";
-/// What the largest case takes [bytes].
+/// More than any case takes [bytes].
 const MEMORY: f64 = 500e6;
 /// How long to wait between two looks at a folder that somebody else holds.
 const LOOK: Duration = Duration::from_millis(500);
@@ -43,6 +43,9 @@ impl<'a> Cases<'a> {
         let mut words = options.names.clone();
         words.extend(options.all.then(|| "--all".to_owned()));
         words.extend(options.controls.then(|| "--controls".to_owned()));
+        if let Some(Against::Stored) = options.against {
+            words.extend(["--against", "stored"].map(str::to_owned));
+        }
         Ok(Self { chosen, folder, controls: options.controls, work: &options.work, words })
     }
 
