@@ -34,10 +34,10 @@ pub(super) struct Ranks {
 struct Work {
     /// Each rank from the first step on, as it last told all others [s]: the same on all ranks, for all of them cut by it.
     all: Vec<f64>,
-    /// This rank up to now [s].
-    own: f64,
     /// The same up to the last cut [s].
     before_cut: Vec<f64>,
+    /// This rank up to now [s].
+    own: f64,
     /// Since when this rank works.
     since: Option<Instant>,
 }
