@@ -43,8 +43,6 @@ function reals(name, values, width = 1) {
   return plain;
 }
 
-const whole = (name, values) => Int32Array.from(reals(name, values), Math.round);
-
 export const runs = async () => [about];
 export const news = async () => about;
 export const command = async () => about;
@@ -59,9 +57,12 @@ function moment(number) {
   if (!moments.has(number)) {
     const { time, step, cell, arrays } = decoded[number];
     const found = { number, time, step, cell, columns: columns.map(({ name, unit }) => ({ name, unit })) };
-    for (const name of ["position", "lines", "triangles", "bonds", "outlines"]) found[name] = reals(name, arrays[name] ?? new Uint16Array(0), 3);
-    for (const name of ["radius", "forces"]) found[name] = reals(name, arrays[name] ?? new Uint16Array(0));
-    for (const name of ["id", "id high", "group"]) found[name] = whole(name, arrays[name] ?? new Uint16Array(0));
+    const known = (name, width) => (arrays[name] ? reals(name, arrays[name], width) : new Float32Array(0));
+    for (const name of ["radius", "forces", "polyhedron", "face of", "rounding"]) found[name] = known(name);
+    for (const name of ["position", "lines", "triangles", "bonds", "outlines", "semi-axes"]) found[name] = known(name, 3);
+    for (const name of ["turned", "faces"]) found[name] = known(name, 4);
+    found.exponents = known("exponents", 2);
+    for (const name of ["id", "id high", "group"]) found[name] = Int32Array.from(known(name), Math.round);
     found.id = found.id.map((id, i) => id + 32768 * found["id high"][i]);
     found.grains = found.radius.length;
     moments.set(number, found);

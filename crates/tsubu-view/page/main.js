@@ -237,9 +237,8 @@ async function begin() {
   stage.canvas.addEventListener("pointerdown", ({ clientX, clientY }) => (pressed = [clientX, clientY]));
   stage.canvas.addEventListener("click", tried(async (event) => {
     if (pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > 4) return;
-    const aimed = pick.aim(stage, event);
-    const row = aimed && pick.row(aimed.pane.frame, aimed.ray, state.cut, aimed.pane.grains.material.uniforms.shrink.value);
-    state.picked = aimed && row >= 0 ? { pane: aimed.pane, id: aimed.pane.frame.id[row] } : undefined;
+    const { pane, row } = pick.seen(stage, event) ?? {};
+    state.picked = row >= 0 ? { pane, id: pane.frame.id[row] } : undefined;
     if (!state.picked) $("grain").hidden = true;
     mark();
     stage.draw();
@@ -285,13 +284,14 @@ async function begin() {
   // Who looks at the last frame of a run that goes on is taken along.
   let [painted, drawn] = [Math.max(...panes.map(live.count)), -Infinity];
   async function grown(pane) {
-    const last = player.number + 1 === player.times.length && !player.playing;
-    const now = player.times[player.number];
     const grew = pane.measure([await pane.fetch(pane.about.times.length - 1, state)]);
     if (grew) {
       unite();
       if (!stage.view.moved) fit();
     }
+    // Who has gone elsewhere while the frame was on its way stays there.
+    const last = player.number + 1 === player.times.length && !player.playing && !player.busy;
+    const now = player.times[player.number];
     player.times = clock().about.times;
     player.number = clock().at(now);
     if (last) await player.go(Infinity);

@@ -4,23 +4,11 @@ import * as three from "./three.min.js";
 import * as server from "./server.js";
 import { number, withUnit } from "./numbers.js";
 
-// The row of the nearest grain that a ray meets, grains being drawn smaller by `shrink`; -1 for none.
-export function row({ position, radius }, { origin, direction }, cut, shrink) {
-  let [best, nearest] = [-1, Infinity];
-  for (let i = 0; i < radius.length; i++) {
-    const [x, y, z] = position.subarray(3 * i, 3 * i + 3);
-    if (cut && cut.x * x + cut.y * y + cut.z * z > cut.w) continue;
-    const off = [origin.x - x, origin.y - y, origin.z - z];
-    const b = off[0] * direction.x + off[1] * direction.y + off[2] * direction.z;
-    const c = off[0] ** 2 + off[1] ** 2 + off[2] ** 2 - (shrink * radius[i]) ** 2;
-    const far = -b - Math.sqrt(b * b - c);
-    if (far < nearest) [best, nearest] = [i, far];
-  }
-  return best;
-}
+// Where the grain is drawn by its number, a single pixel.
+const target = new three.WebGLRenderTarget(1, 1);
 
-// The pane and the ray behind a point of the page.
-export function aim(stage, event) {
+// The pane behind a point of the page and the row of the grain that is seen there, -1 for none.
+export function seen(stage, event) {
   const { left, top } = stage.canvas.getBoundingClientRect();
   const [x, y] = [event.clientX - left, event.clientY - top];
   const number = stage.panes.findIndex((_, n) => {
@@ -29,9 +17,24 @@ export function aim(stage, event) {
   });
   if (number < 0) return undefined;
   const [l, t, w, h] = stage.place(number);
-  const ray = new three.Raycaster();
-  ray.setFromCamera(new three.Vector2((2 * (x - l)) / w - 1, 1 - (2 * (y - t)) / h), stage.view.camera);
-  return { pane: stage.panes[number], ray: ray.ray };
+  return { pane: stage.panes[number], row: row(stage, stage.panes[number], [x - l, y - t, w, h]) };
+}
+
+function row({ renderer, view: { camera } }, { grains }, [x, y, width, height]) {
+  const [colour, alpha] = [renderer.getClearColor(new three.Color()), renderer.getClearAlpha()];
+  camera.setViewOffset(width, height, x, y, 1, 1);
+  grains.mesh.material = grains.asked;
+  renderer.setRenderTarget(target);
+  renderer.setClearColor(0, 0);
+  renderer.clear();
+  renderer.render(grains.mesh, camera);
+  const bytes = new Uint8Array(4);
+  renderer.readRenderTargetPixels(target, 0, 0, 1, 1, bytes);
+  renderer.setRenderTarget(null);
+  renderer.setClearColor(colour, alpha);
+  grains.mesh.material = grains.material;
+  camera.clearViewOffset();
+  return new DataView(bytes.buffer).getInt32(0, true) - 1;
 }
 
 // Fills a table with all that is known of a grain.

@@ -8,7 +8,7 @@ use flate2::write::DeflateEncoder;
 use serde_json::{Value, json};
 use tsubu_frame::{FileError, Frame};
 
-use crate::moment::arrays;
+use crate::moment::{OF_GRAINS, arrays};
 use crate::page;
 use crate::paint::{Paint, paints, range, values};
 use crate::quantised::{Array, Bits, Moment, pack};
@@ -108,8 +108,7 @@ impl Parts {
     fn moment(&self, frame: &Frame) -> Moment {
         let mut found: Vec<Array> = Vec::new();
         let mut add = |name: String, width: usize, bits: Bits, numbers: &[f64]| {
-            let grains = ["position", "radius", "id", "id high", "group"].contains(&name.as_str())
-                || name.starts_with("colour ");
+            let grains = OF_GRAINS.contains(&name.as_str()) || name == "id high" || name.starts_with("colour ");
             let rows = numbers.chunks_exact(width).step_by(if grains { self.every } else { 1 });
             let values = rows.flatten().map(|x| *x as f32).collect();
             found.push(Array { name, width, bits, values });

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 #[cfg(feature = "server")]
 use serde_json::json;
-use tsubu_frame::{Frame, Kind};
+use tsubu_frame::{Frame, Kind, Values};
 
 #[cfg(feature = "server")]
 use crate::packet::Packet;
@@ -43,6 +43,10 @@ const OUTLINED: usize = 20_000;
 #[cfg(feature = "server")]
 const WHOLE: [&str; 2] = ["group", "id"];
 
+/// Arrays that have a row for each grain.
+pub const OF_GRAINS: [&str; 8] =
+    ["position", "radius", "group", "id", "turned", "semi-axes", "exponents", "polyhedron"];
+
 /// What is drawn of a frame: names, numbers a row (3 for vectors), and the numbers. Contacts are left out unless `bonds`.
 pub fn arrays(frame: &Frame, bonds: bool) -> Vec<(&'static str, usize, Vec<f64>)> {
     let flat = |vectors: &[[f64; 3]]| vectors.as_flattened().to_vec();
@@ -56,6 +60,7 @@ pub fn arrays(frame: &Frame, bonds: bool) -> Vec<(&'static str, usize, Vec<f64>)
     let [lines, triangles] = walls(frame);
     arrays.extend([("lines", 3, flat(&lines)), ("triangles", 3, flat(&triangles))]);
     arrays.push(("outlines", 3, flat(&outlines(frame))));
+    arrays.extend(bodies(frame));
     if bonds {
         let (ends, forces) = contacts(frame);
         arrays.extend([("bonds", 3, flat(&ends)), ("forces", 1, forces)]);
@@ -119,6 +124,32 @@ fn outlines(frame: &Frame) -> Vec<[f64; 3]> {
         corners.iter().zip(next).flat_map(|(a, b)| [at(centre, a), at(centre, b)]).collect::<Vec<_>>()
     };
     grains.flat_map(line).collect()
+}
+
+/// Superellipsoids and polyhedra: how all grains are turned and what each is, a sphere three semi-axes; then the faces of all polyhedra of
+/// diameter 1. Nothing where all grains are spheres.
+fn bodies(frame: &Frame) -> Vec<(&'static str, usize, Vec<f64>)> {
+    let (axes, number) = (frame.vectors(Kind::Grain, "semi-axes"), frame.integers(Kind::Grain, "polyhedron"));
+    let turned = match frame.column(Kind::Grain, "orientation").map(|column| &column.values) {
+        Some(Values::Quaternion(turned)) if !axes.is_empty() || !number.is_empty() => turned,
+        _ => return Vec::new(),
+    };
+    let radius = radii(frame);
+    let [profile, equator] = ["profile exponent", "equator exponent"].map(|name| frame.scalars(Kind::Grain, name));
+    let of = |column: &[f64], i: usize| column.get(i).copied().unwrap_or(2.0);
+    let rows = 0..turned.len().min(radius.len());
+    let faces =
+        frame.vectors(Kind::Global, "polyhedron normal").iter().zip(frame.scalars(Kind::Global, "polyhedron offset"));
+    let whole = |numbers: &[i64]| numbers.iter().map(|x| *x as f64).collect::<Vec<_>>();
+    vec![
+        ("turned", 4, turned.iter().flat_map(|[w, x, y, z]| [*x, *y, *z, *w]).collect()),
+        ("semi-axes", 3, rows.clone().flat_map(|i| axes.get(i).copied().unwrap_or([radius[i]; 3])).collect()),
+        ("exponents", 2, rows.clone().flat_map(|i| [of(profile, i), of(equator, i)]).collect()),
+        ("polyhedron", 1, rows.map(|i| number.get(i).map_or(-1.0, |number| *number as f64)).collect()),
+        ("faces", 4, faces.flat_map(|([x, y, z], offset)| [*x, *y, *z, *offset]).collect()),
+        ("face of", 1, whole(frame.integers(Kind::Global, "polyhedron of face"))),
+        ("rounding", 1, frame.scalars(Kind::Global, "polyhedron rounding").to_vec()),
+    ]
 }
 
 /// Contacts: two points and a force [N] each. A bond goes from middle to middle, or as far as the contact, where that is with a wall or

@@ -26,7 +26,7 @@ macro_rules! files {
 }
 
 const FILES: &[(&str, &[u8])] = files![
-    "index.html" "style.css" "main.js" "server.js" "packet.js" "stage.js" "pane.js" "camera.js" "grains.js" "walls.js"
+    "index.html" "style.css" "main.js" "server.js" "packet.js" "stage.js" "pane.js" "camera.js" "grains.js" "bodies.js" "walls.js"
     "bonds.js" "arrows.js" "film.js" "frame_of_reference.js" "palette.js" "legend.js" "scale_bar.js" "player.js" "curves.js" "table.js" "pick.js"
     "begin.js" "embedded.js" "cut.js" "live.js" "status.js" "theme.js" "screenshot.js" "numbers.js" "three.min.js"
 ];

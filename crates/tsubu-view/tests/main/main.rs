@@ -1,5 +1,6 @@
 //! What the server gives and refuses, over plain TCP; and the page in a browser.
 
+mod bodies;
 mod browser;
 mod chromium;
 mod embedded;
