@@ -15,11 +15,12 @@ pub fn check(tests: bool) -> Result<(), String> {
     if tests {
         test::test()?;
     }
-    variants::quick()
+    variants::smoke()
 }
 
 /// What takes longer.
 pub fn patient() -> Result<(), String> {
     test::patient()?;
+    variants::quick()?;
     guard::quick()
 }

@@ -26,6 +26,8 @@ struct Wanted {
     seconds: f64,
     /// Each scene by all methods that take it, in a release build; or by its own alone, in the build that tests use.
     whole: bool,
+    /// In all ways; or in the last alone, which has frames, threads, and cuts where there can be some.
+    all_ways: bool,
     /// Seed of the times at which runs are cut.
     seed: u64,
 }
@@ -61,18 +63,26 @@ struct Answer {
     tables: BTreeMap<String, Vec<String>>,
 }
 
-/// What must hold in every change: each scene by its own method, for a moment.
+/// Each scene by its own method, for a moment.
+const QUICK: Wanted = Wanted { seconds: 0.1, whole: false, all_ways: true, seed: 1 };
+
+/// That every scene runs, and gives on other threads, cut and with frames what it gives without.
+pub fn smoke() -> Result<(), String> {
+    variants(&Wanted { all_ways: false, ..QUICK })
+}
+
+/// The same in all ways.
 pub fn quick() -> Result<(), String> {
-    variants(&Wanted { seconds: 0.1, whole: false, seed: 1 })
+    variants(&QUICK)
 }
 
 /// The chore with its options.
 pub fn chore(options: &[&str]) -> Result<(), String> {
-    let mut wanted = Wanted { seconds: 0.7, whole: true, seed: 1 };
+    let mut wanted = Wanted { seconds: 0.7, whole: true, ..QUICK };
     let mut rest = options.iter();
     while let Some(option) = rest.next() {
         match *option {
-            "--quick" => wanted = Wanted { seconds: 0.1, whole: false, ..wanted },
+            "--quick" => wanted = Wanted { seed: wanted.seed, ..QUICK },
             "--seed" => {
                 let seed = rest.next().and_then(|text| text.parse().ok());
                 wanted.seed = seed.ok_or("--seed needs a whole number")?;
@@ -93,7 +103,7 @@ pub fn same(options: &[&str]) -> Result<(), String> {
     };
     let seconds = seconds.map_err(|_| "--seconds needs a number")?;
     let (mut wrong, mut names) = (0, 0);
-    let cases = cases(&Wanted { seconds, whole: false, seed: 1 }, released()?.as_ref())?;
+    let cases = cases(&Wanted { seconds, ..QUICK }, released()?.as_ref())?;
     for case in &cases {
         let way = Variant { threads: 1, rows: 40, frames: true, ..Variant::default() };
         let now = case.run(&way)?;
@@ -128,7 +138,7 @@ fn variants(wanted: &Wanted) -> Result<(), String> {
         for _ in 0..2 {
             scope.spawn(|| {
                 while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let (done, wrong) = hold(case, wanted.seed);
+                    let (done, wrong) = hold(case, wanted);
                     runs.fetch_add(done, Ordering::Relaxed);
                     let told = if wrong.is_empty() { "the same" } else { "DIFFERS" };
                     println!("{:<18} {:<28} t = {:<8.3e} s  {told}", case.name(), case.method, case.duration);
@@ -159,13 +169,13 @@ fn ways(case: &Case, seed: u64) -> Vec<Variant> {
     let first = Variant { threads: 1, rows: 40, ..Variant::default() };
     let (early, late) = (0.05 + 0.4 * draw(1), 0.5 + 0.45 * draw(2));
     let mut ways = vec![
+        Variant { name: "beside busy programs", busy: true, ..first.clone() },
         Variant { name: "2 threads", threads: 2, ..first.clone() },
         Variant { name: "3 threads", threads: 3, ..first.clone() },
         Variant { name: "8 threads", threads: 8, ..first.clone() },
         Variant { name: "more rows", rows: 1000, ..first.clone() },
         Variant { name: "few rows", rows: 8, ..first.clone() },
         Variant { name: "with frames", frames: true, ..first.clone() },
-        Variant { name: "beside busy programs", busy: true, ..first.clone() },
     ];
     // A pile at rest knows no time: its step is a share of the duration, and a run that ends earlier is another one.
     if case.method != Method::AfterHemmingssonHerrmann.name() {
@@ -177,13 +187,16 @@ fn ways(case: &Case, seed: u64) -> Vec<Variant> {
 }
 
 /// Holds all ways against the first; how many runs, and what differed.
-fn hold(case: &Case, seed: u64) -> (usize, Vec<String>) {
+fn hold(case: &Case, how: &Wanted) -> (usize, Vec<String>) {
     let first = Variant { name: "one thread", threads: 1, rows: 40, ..Variant::default() };
     let wanted = match case.run(&first) {
         Ok(answer) => answer,
         Err(text) => return (1, vec![format!("{}: {text}", first.name)]),
     };
-    let ways = ways(case, seed);
+    let mut ways = ways(case, how.seed);
+    if !how.all_ways {
+        ways.drain(..ways.len() - 1);
+    }
     let wrong = ways.iter().filter_map(|way| {
         let text = match case.run(way) {
             Ok(answer) => wanted.differs(&answer)?,

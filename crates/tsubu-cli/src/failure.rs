@@ -1,6 +1,7 @@
 //! How a command ends when it does not end well: a message, hints and an exit code.
 
 use crate::stream::Stream;
+use crate::table;
 use std::fmt::Write as _;
 use std::path::Path;
 use tsubu::bench::BenchError;
@@ -150,7 +151,8 @@ impl Failure {
     fn of_run(error: &RunError, folder: &Path) -> Self {
         match error {
             RunError::Open(error) => error.into(),
-            RunError::File(error) => Self::of_file(error, folder),
+            RunError::File(file) => Self::of_file(file, folder),
+            RunError::Stopped { error: file, .. } => Self::of(FAILED, error).stopped_by(file, folder),
             RunError::Checkpoint(CheckpointError::Unreadable { path, source })
                 if source.kind() == std::io::ErrorKind::NotFound =>
             {
@@ -175,13 +177,18 @@ impl Failure {
         if path == folder {
             return Self::of(WRONG, error).hint("name another folder with `-o`");
         }
-        let failure = Self::of(FAILED, error);
+        Self::of(FAILED, error).stopped_by(error, folder)
+    }
+
+    /// With what can be done where a file of the results in `folder` could not be written.
+    fn stopped_by(self, error: &FileError, folder: &Path) -> Self {
         let failure = match checkpoint::read(&checkpoint::path(folder)) {
-            Ok((header, _)) => failure.hint(format!(
+            Ok((header, _)) => self.hint(format!(
                 "the checkpoint of step {}, t = {} s is whole: `--resume` goes on from it",
-                header.step, header.time
+                header.step,
+                table::number(header.time)
             )),
-            Err(_) => failure,
+            Err(_) => self,
         };
         if error.is_disk_full() {
             failure.hint("the disk is full: make room, or name another disk with `-o`")

@@ -84,6 +84,12 @@ impl FrameWriter {
             index.stale = usize::from(self.folder.join(format!("{stem}.pvd")).exists());
         }
         self.renew(false)?;
+        self.remove_later();
+        Ok(())
+    }
+
+    /// Removes the files of snapshots that are still to come.
+    fn remove_later(&self) {
         let entries = fs::read_dir(&self.folder).into_iter().flatten().flatten();
         for name in entries.filter_map(|entry| entry.file_name().into_string().ok()).filter(|name| is_snapshot(name)) {
             if number_of(&name).is_some_and(|number| number >= self.next) {
@@ -91,7 +97,6 @@ impl FrameWriter {
                 let _ = fs::remove_file(self.folder.join(&name));
             }
         }
-        Ok(())
     }
 
     /// What is written beside the grains and walls from now on.
@@ -104,8 +109,21 @@ impl FrameWriter {
         self.next
     }
 
-    /// Writes one snapshot.
+    /// Writes one snapshot, or nothing of it: a disk that is full has room then for what is said of it.
     pub fn write(&mut self, frame: &Frame) -> Result<(), FileError> {
+        if let Err(error) = self.write_files(frame) {
+            for index in &mut self.indices {
+                index.entries.retain(|(_, name)| number_of(name) != Some(self.next));
+            }
+            self.remove_later();
+            self.unsynced.retain(|path| path.exists());
+            return Err(error);
+        }
+        self.next += 1;
+        self.renew(true)
+    }
+
+    fn write_files(&mut self, frame: &Frame) -> Result<(), FileError> {
         let number = self.next;
         for ((kind, stem), index) in STEMS.into_iter().zip(&mut self.indices) {
             let name = format!("{stem}_{number:06}.vtp");
@@ -127,8 +145,7 @@ impl FrameWriter {
             lammps::write(&path, frame)?;
             self.unsynced.push(path);
         }
-        self.next += 1;
-        self.renew(true)
+        Ok(())
     }
 
     /// Waits until all snapshots, and indices that name them, are on the disk. To be called before a checkpoint is written.

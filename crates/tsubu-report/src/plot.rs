@@ -294,9 +294,27 @@ fn draw_bars(figure: &Figure, bars: &Bars) -> (Vec<Plot>, Layout) {
     if bars.stacked {
         plot = plot.with_stacked();
     }
-    let plots = vec![Plot::Bar(plot.with_tooltip_labels(told))];
+    // Labels alone would open groups in the drawing that kuva never closes.
+    let plots = vec![Plot::Bar(plot.with_tooltips().with_tooltip_labels(told))];
     let label = axis_label(&figure.y, &unit);
     let layout = Layout::auto_from_plots(&plots).with_tick_format(TickFormat::Auto);
     let layout = if bars.horizontal { layout.with_x_label(label) } else { layout.with_y_label(label) };
     (plots, layout)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::figure::{Axis, Bars, Figure};
+
+    /// Groups of labelled bars were opened and never closed where bars stood upright: no browser took the file.
+    #[test]
+    fn bars_are_whole_drawings() {
+        for (stacked, horizontal) in [(false, false), (false, true), (true, false), (true, true)] {
+            let parts = vec![("sliding".to_owned(), vec![1.0, 2.0]), ("drag".to_owned(), vec![0.5, 0.0])];
+            let categories = vec!["0 balls".to_owned(), "20 balls".to_owned()];
+            let figure = Figure::of_bars("", Axis::new("loss", "J"), Bars { categories, parts, stacked, horizontal });
+            let svg = figure.to_svg();
+            assert!(resvg::usvg::roxmltree::Document::parse(&svg).is_ok(), "{stacked} {horizontal}: {svg}");
+        }
+    }
 }

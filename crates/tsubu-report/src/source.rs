@@ -39,12 +39,8 @@ impl Source {
 
     /// The scene's title, else the name of the folder.
     pub fn title(&self) -> String {
-        let scene = self.text("scene.toml").unwrap_or_default();
-        let mut top = scene.lines().take_while(|line| !line.trim_start().starts_with('['));
-        let title = top.find_map(|line| line.trim().strip_prefix("title")?.trim_start().strip_prefix('='));
-        // A scene as run writes plain strings; anything fancier falls back to the folder.
-        let title = title.and_then(|t| t.trim().strip_prefix('"')?.strip_suffix('"'));
-        if let Some(title) = title.filter(|t| !t.is_empty() && !t.contains('\\')) {
+        let scene: toml::Table = self.text("scene.toml").unwrap_or_default().parse().unwrap_or_default();
+        if let Some(title) = scene.get("title").and_then(toml::Value::as_str).filter(|title| !title.is_empty()) {
             return title.to_owned();
         }
         let full = std::fs::canonicalize(&self.dir).unwrap_or_else(|_| self.dir.clone());

@@ -1,13 +1,15 @@
 //! The steady part of a series, its mean, and how well that is known.
 //!
 //! The start is cut off where the standard error of what is left is smallest (MSER-5, White 1997: the marginal standard error rule on
-//! means of five). A series of which more than half would be cut has no steady part. The error is half the 95 % interval by the means
-//! of batches: neighbouring values of a run are not independent, long batches nearly are.
+//! means of five). A series of which more than half would be cut has no steady part, nor has one whose batches rise or fall by more than
+//! chance. The error is half the 95 % interval by the means of batches: neighbouring values of a run are not independent, long batches nearly are.
 
 /// Values a mean of the rule.
 const RULE: usize = 5;
 /// Batches for the error, and Student's t for 95 % at one less.
 const BATCHES: (usize, f64) = (16, 2.131);
+/// Student's t for 99.9 % at two less than there are batches: what their slope stays below by chance.
+const TREND: f64 = 4.140;
 /// Fewer values than this tell no error.
 const FEWEST: usize = 4 * BATCHES.0;
 
@@ -44,9 +46,21 @@ impl Steady {
         }
         let batches: Vec<f64> = rest.chunks_exact(rest.len() / BATCHES.0).take(BATCHES.0).map(mean).collect();
         let middle = mean(&batches);
+        if trend(&batches, middle) > TREND {
+            return None;
+        }
         let spread = batches.iter().map(|batch| (batch - middle).powi(2)).sum::<f64>() / (BATCHES.0 - 1) as f64;
         Some(Self { first, mean: mean(rest), error: BATCHES.1 * (spread / BATCHES.0 as f64).sqrt() })
     }
+}
+
+/// The size of the slope of evenly spaced values over its standard error.
+fn trend(values: &[f64], middle: f64) -> f64 {
+    let at = |k: usize| k as f64 - 0.5 * (values.len() - 1) as f64;
+    let wide = (0..values.len()).map(|k| at(k).powi(2)).sum::<f64>();
+    let slope = values.iter().enumerate().map(|(k, value)| at(k) * value).sum::<f64>() / wide;
+    let rest = values.iter().enumerate().map(|(k, value)| (value - middle - slope * at(k)).powi(2)).sum::<f64>();
+    slope.abs() / (rest / (values.len() - 2) as f64 / wide).sqrt()
 }
 
 fn mean(values: &[f64]) -> f64 {
@@ -89,6 +103,9 @@ mod tests {
         assert!((mean(&settles) - 1.0).abs() > 0.2);
         let drifts: Vec<f64> = (0..2000).map(|i| i as f64 + noise(i)).collect();
         assert_eq!(Steady::of(&drifts), None);
+        // A count that begins to rise late has its smallest error with all of it, and no steady part.
+        let counts: Vec<f64> = (0..600_i32).map(|i| f64::from((i - 250).max(0) / 16)).collect();
+        assert_eq!(Steady::of(&counts), None);
         assert_eq!(Steady::of(&settles[..60]), None);
         assert_eq!(Steady::of(&[f64::NAN; 500]), None);
     }

@@ -131,15 +131,15 @@ impl<'a> Sweep<'a> {
     /// The key with the most values that are numbers; cases that differ in the seed alone are one case tried again.
     fn along(&self) -> Option<&(&'a str, Vec<String>)> {
         let distinct = |values: &[String]| values.iter().collect::<BTreeSet<_>>().len();
-        let numeric = |values: &[String]| values.iter().all(|text| leading_number(text).is_some());
-        let keys = self.keys.iter().filter(|(key, values)| *key != "seed" && numeric(values));
+        let keys = self.keys.iter().filter(|(key, values)| *key != "seed" && of_one_unit(values).is_some());
         keys.max_by_key(|(_, values)| distinct(values)).filter(|(_, values)| distinct(values) > 1)
     }
 
     /// Each result over the key with the most values; the other keys make the curves, the seeds a band.
     fn charts(&self, source: &mut Source) -> Vec<Block> {
-        let Some((along, x)) = self.along() else { return Vec::new() };
-        let unit = x.first().and_then(|text| text.split_once(' ')).map_or("-", |(_, unit)| unit);
+        let Some((along, (x, unit))) = self.along().and_then(|(key, values)| Some((key, of_one_unit(values)?))) else {
+            return Vec::new();
+        };
         let mut blocks = Vec::new();
         // The energy residual is told in the table.
         let told = |column: &&usize| {
@@ -153,8 +153,8 @@ impl<'a> Sweep<'a> {
         for &column in self.results.iter().filter(told).take(MOST_FIGURES) {
             let header = &self.table.header[column];
             let name = split_unit(header).0;
-            let mut figure = Figure::new("", Axis::new(*along, unit), Axis::from_header(header));
-            let (curves, spread) = self.curves(along, x, column);
+            let mut figure = Figure::new("", Axis::new(*along, unit.as_str()), Axis::from_header(header));
+            let (curves, spread) = self.curves(along, &x, column);
             for (curve, points) in curves {
                 let series = Series::line(curve, points.iter().map(|p| (p.x, p.mean)).collect());
                 let series = series.styled(Style::LineAndPoints);
@@ -173,9 +173,10 @@ impl<'a> Sweep<'a> {
     }
 
     /// The curves of a result, and whether a point of them has several seeds.
-    fn curves(&self, along: &str, x: &[String], column: usize) -> (Vec<(String, Vec<Point>)>, bool) {
+    fn curves(&self, along: &str, x: &[f64], column: usize) -> (Vec<(String, Vec<Point>)>, bool) {
         let mut curves: Vec<(String, Vec<Point>)> = Vec::new();
-        for (row, x) in x.iter().enumerate() {
+        let status = self.table.texts("status").unwrap_or_default();
+        for (row, &x) in x.iter().enumerate().filter(|(row, _)| status.get(*row).is_some_and(|s| s == "finished")) {
             let others = self.keys.iter().filter(|(key, _)| *key != along && *key != "seed");
             let curve: Vec<String> = others.map(|(key, values)| format!("{key} = {}", values[row])).collect();
             let curve = curve.join(", ");
@@ -183,7 +184,6 @@ impl<'a> Sweep<'a> {
                 curves.push((curve, Vec::new()));
                 curves.len() - 1
             });
-            let x = leading_number(x).unwrap_or(f64::NAN);
             let points = &mut curves[index].1;
             let value = self.number(row, column);
             match points.iter_mut().find(|point| point.x == x) {
@@ -300,7 +300,50 @@ fn picture_blocks(source: &mut Source, table: &Table) -> Vec<Block> {
     blocks
 }
 
-/// The number of `6 mm`.
-fn leading_number(text: &str) -> Option<f64> {
-    text.split_whitespace().next()?.parse().ok()
+/// Prefixes of units that scenes know.
+const PREFIXES: [(&str, f64); 9] =
+    [("", 1.0), ("n", 1e-9), ("u", 1e-6), ("µ", 1e-6), ("m", 1e-3), ("c", 1e-2), ("k", 1e3), ("M", 1e6), ("G", 1e9)];
+
+/// Values as a scene writes them in the unit of the first of them; nothing where one is no number, or of another unit than by its prefix.
+fn of_one_unit(values: &[String]) -> Option<(Vec<f64>, String)> {
+    let parts = |text: &String| {
+        let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
+        Some((number.parse::<f64>().ok()?, unit.trim().to_owned()))
+    };
+    let values: Vec<(f64, String)> = values.iter().map(parts).collect::<Option<_>>()?;
+    let unit = values.first()?.1.clone();
+    let numbers = values.iter().map(|(x, other)| Some(x * times(other, &unit)?)).collect::<Option<_>>()?;
+    Some((numbers, if unit.is_empty() { "-".to_owned() } else { unit }))
+}
+
+/// How many of another unit one is, where they differ by their prefixes alone.
+fn times(one: &str, other: &str) -> Option<f64> {
+    if one == other {
+        return Some(1.0);
+    }
+    let base =
+        |unit: &'_ str, prefix: &str| unit.strip_prefix(prefix).filter(|base| !base.is_empty()).map(str::to_owned);
+    let pairs = PREFIXES.iter().flat_map(|of_one| PREFIXES.iter().map(move |of_other| (of_one, of_other)));
+    let mut same = pairs.filter(|(of_one, of_other)| base(one, of_one.0) == base(other, of_other.0));
+    // A thousandth of a length is a millionth of its square.
+    let ((_, factor), (_, divisor)) = same.find(|pair| base(one, pair.0.0).is_some() && !one.contains('^'))?;
+    Some(factor / divisor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::of_one_unit;
+
+    /// 0.6 cm stood at 0.6 of an axis in mm.
+    #[test]
+    fn values_are_told_in_one_unit() {
+        let read = |values: &[&str]| of_one_unit(&values.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>());
+        let (numbers, unit) = read(&["2 mm", "0.6 cm", "0.008 m"]).expect("lengths");
+        assert!(numbers.iter().zip([2.0, 6.0, 8.0]).all(|(a, b)| (a - b).abs() < 1e-9) && unit == "mm", "{numbers:?}");
+        assert_eq!(read(&["20 us", "2 ms"]).map(|found| found.0[1].round()), Some(2000.0));
+        assert_eq!(read(&["0.5", "1"]), Some((vec![0.5, 1.0], "-".to_owned())));
+        for other in [["2 mm", "3"], ["2 mm", "3 s"], ["2 mm^2", "3 m^2"], ["2 mm", "steel"]] {
+            assert_eq!(read(&other), None, "{other:?}");
+        }
+    }
 }

@@ -243,22 +243,53 @@ impl Work {
 
     /// Resolves the scene once with every value that a study will give it, so that no case fails an hour later.
     fn try_varied(&mut self, plan: &Plan, typed: &Typed, files: &Files) {
+        let wrong = |changes: Vec<String>| {
+            let mut case = typed.clone();
+            case.files = files.clone();
+            case.changes.extend(changes);
+            Scene::new(case, false).err()
+        };
         for (family, vary) in study::varied(plan) {
-            for (path, values) in vary {
-                // Of what varies continuously the ends are tried.
-                let values = if study::CONTINUOUS.contains(&family) { range::ends(values) } else { None }
-                    .map_or_else(|| values.clone(), Vec::from);
-                for (index, value) in values.iter().enumerate() {
-                    let mut case = typed.clone();
-                    case.files = files.clone();
-                    case.changes.push(change_text(path, value));
-                    let Err(complaints) = Scene::new(case, false) else { continue };
-                    let place = self.root.locate(&[family, "vary", path, &index.to_string()]);
+            let vary: Vec<Varied<'_>> = vary.iter().map(|(path, values)| Varied::new(family, path, values)).collect();
+            for varied in &vary {
+                for (index, value) in varied.values.iter().enumerate() {
+                    let change = change_text(varied.path, value);
+                    let Some(complaints) = wrong(vec![change.clone()]) else { continue };
+                    // What the scene says of the other keys may be nothing that the study gives them: the first and the last of theirs are.
+                    let others = |pick| {
+                        let others = vary.iter().filter(|other| other.path != varied.path);
+                        others.filter_map(|other| other.change(pick)).chain([change.clone()]).collect::<Vec<_>>()
+                    };
+                    let mut beside = [<[_]>::first, <[_]>::last].map(others).into_iter();
+                    if vary.len() > 1 && beside.any(|changes| wrong(changes).is_none()) {
+                        continue;
+                    }
+                    let place = self.root.locate(&[family, "vary", varied.path, &index.to_string()]);
                     let title = complaints.titles().next().unwrap_or_default();
-                    self.complaints.push(cannot_vary(&format!("{path} = {value}"), title).at(&place, "varied here"));
+                    self.complaints
+                        .push(cannot_vary(&format!("{} = {value}", varied.path), title).at(&place, "varied here"));
                 }
             }
         }
+    }
+}
+
+/// A key that a study varies, and the values that are tried.
+struct Varied<'a> {
+    path: &'a str,
+    values: Vec<toml::Value>,
+}
+
+impl<'a> Varied<'a> {
+    /// Of what varies continuously the ends are tried.
+    fn new(family: &str, path: &'a str, values: &[toml::Value]) -> Self {
+        let ends = if study::CONTINUOUS.contains(&family) { range::ends(values) } else { None };
+        Self { path, values: ends.map_or_else(|| values.to_vec(), Vec::from) }
+    }
+
+    /// What gives it one of the values.
+    fn change(&self, pick: fn(&[toml::Value]) -> Option<&toml::Value>) -> Option<String> {
+        Some(change_text(self.path, pick(&self.values)?))
     }
 }
 

@@ -88,6 +88,8 @@ fn structures_that_cannot_be() {
         table(&TABLE.replace("tip ry", "tilt"), tip),
         table(&TABLE.replace("damping ratio", "mass [g]"), tip),
         table(&TABLE.replace(", 2,", ", 2e7,"), tip),
+        table(&TABLE.replace("tip ry", "tip z"), tip),
+        table(TABLE, &format!("{tip}\nbase.sine = {{ amplitude = \"1 mm\", frequency = \"20 Hz\" }}")),
         table(TABLE, ""),
         matrices("1 1 300\n1 2 -100\n2 1 -90\n2 2 100\n"),
         matrices("1 1 100\n1 2 -100\n2 1 -100\n2 2 100\n"),

@@ -165,6 +165,23 @@ fn varied_values_that_the_scene_does_not_take() {
     insta::assert_snapshot!(complaint(&format!("{GOOD}{sweep}"), &[]));
 }
 
+/// What the scene says of keys that are varied is nothing that a study runs: here its balls would not fit into the lower box. A value
+/// that no other goes with is refused all the same, and so is one that is there twice.
+#[test]
+fn values_are_tried_beside_those_of_a_study() {
+    let study = |counts: &str, heights: &str| {
+        format!(
+            "{GOOD}[sweep.vary]\n\"particles.balls.count\" = {counts}\n\"walls.box.shape.box.height\" = {heights}\n"
+        )
+    };
+    let read = |text: &str| read(text, &[]).map_err(|wrong| wrong.to_string());
+    assert!(read(&study("[4, 8]", "[\"8 mm\", \"60 mm\"]")).is_ok());
+    let told = read(&study("[40, 60]", "[\"8 mm\"]")).expect_err("they do not fit");
+    assert!(told.contains("cannot vary `walls.box.shape.box.height"), "{told}");
+    let told = read(&study("[4, 8, 4]", "[\"60 mm\"]")).expect_err("4 is there twice");
+    assert!(told.contains("is varied with 4 twice"), "{told}");
+}
+
 #[test]
 fn ranges_that_are_none() {
     let sweep = r#"

@@ -1,9 +1,5 @@
 //! Claims that no wrong model is known to be refused by, and why: a list that may only become shorter.
 
-/// The case is long.
-const WRITTEN: &str =
-    "the wrong models that the case runs since are refused where they are run by themselves: it is to be kept again";
-
 /// They roll without a loss.
 const ROLLS: &str = "it rolls without a loss: gravity and motion are all that its books hold, and no mutation touches one without the other";
 
@@ -18,7 +14,6 @@ pub(crate) const CONTROL: &[(&str, &str, &str)] = &[
     ("saltation-space", "leaping grains in space, Shields number 0.3: mean hop height", HEIGHT),
     ("saltation", "leaping grain, Shields number 0.3: mean hop height", HEIGHT),
     ("litwiniszyn", "Litwiniszyn: B of the lattice", "it compares two constants; nothing is run"),
-    ("beverloo-3d", "", WRITTEN),
     ("janssen", "Janssen: largest standard error", "how sure the stresses are, not what they are"),
     ("figure-12", "cost: DEM", "a cost: a wrong law takes as long"),
 ];

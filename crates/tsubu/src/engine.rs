@@ -37,7 +37,7 @@ pub enum Verdict {
 #[derive(Debug, thiserror::Error)]
 pub enum Fault {
     /// A number is no longer finite.
-    #[error("step {step}, t = {time} s: the {what} of grain {grain} is not a number")]
+    #[error("step {step}, t = {} s: the {what} of grain {grain} is not a number", digits(*time))]
     NotFinite {
         /// Step number.
         step: u64,
@@ -50,7 +50,8 @@ pub enum Fault {
     },
     /// Two bodies sit too deep in each other.
     #[error(
-        "step {step}, t = {time} s: grain {grain} overlaps {other} by {ratio:.3} of its diameter, more than `dem.largest-overlap` = {limit}"
+        "step {step}, t = {} s: grain {grain} overlaps {other} by {} of {of}, more than `dem.largest-overlap` = {limit}",
+        digits(*time), digits(*ratio)
     )]
     Overlap {
         /// Step number.
@@ -61,8 +62,10 @@ pub enum Fault {
         grain: usize,
         /// The other body, as users know it.
         other: String,
-        /// Overlap over diameter.
+        /// Overlap over what it is held against.
         ratio: f64,
+        /// What that is: the diameter, of polyhedra that of their rounded edges.
+        of: &'static str,
         /// The limit.
         limit: f64,
         /// Whether one of the two gives way to nothing: frozen, driven, or a wall that is moved as told.
@@ -70,8 +73,8 @@ pub enum Fault {
     },
     /// A bed did not come to rest in the time that it was given before time 0.
     #[error(
-        "after {step} steps, {time} s, the grains have not come to rest: grain {grain} moves at {speed:.3} m/s, and all together have \
-         {share:.2} of the energy of a fall by a diameter"
+        "after {step} steps, {} s, the grains have not come to rest: grain {grain} moves at {speed:.3} m/s, and all together have \
+         {share:.2} of the energy of a fall by a diameter", digits(*time)
     )]
     Unsettled {
         /// Steps of settling.
@@ -86,7 +89,7 @@ pub enum Fault {
         share: f64,
     },
     /// A lattice cluster was squeezed between opposite walls, or the box left its grid.
-    #[error("step {step}, t = {time} s: {text}")]
+    #[error("step {step}, t = {} s: {text}", digits(*time))]
     Lattice {
         /// Step number.
         step: u64,
@@ -97,6 +100,11 @@ pub enum Fault {
         /// What to change.
         hint: Option<Hint>,
     },
+}
+
+/// A number as it is told in a sentence: with four digits behind the first.
+pub(crate) fn digits(x: f64) -> f64 {
+    format!("{x:.4e}").parse().unwrap_or(x)
 }
 
 impl Advise for Fault {

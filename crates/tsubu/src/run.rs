@@ -17,6 +17,7 @@ pub use error::RunError;
 pub use leader::follow;
 pub use onlooker::{Onlooker, Wish};
 pub use simulation::Simulation;
+pub(crate) use told::judge;
 pub(crate) use ways::run_with;
 pub use ways::{run, run_on_ranks, run_seen};
 
@@ -34,8 +35,8 @@ use start::Start;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use tsubu_frame::{
-    Advise, Claim, Existing, FileError, Formats, Frame, FrameWriter, Header, History, Mark, ResultValue, RunFolder,
-    Source, State, Status, Summary, checkpoint,
+    Advise, Existing, FileError, Formats, Frame, FrameWriter, Header, History, Mark, RunFolder, State, Status, Summary,
+    checkpoint,
 };
 use tsubu_scene::{Plan, Scene};
 use ways::Manner;
@@ -75,9 +76,8 @@ fn work(
     };
     // From here on there is something to lose.
     let _held = watcher.interrupt.hold();
-    let names = run.names(scene);
+    let (names, header) = (run.names(scene), run.columns()?);
     let folder = RunFolder::create(folder, existing, &names)?;
-    let header = run.columns();
     run.stages.columns.clone_from(&header);
     run.find_places();
     let describe = |verdicts: &str| {
@@ -172,19 +172,40 @@ impl Run<'_> {
         names
     }
 
-    /// Stage by stage to the end.
+    /// To the end, or to where a file cannot be written.
     fn go(&mut self, folder: &RunFolder, mut out: Outputs, watcher: &Watcher) -> Result<Summary, RunError> {
+        self.stage_by_stage(folder, &mut out, watcher).map_err(|error| match error {
+            RunError::File(error) => self.stopped(folder, &mut out, error),
+            other => other,
+        })
+    }
+
+    fn stage_by_stage(
+        &mut self,
+        folder: &RunFolder,
+        out: &mut Outputs,
+        watcher: &Watcher,
+    ) -> Result<Summary, RunError> {
         loop {
-            match self.stage(folder, &mut out, watcher)? {
+            match self.stage(folder, out, watcher)? {
                 Some(interrupted) => return Ok(interrupted),
-                None if self.stages.is_last() => break,
+                None if self.stages.is_last() => return self.finish(folder, out),
                 None => {
                     self.next_stage(folder)?;
                     out.frames.set_formats(formats(self.plan));
                 }
             }
         }
-        self.finish(folder, out)
+    }
+
+    /// Leaves what finds room on a disk that may be full: rows, then what became of the run.
+    fn stopped(&mut self, folder: &RunFolder, out: &mut Outputs, error: FileError) -> RunError {
+        let error = RunError::Stopped { step: self.engine.steps(), time: self.engine.time(), error };
+        let mut summary = self.summary(Status::Failed);
+        summary.warnings.push(error.told());
+        // A second error says nothing new.
+        let _ = (out.history.flush(), self.watches.flush(), out.frames.flush(), Self::end(folder, &summary));
+        error
     }
 
     /// What frames get, without what is not written.
@@ -259,9 +280,9 @@ impl Run<'_> {
     }
 
     /// Leaves everything as a run that came to its end does.
-    fn finish(&mut self, folder: &RunFolder, mut out: Outputs) -> Result<Summary, RunError> {
+    fn finish(&mut self, folder: &RunFolder, out: &mut Outputs) -> Result<Summary, RunError> {
         if self.alone {
-            self.sync(folder, &mut out)?;
+            self.sync(folder, out)?;
         } else {
             out.history.flush()?;
             self.watches.flush()?;
@@ -315,7 +336,7 @@ impl Run<'_> {
         let momentum = self.ledger.momentum_residual(self.engine.momentum());
         row.push(momentum.iter().map(|p| p * p).sum::<f64>().sqrt());
         row.push(self.engine.contacts() as f64);
-        row.push(self.engine.centre_of_mass()[2]);
+        row.push(self.height());
         for host in &self.hosts.list {
             row.extend([host.displacement(), host.velocity(), host.grain_force()]);
         }
@@ -333,7 +354,12 @@ impl Run<'_> {
 
     /// What every scene has to tell of itself, in the order of [`SEEN`].
     fn seen(&self, energies: &Energies) -> [f64; 3] {
-        [energies.kinetic + energies.rotational, self.engine.centre_of_mass()[2], self.engine.contacts() as f64]
+        [energies.kinetic + energies.rotational, self.height(), self.engine.contacts() as f64]
+    }
+
+    /// Height of the centre of mass [m]; not a number without grains.
+    fn height(&self) -> f64 {
+        if self.engine.grains() == 0 { f64::NAN } else { self.engine.centre_of_mass()[2] }
     }
 
     fn save(&mut self, folder: &RunFolder, out: &mut Outputs) -> Result<(), FileError> {
@@ -364,17 +390,6 @@ impl Run<'_> {
 
     fn wall_seconds(&self) -> f64 {
         self.wall_before + self.started.elapsed().saturating_sub(self.idle).as_secs_f64()
-    }
-}
-
-/// Holds the scene's own claims against the results.
-pub(crate) fn judge(plan: &Plan, summary: &mut Summary) {
-    for claim in &plan.claim {
-        let value = match summary.results.get(&claim.result) {
-            Some(ResultValue::Number(value)) => *value,
-            _ => f64::NAN,
-        };
-        summary.claims.push(Claim::judge(&claim.result, value, claim.low, claim.high, Source::scene(&claim.source)));
     }
 }
 

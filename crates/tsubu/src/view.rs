@@ -232,10 +232,21 @@ impl View<'_> {
         self.grains.position[i] + self.grains.unwrap_offset[i]
     }
 
-    /// Contacts of every grain; those with walls only if `walls`.
+    /// One contact for each pair of bodies, however many of their corners and edges touch; a wall that is touched from several sides, as a
+    /// box in a corner, has a contact at each.
+    pub fn pairs(&self) -> impl Iterator<Item = &Contact> {
+        let same = |a: &Contact, b: &Contact| {
+            let bodies = (a.first, a.second, a.wall) == (b.first, b.second, b.wall);
+            // A grain may touch another one directly and across a periodic end.
+            bodies && if a.wall { a.normal.dot(b.normal) > 1.0 - 1e-6 } else { a.branch == b.branch }
+        };
+        self.contacts.chunk_by(move |a, b| same(a, b)).map(|points| &points[0])
+    }
+
+    /// How many bodies touch every grain, as [`View::pairs`] counts them; walls only if `walls`.
     pub fn touching(&self, walls: bool) -> Vec<u32> {
         let mut count = vec![0; self.len()];
-        for contact in &self.contacts {
+        for contact in self.pairs() {
             if !contact.wall {
                 count[contact.first] += 1;
                 count[contact.second] += 1;

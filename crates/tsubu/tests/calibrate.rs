@@ -140,7 +140,10 @@ fn what_cannot_be_is_said() {
         }
     };
     let unknown = refused("calibrate.measured=[{ result = \"sand height\", value = 1, uncertainty = 0.1 }]");
-    assert!(unknown.contains("a result `sand height`") && unknown.contains("`sand maximum height final`"), "{unknown}");
+    assert!(
+        unknown.contains("a result `sand height`") && unknown.contains("did you mean `sand mean height`?"),
+        "{unknown}"
+    );
     let units = refused("calibrate.vary={ \"contact.normal.hooke.stiffness\" = [\"1 N/cm\", \"1 N/mm\"] }");
     assert!(units.contains("two units"), "{units}");
     let words = refused("calibrate.vary={ \"contact.attraction\" = [false, true] }");

@@ -91,6 +91,20 @@ fn rows(folder: &Path) -> String {
     std::fs::read_to_string(folder.join("history.csv")).unwrap()
 }
 
+/// A stage that would end by a result that no run has ran to its `at-most`.
+#[test]
+fn a_stage_that_ends_by_nothing_is_refused() {
+    let desk = tempfile::tempdir().unwrap();
+    let watch = "[watch.sample]\ncoordination = {}\n";
+    let until = "[[stage]]\nname = \"wait\"\nuntil = { result = \"sample man\", above = 1 }\nat-most = \"1 s\"\n";
+    let watcher = Watcher { interrupt: &Interrupt::new(), progress: &|_| {} };
+    let folder = desk.path().join("run");
+    let told =
+        run(&scene(&format!("{SILO}{watch}{until}")), &folder, Existing::Refuse, &watcher).unwrap_err().to_string();
+    assert!(told.contains("stage.0.until.result") && told.contains("did you mean `sample mean`?"), "{told}");
+    assert!(!folder.exists());
+}
+
 /// The same bits by any number of threads and after a stop in every stage, and books that close over the changes: without the
 /// account of these they would not.
 #[test]

@@ -1,6 +1,7 @@
 //! `tsubu compare`: one scene by several methods.
 
-use super::{claims, run::warnings};
+use super::claims;
+use super::run::{plural, warnings};
 use crate::failure::Failure;
 use crate::options::{FolderOptions, SceneOptions, WorkOptions};
 use crate::session::{Session, judge};
@@ -11,7 +12,7 @@ use tsubu::interrupt::Watcher;
 use tsubu::study::compare::compare;
 use tsubu::study::variant::Variant;
 use tsubu::threads::alone;
-use tsubu_frame::{Status, Table};
+use tsubu_frame::{Cell, Status, Table};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -68,11 +69,20 @@ fn told(folder: &Path) -> Result<String, Failure> {
     let compared = Table::read(&folder.join("compare.csv")).map_err(|error| Failure::of_file(&error, folder))?;
     let mut rows =
         vec![compared.header.iter().map(|h| tsubu_frame::csv::split_unit(h).0.to_owned()).collect::<Vec<_>>()];
+    // Of what nobody has there are only zeros.
+    let says = |row: &&Vec<Cell>| row.iter().filter_map(Cell::number).any(|x| x != 0.0 && !x.is_nan());
     rows.extend(
         compared
             .rows
             .iter()
+            .filter(says)
             .map(|row| row.iter().map(|c| c.number().map_or_else(|| c.to_string(), table::number)).collect()),
     );
-    Ok(table::aligned(&rows))
+    let silent = compared.rows.len() + 1 - rows.len();
+    let table = table::aligned(&rows);
+    Ok(if silent > 0 {
+        format!("{table}  and {} of zeros in compare.csv\n", plural(silent as u64, "row"))
+    } else {
+        table
+    })
 }

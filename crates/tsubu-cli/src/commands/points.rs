@@ -58,7 +58,7 @@ pub fn run(
         let message = format!("interrupted; the finished {points} are in {}", folder.display());
         return Err(Failure::interrupted(message).hint(resume()));
     }
-    let again = format!("the others are kept; `{}` tries those again that failed", command_to_resume());
+    let again = format!("runs that are done are kept; `{}` tries those again that failed", command_to_resume());
     tell(&session, &summary, table, again)
 }
 

@@ -146,7 +146,6 @@ fn told(title: &str, summary: &Summary) -> String {
     if !title.is_empty() {
         let _ = writeln!(text, "{}", Stream::Data.bold_cyan(title));
     }
-    let plural = |n: u64, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
     let _ = writeln!(
         text,
         "  simulated  {} s in {} of {} s, {}, method {}",
@@ -183,6 +182,11 @@ fn told(title: &str, summary: &Summary) -> String {
     text + &warnings(&summary.warnings)
 }
 
+/// So many of something.
+pub fn plural(n: u64, word: &str) -> String {
+    format!("{n} {word}{}", if n == 1 { "" } else { "s" })
+}
+
 /// The results as a table: a mean stands beside its spread, its ends and the value at the end.
 fn results(summary: &Summary) -> String {
     let twin = |name: &str, what: &str| match summary.results.get(&format!("{name} {what}")) {
@@ -192,22 +196,20 @@ fn results(summary: &Summary) -> String {
     let is_twin = |name: &str| mean_beside(name).is_some_and(|mean| summary.results.get(mean).is_some());
     let mut rows =
         vec![["  result", "value or mean", "spread", "least", "largest", "at the end", ""].map(str::to_owned).to_vec()];
+    let mut lists = 0;
     for (name, value) in summary.results_in_order().into_iter().filter(|(name, _)| !is_twin(name)) {
-        let [name_cell, value, unit] = result(summary, name, value);
+        let ResultValue::Number(value) = value else {
+            lists += 1;
+            continue;
+        };
+        let (factor, unit) = for_people(summary.unit(name));
         let [spread, least, largest, last] = ["spread", "least", "largest", "final"].map(|what| twin(name, what));
-        rows.push(vec![name_cell, value, spread, least, largest, last, unit]);
+        let unit = unit.trim_matches('-').to_owned();
+        rows.push(vec![format!("  {name}"), table::number(value * factor), spread, least, largest, last, unit]);
     }
-    if rows.len() > 1 { table::aligned(&rows) } else { String::new() }
-}
-
-/// Name, value and unit of a result. A profile is for a figure, not for a line.
-fn result(summary: &Summary, name: &str, value: &ResultValue) -> [String; 3] {
-    let (factor, unit) = for_people(summary.unit(name));
-    let (value, unit) = match value {
-        ResultValue::Number(value) => (table::number(value * factor), unit.trim_matches('-').to_owned()),
-        ResultValue::List(values) => ("-".to_owned(), format!("{} values, in summary.json", values.len())),
-    };
-    [format!("  {name}"), value, unit]
+    let table = if rows.len() > 1 { table::aligned(&rows) } else { String::new() };
+    // A profile is for a figure, not for a line.
+    if lists > 0 { format!("{table}  and {} in summary.json\n", plural(lists, "list")) } else { table }
 }
 
 /// Warnings, a line each.

@@ -182,10 +182,14 @@ fn a_full_disk() {
     }
     let ended = desk.run("run balls.toml -q -o disk/run --set 'output.frame-interval=0.2 ms'");
     let files = desk.files();
+    let (summary, rows) = (desk.summary("disk/run"), desk.read("disk/run/history.csv").lines().count());
     let unmounted = Command::new("umount").arg(&disk).status().unwrap();
     assert_eq!(ended.code, Some(3), "{}", ended.stderr);
-    assert!(ended.stderr.starts_with("error: cannot write "), "{}", ended.stderr);
+    assert!(ended.stderr.starts_with("error: step ") && ended.stderr.contains(": cannot write "), "{}", ended.stderr);
     assert!(ended.stderr.contains("hint: the disk is full"), "{}", ended.stderr);
+    // What became of the run is told, with the rows up to there.
+    assert_eq!(summary["status"], "failed");
+    assert!(rows > 2, "{rows}");
     assert!(!ended.stderr.contains("panicked"), "{}", ended.stderr);
     assert!(files.iter().all(|file| !is(file, "tmp")), "half-written: {files:?}");
     assert!(unmounted.success());

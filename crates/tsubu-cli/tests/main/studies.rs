@@ -145,6 +145,21 @@ fn a_sweep_tells_results_as_the_scene_asks_for_them() {
     assert!(desk.read("out/balls-sweep/sweep.json").contains("wall_seconds"));
 }
 
+/// A case whose grains would not settle ended the sweep, with no table and no results of the others.
+#[test]
+fn a_case_that_does_not_settle_is_told_beside_the_others() {
+    let scene =
+        SCENE.replace("start.rows = { spacing = 1.1, jitter = 0.5, speed = 0.3 }", "start.settled = {}").replace(
+            "\"materials.acrylic.restitution\" = [0.5, 0.6, 0.7, 0.8]",
+            "\"particles.balls.start.settled.time\" = [\"10 ms\", \"2 s\"]",
+        );
+    let desk = Desk::with(&scene);
+    let ended = desk.run("sweep balls.toml -q --jobs 2");
+    assert_eq!(ended.code, Some(3), "{}", ended.stderr);
+    let table = desk.read("out/balls-sweep/sweep.csv");
+    assert!(table.contains("failed") && table.contains("finished"), "{table}");
+}
+
 /// One case that blew up ended the whole sweep: what the others gave was on the disk and in no table.
 #[test]
 fn a_case_that_fails_is_told_beside_the_others() {

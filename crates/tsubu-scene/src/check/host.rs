@@ -21,6 +21,7 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
         };
         interfaces(parts, name, host, complaints);
         dwell(parts, name, host, complaints);
+        idle_base(parts, name, host, complaints);
         match &host.structure {
             Structure::Oscillator { .. } | Structure::Pendulum { .. } => {}
             Structure::Shaker {} => shaker(parts, name, host, complaints),
@@ -107,6 +108,19 @@ fn atlas(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
             Complaint::new(format!("no wall hangs on the host `{name}`, so there is no cavity to shake"))
                 .at(&place, "asked for here")
                 .hint(format!("add `host = \"{name}\"` to the walls of the cavity")),
+        );
+    }
+}
+
+/// A base that takes part in no mode moves nothing: a table of modes without that column says so of all.
+fn idle_base(parts: &Parts<'_>, name: &str, host: &Host, complaints: &mut Vec<Complaint>) {
+    let Structure::Modes { mode } = &host.structure else { return };
+    if host.base.is_some() && !mode.is_empty() && mode.iter().all(|mode| mode.participation == 0.0) {
+        complaints.push(
+            Complaint::new(format!("the base of the host `{name}` moves nothing"))
+                .at(&parts.root.locate(&["hosts", name, "base"]), "every `participation` is 0")
+                .also(&parts.root.locate(&["hosts", name, "structure"]), "the structure")
+                .hint("`participation` says how the base drives each mode; a table of modes has a column of that name"),
         );
     }
 }

@@ -27,6 +27,16 @@ enum Column {
     Shape(String, usize, f64),
 }
 
+impl Column {
+    /// Whether both say the same, in whatever units.
+    fn is_again(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Shape(name, axis, _), Self::Shape(other, again, _)) => (name, axis) == (other, again),
+            _ => std::mem::discriminant(self) == std::mem::discriminant(other),
+        }
+    }
+}
+
 const AXES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// Units of vectors that are normalised to a modal mass of one.
@@ -52,6 +62,16 @@ pub(super) fn read(text: &str, source: usize) -> Result<Found, Vec<Complaint>> {
         header::cells(&head, separator).into_iter().map(|cell| column(cell, source)).collect();
     let mut complaints: Vec<Complaint> = columns.iter().filter_map(|column| column.clone().err()).collect();
     let columns: Vec<Column> = columns.into_iter().filter_map(Result::ok).collect();
+    if complaints.is_empty()
+        && let Some(again) =
+            (1..columns.len()).find(|k| columns[..*k].iter().any(|before| before.is_again(&columns[*k])))
+    {
+        let cell = &header::cells(&head, separator)[again];
+        complaints.push(
+            Complaint::new(format!("the table of modes has the column `{}` twice", cell.text.trim()))
+                .at(&cell.place(source), "again"),
+        );
+    }
     for (there, name) in [
         (columns.iter().any(|c| matches!(c, Column::Frequency(_))), "frequency"),
         (columns.iter().any(|c| matches!(c, Column::DampingRatio(_))), "damping ratio"),

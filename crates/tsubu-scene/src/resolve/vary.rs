@@ -23,13 +23,19 @@ impl Resolver<'_> {
                             varied.insert(entry.key.clone(), values.into());
                             continue;
                         }
-                        wrong => Complaint::new(format!("no values for `{}`", entry.key))
+                        wrong => Complaint::new(format!("`{}` cannot be varied so", entry.key))
                             .at(&entry.node.place, wrong.and_then(Result::err).unwrap_or_default())
                             .hint(RANGE),
                     }
                 }
                 Value::List(items) if !items.is_empty() => {
                     if let Some(list) = plain() {
+                        if let Some(value) = twice(&list) {
+                            self.complain(
+                                Complaint::new(format!("`{}` is varied with {value} twice", entry.key))
+                                    .at(&entry.node.place, "each value is a case of its own"),
+                            );
+                        }
                         varied.insert(entry.key.clone(), list);
                         continue;
                     }
@@ -50,4 +56,13 @@ impl Resolver<'_> {
         }
         Some(varied.into())
     }
+}
+
+/// A value that is in a list twice.
+fn twice(list: &toml::Value) -> Option<&toml::Value> {
+    let list = list.as_array()?;
+    (1..list.len())
+        .map(|k| (&list[k], &list[..k]))
+        .find(|(value, before)| before.contains(value))
+        .map(|(value, _)| value)
 }

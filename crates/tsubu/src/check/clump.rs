@@ -1,6 +1,7 @@
 //! The verdict on clumps in place of meshes, and on bodies in place of cells: how well they stand for them.
 
 use super::Verdict;
+use crate::engine::digits;
 use tsubu_scene::plan::{GrainShape, Plan};
 
 /// Volume that the spheres lack over that of the mesh, above which the clump is rather another body.
@@ -31,7 +32,7 @@ pub(super) fn packings(verdict: &mut Verdict, plan: &Plan) {
         );
         verdict.say(format!(
             "grains `{name}`: mass and moments of inertia are those of the mesh; as it is drawn its diameter is {} of its units",
-            short(2.0 * packing.reach)
+            digits(2.0 * packing.reach)
         ));
     }
 }
@@ -53,8 +54,4 @@ pub(super) fn cells(verdict: &mut Verdict, plan: &Plan) {
 
 fn percent(part: f64) -> String {
     format!("{:+.1} %", 100.0 * part)
-}
-
-fn short(x: f64) -> f64 {
-    format!("{x:.4e}").parse().unwrap_or(x)
 }

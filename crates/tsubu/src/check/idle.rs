@@ -1,5 +1,5 @@
-//! The verdict on what a scene asks for and will not get: parts of the contact law that do nothing, walls that would vanish
-//! after the end.
+//! The verdict on what a scene asks for and will not get: parts of the contact law that do nothing, walls that would vanish and files that
+//! would be written after the end, hosts that carry nothing.
 
 use super::{Bodies, Verdict};
 use crate::contact::Table;
@@ -9,6 +9,12 @@ use tsubu_scene::plan::{Plan, Rolling, Strength, Twisting};
 pub(super) fn parts(verdict: &mut Verdict, plan: &Plan, table: &Table, bodies: &Bodies) {
     // For each part: where the coefficient is, and the largest coefficient of the pairs whose law has it.
     let mut found: [Option<(&str, &str, f64)>; 3] = [None; 3];
+    let mut told = [
+        ("rolling", "rolling-friction", 0.0_f64),
+        ("twisting", "twisting-friction", 0.0),
+        ("cohesion", "surface-energy", 0.0),
+        ("cohesion", "cohesion", 0.0),
+    ];
     for (a, b) in bodies.pairs() {
         let law = plan.contact_of(table.name(a.material), table.name(b.material));
         let constants = table.pair(a.body(), b.body()).constants;
@@ -19,10 +25,21 @@ pub(super) fn parts(verdict: &mut Verdict, plan: &Plan, table: &Table, bodies: &
             Strength::SurfaceEnergy => ("cohesion", "surface-energy", constants.surface_energy),
             Strength::Force | Strength::EnergyDensity => ("cohesion", "cohesion", constants.cohesion),
         });
+        let all = [constants.rolling, constants.twisting, constants.surface_energy, constants.cohesion];
+        told.iter_mut().zip(all).for_each(|((.., most), one)| *most = most.max(one));
         for (found, part) in found.iter_mut().zip([rolling, twisting, cohesion]) {
             if let Some(part) = part.filter(|part| found.is_none_or(|found| found.2 < part.2)) {
                 *found = Some(part);
             }
+        }
+    }
+    for (part, key, _) in told.into_iter().filter(|(.., most)| *most > 0.0) {
+        if !found.iter().flatten().any(|(known, ..)| *known == part) {
+            verdict.judge(
+                false,
+                format!("`{key}` of materials does nothing: no pair that can touch has a `contact.{part}`"),
+                || format!("`contact.{part}`, or leave `{key}` out"),
+            );
         }
     }
     for (part, key, largest) in found.into_iter().flatten() {
@@ -54,6 +71,38 @@ pub(super) fn gates(verdict: &mut Verdict, plan: &Plan) {
                 false,
                 format!("wall `{name}` never vanishes: `until` is {until} s, the run ends at {end} s"),
                 || format!("`duration`, or `walls.{name}.until`"),
+            );
+        }
+    }
+}
+
+/// Judges how often files are written, and whether hosts carry walls.
+pub(super) fn outputs(verdict: &mut Verdict, plan: &Plan) {
+    let end = plan.duration;
+    let intervals =
+        [("history-interval", Some(plan.output.history_interval)), ("frame-interval", plan.output.frame_interval)];
+    for (key, interval) in intervals.into_iter().filter_map(|(key, interval)| Some((key, interval?))) {
+        // A stage may be shorter than what all of them are looked at by.
+        if interval > end && plan.stage.len() <= 1 {
+            verdict.judge(
+                false,
+                format!("`output.{key}` is {interval} s, the run ends at {end} s: it writes its begin alone"),
+                || format!("`output.{key}`"),
+            );
+        }
+    }
+    let formats = [("xyz", plan.output.xyz), ("lammps", plan.output.lammps)];
+    for (key, _) in formats.into_iter().filter(|(_, wanted)| *wanted && plan.output.frame_interval.is_none()) {
+        verdict.judge(false, format!("`output.{key}` writes nothing: there are no frames"), || {
+            "`output.frame-interval`".to_owned()
+        });
+    }
+    for name in plan.hosts.keys() {
+        if !plan.walls.values().any(|wall| wall.host.as_ref() == Some(name)) {
+            verdict.judge(
+                false,
+                format!("no wall hangs on the host `{name}`: it moves, and no grain feels it"),
+                || format!("`host = \"{name}\"` in a table of walls"),
             );
         }
     }

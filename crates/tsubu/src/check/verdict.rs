@@ -120,6 +120,7 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         );
     }
     structures(&mut verdict, plan, hosts);
+    idle::outputs(&mut verdict, plan);
     for note in engine.notes() {
         let (why, advice) = note.text.split_once("; ").unwrap_or((&note.text, ""));
         match note.verdict {
@@ -192,6 +193,14 @@ fn dem(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64, speed: f64) {
                 )
             },
         );
+        if a.radius < a.size {
+            let (share, limit) = (pair.largest_overlap(speed) / (2.0 * a.radius), plan.dem.largest_overlap);
+            verdict.judge(
+                share <= limit,
+                format!("{label}: largest overlap / twice the radius of rounded edges = {share:.2e} (the run stops at {limit})"),
+                || "`dem.largest-overlap`, or round the edges more".to_owned(),
+            );
+        }
         let depth = rest::overlap(plan, &pair, a);
         let pressed = pair.speed_of(depth);
         if pressed > speed {

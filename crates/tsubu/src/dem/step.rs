@@ -307,12 +307,18 @@ impl DemEngine {
         let driven =
             |wall: &Wall| matches!(wall.mover, Mover::Motion(..) | Mover::Steered(_)) || wall.turning.is_some();
         let second = contact.second;
+        let rounded = |i: usize| self.integration.bodies.rounding(i).is_some();
         Err(Fault::Overlap {
             step: self.clock.step,
             time: self.clock.time(),
             grain: self.grains.id[contact.first] as usize,
             other: self.named(&contact),
             ratio,
+            of: if rounded(contact.first) || !contact.wall && rounded(second) {
+                "twice the radius of its rounded edges"
+            } else {
+                "its diameter"
+            },
             limit,
             crushed: held(contact.first) || if contact.wall { driven(&self.walls[second]) } else { held(second) },
         })

@@ -1,6 +1,6 @@
 //! Why a run has no result.
 
-use crate::engine::{Fault, OpenError};
+use crate::engine::{Fault, OpenError, digits};
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Advise, CheckpointError, FileError, Hint};
 
@@ -13,6 +13,16 @@ pub enum RunError {
     /// A file or folder.
     #[error(transparent)]
     File(#[from] FileError),
+    /// A file that could not be written on the way; what was computed so far is in the folder, as far as there was room.
+    #[error("step {step}, t = {} s: {error}", digits(*time))]
+    Stopped {
+        /// Step number.
+        step: u64,
+        /// Simulated time [s].
+        time: f64,
+        /// The file.
+        error: FileError,
+    },
     /// A checkpoint that cannot be gone on from.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
@@ -42,7 +52,7 @@ impl Advise for RunError {
     fn hints(&self) -> Vec<Hint> {
         match self {
             Self::Open(error) => error.hints(),
-            Self::File(error) => error.hints(),
+            Self::File(error) | Self::Stopped { error, .. } => error.hints(),
             Self::Checkpoint(_) | Self::Elsewhere(_) => Vec::new(),
             Self::NoStep { .. } => vec!["raise `duration`, or shorten the time step".into()],
             Self::NotThisScene(_) => vec!["run without `--resume` into another folder, or with `--overwrite`".into()],

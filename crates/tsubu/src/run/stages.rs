@@ -3,7 +3,7 @@
 use super::steady::Steady;
 use super::{Run, RunError, steps};
 use crate::check;
-use crate::engine::{self, Engine};
+use crate::engine::{self, Engine, Note, Refusal, Verdict};
 use crate::ledger::Account;
 use crate::partner::Hosts;
 use crate::watch::Watches;
@@ -13,8 +13,8 @@ use tsubu_frame::csv::split_unit;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::summary::StageSpan;
 use tsubu_frame::{RunFolder, State, Summary};
-use tsubu_scene::Plan;
 use tsubu_scene::plan::Until;
+use tsubu_scene::{Plan, nearest};
 
 /// The stages of a run and what has become of those that are over.
 pub(super) struct Stages<'a> {
@@ -119,15 +119,26 @@ pub(super) fn stage_of(state: &State, plans: &[Plan]) -> Result<usize, MissingSe
 }
 
 impl Run<'_> {
-    /// Columns of the history: those of the first stage, then what others watch beside that.
-    pub(super) fn columns(&self) -> Vec<String> {
+    /// Columns of the history: those of the first stage, then what others watch beside that. A stage that ends by another one is refused.
+    pub(super) fn columns(&self) -> Result<Vec<String>, RunError> {
         let mut columns = self.header();
         for plan in self.stages.plans {
             let more = Watches::new(plan, &*self.engine).header();
             let more: Vec<String> = more.into_iter().filter(|column| !columns.contains(column)).collect();
             columns.extend(more);
         }
-        columns
+        let names = || columns.iter().map(|column| split_unit(column).0);
+        for (index, stage) in self.plan.stage.iter().enumerate() {
+            let Some(name) = stage.until.as_ref().and_then(|until| until.result.as_ref()) else { continue };
+            if !names().any(|known| known == name) {
+                let near = nearest(name, names()).map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                let text = format!("the history has no column `{name}`{near}");
+                let key = format!("stage.{index}.until.result");
+                let notes = vec![Note { key, verdict: Verdict::Refused, text }];
+                return Err(RunError::Open(Refusal { method: self.plan.method.name(), notes }.into()));
+            }
+        }
+        Ok(columns)
     }
 
     /// A row of this stage in the columns of the history.

@@ -1,9 +1,10 @@
 //! What a run tells of itself in `summary.json`.
 
-use super::{Run, judge};
+use super::Run;
 use crate::engine;
 use crate::ledger::Account;
-use tsubu_frame::{RanksSummary, Status, Summary};
+use tsubu_frame::{Claim, RanksSummary, ResultValue, Source, Status, Summary};
+use tsubu_scene::{Plan, nearest};
 
 impl Run<'_> {
     pub(super) fn summary(&self, status: Status) -> Summary {
@@ -77,6 +78,23 @@ impl Run<'_> {
             self.measured.tell(self.seen(&energies), &mut seen);
         }
         summary.take(self.stages.name(), seen);
+    }
+}
+
+/// Holds the scene's own claims against the results.
+pub(crate) fn judge(plan: &Plan, summary: &mut Summary) {
+    for (index, claim) in plan.claim.iter().enumerate() {
+        let value = match summary.results.get(&claim.result) {
+            Some(ResultValue::Number(value)) => *value,
+            Some(_) => f64::NAN,
+            None => {
+                let near = nearest(&claim.result, summary.results.iter().map(|(name, _)| name));
+                let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                summary.warnings.push(format!("claim.{index}: the run has no result `{}`{near}", claim.result));
+                f64::NAN
+            }
+        };
+        summary.claims.push(Claim::judge(&claim.result, value, claim.low, claim.high, Source::scene(&claim.source)));
     }
 }
 

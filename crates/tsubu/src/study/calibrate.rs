@@ -26,7 +26,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 use tsubu_frame::{Existing, FileError, ResultValue, RunFolder, Status, Summary};
-use tsubu_scene::{Scene, plan};
+use tsubu_scene::{Scene, nearest, plan};
 
 /// What a calibration writes beside its scene.
 const FILES: [&str; 9] = [
@@ -274,8 +274,12 @@ impl Work<'_> {
         };
         let numbers =
             whole.summary.results_in_order().into_iter().filter(|(_, value)| matches!(value, ResultValue::Number(_)));
-        let names: Vec<String> = numbers.map(|(name, _)| format!("`{name}`")).collect();
-        format!("{number} of the first {runs} runs have a result `{result}`; results of a run are {}", names.join(", "))
+        let names: Vec<&str> = numbers.map(|(name, _)| name).collect();
+        let told = match nearest(result, names.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("results of a run are `{}`", names.join("`, `")),
+        };
+        format!("{number} of the first {runs} runs have a result `{result}`; {told}")
     }
 }
 

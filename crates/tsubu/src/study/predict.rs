@@ -9,7 +9,7 @@ pub use balance::{Balance, Lossy, Motion};
 use super::atlas::Cavity;
 use super::cases::{Case, CasesError, case_plans, cases};
 use super::journal;
-use super::response::{Point, measure, peak, tasks};
+use super::response::{Point, measure, peak, refine, tasks};
 use crate::engine::OpenError;
 use crate::interrupt::Watcher;
 use crate::partner::Hosts;
@@ -23,8 +23,11 @@ use tsubu_scene::{Plan, Scene, plan};
 
 /// What a prediction writes beside what every study writes.
 const FILES: [&str; 2] = ["prediction.csv", "cases.csv"];
-/// Frequencies of a curve.
+/// Frequencies of a curve; beside its peak, and where it bends, there are more.
 const FREQUENCIES: usize = 601;
+
+/// How much nearer to each other these are.
+const NEARER: f64 = 16.0;
 
 /// Predicts the response of a scene's host into `folder`, from cavities of atlases, and simulates so many frequencies of each case: the
 /// peak, then its flanks.
@@ -97,9 +100,17 @@ pub struct Curve {
 impl Curve {
     /// Where the largest stable motion is largest: frequency over the natural frequency, root mean square [m].
     pub fn peak(&self) -> Option<(f64, f64)> {
-        let rms = |motion: Motion| motion.amplitude / std::f64::consts::SQRT_2;
-        let curve: Vec<(f64, f64)> =
-            self.rows.iter().filter_map(|row| Some((row.ratio, rms(row.largest()?)))).collect();
+        self.top(|row| row.largest().map(|motion| motion.amplitude))
+    }
+
+    /// The same of the lower or the higher end of what the atlas tells.
+    fn peak_of_end(&self, end: usize) -> Option<(f64, f64)> {
+        self.top(|row| Some(row.within[end]).filter(|amplitude| amplitude.is_finite()))
+    }
+
+    fn top(&self, amplitude: impl Fn(&Row) -> Option<f64>) -> Option<(f64, f64)> {
+        let rms = |row: &Row| Some((row.ratio, amplitude(row)? / std::f64::consts::SQRT_2));
+        let curve: Vec<(f64, f64)> = self.rows.iter().filter_map(rms).collect();
         peak(&curve).map(|top| (top.ratio, top.rms))
     }
 
@@ -175,8 +186,22 @@ impl<'a> Task<'a> {
         let [from, to] = [ratios.first(), ratios.last()].map(|ratio| ratio.copied().unwrap_or(1.0));
         let row = |index: usize| self.row(case, from + (to - from) * index as f64 / (FREQUENCIES - 1) as f64);
         let number = if to > from { FREQUENCIES } else { 1 };
-        let known = self.cavities[case].map(|cavity| cavity.acceleration);
-        Curve { rows: (0..number).into_par_iter().map(row).collect(), known }
+        let known_range = self.cavities[case].map(|cavity| cavity.acceleration);
+        let mut rows: Vec<Row> = (0..number).into_par_iter().map(row).collect();
+        // Peaks that are narrower than the frequencies are apart, and jumps.
+        let within = (to - from) / (NEARER * (FREQUENCIES - 1) as f64);
+        loop {
+            let height = |row: &Row| Some((row.ratio, row.largest()?.amplitude));
+            let curve: Vec<(f64, f64)> = rows.iter().filter_map(height).collect();
+            let more = refine::next(&curve, within);
+            let known = rows.len();
+            rows.par_extend(more.into_par_iter().map(|ratio| self.row(case, ratio)));
+            rows.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
+            rows.dedup_by(|a, b| a.ratio == b.ratio);
+            if rows.len() == known {
+                return Curve { rows, known: known_range };
+            }
+        }
     }
 
     fn row(&self, case: usize, ratio: f64) -> Row {

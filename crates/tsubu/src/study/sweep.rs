@@ -9,6 +9,7 @@ pub use table::Outcome;
 
 use super::apart::{Apart, unlocked};
 use super::cases::{Case, CasesError, cases};
+use crate::engine::OpenError;
 use crate::interrupt::Watcher;
 use crate::methods;
 use crate::partner::Hosts;
@@ -198,7 +199,9 @@ pub(super) fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) 
     match run::run_with(&scene, folder, existing, false, &quiet) {
         Ok(summary) => Ok(summary),
         // One case that goes wrong leaves the others their results.
-        Err(RunError::Fault(fault)) => Ok(failed(&scene, folder, &fault.told())?),
+        Err(RunError::Fault(fault) | RunError::Open(OpenError::Settling(fault))) => {
+            Ok(failed(&scene, folder, &fault.told())?)
+        }
         Err(error) => Err(CasesError::Run { case: case.name.clone(), error }),
     }
 }

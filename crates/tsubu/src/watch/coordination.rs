@@ -18,7 +18,8 @@ left. With fewest = 2 this is near the mechanical coordination number of Thornto
 grains with 0 and 1 contacts out once. Isostatic without friction are 2 D, with infinite friction D + 1.
 Grains in a region count all their contacts, also those with grains outside.",
     symbols: "",
-    limits: "A grain that touches a wall in two places, or a box in a corner, has two contacts with it.",
+    limits: "Polyhedra that touch at several corners and edges have one contact, whatever the columns of the history count. A grain that touches a \
+wall from two sides, or a box in a corner, has two contacts with it.",
     reference: "Thornton 2000, Geotechnique 50, 43",
 };
 
@@ -40,7 +41,7 @@ impl Coordination {
     fn stripped(&self, view: &View) -> Vec<Option<u32>> {
         let mut count = view.touching(self.walls);
         let mut near: Vec<Vec<u32>> = vec![Vec::new(); view.len()];
-        for c in view.contacts.iter().filter(|c| !c.wall) {
+        for c in view.pairs().filter(|c| !c.wall) {
             near[c.first].push(c.second as u32);
             near[c.second].push(c.first as u32);
         }
@@ -83,7 +84,7 @@ impl Watch for Coordination {
         let backbone = own().filter_map(|i| stripped[i]).map(f64::from);
         let rattlers = mean(own().map(|i| if stripped[i].is_none() { 1.0 } else { 0.0 }));
         let counted =
-            view.contacts.iter().filter(|c| (self.walls || !c.wall) && (seen[c.first] || (!c.wall && seen[c.second])));
+            view.pairs().filter(|c| (self.walls || !c.wall) && (seen[c.first] || (!c.wall && seen[c.second])));
         let scalars = vec![mean(own().map(|i| f64::from(all[i]))), mean(backbone), rattlers, counted.count() as f64];
         Sample { scalars, rows: Vec::new() }
     }

@@ -2,6 +2,7 @@
 
 use super::{Ball, ball, column, near, on_wall, once, scalar, touching, view, watch};
 use glam::DVec3;
+use tsubu::view::Contact;
 
 type PeriodicBounds = [Option<[f64; 2]>; 3];
 
@@ -19,6 +20,30 @@ fn triangular() -> (Vec<Ball>, PeriodicBounds) {
         ball(i as f64 + 0.5 * (j % 2) as f64, 0.0, row * j as f64, 0.5)
     };
     ((0..16).map(at).collect(), [Some([0.0, 4.0]), None, Some([0.0, 4.0 * row])])
+}
+
+/// A cube on another one that lies in the corner of a box: each pair of bodies is a contact however many corners touch, each side of the
+/// box too. To count points would be seven contacts of the lower one.
+#[test]
+fn bodies_are_counted_and_not_their_corners() {
+    let balls = [ball(0.0, 0.0, 0.5, 0.5), ball(0.0, 0.0, 1.5, 0.5)];
+    let point = |second: usize, wall: bool, normal: DVec3| Contact {
+        first: 0,
+        second,
+        wall,
+        position: DVec3::ZERO,
+        branch: normal,
+        force: -normal,
+        normal,
+        overlap: 0.0,
+    };
+    let up = [point(1, false, DVec3::Z); 3];
+    let floor = [point(0, true, DVec3::NEG_Z); 3];
+    let contacts = [up.as_slice(), &floor, &[point(0, true, DVec3::X)]].concat();
+    let mut coordination = watch(3, "coordination.fewest = 1");
+    let sample = once(&mut *coordination, &view(&balls, contacts, [None; 3]));
+    assert_eq!(scalar(&*coordination, &sample, "mean"), 2.0);
+    assert_eq!(scalar(&*coordination, &sample, "contacts"), 3.0);
 }
 
 #[test]

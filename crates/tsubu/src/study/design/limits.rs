@@ -91,6 +91,20 @@ impl Limits {
         (0..self.list.len()).filter(over).collect()
     }
 
+    /// The limits that a plan is beyond, in words; none where what it needs is not known.
+    pub fn beyond(plan: &Plan, wanted: &Design) -> Vec<String> {
+        let limits = Self::new(wanted);
+        let needs = limits.needs("", plan, wanted);
+        let broken = needs.map(|needs| limits.broken(&needs)).unwrap_or_default();
+        broken.into_iter().map(|index| limits.named(index, limits.list[index].most)).collect()
+    }
+
+    /// A limit as a scene says it, with this value.
+    fn named(&self, index: usize, value: f64) -> String {
+        let limit = &self.list[index];
+        format!("`design.{}` = {} {}", limit.key, value, limit.unit).trim_end().to_owned()
+    }
+
     /// How many combinations each limit leaves out, in their order.
     pub fn left_out(&self) -> Vec<usize> {
         let by = |index| self.beyond.iter().filter(|needs| self.broken(needs).contains(&index)).count();
@@ -100,13 +114,9 @@ impl Limits {
     /// Which of the limits leaves out how many, and what would let one in: the limit that alone has to grow by the smallest factor, or, where
     /// none alone is enough, those of the combination whose largest factor is smallest.
     pub fn told(&self) -> String {
-        let named = |index: usize, value: f64| {
-            let limit = &self.list[index];
-            format!("`design.{}` = {} {}", limit.key, value, limit.unit).trim_end().to_owned()
-        };
         let counts = self.left_out().into_iter().enumerate().filter(|(_, number)| *number > 0);
         let counts: Vec<String> = counts
-            .map(|(index, number)| format!("{} leaves out {number}", named(index, self.list[index].most)))
+            .map(|(index, number)| format!("{} leaves out {number}", self.named(index, self.list[index].most)))
             .collect();
         let factor = |needs: &Needs| {
             let factors = self.broken(needs).into_iter().map(|index| needs.values[index] / self.list[index].most);
@@ -118,7 +128,7 @@ impl Limits {
         };
         let Some(found) = nearest(true).or_else(|| nearest(false)) else { return counts.join(", ") };
         let wanted: Vec<String> =
-            self.broken(found).into_iter().map(|index| named(index, enough(found.values[index]))).collect();
+            self.broken(found).into_iter().map(|index| self.named(index, enough(found.values[index]))).collect();
         let enough = if wanted.len() == 1 { "would be enough" } else { "together would be enough, and none alone" };
         format!("{}; {} {enough}, for `{}`", counts.join(", "), wanted.join(" and "), found.name)
     }

@@ -88,6 +88,10 @@ fn doubts(work: &Work<'_>, found: Option<&Found>, status: Status, summary: &mut 
         let first = candidates.first_wrong.as_deref().unwrap_or_default();
         say(format!("{} combinations cannot be and are left out; the first: {first}", candidates.wrong));
     }
+    let beyond = limits::Limits::beyond(task.plan(task.as_written()), wanted);
+    if !beyond.is_empty() && work.standing(task.as_written()).is_some() {
+        say(format!("the scene as it is written is beyond {}: it is told for comparison alone", beyond.join(" and ")));
+    }
     for (index, error) in &work.failures {
         say(format!("candidate `{}` is out, for a run of it failed: {error}", task.name(*index)));
     }

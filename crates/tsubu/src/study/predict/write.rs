@@ -74,9 +74,7 @@ pub(super) fn write(
             }
         }
         let Some((ratio, rms)) = curve.peak() else { continue };
-        let top = |end: usize| {
-            curve.rows.iter().map(|row| row.within[end] / SQRT_2).filter(|x| x.is_finite()).fold(0.0, f64::max)
-        };
+        let top = |end: usize| curve.peak_of_end(end).map_or(f64::NAN, |(_, rms)| rms);
         let own: Vec<&Check> = checks.done.iter().filter(|check| check.case == case).collect();
         let error = |check: &Check| check.predicted / check.point.rms - 1.0;
         let simulated = own.first().map_or(f64::NAN, |check| check.point.rms);

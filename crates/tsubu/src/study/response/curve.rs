@@ -52,6 +52,25 @@ pub struct Peak {
     pub half_power_damping: f64,
 }
 
+/// Why the top of a curve of such heights may not be the top: it is at an end, or its neighbours are far below.
+pub fn doubt(heights: &[f64]) -> Option<&'static str> {
+    let top = (0..heights.len()).max_by(|a, b| heights[*a].total_cmp(&heights[*b]))?;
+    let lower = |neighbour: usize| heights[neighbour] < 0.7 * heights[top];
+    if heights.len() == 1 {
+        None
+    } else if top == 0 || top + 1 == heights.len() {
+        Some(
+            "the highest motion is at an end of the frequencies, so the peak may lie beyond: widen `response.frequency-ratio`",
+        )
+    } else if lower(top - 1) || lower(top + 1) {
+        Some(
+            "the peak is narrower than the frequencies beside it are apart, and may be higher between them: a smaller `response.peak-within`, or a smaller step",
+        )
+    } else {
+        None
+    }
+}
+
 /// Frequencies at which two steady motions were found, by coming from below and from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hysteresis {
@@ -222,7 +241,14 @@ pub fn peak(curve: &[(f64, f64)]) -> Option<Peak> {
 
 #[cfg(test)]
 mod tests {
-    use super::{peak, peak_interval};
+    use super::{doubt, peak, peak_interval};
+
+    #[test]
+    fn a_top_that_may_be_none_is_told() {
+        assert_eq!((doubt(&[1.0]), doubt(&[0.8, 1.0, 0.9])), (None, None));
+        assert!(doubt(&[0.8, 0.9, 1.0]).is_some_and(|text| text.contains("at an end")));
+        assert!(doubt(&[0.8, 1.0, 0.6]).is_some_and(|text| text.contains("narrower")));
+    }
 
     /// Three seeds with tops of 1, 2 and 3: Student's interval of their mean, 4.303/sqrt(3) to both sides; one seed has none.
     #[test]

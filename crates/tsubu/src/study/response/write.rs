@@ -1,6 +1,6 @@
 //! The files of a response.
 
-use super::curve::CaseResult;
+use super::curve::{CaseResult, doubt};
 use crate::ledger::Account;
 use crate::study::summary::{begun, judge};
 use std::collections::BTreeSet;
@@ -143,6 +143,10 @@ pub(super) fn write(
         }
         summary.energy.residual_relative = summary.energy.residual_relative.max(case.residual);
         summary.particles = summary.particles.max(case.particles as u64);
+        let heights: Vec<f64> = case.rows.iter().map(|row| row.rms[0]).collect();
+        if let Some(doubt) = doubt(&heights).filter(|_| status == Status::Finished) {
+            summary.warnings.push(format!("case `{name}`: {doubt}"));
+        }
         let drift = case.rows.iter().map(|r| r.drift).fold(0.0, f64::max);
         if drift > 0.1 && status == Status::Finished {
             summary.warnings.push(format!(
