@@ -176,7 +176,7 @@ impl<'a> Sweep<'a> {
     fn curves(&self, along: &str, x: &[f64], column: usize) -> (Vec<(String, Vec<Point>)>, bool) {
         let mut curves: Vec<(String, Vec<Point>)> = Vec::new();
         let status = self.table.texts("status").unwrap_or_default();
-        for (row, &x) in x.iter().enumerate().filter(|(row, _)| status.get(*row).is_some_and(|s| s == "finished")) {
+        for (row, &x) in x.iter().enumerate().filter(|(row, _)| status.get(*row).is_none_or(|s| s != "failed")) {
             let others = self.keys.iter().filter(|(key, _)| *key != along && *key != "seed");
             let curve: Vec<String> = others.map(|(key, values)| format!("{key} = {}", values[row])).collect();
             let curve = curve.join(", ");

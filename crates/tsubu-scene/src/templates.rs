@@ -64,6 +64,11 @@ pub static TEMPLATES: &[Template] = &[
         text: include_str!("../../../scenes/agglomerate.toml"),
     },
     Template {
+        name: "masonry",
+        about: "in the plane: a ball flies against a wall of bricks, which are polygons that bonds hold together",
+        text: include_str!("../../../scenes/masonry.toml"),
+    },
+    Template {
         name: "fibre",
         about: "a fibre of bonded grains bends under its weight by 64 degrees, as the heavy elastica does",
         text: include_str!("../../../scenes/fibre.toml"),

@@ -7,6 +7,7 @@
 
 pub mod at_wall;
 mod crossing;
+mod cut;
 pub mod near;
 mod nearest;
 pub mod touch;

@@ -6,6 +6,7 @@ use crate::ranks::Reader;
 use crate::water::Water;
 use glam::DVec3;
 use std::borrow::Cow;
+use std::fmt::Debug;
 
 /// How much of the contacts somebody wants to see.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -69,6 +70,15 @@ impl Wants {
     }
 }
 
+/// How far grains that are no spheres reach.
+pub trait Shapes: Debug + Sync {
+    /// How far a grain reaches along an axis, from its position to its low and its high end [m]; `None`: as far as its radius, either way.
+    fn ends(&self, grain: usize, axis: usize) -> Option<[f64; 2]>;
+
+    /// Share of its volume, in the plane of its area, that lies below a `height` along the axis, from its position [m].
+    fn below(&self, grain: usize, axis: usize, height: f64) -> f64;
+}
+
 /// One moment, to be read.
 #[derive(Clone, Debug, Default)]
 pub struct View<'a> {
@@ -91,6 +101,8 @@ pub struct View<'a> {
     pub bodies: Vec<Body>,
     /// For each grain the place among these of the body that it is a piece of; empty where there are none.
     pub body_of: Vec<Option<u32>>,
+    /// How far those reach that are no spheres, if there are some.
+    pub shapes: Option<&'a dyn Shapes>,
     /// The water that the grains are in.
     pub water: Option<&'a Water>,
     /// The hosts, in the order of their names; engines show none, whoever lets watches look adds them.

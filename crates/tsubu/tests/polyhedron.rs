@@ -335,3 +335,31 @@ fn a_superellipsoid_overlaps_by_the_least() {
     }
     assert!(found > 100 && naive > found / 2 && apart_yet_near > 100, "{found} {naive} {apart_yet_near}");
 }
+
+/// A tetrahedron is cut exactly: from its tip down the share grows as the cube of the way. As of the sphere that holds it the same would be off by far.
+#[test]
+fn a_plane_cuts_a_tetrahedron_as_it_should() {
+    let shapes = [body(&TETRAHEDRON, 1e-9), body(&CUBE, 0.1)];
+    let mut draw = Draw(5);
+    for _ in 0..50 {
+        let turned = draw.turned();
+        let tetrahedron = body_turned(0, &shapes, turned);
+        let tip = DVec3::from_array(TETRAHEDRON[0]).normalize();
+        let n = turned * tip;
+        // From the centre 1/2 up to the tip and 1/6 down to the face.
+        let [low, high] = tetrahedron.at(&shapes).ends(n);
+        assert!((low + 1.0 / 6.0).abs() < 1e-8 && (high - 0.5).abs() < 1e-8, "{low} {high}");
+        for k in 1..10 {
+            let way = f64::from(k) / 10.0;
+            let above = 1.0 - tetrahedron.at(&shapes).below(n, 0.5 - way * 2.0 / 3.0);
+            assert!((above - way.powi(3)).abs() < 1e-7, "{above} {way}");
+            assert!((above - way * way * (3.0 - 2.0 * way)).abs() > 1e-2);
+        }
+        // Any cut of a cube leaves two halves that are alike.
+        let cube = body_turned(1, &shapes, turned);
+        let (along, height) = (draw.vector().normalize(), 0.5 * draw.next());
+        let cut = |height: f64| cube.at(&shapes).below(along, height);
+        assert!((cut(height) + cut(-height) - 1.0).abs() < 1e-12);
+        assert!((cut(0.0) - 0.5).abs() < 1e-12 && cut(0.51) == 1.0 && cut(-0.51) == 0.0);
+    }
+}

@@ -161,7 +161,7 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
         Measure::Orientation(_) if parts.particles.values().all(|group| !group.shape.is_clump()) => complaints.push(
             Complaint::new(format!("the watch `{name}` has no body to look at"))
                 .at(&parts.root.locate(&["watch", name, kind]), "spheres have no axis")
-                .hint("write shape.clump or shape.superellipsoid for some particles"),
+                .hint("write shape.clump, shape.superellipsoid, shape.polyhedron or shape.polygon for some particles"),
         ),
         Measure::Discharge(Discharge { sizes, .. }) => complaints.extend(classes(sizes.as_deref(), &at("sizes"))),
         Measure::Mixing(Mixing { groups: Some(groups), .. }) if groups.len() < 2 => complaints.push(

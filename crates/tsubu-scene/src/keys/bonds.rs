@@ -13,11 +13,15 @@ pub(super) static BOND: &[Key] = &[
     Key::new("at", Kind::Quantity(&TIME), "When they are made; at 0 after grains have settled")
         .default("0")
         .at_least(0.0),
-    Key::new("gap", Kind::Quantity(&NUMBER), "Widest gap that is bonded, over the radius of the smaller grain")
-        .default("0.01")
-        .at_least(0.0)
-        .at_most(1.0),
-    Key::new("radius", Kind::Quantity(&NUMBER), "Radius of the bond, a round beam, over that of the smaller grain")
+    Key::new(
+        "gap",
+        Kind::Quantity(&NUMBER),
+        "Widest gap between surfaces that is bonded, over the radius of the smaller grain; superellipsoids, polyhedra and polygons have that of a sphere of their volume, or disc of their area",
+    )
+    .default("0.01")
+    .at_least(0.0)
+    .at_most(1.0),
+    Key::new("radius", Kind::Quantity(&NUMBER), "Radius of the bond, a round beam from centre to centre, over that of the smaller grain as for `gap`")
         .default("1")
         .above(0.0)
         .at_most(2.0),

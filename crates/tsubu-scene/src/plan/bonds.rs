@@ -11,9 +11,9 @@ pub struct Bond {
     pub particles: Option<Vec<String>>,
     /// When they are made [s].
     pub at: f64,
-    /// Widest gap that is bonded, over the radius of the smaller grain [-].
+    /// Widest gap between surfaces that is bonded, over the radius of the smaller grain, or of the sphere (disc) of its volume (area) [-].
     pub gap: f64,
-    /// Radius of the beam over that of the smaller grain [-].
+    /// Radius of the beam over the same [-].
     pub radius: f64,
     /// Young's modulus [Pa].
     pub young_modulus: f64,

@@ -2,7 +2,7 @@
 
 use super::polyhedron::{self, Polyhedron};
 use super::{GrainShape, Superellipsoid, Vector, cells};
-use crate::clump::{Solid, surface};
+use crate::clump::{Solid, area_of_discs, surface};
 use serde::{Deserialize, Serialize};
 
 /// How the grains of a group that are no spheres are turned at first.
@@ -76,6 +76,24 @@ impl Packing {
 }
 
 impl Clump {
+    /// Radius of the sphere of its volume; where it is `flat`, of the disc of its area.
+    pub fn equivalent_radius(&self, flat: bool) -> f64 {
+        let pi = std::f64::consts::PI;
+        if flat { (self.volume / pi).sqrt() } else { (0.75 / pi * self.volume).cbrt() }
+    }
+
+    /// Of spheres in the plane the area of their discs there; what overlaps counts once.
+    pub fn area(&self) -> f64 {
+        let drawn = |arm: &Vector, along: usize| (0..3).map(|k| arm[k] * self.axes[k][along]).sum::<f64>();
+        let discs: Vec<_> = self.pieces.iter().map(|(arm, r)| ([drawn(arm, 0), drawn(arm, 2)], *r)).collect();
+        area_of_discs(&discs)
+    }
+
+    /// Whether it is one convex body, no spheres.
+    pub fn is_one_piece(&self) -> bool {
+        self.superellipsoid.is_some() || self.polyhedron.is_some()
+    }
+
     /// Surface of the sphere of its volume over its own; of a body in space.
     pub fn sphericity(&self) -> f64 {
         let surface = match (&self.superellipsoid, &self.polyhedron) {

@@ -198,11 +198,11 @@ kinds! {
         region: Region = REGION,
         /// Only grains of this group.
         group: Option<String> = GROUP,
-        /// In the plane: grains are spheres in a bed of this width [m]; `None`: discs.
+        /// In the plane: grains are spheres, or polygons as thick as they are, in a bed of this width [m]; `None`: areas.
         width: Option<f64> = Key::new(
             "width",
             Kind::Quantity(&LENGTH),
-            "In the plane: the grains are spheres in a bed of this width; without it they are discs",
+            "In the plane: the grains are spheres, or polygons as thick as they are, in a bed of this width; without it they are flat",
         )
         .above(0.0)
         .optional(),

@@ -21,14 +21,39 @@ fn fastest(plan: &Plan, bond: &Bond) -> f64 {
     free.map(|(_, group)| of_smallest(plan, bond, group)).fold(0.0, f64::max)
 }
 
-fn of_smallest(plan: &Plan, bond: &Bond, group: &Particles) -> f64 {
+/// What bonds hold.
+struct Grain {
+    /// Of the sphere that bonds take it for [m].
+    radius: f64,
+    /// Shortest bond [m].
+    length: f64,
+    mass: f64,
+    /// Least moment of inertia [kg.m^2].
+    inertia: f64,
+}
+
+/// The smallest of a group; of a clump its smallest sphere, with the mass that it shows there.
+fn smallest(plan: &Plan, group: &Particles) -> Grain {
     let smallest = group.smallest_diameter();
+    let (mass, flat) = (sizes::mass(group, smallest), plan.dimension == 2);
     let clump = group.shape.clump();
+    if let Some(body) = clump.as_ref().filter(|body| body.is_one_piece()) {
+        let moments = body.moments.map(|moment| moment * mass * smallest * smallest);
+        return Grain {
+            radius: body.equivalent_radius(flat) * smallest,
+            length: group.shape.sure(smallest),
+            mass,
+            inertia: if flat { moments[1] } else { moments.into_iter().fold(f64::INFINITY, f64::min) },
+        };
+    }
     let ([thin, _], lightness) = clump.map_or(([0.5; 2], 1.0), |clump| (clump.radii(), clump.lightness()));
-    let (radius, mass) = (thin * smallest, sizes::mass(group, smallest) / lightness);
+    let (radius, mass) = (thin * smallest, mass / lightness);
     let share = if matches!(group.shape, GrainShape::Disc { .. }) { 0.5 } else { 0.4 };
-    let inertia = share * mass * radius * radius;
-    let length = 2.0 * radius;
+    Grain { radius, length: 2.0 * radius, mass, inertia: share * mass * radius * radius }
+}
+
+fn of_smallest(plan: &Plan, bond: &Bond, group: &Particles) -> f64 {
+    let Grain { radius, length, mass, inertia } = smallest(plan, group);
     let Stiffness { stretch, ends, bend, twist } = Stiffness::of(bond, bond.radius * radius, length);
     // Turned ends of a bond whose grains are shifted: each by the shift over the length.
     let shear = 2.0 * ends / (length * length);

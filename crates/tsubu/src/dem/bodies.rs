@@ -9,6 +9,7 @@ mod assemble;
 mod body;
 mod in_water;
 mod refused;
+mod seen;
 mod told;
 
 pub(super) use refused::refused;
@@ -111,6 +112,11 @@ impl Bodies {
     /// Rounding radius of the polyhedron that a grain is [m].
     pub fn rounding(&self, i: usize) -> Option<f64> {
         self.polyhedron(i).map(|body| body.rounding)
+    }
+
+    /// Radius of the sphere of the volume of a body that is one piece, in the plane of the disc of its area [m]; `None`: the grain is a sphere.
+    pub fn equivalent_radius(&self, i: usize) -> Option<f64> {
+        self.body(i)?.equivalent_radius
     }
 
     /// Twice the smallest rounding radius of all polyhedra, those that are yet to come included [m]; infinite where there are none.

@@ -166,6 +166,7 @@ impl DemEngine {
             walls,
             bodies,
             body_of,
+            shapes: Some(&self.integration.bodies),
             water,
             hosts: &[],
         }

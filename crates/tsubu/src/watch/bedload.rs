@@ -1,13 +1,11 @@
 //! What grains carry along a bed, and how many start and stop.
 
 use super::classes::Classes;
-use super::{Inside, Sample, Watch, axes, group_number};
+use super::{Inside, Sample, Volumes, Watch, axes, group_number};
 use crate::about::About;
-use crate::state::sphere;
 use crate::view::{View, Wants};
 use crate::water::FORMULAS;
 use glam::DVec3;
-use std::f64::consts::PI;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 use tsubu_scene::plan::{self, Axis, Flow, Plan, watch};
@@ -33,9 +31,10 @@ Meyer-Peter and Mueller 1948, Wong and Parker 2006: the Einstein number by their
 A grain moves from the look on at which it is faster than `moving-speed`, until it is slower than `resting-speed`: a grain
 that rocks in its pocket between the two does not start again and again. It counts where it is when that is seen; one that
 is new, or comes into the region moving, has not started.
-In the plane A is a length and V the area of the disc, so q is again per width; with `width` grains are spheres in a bed of
-that width, V = pi d^3 / 6 / width. Entrainment is per length then. Density and d of the Einstein number are means over the
-free groups, or of the one that is asked for, as the scene tells them.",
+V is that of the shape; of a clump each sphere carries its share, and is counted as a grain.
+In the plane A is a length and V the area of the disc or polygon, so q is again per width; with `width` grains are spheres
+in a bed of that width, V = pi d^3 / 6 / width, and polygons as thick as they are. Entrainment is per length then. Density
+and d of the Einstein number are means over the free groups, or of the one that is asked for, as the scene tells them.",
     symbols: "",
     limits: "Q is of volumes without voids; a grain that starts and stops between two looks is not seen; entrainment \
 depends on the two speeds, so tell them with it.",
@@ -53,6 +52,7 @@ pub(super) struct Bedload {
     /// In the plane: width of the bed [m], if grains are spheres.
     width: Option<f64>,
     flat: bool,
+    volumes: Volumes,
     classes: Classes,
     /// Speeds at which a grain begins and ceases to move [m/s].
     speeds: [f64; 2],
@@ -83,6 +83,7 @@ pub(super) fn open(asked: &watch::Bedload, plan: &Plan) -> Bedload {
         group: group.as_ref().map(|name| group_number(plan, name)),
         width: *width,
         flat: plan.dimension == 2,
+        volumes: Volumes::new(plan, plan.dimension == 2 && width.is_none()),
         classes: Classes::new(sizes.as_ref()),
         speeds: [*moving_speed, *resting_speed],
         sheared: fluid_density.is_some() && flows,
@@ -96,12 +97,8 @@ pub(super) fn open(asked: &watch::Bedload, plan: &Plan) -> Bedload {
 }
 
 impl Bedload {
-    fn volume(&self, radius: f64) -> f64 {
-        if self.flat && self.width.is_none() {
-            PI * radius * radius
-        } else {
-            sphere::volume(radius) / self.width.unwrap_or(1.0)
-        }
+    fn volume(&self, view: &View, i: usize) -> f64 {
+        self.volumes.of(view, i) / self.width.unwrap_or(1.0)
     }
 
     /// Whether masses can be told per width.
@@ -177,7 +174,7 @@ impl Watch for Bedload {
             if !self.region.holds(view.position(i)) {
                 continue;
             }
-            let volume = self.volume(r);
+            let volume = self.volume(view, i);
             flux += volume * u;
             mass += g.mass[i] * u;
             if let Some(flux) = of_class.get_mut(self.classes.of(2.0 * r)) {

@@ -13,9 +13,11 @@ mod points;
 mod run;
 mod surface;
 mod trigger;
+mod volumes;
 
 pub use run::Watches;
 pub use trigger::Trigger;
+use volumes::Volumes;
 
 use crate::about::About;
 use crate::view::{View, Wants};

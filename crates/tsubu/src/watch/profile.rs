@@ -1,6 +1,6 @@
 //! Averages in slices across an axis.
 
-use super::{Axes, Inside, LETTERS, Sample, Sheet, Watch, axes};
+use super::{Axes, Inside, LETTERS, Sample, Sheet, Volumes, Watch, axes};
 use crate::about::About;
 use crate::state::sphere;
 use crate::view::{View, Wants};
@@ -11,8 +11,9 @@ pub(super) const ABOUT: About = About {
     key: "watch.NAME.profile",
     formula: "\
 Averages in equal slices of a region across an axis. A grain belongs to the region by its centre across the axis; along
-it, its volume is cut by the slices, and it counts in each by its share s there.
-solid fraction        sum s V / volume of the slice; in the plane areas                     [-]
+it, its volume is cut by the slices, and it counts in each by its share s there. Polyhedra are cut as their cores,
+stretched to where the body ends; superellipsoids as ellipsoids that reach as far; the spheres of a clump one by one.
+solid fraction        sum s V / volume of the slice; V by shape; in the plane areas         [-]
 velocity              V = sum s m v / sum s m                                               [m/s]
 granular temperature  sum s m |v - V|^2 / (D sum s m), D the dimension                      [m^2/s^2]
 coordination          sum s z / sum s, z all contacts of a grain, those with walls among them [-]
@@ -20,9 +21,10 @@ spin                  W = sum s m r^2 w / sum s m r^2: by moment of inertia; in 
 Frozen and driven grains fill space, but are left out of the others. The history has the same for the whole region;
 its temperature is the mean over slices by mass.",
     symbols: "",
-    limits: "Overlaps count twice; the region is still, also where the box moves. Stresses in slices, of contacts (Love \
-and Weber) and of fluctuations, are those of `coarse-grain` with `axes = [\"z\"]`.",
-    reference: "averages as in any textbook; the cut of a sphere by a plane in closed form",
+    limits: "Overlaps of grains count twice, those of the spheres of a clump once; spins of bodies are weighed by half of \
+their diameter as r; the region is still, also where the box moves. Stresses in slices, of contacts (Love and Weber) and of \
+fluctuations, are those of `coarse-grain` with `axes = [\"z\"]`.",
+    reference: "averages as in any textbook; cuts of spheres, ellipsoids and polyhedra by a plane in closed form",
 };
 
 /// Averages in slices.
@@ -37,6 +39,7 @@ pub(super) struct Profile {
     quantities: Vec<Quantity>,
     region: Inside,
     axes: Axes,
+    volumes: Volumes,
     bin: Vec<Bin>,
 }
 
@@ -79,6 +82,7 @@ pub(super) fn open(asked: &watch::Profile, plan: &Plan) -> Profile {
         quantities: quantities.clone(),
         region: Inside::new(Some(region), plan),
         axes: axes(plan),
+        volumes: Volumes::new(plan, plan.dimension == 2),
         bin: vec![Bin::default(); *bins],
     }
 }
@@ -102,11 +106,14 @@ impl Profile {
             if !self.region.holds_but(p, &[a]) {
                 continue;
             }
+            let shape = view.shapes.and_then(|shapes| Some((shapes, shapes.ends(i, a)?)));
+            let [down, up] = shape.map_or([-r, r], |(_, ends)| ends);
+            let below = |height: f64| shape.map_or(below(height / r, flat), |(shapes, _)| shapes.below(i, a, height));
             let mut image = |z: f64| {
                 let bin = |z: f64| ((z - self.low) / self.height).floor().clamp(0.0, self.bins as f64) as usize;
-                for k in bin(z - r)..=bin(z + r).min(self.bins - 1) {
+                for k in bin(z + down)..=bin(z + up).min(self.bins - 1) {
                     let floor = self.low + k as f64 * self.height - z;
-                    let share = below((floor + self.height) / r, flat) - below(floor / r, flat);
+                    let share = below(floor + self.height) - below(floor);
                     if share > 0.0 {
                         visit(k, i, share);
                     }
@@ -181,7 +188,7 @@ impl Watch for Profile {
         bins.fill(Bin::default());
         self.slices(view, |k, i, share| {
             let (bin, r) = (&mut bins[k], g.radius[i]);
-            bin.filled += share * if self.axes.len() == 2 { std::f64::consts::PI * r * r } else { sphere::volume(r) };
+            bin.filled += share * self.volumes.of(view, i);
             if view.free(i) {
                 bin.shares += share;
                 bin.mass += share * g.mass[i];

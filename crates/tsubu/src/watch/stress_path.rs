@@ -1,9 +1,8 @@
 //! Stress and strain of the grains in a box of planes.
 
-use super::{Axes, LETTERS, Sample, Watch, axes, mean};
+use super::{Axes, LETTERS, Sample, Volumes, Watch, axes, mean};
 use crate::about::About;
 use crate::view::{View, Wants};
-use std::f64::consts::{FRAC_PI_6, PI};
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 use tsubu_scene::plan::{Plan, box_of_planes, watch};
@@ -18,7 +17,7 @@ deviator stress     q = axial stress less the mean of the others                
 friction angle      arcsin((s axial - s others) / (s axial + s others))                 [deg]
 axial strain        ln(L0 / L) of the axis                                              [-]
 volume strain       the sum of that over the axes                                       [-]
-porosity            1 - volume of the grains over that of the box                       [-]
+porosity            1 - volume of the grains, by shape, over that of the box            [-]
 L0 is L at the first look that finds a grain at each plane: in a stage, at its begin.",
     symbols: "",
     limits: "Not a number until each plane is touched. A sample is no deeper than its planes: where they rub, or grains lie in \
@@ -33,6 +32,7 @@ pub(super) struct StressPath {
     planes: Vec<(usize, [usize; 2])>,
     axial: usize,
     axes: Axes,
+    volumes: Volumes,
     /// Distances at the first look [m]; not a number before.
     first: [f64; 3],
 }
@@ -42,6 +42,7 @@ pub(super) fn open(asked: &watch::StressPath, plan: &Plan) -> StressPath {
         planes: box_of_planes(&plan.walls, plan.dimension == 3).unwrap_or_default(),
         axial: asked.axis.index(),
         axes: axes(plan),
+        volumes: Volumes::new(plan, plan.dimension == 2),
         first: [f64::NAN; 3],
     }
 }
@@ -51,16 +52,18 @@ impl StressPath {
     fn load(view: &View, wall: usize, axis: usize) -> (f64, f64) {
         let (mut place, mut force) = (f64::NAN, 0.0);
         for c in view.contacts.iter().filter(|c| c.wall && c.second == wall) {
-            let to_plane = c.normal * (view.grains.radius[c.first] - c.overlap);
+            // Of a body the contact is half of the overlap beyond the plane.
+            let shaped = view.shapes.is_some_and(|shapes| shapes.ends(c.first, axis).is_some());
+            let ball = view.grains.radius[c.first] - c.overlap;
+            let to_plane = c.normal * if shaped { c.branch.dot(c.normal) - 0.5 * c.overlap } else { ball };
             (place, force) = ((view.grains.position[c.first] + to_plane)[axis], force - c.force.dot(c.normal));
         }
         (place, force)
     }
 
-    /// Volume of all grains [m^3]; in the plane the area of discs [m^2].
+    /// Volume of all grains [m^3]; in the plane their area [m^2].
     fn solid(&self, view: &View) -> f64 {
-        let of = |r: &f64| if self.axes.len() == 3 { 8.0 * FRAC_PI_6 * r.powi(3) } else { PI * r * r };
-        view.grains.radius.iter().map(of).sum()
+        (0..view.len()).map(|i| self.volumes.of(view, i)).sum()
     }
 }
 

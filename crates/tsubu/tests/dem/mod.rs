@@ -1,5 +1,6 @@
 //! DEM by its outcome.
 
+pub mod bonded_bodies;
 mod bonds;
 mod books;
 mod cells;

@@ -211,7 +211,5 @@ fn what_superellipsoids_cannot_have_is_refused() {
     let drum = "shape.cylinder = { point = [0, 0, 0], axis = [0, 0, 1], radius = 1, length = 1 }";
     refused(drum, &[], "walls.floor.shape");
     refused(FLOOR, &["dem.integrator=forward-euler"], "dem.integrator");
-    let watched = format!("{FLOOR}\n[watch.height.profile]\nregion = {{ low = [-1, -1, -1], high = [1, 1, 1] }}");
-    refused(&watched, &[], "watch.height");
     refused(FLOOR, &["method=lattice"], "particles.seeds.shape");
 }

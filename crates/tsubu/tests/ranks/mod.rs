@@ -2,6 +2,7 @@
 //!
 //! The ranks of these tests are threads that talk through channels. What goes over MPI is in `crates/tsubu-mpi/tests`.
 
+use crate::dem::bonded_bodies::block;
 use crate::dem::polyhedron::CROWD;
 use crate::dem::shapes_at_walls::mixed;
 use crate::water::bodies::splash;
@@ -353,6 +354,12 @@ fn all_shapes_have_the_bits_of_one_rank() {
     let folder = tempfile::tempdir().unwrap();
     let more = mixed(folder.path()).replace("count = 30", "count = 110").replace("\"120 mm\"", "\"450 mm\"");
     Job { text: &more, folder: folder.path(), steps: &[1500, 1, 1000], resume: true }.same(&[3]);
+}
+
+/// Bodies of all shapes in bonds that break.
+#[test]
+fn bonded_bodies_have_the_bits_of_one_rank() {
+    Job { steps: &[1600, 1, 1400], resume: true, ..job(&block(8)) }.same(&[3]);
 }
 
 /// The same shapes but for the mesh, that fall into water.

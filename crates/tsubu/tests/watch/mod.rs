@@ -15,6 +15,7 @@ mod stays;
 mod stress_path;
 mod temperature;
 mod transport;
+mod volumes;
 
 use glam::DVec3;
 use std::path::Path;

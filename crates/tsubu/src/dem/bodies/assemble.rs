@@ -71,6 +71,7 @@ impl Bodies {
         });
         self.list.push(Body {
             mass,
+            equivalent_radius: clump.is_one_piece().then(|| clump.equivalent_radius(self.plane) * diameter),
             submerged: Submerged { radius: seen.radius * diameter, ..seen },
             added_mass: 0.0,
             moments: DVec3::from_array(clump.moments) * (mass * diameter * diameter),

@@ -19,6 +19,8 @@ const ROUNDS: usize = 60;
 #[derive(Clone, Debug)]
 pub struct Body {
     pub mass: f64,
+    /// Radius of the sphere of its volume, in the plane of the disc of its area, where it is one piece [m].
+    pub equivalent_radius: Option<f64>,
     /// What water sees of it.
     pub submerged: Submerged,
     /// Mass of the water that moves along with it [kg].

@@ -2,7 +2,7 @@
 
 use crate::engine::{Note, Refusal, Verdict};
 use glam::DVec3;
-use tsubu_scene::plan::{GrainShape, Integrator, Measure, Particles, Plan, Quantity, Shape, Wall};
+use tsubu_scene::plan::{GrainShape, Integrator, Particles, Plan, Shape, Wall};
 
 /// Refuses it by name.
 pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
@@ -36,23 +36,6 @@ fn one_piece(plan: &Plan, mut refuse: impl FnMut(String, &str)) {
             refuse(key, &text);
         } else if let (Shape::Sphere { .. }, Some(plural)) = (&wall.shape, superellipsoids) {
             refuse(key, &format!("{plural} do not touch shells yet; write a mesh"));
-        }
-    }
-    for (name, _) in groups().filter(|(name, _)| plan.bond.iter().any(|bond| bond.joins(name))) {
-        let text = format!("bonds hold spheres and clumps together, no {plural} yet; write shape.clump");
-        refuse(format!("particles.{name}.shape"), &text);
-    }
-    for (name, watch) in &plan.watch {
-        let volumes = match &watch.measure {
-            Measure::Profile(profile) => profile.quantities.contains(&Quantity::SolidFraction),
-            Measure::Bedload(_) | Measure::StressPath(_) => true,
-            _ => false,
-        };
-        if volumes {
-            let text = format!(
-                "it takes grains for spheres, whose volumes are not those of {plural}; leave it, or its `solid-fraction`, out"
-            );
-            refuse(format!("watch.{name}"), &text);
         }
     }
 }

@@ -2,11 +2,17 @@
 
 use super::beam::Beam;
 use super::{Attitudes, Bonds, branch};
+use crate::dem::bodies::Bodies;
 use crate::dem::engine::DemEngine;
 use crate::dem::history_transfer::HistorySnapshot;
 use crate::engine::{Engine, Note, Refusal, Verdict};
 use crate::ledger::{Account, Ledger};
+use crate::polyhedron::touch::Search;
+use crate::polyhedron::{self, Turned, with_round};
 use crate::random::{Purpose, unit, words};
+use crate::state::Grains;
+use crate::superellipsoid::{self, Outline};
+use glam::DVec3;
 use tsubu_scene::plan::{Bond, Particles, Plan};
 
 /// Scenes whose bonds nobody could make.
@@ -47,6 +53,34 @@ impl Bonds {
     }
 }
 
+/// Radius of the smaller of two grains, a superellipsoid or polyhedron taken for a sphere of its volume, in the plane a disc of its area [m].
+fn smaller(grains: &Grains, bodies: &Bodies, pair: [usize; 2]) -> f64 {
+    let [a, b] = pair.map(|i| bodies.equivalent_radius(i).unwrap_or(grains.radius[i]));
+    a.min(b)
+}
+
+/// Whether the surfaces of two grains, their centres `apart` [m], are no farther from each other than `gap` [m].
+fn near(grains: &Grains, bodies: &Bodies, [i, j]: [usize; 2], apart: DVec3, gap: f64) -> bool {
+    let radii = [grains.radius[i], grains.radius[j]];
+    match (bodies.polyhedron(i).zip(bodies.outline(j)), bodies.outline(i).zip(bodies.polyhedron(j))) {
+        (Some((body, round)), _) => return with_round::touched(&body, &round, apart, gap).is_some(),
+        (_, Some((round, body))) => return with_round::touch(&round, &body, apart, gap).is_some(),
+        _ => {}
+    }
+    if bodies.outline(i).is_some() || bodies.outline(j).is_some() {
+        let [a, b] = [(i, radii[0]), (j, radii[1])].map(|(i, r)| bodies.outline(i).unwrap_or(Outline::sphere(r)));
+        return superellipsoid::touch::touch([&a, &b], apart, gap).is_some();
+    }
+    if bodies.polyhedron(i).is_some() || bodies.polyhedron(j).is_some() {
+        let [a, b] = [(i, radii[0]), (j, radii[1])].map(|(i, r)| bodies.polyhedron(i).unwrap_or(Turned::sphere(r)));
+        let (mut search, mut found) = (Search::default(), Vec::new());
+        polyhedron::touch::touch([&a, &b], apart, gap, &mut search, &mut found);
+        return !found.is_empty();
+    }
+    let limit = radii[0] + radii[1] + gap;
+    apart.length_squared() <= limit * limit
+}
+
 impl DemEngine {
     /// Whether bonds are to be made after step `step`.
     pub(in crate::dem) fn bonds_due(&self, step: u64) -> bool {
@@ -78,18 +112,18 @@ impl DemEngine {
         let part = self.neighbours.part.take();
         self.neighbours.rebuild(&self.grains, &self.walls);
         self.neighbours.search.reach = reach;
-        let Self { grains, neighbours, contacts, integration, .. } = self;
+        let Self { grains, neighbours, contacts, integration, notes, .. } = self;
         let (bonds, periodic) = (&mut contacts.bonds, &neighbours.search.periodic);
-        let attitudes = Attitudes { orientation: &integration.orientation, bodies: &integration.bodies };
+        let bodies = &integration.bodies;
+        let attitudes = Attitudes { orientation: &integration.orientation, bodies };
         let joins = |i: usize| bonds.joins[entry][grains.group[i] as usize];
         let mut pairs: Vec<([u32; 2], [u32; 2])> = Vec::new();
         for list in &neighbours.lists {
             for pair in &list.pairs {
                 let (i, j) = (list.first + pair.first as usize, list.grain_at[pair.second as usize] as usize);
-                let smaller = grains.radius[i].min(grains.radius[j]);
-                let limit = grains.radius[i] + grains.radius[j] + bond.gap * smaller;
                 let mut rows = [i as u32, j as u32];
-                if joins(i) && joins(j) && branch(periodic, grains, rows).length_squared() <= limit * limit {
+                let gap = bond.gap * smaller(grains, bodies, [i, j]);
+                if joins(i) && joins(j) && near(grains, bodies, [i, j], branch(periodic, grains, rows), gap) {
                     rows.sort_unstable_by_key(|row| grains.id[*row as usize]);
                     pairs.push((rows.map(|row| grains.id[row as usize]), rows));
                 }
@@ -97,13 +131,17 @@ impl DemEngine {
         }
         pairs.sort_unstable();
         pairs.dedup();
+        if pairs.is_empty() {
+            let text = "no two grains lie within its `gap` of each other, so it holds nothing; a larger `gap`, or a time `at` when they touch".to_owned();
+            notes.push(Note { key: format!("bond.{entry}"), verdict: Verdict::Doubtful, text });
+        }
         for (ids, rows) in pairs {
             let [i, j] = rows.map(|row| row as usize);
             let turned = ids.map(|id| attitudes.of(id));
-            let smaller = grains.radius[i].min(grains.radius[j]);
+            let radius = bond.radius * smaller(grains, bodies, [i, j]);
             let mass = 1.0 / (grains.inverse_mass[i] + grains.inverse_mass[j]);
             let mut beam = Beam::new((entry as u32, &bond), ids, branch(periodic, grains, rows), turned, bonds.plane)
-                .made_of(&bond, bond.radius * smaller, mass);
+                .made_of(&bond, radius, mass);
             beam.strength = bonds.strength(&bond, bonds.counted);
             bonds.list.push(beam);
             bonds.counted += 1;
