@@ -150,6 +150,16 @@ fn structures(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts) {
             format!("host {name}: moves most in a mode of {frequency:.4} Hz and {mass:.3e} kg; the grains weigh {grains:.3e} kg"),
             || format!("units of [hosts.{name}.structure], if it is not as light as that: was it calculated in tonnes and millimetres?"),
         );
+        let driven = plan.hosts[name].period().map(|period| 1.0 / period);
+        if let Some(driven) = driven.filter(|driven| !(1e-3..=1e3).contains(&(driven / frequency))) {
+            verdict.judge(
+                false,
+                format!(
+                    "host {name}: it is driven at {driven:.4} Hz, and its mode that moves most is at {frequency:.3e} Hz"
+                ),
+                || format!("units of [hosts.{name}.structure]; or are mass and stiffness exchanged?"),
+            );
+        }
     }
 }
 

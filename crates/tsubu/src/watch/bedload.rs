@@ -160,6 +160,10 @@ impl Watch for Bedload {
         names
     }
 
+    fn so_far(&self) -> &'static [&'static str] {
+        &["mean transport rate", "fluctuation"]
+    }
+
     fn take(&mut self, view: &View) -> Sample {
         let g = &view.grains;
         let (mut flux, mut mass, mut carried, mut carrying) = (0.0, 0.0, 0.0, 0.0);

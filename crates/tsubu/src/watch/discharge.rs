@@ -127,6 +127,10 @@ impl Watch for Discharge {
         all.into_iter().chain(of_class).collect()
     }
 
+    fn so_far(&self) -> &'static [&'static str] {
+        &["passed"]
+    }
+
     fn take(&mut self, view: &View) -> Sample {
         let (before, mass_before) = (self.passed, self.mass);
         let elapsed = self.last.map_or(f64::NAN, |last| view.time - last);

@@ -40,6 +40,10 @@ impl Watch for Fragments {
         ["bonds [-]", "broken [-]", "fragments [-]", "largest [-]"].map(String::from).to_vec()
     }
 
+    fn so_far(&self) -> &'static [&'static str] {
+        &["broken"]
+    }
+
     fn take(&mut self, view: &View) -> Sample {
         let mass = masses(&view.grains.mass, &view.bonds);
         let heaviest = mass.iter().copied().fold(0.0, f64::max);

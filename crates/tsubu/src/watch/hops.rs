@@ -173,6 +173,10 @@ impl Watch for Hops {
         SCALARS.map(String::from).to_vec()
     }
 
+    fn so_far(&self) -> &'static [&'static str] {
+        &[""]
+    }
+
     fn sheet(&self) -> Option<Sheet> {
         let mut values: Vec<String> = [
             "start [s]",

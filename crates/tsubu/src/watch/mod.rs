@@ -38,6 +38,11 @@ pub trait Watch: Send + Debug {
     /// The numbers it gives, `what [unit]`.
     fn scalars(&self) -> Vec<String>;
 
+    /// How the names of those begin that count or average what has been since the begin: the last value tells them, and no mean does.
+    fn so_far(&self) -> &'static [&'static str] {
+        &[]
+    }
+
     /// Its own table, if it has one.
     fn sheet(&self) -> Option<Sheet> {
         None

@@ -72,6 +72,10 @@ impl Watch for Residence {
             .to_vec()
     }
 
+    fn so_far(&self) -> &'static [&'static str] {
+        &["left", "residence time"]
+    }
+
     fn sheet(&self) -> Option<Sheet> {
         let values = ["came [s]", "residence time [s]"].map(str::to_owned).to_vec();
         Some(Sheet { coordinates: vec!["id [-]".to_owned()], values, steady: false })

@@ -79,6 +79,14 @@ impl Watched {
         Some(["time [s]".to_owned()].into_iter().chain(columns).collect())
     }
 
+    /// Of each scalar what stands for the whole: its mean over the looks, or its last value where that tells what has been so far.
+    fn told(&self) -> Vec<f64> {
+        let begins = self.watch.so_far();
+        let so_far = |what: &String| begins.iter().any(|begin| what.starts_with(begin));
+        let scalars = self.watch.scalars().into_iter().zip(self.means[0].get().zip(&self.last));
+        scalars.map(|(what, (mean, last))| if so_far(&what) { *last } else { mean }).collect()
+    }
+
     fn look(&mut self, view: &View) -> Result<(), FileError> {
         let sample = self.watch.take(view);
         self.looks += 1.0;
@@ -222,9 +230,9 @@ impl Watches {
         self.list.iter().flat_map(|w| w.watch.scalars().into_iter().map(|what| w.column(&what)))
     }
 
-    /// What every watch has measured, in the mean over its looks; not a number where it saw nothing.
-    pub fn means(&self) -> impl Iterator<Item = f64> {
-        self.list.iter().flat_map(|w| w.means[0].get())
+    /// What every watch has measured, in the mean over its looks or so far; not a number where it saw nothing.
+    pub fn told(&self) -> impl Iterator<Item = f64> {
+        self.list.iter().flat_map(Watched::told)
     }
 
     /// Their values in a row of the history: of walls now, of watches at their last look.
@@ -258,7 +266,7 @@ impl Watches {
                 summary.warnings.push(format!("the watch `{}` has not looked once: it begins later", w.name));
             }
             summary.warnings.extend(w.watch.remark().map(|remark| format!("the watch `{}`: {remark}", w.name)));
-            let means = w.means[0].get().zip(w.means[0].spreads()).zip(&w.extremes.0).zip(&w.last);
+            let means = w.told().into_iter().zip(w.means[0].spreads()).zip(&w.extremes.0).zip(&w.last);
             for (what, (((mean, spread), [least, largest]), last)) in w.watch.scalars().iter().zip(means) {
                 let (what, unit) = split_unit(what);
                 let unit = unit.unwrap_or("-");

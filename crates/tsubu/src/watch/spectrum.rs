@@ -178,6 +178,10 @@ impl Watch for Spectrum {
         .to_vec()
     }
 
+    fn so_far(&self) -> &'static [&'static str] {
+        &[""]
+    }
+
     fn sheet(&self) -> Option<Sheet> {
         let values = [
             "base acceleration density [m^2/s^3]",

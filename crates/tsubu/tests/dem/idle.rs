@@ -25,7 +25,11 @@ fn warnings(changes: &[&str]) -> Vec<String> {
     let (engine, hosts, _) = open_text(SCENE, changes);
     let told: Vec<String> = changes.iter().map(|c| (*c).to_owned()).collect();
     let scene = Scene::parse("test", SCENE, std::path::Path::new("."), &told).unwrap_or_else(|c| panic!("{c}"));
-    let said = |text: &str| ["does nothing", "never vanishes"].iter().any(|word| text.contains(word));
+    let said = |text: &str| {
+        ["does nothing", "never vanishes", "writes", "no grain feels", "it is driven at"]
+            .iter()
+            .any(|word| text.contains(word))
+    };
     let verdict = check::verdict(scene.plan(), &hosts, &*engine);
     verdict.lines.into_iter().filter(|line| !line.good && said(&line.text)).map(|line| line.text).collect()
 }
@@ -43,10 +47,34 @@ fn what_does_nothing_is_named() {
         let idle = warnings(&[&chosen]);
         assert!(idle.len() == 1 && idle[0].contains(key), "{part}: {idle:?}");
         // The control: with a coefficient nothing is said.
-        assert_eq!(warnings(&[&chosen, &format!("materials.glass.{key}={value}")]), [""; 0], "{part}");
+        let constant = format!("materials.glass.{key}={value}");
+        assert_eq!(warnings(&[&chosen, &constant]), [""; 0], "{part}");
+        let alone = warnings(&[&constant]);
+        assert!(alone.len() == 1 && alone[0].contains(key), "{part}: {alone:?}");
     }
     let still = ["contact.rolling.epsd={}", "materials.glass.rolling-friction=0.1", "contact.rotation=false"];
     assert!(warnings(&still)[0].contains("do not spin"));
     assert_eq!(warnings(&["walls.floor.until=0.2"]).len(), 1);
     assert_eq!(warnings(&["walls.floor.until=0.05"]).len(), 0);
+}
+
+/// Files that would hold nothing, a structure that carries nothing, and one whose mass and stiffness somebody has exchanged.
+#[test]
+fn outputs_and_hosts_that_do_nothing_are_named() {
+    let one = |change: &str, part: &str| {
+        let said = warnings(&[change]);
+        assert!(said.len() == 1 && said[0].contains(part), "{change}: {said:?}");
+    };
+    one("output.frame-interval='2 s'", "frame-interval");
+    one("output.xyz=true", "output.xyz");
+    assert_eq!(warnings(&["output.xyz=true", "output.frame-interval='10 ms'"]), [""; 0]);
+    let host = |mass: &str, stiffness: &str| {
+        let sine = "base.sine={ amplitude=1e-3, frequency=12 }";
+        format!("hosts.frame={{ structure.oscillator={{ mass={mass}, stiffness={stiffness}, damping=1 }}, {sine} }}")
+    };
+    one(&host("2", "12000"), "host `frame`");
+    let carried = ["walls.floor.host='frame'"];
+    assert_eq!(warnings(&[&host("2", "12000"), carried[0]]), [""; 0]);
+    let exchanged = warnings(&[&host("12000", "2"), carried[0]]);
+    assert!(exchanged.len() == 1 && exchanged[0].contains("driven at 12"), "{exchanged:?}");
 }

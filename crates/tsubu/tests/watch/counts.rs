@@ -2,9 +2,13 @@
 
 use super::{Ball, GROUPS, ball, near, once, plan, scalar, shaken, view, watch};
 use glam::DVec3;
+use std::path::Path;
+use tsubu::interrupt::{Interrupt, Watcher};
+use tsubu::run::run;
 use tsubu::view::View;
 use tsubu::watch::open;
-use tsubu_frame::State;
+use tsubu_frame::{Existing, ResultValue, State};
+use tsubu_scene::Scene;
 
 const GRAVITY: &str = "gravity = 0\n";
 
@@ -49,6 +53,28 @@ fn a_steady_fall_is_counted_exactly() {
         // The control: the same gate refuses 1 % more.
         assert!(!near(mean, 20.2, 1e-3));
     }
+}
+
+/// Ten grains pass, one each 10 ms: ten have passed, and not the 4.5 that had on the average over the looks. What is of the moment keeps its mean.
+#[test]
+fn what_has_been_so_far_is_told_by_its_last_value() {
+    let list = |of: &dyn Fn(u32) -> String| (0..10).map(of).collect::<Vec<_>>().join(", ");
+    let text = format!(
+        "dimension = 2\nduration = '0.1 s'\ngravity = 0\n[materials.glass]\ndensity = 2500\nyoung-modulus = '10 MPa'\n[particles.beads]\n\
+         material = 'glass'\ndiameter = '4 mm'\nstart.at = {{ position = [{}], velocity = [{}] }}\n[watch.gate]\ndischarge = {{}}\nevery = '5 ms'\n",
+        list(&|k| format!("[0, '{} mm']", 5 + 10 * k)),
+        list(&|_| "[0, -1]".to_owned())
+    );
+    let scene = Scene::parse("gate", &text, Path::new("."), &[]).unwrap_or_else(|complaints| panic!("{complaints}"));
+    let folder = tempfile::tempdir().expect("a folder");
+    let watcher = Watcher { interrupt: &Interrupt::new(), progress: &|_| {} };
+    let summary = run(&scene, folder.path(), Existing::Overwrite, &watcher).expect("a run");
+    let number = |name: &str| match summary.results.get(name) {
+        Some(ResultValue::Number(value)) => *value,
+        other => panic!("{name}: {other:?}"),
+    };
+    assert_eq!(number("gate passed grains"), 10.0);
+    assert!(near(number("gate rate"), 100.0, 0.06) && number("gate rate final") != number("gate rate"));
 }
 
 /// A hopper that had arched gave a small rate in a sweep, and no word that it was blocked.

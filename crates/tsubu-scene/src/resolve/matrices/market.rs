@@ -4,6 +4,7 @@
 use super::MOST;
 use crate::complaint::{Complaint, Place};
 use crate::lines::{Line, lines};
+use std::collections::BTreeSet;
 
 /// Reads a square matrix, row by row. The text is the given source.
 pub(super) fn read(text: &str, source: usize) -> Result<Vec<Vec<f64>>, Complaint> {
@@ -54,6 +55,7 @@ pub(super) fn read(text: &str, source: usize) -> Result<Vec<Vec<f64>>, Complaint
     let mut matrix = vec![vec![0.0; n]; n];
     // An array goes column by column; of a symmetric one the lower triangle is written.
     let (mut row, mut column) = (0, 0);
+    let mut told = BTreeSet::new();
     for _ in 0..entries {
         let line = left.next().ok_or_else(ended)?;
         let mut cells = line.text.split_whitespace();
@@ -66,6 +68,10 @@ pub(super) fn read(text: &str, source: usize) -> Result<Vec<Vec<f64>>, Complaint
                     &format!("needs row and column from 1 to {n}, and a value"),
                 )
             })?;
+            let mirrored = *symmetry == "symmetric" && told.contains(&(column, row));
+            if !told.insert((row, column)) || mirrored {
+                return Err(wrong(&line, "the matrix has this entry twice", "again"));
+            }
         }
         let value = cells.next().and_then(|cell| cell.parse::<f64>().ok()).filter(|value| value.is_finite());
         let value = value.ok_or_else(|| wrong(&line, "this is no entry of the matrix", "needs a finite number"))?;
@@ -113,6 +119,8 @@ mod tests {
             "%%MatrixMarket matrix coordinate real general\n2 2 1\n3 1 2\n",
             "%%MatrixMarket matrix coordinate real general\n2 2 1\n0 1 2\n",
             "%%MatrixMarket matrix coordinate real general\n2 2 1\n1 1 nan\n",
+            "%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 2\n1 1 3\n",
+            "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 1 -1\n1 2 -1\n",
             "%%MatrixMarket matrix array real general\n1 1\n2\n3\n",
             "%%MatrixMarket matrix array real general\n99999 99999\n2\n",
         ] {

@@ -132,7 +132,7 @@ impl DemEngine {
         pairs.sort_unstable();
         pairs.dedup();
         if pairs.is_empty() {
-            let text = "no two grains lie within its `gap` of each other, so it holds nothing; a larger `gap`, or a time `at` when they touch".to_owned();
+            let text = "no two grains that are not bonded yet lie within its `gap` of each other, so it holds nothing; a larger `gap`, or a time `at` when they touch".to_owned();
             notes.push(Note { key: format!("bond.{entry}"), verdict: Verdict::Doubtful, text });
         }
         for (ids, rows) in pairs {

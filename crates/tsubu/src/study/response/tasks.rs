@@ -192,7 +192,7 @@ impl World {
         let flows: Vec<f64> = Account::ALL.iter().zip(before).map(|(&a, b)| (ledger.flow(a) - b) / periods).collect();
         let loss = Account::ALL.iter().zip(&flows).filter(|(a, _)| !a.is_work()).map(|(_, f)| f).sum();
         let residual = ledger.residual_relative(&engine::energies(&**engine, hosts));
-        let watched = watches.scalars().zip(watches.means()).filter(|(_, mean)| mean.is_finite()).collect();
+        let watched = watches.scalars().zip(watches.told()).filter(|(_, mean)| mean.is_finite()).collect();
         let wall = begun.elapsed().as_secs_f64();
         Ok(Some(Point { frequency, loss, flows, watched, residual, discarded, wall, ..window.point(frequency) }))
     }
