@@ -250,7 +250,8 @@ impl View<'_> {
         let same = |a: &Contact, b: &Contact| {
             let bodies = (a.first, a.second, a.wall) == (b.first, b.second, b.wall);
             // A grain may touch another one directly and across a periodic end.
-            bodies && if a.wall { a.normal.dot(b.normal) > 1.0 - 1e-6 } else { a.branch == b.branch }
+            let again = || a.branch.distance_squared(b.branch) < 1e-12 * a.branch.length_squared();
+            bodies && if a.wall { a.normal.dot(b.normal) > 1.0 - 1e-6 } else { again() }
         };
         self.contacts.chunk_by(move |a, b| same(a, b)).map(|points| &points[0])
     }

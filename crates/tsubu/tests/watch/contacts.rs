@@ -37,7 +37,8 @@ fn bodies_are_counted_and_not_their_corners() {
         normal,
         overlap: 0.0,
     };
-    let up = [point(1, false, DVec3::Z); 3];
+    // The way from centre to centre is summed anew for each corner.
+    let up = [0.0, 1e-15, -1e-15].map(|off| Contact { branch: DVec3::new(off, 0.0, 1.0), ..point(1, false, DVec3::Z) });
     let floor = [point(0, true, DVec3::NEG_Z); 3];
     let contacts = [up.as_slice(), &floor, &[point(0, true, DVec3::X)]].concat();
     let mut coordination = watch(3, "coordination.fewest = 1");
