@@ -143,14 +143,14 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
 /// A structure lighter than its grains is seldom meant: matrices and modes come from programs that calculate in units of their own.
 fn structures(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts) {
     let grains = plan.grain_mass();
-    for (name, host) in plan.hosts.keys().zip(&hosts.list) {
+    for ((name, planned), host) in plan.hosts.iter().zip(&hosts.list) {
         let Some([frequency, mass]) = host.livest_mode() else { continue };
         verdict.judge(
             grains <= mass,
             format!("host {name}: moves most in a mode of {frequency:.4} Hz and {mass:.3e} kg; the grains weigh {grains:.3e} kg"),
             || format!("units of [hosts.{name}.structure], if it is not as light as that: was it calculated in tonnes and millimetres?"),
         );
-        let driven = plan.hosts[name].period().map(|period| 1.0 / period);
+        let driven = planned.period().map(|period| 1.0 / period);
         if let Some(driven) = driven.filter(|driven| !(1e-3..=1e3).contains(&(driven / frequency))) {
             verdict.judge(
                 false,

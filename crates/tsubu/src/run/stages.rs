@@ -1,6 +1,7 @@
 //! A run of several stages: when one is over, and how the next begins.
 
 use super::steady::Steady;
+use super::told::meant;
 use super::{Run, RunError, steps};
 use crate::check;
 use crate::engine::{self, Engine, Note, Refusal, Verdict};
@@ -13,8 +14,8 @@ use tsubu_frame::csv::split_unit;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::summary::StageSpan;
 use tsubu_frame::{RunFolder, State, Summary};
+use tsubu_scene::Plan;
 use tsubu_scene::plan::Until;
-use tsubu_scene::{Plan, nearest};
 
 /// The stages of a run and what has become of those that are over.
 pub(super) struct Stages<'a> {
@@ -131,8 +132,7 @@ impl Run<'_> {
         for (index, stage) in self.plan.stage.iter().enumerate() {
             let Some(name) = stage.until.as_ref().and_then(|until| until.result.as_ref()) else { continue };
             if !names().any(|known| known == name) {
-                let near = nearest(name, names()).map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-                let text = format!("the history has no column `{name}`{near}");
+                let text = format!("the history has no column `{name}`{}", meant(name, names()));
                 let key = format!("stage.{index}.until.result");
                 let notes = vec![Note { key, verdict: Verdict::Refused, text }];
                 return Err(RunError::Open(Refusal { method: self.plan.method.name(), notes }.into()));

@@ -81,18 +81,23 @@ impl Run<'_> {
     }
 }
 
+/// The nearest of some names to one that is none of them, as the end of a sentence.
+pub(super) fn meant<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> String {
+    nearest(name, names).map_or_else(String::new, |near| format!("; did you mean `{near}`?"))
+}
+
 /// Holds the scene's own claims against the results.
 pub(crate) fn judge(plan: &Plan, summary: &mut Summary) {
     for (index, claim) in plan.claim.iter().enumerate() {
         let value = match summary.results.get(&claim.result) {
             Some(ResultValue::Number(value)) => *value,
-            Some(_) => f64::NAN,
-            None => {
-                let near = nearest(&claim.result, summary.results.iter().map(|(name, _)| name));
-                let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-                summary.warnings.push(format!("claim.{index}: the run has no result `{}`{near}", claim.result));
+            // Of a run that has not come to its end some results are still missing.
+            None if summary.status == Status::Finished => {
+                let meant = meant(&claim.result, summary.results.iter().map(|(name, _)| name));
+                summary.warnings.push(format!("claim.{index}: the run has no result `{}`{meant}", claim.result));
                 f64::NAN
             }
+            Some(_) | None => f64::NAN,
         };
         summary.claims.push(Claim::judge(&claim.result, value, claim.low, claim.high, Source::scene(&claim.source)));
     }
