@@ -89,7 +89,7 @@ fn race_table(race: &Value, name: &str) -> String {
 }
 
 /// Pages of studies with what is kept of their claims. The marks name the studies: `<!-- generated: claims STUDY ... -->` is a table
-/// case by case, `<!-- generated: standing STUDY ... -->` how the study stands.
+/// case by case, `<!-- generated: values CASE -->` one claim by claim, `<!-- generated: standing STUDY ... -->` how the study stands, `<!-- generated: open STUDY ... -->` why what does not hold does not.
 fn studies(tsubu: &str) -> Result<Vec<(String, String)>, String> {
     let kept = crate::claims::read()?;
     let mut pages = Vec::new();
@@ -99,7 +99,8 @@ fn studies(tsubu: &str) -> Result<Vec<(String, String)>, String> {
         for mark in marks(&text) {
             let table = match mark.split_once(' ') {
                 Some(("claims", names)) => claim_table(&kept, names),
-                Some(("standing", _)) => printed(tsubu, &mark)?,
+                Some(("values", case)) => value_table(&kept, case),
+                Some(("standing" | "open", _)) => printed(tsubu, &mark)?,
                 _ => return Err(format!("{page}: nobody makes the table `{mark}`")),
             };
             text = put(&text, &mark, &table).ok_or_else(|| format!("{page}: the table `{mark}` has no end"))?;
@@ -148,6 +149,17 @@ fn claim_table(kept: &[Value], studies: &str) -> String {
     table
 }
 
+/// Claims of a case one by one.
+fn value_table(kept: &[Value], case: &str) -> String {
+    let mut table = String::from("| claim | value | accepted | |\n|---|---|---|---|\n");
+    for claim in kept.iter().filter(|claim| claim["case"] == case && claim["origin"] != "control") {
+        let name = claim["name"].as_str().unwrap_or_default().replace('|', "\\|");
+        let verdict = if claim["pass"] == true { "pass" } else { "**FAIL**" };
+        let _ = writeln!(table, "| {name} | {} | {} | {verdict} |", number(&claim["value"]), range(claim));
+    }
+    table
+}
+
 /// With five figures.
 fn number(value: &Value) -> String {
     let Some(x) = value.as_f64() else { return "none".to_owned() };
@@ -185,6 +197,9 @@ mod tests {
             assert_eq!(first, Some("## In short"), "{}", folder.display());
             let short = text.split("\n## ").nth(1).unwrap_or_default();
             assert!(short.contains("**Agrees:**") && short.contains("**Does not agree:**"), "{}", folder.display());
+            let told = |line: &&str| !line.trim().is_empty() && !line.starts_with("<!--") && *line != "In short";
+            let lines = short.lines().filter(told).count();
+            assert!(lines <= 10, "{}: {lines} lines, ten say how a study stands", folder.display());
         }
     }
 

@@ -134,7 +134,7 @@ const REASONS: &[(&str, &str, &str)] = &[
     (
         "figure-3b",
         "",
-        "the response by DEM does not hang on the friction at the walls: 0.6 for 0.5 changes the peaks with 30 and 50 balls by less than 0.2 %,          which no figure shows",
+        "the response by DEM does not hang on the friction at the walls: 0.6 for 0.5 changes the peaks with 30 and 50 balls by less than 0.2 %, which no figure shows",
     ),
     (
         "figure-11-literal",

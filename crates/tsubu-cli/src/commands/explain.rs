@@ -171,9 +171,10 @@ fn page(name: &str) -> Result<String, Failure> {
         "held-against" => super::held_against::page(),
         "origins" => super::origins::page(),
         "verdicts" => super::origins::verdicts(),
-        _ => match name.strip_prefix("standing ") {
-            Some(studies) => super::standing::standing(studies),
-            None => return Err(Failure::wrong(format!("the book has no generated page `{name}`"))),
+        _ => match name.split_once(' ') {
+            Some(("standing", studies)) => super::standing::standing(studies),
+            Some(("open", studies)) => super::standing::open(studies),
+            _ => return Err(Failure::wrong(format!("the book has no generated page `{name}`"))),
         },
     })
 }

@@ -2,10 +2,10 @@
 //!
 //! The ranks of these tests are threads that talk through channels. What goes over MPI is in `crates/tsubu-mpi/tests`.
 
-use crate::dem::bonded_bodies::block;
-use crate::dem::polyhedron::CROWD;
-use crate::dem::shapes_at_walls::mixed;
-use crate::water::bodies::splash;
+mod patient;
+mod shapes;
+mod traps;
+
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -113,7 +113,8 @@ impl Job<'_> {
         (engine, hosts, ledger)
     }
 
-    /// Hash of the state, which the first rank has, and of the grains, which all have; `saved` goes from the first to the others.
+    /// Hash of the state, which the first rank has, and of the grains, which all have; goes on from what is `saved`, which goes from the first to
+    /// the others.
     fn go(&self, communicator: Option<&Arc<dyn Communicator>>, saved: &Mutex<State>) -> [String; 2] {
         let state = |engine: &dyn Engine, hosts: &Hosts, ledger: &Ledger| {
             let mut state = State::default();
@@ -122,7 +123,15 @@ impl Job<'_> {
             ledger.save(&mut state);
             state
         };
-        let (mut engine, mut hosts, mut ledger) = self.opened(communicator);
+        let load = |saved: &State| {
+            let (mut engine, mut hosts, _) = self.opened(communicator);
+            engine.load(saved).unwrap();
+            hosts.load(saved).unwrap();
+            (engine, hosts, Ledger::load(saved).unwrap())
+        };
+        let begin = saved.lock().unwrap().clone();
+        let begun = begin.integer("dem.step").is_ok();
+        let (mut engine, mut hosts, mut ledger) = if begun { load(&begin) } else { self.opened(communicator) };
         let first = engine.frame(&hosts);
         for &steps in self.steps {
             engine.advance(steps, &mut hosts, &mut ledger).unwrap();
@@ -135,10 +144,7 @@ impl Job<'_> {
                     all.broadcast(&mut Vec::new());
                 }
                 let saved = saved.lock().unwrap().clone();
-                (engine, hosts, _) = self.opened(communicator);
-                engine.load(&saved).unwrap();
-                hosts.load(&saved).unwrap();
-                ledger = Ledger::load(&saved).unwrap();
+                (engine, hosts, ledger) = load(&saved);
             }
         }
         let frame = engine.frame(&hosts);
@@ -157,10 +163,14 @@ impl Job<'_> {
 
     /// On a team of ranks; `None`: they do not have the same grains.
     fn with(&self, team: Vec<Thread>, threads: usize) -> Option<String> {
-        let saved = Mutex::new(State::default());
+        self.from(&Mutex::new(State::default()), team, threads)
+    }
+
+    /// The same from what is `saved` on.
+    fn from(&self, saved: &Mutex<State>, team: Vec<Thread>, threads: usize) -> Option<String> {
         let work = |communicator: Option<&Arc<dyn Communicator>>| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| self.go(communicator, &saved))
+            pool.install(|| self.go(communicator, saved))
         };
         if team.len() == 1 {
             let [state, _] = work(None);
@@ -184,6 +194,27 @@ impl Job<'_> {
             assert_eq!(one, self.on(ranks, 1), "{ranks} ranks");
         }
         assert_eq!(one, self.on(2, 2), "2 ranks of 2 threads");
+    }
+
+    /// Hash of what is saved at the end, where each part of the steps is made on so many ranks.
+    fn in_turn(&self, ranks: &[usize]) -> String {
+        let saved = Mutex::new(State::default());
+        for (steps, &ranks) in self.steps.chunks(1).zip(ranks) {
+            let part = Job { steps, resume: true, ..*self };
+            part.from(&saved, Thread::team(ranks), 1).expect("all ranks have the same grains");
+        }
+        saved.into_inner().unwrap().hash()
+    }
+
+    /// Holds the bits of one rank against those of any number of one and two threads, and of a run that goes on on others.
+    fn same_on_any(&self) {
+        let one = self.on(1, 1);
+        for ranks in [1, 2, 3, 4, 7] {
+            for threads in [1, 2] {
+                assert_eq!(one, self.on(ranks, threads), "{ranks} ranks of {threads} threads");
+            }
+        }
+        assert_eq!(self.in_turn(&[1; 3]), self.in_turn(&[3, 7, 2]), "3, 7 and 2 ranks in turn");
     }
 }
 
@@ -313,83 +344,22 @@ fn a_flow_has_the_bits_of_one_rank() {
     job(FLOW).same(&[2, 4]);
 }
 
-/// More ranks than blocks, all grains in one block, and none at all: some ranks have nothing to do.
-#[test]
-fn ranks_without_grains_do_no_harm() {
-    let few = DAMPER.replace("count = 2500", "count = 300");
-    job(&few).same(&[2, 4]);
-    let none = FLOW
-        .replace("count = 1800", "count = 1")
-        .replace("count = 288", "count = 1")
-        .replace("count = 8\n", "count = 1\n");
-    job(&none).same(&[3]);
-}
-
 /// A stream of water in layers takes from the grains what they take from it.
+const STREAM: &str = r#"
+[water]
+density = "1000 kg/m^3"
+viscosity = "1e-6 m^2/s"
+drag.stokes-newton = {}
+flow.coupled = { bottom = 0, top = "40 mm", shear-velocity = "0.2 m/s" }
+fluctuation.strength = 0.5
+"#;
+
 #[test]
 fn a_stream_has_the_bits_of_one_rank() {
-    let flow = "[water]\ndensity = '1000 kg/m^3'\nviscosity = '1e-6 m^2/s'\ndrag.stokes-newton = {}\n\
-                flow.coupled = { bottom = 0, top = '40 mm', shear-velocity = '0.2 m/s' }\nfluctuation.strength = 0.5\n";
-    job(&format!("{FLOW}{flow}")).same(&[2, 3]);
-}
-
-/// Clumps across the cut and wider than a block, bonds across it, and a surface of water: all grains go over in every step.
-#[test]
-fn clumps_and_bonds_have_the_bits_of_one_rank() {
-    let clumps = FLOW.replace(
-        "size.uniform = { smallest = \"1.8 mm\", largest = \"2.2 mm\" }",
-        "diameter = \"2 mm\"\nshape.clump = { centre = [[-1, 0, 0], [1, 0, 0]], diameter = [2.5, 2.5] }",
-    );
-    let clumps = clumps.replace("count = 1800", "count = 900");
-    Job { steps: &[150, 1, 100], ..job(&clumps) }.same(&[3]);
-    let bonds = format!(
-        "{FLOW}[[bond]]\nparticles = [\"b-flow\"]\nyoung-modulus = \"2 MPa\"\nradius = 0.5\ntensile-strength = \"2 kPa\"\n"
-    );
-    Job { steps: &[150, 1, 100], ..job(&bonds) }.same(&[3]);
-}
-
-/// Balls, clumps, ellipsoids and cubes at a mesh that turns in a drum.
-#[test]
-fn all_shapes_have_the_bits_of_one_rank() {
-    let folder = tempfile::tempdir().unwrap();
-    let more = mixed(folder.path()).replace("count = 30", "count = 110").replace("\"120 mm\"", "\"450 mm\"");
-    Job { text: &more, folder: folder.path(), steps: &[1500, 1, 1000], resume: true }.same(&[3]);
-}
-
-/// Bodies of all shapes in bonds that break.
-#[test]
-fn bonded_bodies_have_the_bits_of_one_rank() {
-    Job { steps: &[1600, 1, 1400], resume: true, ..job(&block(8)) }.same(&[3]);
-}
-
-/// The same shapes but for the mesh, that fall into water.
-#[test]
-fn bodies_in_water_have_the_bits_of_one_rank() {
-    Job { steps: &[1500, 1, 700], resume: true, ..job(&splash(60)) }.same(&[3]);
+    job(&format!("{FLOW}{STREAM}")).same(&[2, 3]);
 }
 
 #[test]
 fn a_flow_goes_on_as_on_one_rank() {
     Job { resume: true, ..job(FLOW) }.same(&[3]);
-}
-
-mod patient {
-    use super::*;
-    use crate::dem::everything::{EVERYTHING, paddle};
-
-    #[test]
-    #[ignore = "half a minute: cargo xtask patient"]
-    fn everything_at_once_has_the_bits_of_one_rank() {
-        let folder = tempfile::tempdir().unwrap();
-        paddle(folder.path());
-        Job { text: EVERYTHING, folder: folder.path(), steps: &[300, 200], resume: true }.same(&[3]);
-    }
-
-    /// Cubes and tetrahedra, each contact of features with a history of its own, which goes over when grains are sorted anew.
-    #[test]
-    #[ignore = "5 s: cargo xtask patient"]
-    fn polyhedra_have_the_bits_of_one_rank() {
-        let crowd = CROWD.replace("count = 120", "count = 400").replace("110 mm", "300 mm");
-        Job { steps: &[2500, 1, 1500], resume: true, ..job(&crowd) }.same(&[3]);
-    }
 }

@@ -1,0 +1,167 @@
+//! The least height that flows, and the one law that it makes of all flows, at the size and stiffness of Silbert et al. 2001.
+//!
+//! Pouliquen (1999): a layer that has come to rest on a slope has the height h_stop of that slope, and the mean speed of a flow is
+//! u / sqrt(g cos h) = b h / h_stop - c for every height and slope.
+
+use super::{Flow, Slope, World, grows};
+use crate::beds::line;
+use crate::bench::{Rig, within};
+use crate::control::refused;
+use crate::keep;
+use crate::origin::{own, remembered};
+use glam::{DMat3, DVec3};
+use tsubu_frame::{Claim, State};
+
+/// Length and width of the periodic world.
+const SIZE: [f64; 2] = [20.0, 10.0];
+/// Stiffness of the springs, in m g/d.
+const STIFFNESS: f64 = 2e5;
+/// Layers that are brought to rest, and slopes on which they begin.
+const STOPPED: [[f64; 2]; 5] = [[4.0, 28.0], [6.0, 26.5], [10.0, 25.0], [16.0, 23.5], [24.0, 22.5]];
+/// The slope is lowered by so much [degrees] each time, and left for so long.
+const LOWERED: f64 = 0.25;
+const LEFT: f64 = 50.0;
+/// Mean speed of what rests.
+const RESTS: f64 = 1e-3;
+/// Slope, layers, and speed of the surface at the beginning, of flows: 40 layers are 8,000 grains, as there.
+const FLOWS: [[f64; 3]; 8] = [
+    [22.0, 40.0, 10.0],
+    [24.0, 40.0, 19.0],
+    [26.0, 40.0, 34.0],
+    [22.0, 20.0, 3.0],
+    [24.0, 20.0, 7.0],
+    [26.0, 20.0, 12.0],
+    [24.0, 10.0, 2.0],
+    [26.0, 10.0, 3.5],
+];
+/// When flows have become steady, and until when they are looked at.
+const LOOKED: [f64; 2] = [200.0, 350.0];
+
+/// What is said of these grains: slopes that no layer stops above and below [degrees], a height [d], and the rise of the law of flows.
+const SOURCE: &str = "Weinhart et al. 2012, Granular Matter 14: 17.56 and 32.26 degrees, 3.84 d, 0.191";
+const PUBLISHED: Stopping = Stopping { gentlest: 0.316_46, steepest: 0.631_06, height: 3.836 };
+const RISE: f64 = 0.191;
+
+/// Heights at which layers come to rest: h_stop = A (tan t2 - tan t) / (tan t - tan t1).
+#[derive(Clone, Copy, Debug)]
+struct Stopping {
+    /// tan t1: no layer rests on a steeper slope for ever, however thin; none flows on a gentler one.
+    gentlest: f64,
+    /// tan t2.
+    steepest: f64,
+    /// A, in diameters.
+    height: f64,
+}
+
+impl Stopping {
+    /// The curve through heights and slopes [degrees], by least squares of h tan t = t1 h - A tan t + A t2.
+    fn through(rests: &[[f64; 2]]) -> Self {
+        let (mut matrix, mut right) = (DMat3::ZERO, DVec3::ZERO);
+        for &[high, degrees] in rests {
+            let tangent = degrees.to_radians().tan();
+            let row = DVec3::new(high, -tangent, 1.0);
+            matrix += DMat3::from_cols(row * row.x, row * row.y, row * row.z);
+            right += row * (high * tangent);
+        }
+        let [gentlest, height, product] = (matrix.inverse() * right).to_array();
+        Self { gentlest, steepest: product / height, height }
+    }
+
+    /// Height [d] of what rests at a slope [degrees].
+    fn height(&self, degrees: f64) -> f64 {
+        let tangent = degrees.to_radians().tan();
+        self.height * (self.steepest - tangent) / (tangent - self.gentlest)
+    }
+
+    /// Slope [degrees] at which a layer of a height [d] comes to rest.
+    fn slope(&self, high: f64) -> f64 {
+        ((self.height * self.steepest + self.gentlest * high) / (self.height + high)).atan().to_degrees()
+    }
+}
+
+/// The slope [degrees] at which a layer comes to rest while its slope is lowered, or `lowest`.
+fn stops(slope: &Slope<'_>, lowest: f64, perturbation: f64) -> Result<f64, String> {
+    let mut rig = slope.rig(perturbation)?;
+    let mut degrees = slope.degrees;
+    loop {
+        rig.until(rig.engine.time() + LEFT)?;
+        let speeds = slope.look(&rig);
+        if speeds.iter().map(|g| g[1]).sum::<f64>() < RESTS * speeds.len() as f64 {
+            // It flowed on the slope before.
+            return Ok(degrees + 0.5 * LOWERED);
+        }
+        if degrees <= lowest {
+            return Ok(lowest);
+        }
+        degrees -= LOWERED;
+        rig = turned(&rig, degrees)?;
+    }
+}
+
+/// The same grains on another slope.
+fn turned(rig: &Rig, degrees: f64) -> Result<Rig, String> {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let mut state = State::default();
+    rig.engine.save(&mut state);
+    let mut plan = rig.plan.clone();
+    plan.gravity = [sin, 0.0, -cos];
+    let mut turned = Rig::of(plan, 1.0)?;
+    turned.engine.load(&state).map_err(|e| e.to_string())?;
+    Ok(turned)
+}
+
+/// Mean speed over sqrt(g cos h).
+fn froude(flow: &Flow) -> f64 {
+    flow.speed / (flow.degrees.to_radians().cos() * flow.thickness).sqrt()
+}
+
+/// The gates of the law of all flows: it is one straight line over the height in units of `unit`, which tells one for each slope.
+fn one_law(flows: &[Flow], unit: impl Fn(f64) -> f64) -> [Claim; 2] {
+    let points: Vec<(f64, f64)> = flows.iter().map(|f| (f.thickness / unit(f.degrees), froude(f))).collect();
+    let (rise, begin) = line(&points);
+    let off = points.iter().map(|(high, froude)| (froude - begin - rise * high).abs()).fold(0.0, f64::max);
+    let fastest = points.iter().map(|p| p.1).fold(0.0, f64::max);
+    let same = own("Pouliquen 1999: one line for all heights and slopes");
+    [
+        Claim::judge("all flows: farthest from one line, over the fastest", off / fastest, None, Some(0.1), same),
+        within("all flows: rise of the line", rise, RISE, 0.15 * RISE, remembered(SOURCE)),
+    ]
+}
+
+/// V-36 at full size: where layers come to rest, and how flows go by it.
+pub fn stopping(perturbation: f64) -> Result<Vec<Claim>, String> {
+    let world = World::new(SIZE, STIFFNESS, perturbation)?;
+    let numbers: Vec<u64> = (0..FLOWS.len() as u64).collect();
+    let flows = keep::members("flows", &numbers, |number| {
+        let [degrees, layers, start] = FLOWS[number as usize];
+        Ok(Slope::new(&world, degrees, layers, start).flow(LOOKED, perturbation)?.numbers())
+    })?;
+    let flows: Vec<Flow> =
+        flows.into_iter().zip(FLOWS).map(|(n, [degrees, layers, _])| Flow::from(degrees, layers, n)).collect();
+    // As dense at rest as in flow, but for a few hundredths.
+    let high = flows.iter().map(|f| f.thickness / f.layers).sum::<f64>() / flows.len() as f64;
+    let numbers: Vec<u64> = (0..=STOPPED.len() as u64).collect();
+    let rests = keep::members("layers that come to rest", &numbers, |number| {
+        let Some(&[layers, degrees]) = STOPPED.get(number as usize) else {
+            let slippery = Slope { friction: 0.0, ..Slope::new(&world, 20.0, 6.0, 3.0) };
+            return Ok([stops(&slippery, 16.0, 1.0)?]);
+        };
+        Ok([stops(&Slope::new(&world, degrees, layers, 3.0), 15.0, perturbation)?])
+    })?;
+    let rests: Vec<f64> = rests.into_iter().map(|[degrees]| degrees).collect();
+    let gate = |layers: f64, degrees: f64| {
+        let name = format!("a layer of {layers}: slope at which it comes to rest, less the published one");
+        within(name, degrees - PUBLISHED.slope(layers * high), 0.0, 0.75, remembered(SOURCE))
+    };
+    let (slippery, rests) = rests.split_last().ok_or("no layer came to rest")?;
+    let heights: Vec<[f64; 2]> = STOPPED.iter().zip(rests).map(|(&[layers, _], &d)| [layers * high, d]).collect();
+    let found = Stopping::through(&heights);
+    let mut claims: Vec<Claim> =
+        STOPPED.iter().zip(rests).map(|(&[layers, _], &degrees)| gate(layers, degrees)).collect();
+    claims.push(refused("chute, a layer of grains without friction", &[gate(6.0, *slippery)], 1));
+    claims.extend(flows[..3].iter().flat_map(Flow::gates));
+    claims.extend([grows(&flows[0], &flows[3]), grows(&flows[1], &flows[4]), grows(&flows[2], &flows[5])]);
+    claims.extend(one_law(&flows, |degrees| found.height(degrees)));
+    claims.push(refused("chute, heights in diameters in the law of flows", &one_law(&flows, |_| 1.0), 2));
+    Ok(claims)
+}
