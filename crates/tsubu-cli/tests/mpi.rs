@@ -95,11 +95,14 @@ const SILO: &str = include_str!("mpi/silo.toml");
 /// A periodic chute with a coupled stream over it.
 const CHUTE: &str = include_str!("mpi/chute.toml");
 
+/// Ranks, and threads of each.
+const NUMBERS: [(usize, usize); 4] = [(2, 1), (3, 2), (4, 1), (7, 1)];
+
 #[test]
 fn a_damper_has_the_same_bits_and_files_on_any_ranks() {
     let desk = Desk::with(DAMPER);
     let alone = desk.alone();
-    for (ranks, threads) in [(2, 1), (3, 2), (4, 1), (7, 1)] {
+    for (ranks, threads) in NUMBERS {
         let out = format!("out{ranks}");
         let done = desk.run(ranks, &format!("run scene.toml -q --threads {threads} -o {out}"));
         assert!(done.status.success(), "{}", text(&done));
@@ -117,10 +120,10 @@ fn stages_streams_and_removal_have_the_same_bits() {
     for scene in [SILO, CHUTE] {
         let desk = Desk::with(scene);
         let alone = desk.alone();
-        for ranks in [2, 3] {
-            let done = desk.run(ranks, &format!("run scene.toml -q --threads 1 -o out{ranks}"));
+        for (ranks, threads) in NUMBERS {
+            let done = desk.run(ranks, &format!("run scene.toml -q --threads {threads} -o out{ranks}"));
             assert!(done.status.success(), "{}", text(&done));
-            assert_eq!(desk.hash(&format!("out{ranks}")), alone, "{ranks} ranks");
+            assert_eq!(desk.hash(&format!("out{ranks}")), alone, "{ranks} ranks of {threads} threads");
         }
     }
 }
@@ -128,7 +131,12 @@ fn stages_streams_and_removal_have_the_same_bits() {
 /// One rank is killed without a word. All end within seconds, and the run goes on from its checkpoint on another number of ranks.
 #[test]
 fn a_killed_rank_ends_the_run_and_another_number_goes_on() {
-    let desk = Desk::with(&DAMPER.replace("0.02 s", "0.2 s"));
+    for scene in [DAMPER.replace("0.02 s", "0.2 s"), format!("{SILO}[output]\ncheckpoint-interval = \"20 ms\"\n")] {
+        killed(&Desk::with(&scene));
+    }
+}
+
+fn killed(desk: &Desk) {
     let child = desk.command(3, "run scene.toml -q --threads 1 -o out").spawn().unwrap();
     desk.checkpoint("out");
     let ranks = Command::new("pgrep").args(["-f", &format!("^{PROGRAM} run scene.toml.*-o out")]).output().unwrap();

@@ -9,6 +9,7 @@ mod section;
 mod servo;
 mod smooth;
 mod travel;
+mod turning;
 
 use glam::DVec3;
 use std::sync::Arc;
