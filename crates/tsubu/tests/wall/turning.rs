@@ -1,7 +1,7 @@
 //! A ball in a smooth tube that turns as it is told: what the walls do to it is what centrifugal and Coriolis forces do in the frame that
 //! turns. Along the tube r'' = r w^2 - g sin(a) for an angle a and its rate w; across it the wall pushes with m (2 w r' + r w').
 
-use tsubu::engine::{self, Engine};
+use tsubu::engine;
 use tsubu::ledger::{Account, Ledger};
 use tsubu::partner::Hosts;
 use tsubu_scene::Scene;
