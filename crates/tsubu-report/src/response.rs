@@ -287,8 +287,18 @@ fn charts(source: &mut Source, curves: &[Curve], cases: Option<&Table>, by_ratio
     for (curve, limit) in limits {
         rms = rms.marked(Mark { colour: Some(curve), ..Mark::vertical(limit, "") });
     }
+    let parted = parted(cases.filter(|_| by_ratio));
+    for [from, to] in &parted {
+        rms = rms.marked(Mark::vertical(*from, "two motions from here")).marked(Mark::vertical(*to, "to here"));
+    }
     let band = if spread { " The bands span the seeds." } else { "" };
-    let caption = format!("Steady rms displacement of the host against the frequency of excitation.{band}{dashed}");
+    let hysteresis = if parted.is_empty() {
+        ""
+    } else {
+        " Hysteresis: between the marks what comes from below moves otherwise than what comes from above."
+    };
+    let caption =
+        format!("Steady rms displacement of the host against the frequency of excitation.{band}{dashed}{hysteresis}");
     let mut blocks = Vec::new();
     blocks.extend(source.figure("response_rms", &rms, &caption));
     if let Some(chart) = source.figure("response_peak", &peak, "The largest displacement at each frequency.") {
@@ -302,6 +312,18 @@ fn covers(one: &Curve, other: &Curve) -> bool {
     let top = one.top().map_or(f64::NAN, |t| t[1]);
     let close = |(a, b): (&[f64; 5], &[f64; 5])| a[0] == b[0] && (a[1] - b[1]).abs() < 0.02 * top;
     one.points.len() == other.points.len() && one.points.iter().zip(&other.points).all(close)
+}
+
+/// Lowest and highest frequency ratio at which the curves up and down of a case part, each once.
+fn parted(cases: Option<&Table>) -> Vec<[f64; 2]> {
+    let ends = |name: &str| cases.and_then(|table| table.numbers(name)).unwrap_or_default();
+    let mut parted: Vec<[f64; 2]> = Vec::new();
+    for (from, to) in ends("hysteresis from").into_iter().zip(ends("hysteresis to")) {
+        if from.is_finite() && to.is_finite() && !parted.contains(&[from, to]) {
+            parted.push([from, to]);
+        }
+    }
+    parted
 }
 
 /// Curve and frequency ratio of each case's added-mass limit.

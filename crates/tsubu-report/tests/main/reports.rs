@@ -101,6 +101,23 @@ fn a_response_names_its_lowest_peak() {
     assert!(titles(&report).contains(&"Energy by cause"));
 }
 
+/// Where curves up and down part is marked in the figure; it stood in the table alone.
+#[test]
+fn hysteresis_is_marked() {
+    let dir = tempfile::tempdir().unwrap();
+    fixture::response(dir.path());
+    assert!(!written(dir.path()).contains("two motions"));
+    let path = dir.path().join("cases.csv");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let more =
+        [",hysteresis from [-],hysteresis to [-]", ",0.94,0.98"].into_iter().chain(std::iter::repeat(",NaN,NaN"));
+    let text: String = text.lines().zip(more).map(|(line, more)| format!("{line}{more}\n")).collect();
+    std::fs::write(&path, text).unwrap();
+    let html = written(dir.path());
+    assert_eq!(html.matches("two motions from here").count(), 1);
+    assert!(html.contains("Hysteresis: between the marks"));
+}
+
 #[test]
 fn a_response_shows_the_period_it_filmed() {
     let dir = tempfile::tempdir().unwrap();
