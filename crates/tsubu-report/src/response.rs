@@ -289,13 +289,13 @@ fn charts(source: &mut Source, curves: &[Curve], cases: Option<&Table>, by_ratio
     }
     let parted = parted(cases.filter(|_| by_ratio));
     for [from, to] in &parted {
-        rms = rms.marked(Mark::vertical(*from, "two motions from here")).marked(Mark::vertical(*to, "to here"));
+        rms = rms.marked(Mark::vertical(*from, "")).marked(Mark::vertical(*to, "hysteresis"));
     }
     let band = if spread { " The bands span the seeds." } else { "" };
     let hysteresis = if parted.is_empty() {
         ""
     } else {
-        " Hysteresis: between the marks what comes from below moves otherwise than what comes from above."
+        " Hysteresis: between the grey marks what comes from below moves otherwise than what comes from above."
     };
     let caption =
         format!("Steady rms displacement of the host against the frequency of excitation.{band}{dashed}{hysteresis}");

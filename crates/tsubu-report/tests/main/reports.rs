@@ -106,7 +106,7 @@ fn a_response_names_its_lowest_peak() {
 fn hysteresis_is_marked() {
     let dir = tempfile::tempdir().unwrap();
     fixture::response(dir.path());
-    assert!(!written(dir.path()).contains("two motions"));
+    assert!(!written(dir.path()).contains(">hysteresis<"));
     let path = dir.path().join("cases.csv");
     let text = std::fs::read_to_string(&path).unwrap();
     let more =
@@ -114,8 +114,8 @@ fn hysteresis_is_marked() {
     let text: String = text.lines().zip(more).map(|(line, more)| format!("{line}{more}\n")).collect();
     std::fs::write(&path, text).unwrap();
     let html = written(dir.path());
-    assert_eq!(html.matches("two motions from here").count(), 1);
-    assert!(html.contains("Hysteresis: between the marks"));
+    assert_eq!(html.matches(">hysteresis<").count(), 1);
+    assert!(html.contains("Hysteresis: between the grey marks"));
 }
 
 #[test]
