@@ -1,4 +1,4 @@
-//! Clumps that come in streams, and go as a whole.
+//! Bodies that come in streams and go: clumps as a whole, superellipsoids and polyhedra.
 
 use super::{hash, missing, open_text};
 use std::collections::BTreeMap;
@@ -44,6 +44,33 @@ count = 5
 diameter = "4 mm"
 shape.clump = { centre = [[-1, 0, 0], [1, 0, 0]], diameter = [2, 2] }
 start.random = { region = { low = [-0.01, -0.01, 0.003], high = [0.01, 0.01, 0.009] }, velocity = [0, 0, -1] }
+[removal.below.behind]
+point = [0, 0, -0.006]
+normal = [0, 0, 1]
+"#;
+
+/// The same with ellipsoids and cubes in the place of clumps.
+const SHAPES: &str = r#"
+[periodic]
+x = ["-10 mm", "10 mm"]
+y = ["-10 mm", "10 mm"]
+[particles.cubes]
+material = "glass"
+count = 40
+diameter = "2.5 mm"
+shape.polyhedron = { corners = [[-1, -1, -1], [1, -1, -1], [-1, 1, -1], [1, 1, -1], [-1, -1, 1], [1, -1, 1], [-1, 1, 1], [1, 1, 1]], rounding = 0.4 }
+start.stream = { region = { low = [-0.01, -0.01, 0.01], high = [0.01, 0.01, 0.02] }, rate = 2000, velocity = [0, 0, -1] }
+[particles.eggs]
+material = "glass"
+count = 60
+size.uniform = { smallest = "2 mm", largest = "3 mm" }
+shape.superellipsoid.semi-axes = [3, 2, 1.5]
+start.stream = { region = { low = [-0.01, -0.01, 0.01], high = [0.01, 0.01, 0.02] }, rate = 3000, velocity = [0.3, 0, -1], speed = 0.2 }
+[particles.held]
+material = "glass"
+diameter = "4 mm"
+start.at.position = [[-0.005, -0.005, 0], [0.005, 0.005, 0]]
+motion.frozen = {}
 [removal.below.behind]
 point = [0, 0, -0.006]
 normal = [0, 0, 1]
@@ -115,4 +142,35 @@ normal = [0, 0, 1]
     assert_eq!(engine.grains(), 0);
     assert!(missing(&*engine, &hosts, &ledger) < 1e-3);
     assert!(engine.grain_energies().total().abs() < 1e-15);
+}
+
+mod patient {
+    use super::*;
+
+    /// What comes and has not gone is there, whatever its shape; same bits, closed books.
+    #[test]
+    #[ignore = "8 s: cargo xtask patient"]
+    fn ellipsoids_and_cubes_come_and_go() {
+        let text = format!("{HEAD}{SHAPES}");
+        let run = |threads, resume| {
+            hash(
+                || open_text(&text, &[]),
+                [9000, 11_000],
+                threads,
+                resume,
+                |engine, hosts, ledger| {
+                    let traffic: BTreeMap<String, u64> = engine.traffic().into_iter().collect();
+                    (missing(engine, hosts, ledger), engine.grains() as u64, traffic)
+                },
+            )
+        };
+        let (alone, (residual, there, traffic)) = run(1, false);
+        assert!(residual < 1e-3, "{residual}");
+        let (eggs, cubes, gone) =
+            (traffic["stream eggs grains"], traffic["stream cubes grains"], traffic["removal below grains"]);
+        assert!(eggs > 40 && cubes > 25 && gone > 20, "{traffic:?}");
+        assert_eq!(2 + eggs + cubes, there + gone, "{traffic:?}");
+        assert_eq!(alone, run(2, false).0);
+        assert_eq!(alone, run(7, true).0);
+    }
 }
