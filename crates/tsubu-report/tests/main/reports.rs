@@ -111,8 +111,8 @@ fn hysteresis_is_marked() {
     let text = std::fs::read_to_string(&path).unwrap();
     let more =
         [",hysteresis from [-],hysteresis to [-]", ",0.94,0.98"].into_iter().chain(std::iter::repeat(",NaN,NaN"));
-    let text: String = text.lines().zip(more).map(|(line, more)| format!("{line}{more}\n")).collect();
-    std::fs::write(&path, text).unwrap();
+    let lines: Vec<String> = text.lines().zip(more).map(|(line, more)| format!("{line}{more}")).collect();
+    std::fs::write(&path, lines.join("\n")).unwrap();
     let html = written(dir.path());
     assert_eq!(html.matches(">hysteresis<").count(), 1);
     assert!(html.contains("Hysteresis: between the grey marks"));
