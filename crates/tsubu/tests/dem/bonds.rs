@@ -41,6 +41,21 @@ fn bonds(engine: &dyn Engine) -> (usize, u64) {
     (view.bonds.len(), view.broken_bonds)
 }
 
+/// Bodies that lie farther apart than the `gap` are not bonded, and `check` says so; with a wider gap they are.
+#[test]
+fn bodies_too_far_apart_are_told() {
+    let text =
+        cantilever(1, |_| 0.0, "gap = 0.1").replace("position = [[2e", "position = [[2.8e").replace("[0.002,", "[0.0028,");
+    let (engine, ..) = open_text(&text, &[]);
+    assert_eq!(bonds(&*engine), (0, 0));
+    let told = |engine: &dyn Engine| {
+        engine.notes().iter().any(|note| note.key.starts_with("bond.") && note.text.contains("holds nothing"))
+    };
+    assert!(told(&*engine), "{:?}", engine.notes());
+    let (engine, ..) = open_text(&text.replace("gap = 0.1", "gap = 0.9"), &[]);
+    assert!(bonds(&*engine) == (1, 0) && !told(&*engine), "{:?}", engine.notes());
+}
+
 /// A cantilever of five grains sags by its weight. Timoshenko: a load P at x bends the tip by P x^2 (3 L - x) / (6 E I) and shears it by
 /// P x / (K G A), K = 6 (1 + p) / (7 + 6 p). Without the shear, as Euler and Bernoulli have it, it would be 2 % stiffer: the gate refuses it.
 #[test]
