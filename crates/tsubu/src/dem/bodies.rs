@@ -9,6 +9,7 @@ mod assemble;
 mod body;
 mod in_water;
 mod refused;
+mod saved;
 mod seen;
 mod told;
 
@@ -27,26 +28,27 @@ use crate::view;
 pub(super) use body::Body;
 use body::{Felt, TOGETHER};
 use glam::{DQuat, DVec3};
-use tsubu_frame::State;
-use tsubu_frame::state::MissingSection;
 
 /// A sphere of a body, or one that is none.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
+    /// Its number, or its rank.
     body: u32,
     /// Its centre from that of the body, along the principal axes [m].
     offset: DVec3,
 }
 
-/// All bodies of several spheres, in the order of the ids of their pieces, with those that are yet to come and those that have gone, which have
-/// no pieces; empty where every grain is a sphere.
+/// All bodies of several spheres, with those that are yet to come and those that have gone, which have no pieces; empty where every grain is a sphere. Their numbers go with the ids
+/// of their pieces. They lie as the grains do, so that what a block sees lies side by side; what is added up goes in the order of the numbers.
 #[derive(Clone, Debug, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "each is another question about all of them")]
 pub(super) struct Bodies {
     list: Vec<Body>,
-    /// By the ids of grains.
+    /// Where in the list the body with a number is.
+    rank: Vec<u32>,
+    /// By the ids of grains, with the numbers of bodies.
     by_id: Vec<Piece>,
-    /// The same as the grains are sorted.
+    /// The same as the grains are sorted, with the ranks of bodies.
     sorted: Vec<Piece>,
     /// Where the pieces are among the grains, body by body.
     places: Vec<u32>,
@@ -139,9 +141,14 @@ impl Bodies {
         if self.is_empty() {
             return;
         }
-        let by_id = &self.by_id;
+        self.sort(grains);
+        let (by_id, rank) = (&self.by_id, &self.rank);
+        let piece = |id: &u32| {
+            let Piece { body, offset } = by_id[*id as usize];
+            Piece { body: rank.get(body as usize).copied().unwrap_or(NO_BODY), offset }
+        };
         self.sorted.clear();
-        self.sorted.extend(grains.id.iter().map(|id| by_id[*id as usize]));
+        self.sorted.extend(grains.id.iter().map(piece));
         self.places = grains.by_id().into_iter().map(|place| place as u32).collect();
         let sorted = &self.sorted;
         self.places.retain(|place| sorted[*place as usize].body != NO_BODY);
@@ -156,14 +163,46 @@ impl Bodies {
         }
     }
 
+    /// Puts the bodies in the order of their first pieces among the grains; those that are not there come last.
+    fn sort(&mut self, grains: &Grains) {
+        let Self { list, rank, by_id, .. } = self;
+        rank.fill(NO_BODY);
+        let mut met = 0;
+        let of_grains = grains.id.iter().map(|id| by_id[*id as usize].body).filter(|body| *body != NO_BODY);
+        for body in of_grains.chain(0..list.len() as u32) {
+            let rank = &mut rank[body as usize];
+            if *rank == NO_BODY {
+                *rank = met;
+                met += 1;
+            }
+        }
+        let mut k = 0;
+        while k < list.len() {
+            let to = rank[list[k].number as usize] as usize;
+            if to == k {
+                k += 1;
+            } else {
+                Body::swap(list, k, to);
+            }
+        }
+        for body in list {
+            body.turn_polyhedron(&self.polyhedra);
+        }
+    }
+
+    /// All in the order of their numbers.
+    fn numbered(&self) -> impl Iterator<Item = &Body> {
+        self.rank.iter().map(|rank| &self.list[*rank as usize])
+    }
+
     /// Those that are there.
     fn there(&self) -> impl Iterator<Item = &Body> {
-        self.list.iter().filter(|body| body.is_there())
+        self.numbered().filter(|body| body.is_there())
     }
 
     /// Which bodies a look at their centres of mass [m] takes away, by their numbers.
     pub fn taken(&self, mut takes: impl FnMut(DVec3) -> bool) -> Vec<bool> {
-        self.list.iter().map(|body| body.is_there() && takes(body.centre)).collect()
+        self.numbered().map(|body| body.is_there() && takes(body.centre)).collect()
     }
 
     /// Before the forces: bodies go to the end of the step. Their pieces follow block by block, see [`Bodies::place`].
@@ -317,63 +356,9 @@ impl Bodies {
 
     /// How the body of a grain is turned.
     pub fn orientation(&self, id: u32) -> Option<DQuat> {
-        self.of(id).map(|body| self.list[body as usize].orientation)
-    }
-
-    pub fn save(&self, state: &mut State) {
-        if self.is_empty() {
-            return;
-        }
-        for (k, name) in VECTORS.iter().enumerate() {
-            let column = self.list.iter().flat_map(|body| body.vectors()[k].to_array());
-            state.put_real(name, column.collect::<Vec<_>>());
-        }
-        let turned = self.list.iter().flat_map(|body| body.orientation.to_array());
-        state.put_real("bodies.orientation", turned.collect::<Vec<_>>());
-    }
-
-    /// Takes it back, with the grains that were saved beside.
-    pub fn load(&mut self, state: &State, grains: &Grains) -> Result<(), MissingSection> {
-        if self.is_empty() {
-            return Ok(());
-        }
-        let missing = |name: &str| MissingSection { name: name.to_owned(), kind: "real" };
-        if grains.id.iter().any(|id| *id as usize >= self.by_id.len()) {
-            return Err(missing("bodies"));
-        }
-        self.find(grains);
-        // A body is there with all of its pieces.
-        let mut pieces = vec![0; self.list.len()];
-        for piece in self.by_id.iter().filter(|piece| piece.body != NO_BODY) {
-            pieces[piece.body as usize] += 1;
-        }
-        if self.list.iter().zip(pieces).any(|(body, count)| body.is_there() && body.pieces.len() != count) {
-            return Err(missing("bodies"));
-        }
-        for (k, name) in VECTORS.iter().enumerate() {
-            let column = state.real(name)?.as_chunks::<3>().0;
-            if column.len() != self.list.len() {
-                return Err(missing(name));
-            }
-            for (body, value) in self.list.iter_mut().zip(column) {
-                *body.vectors_mut()[k] = DVec3::from_array(*value);
-            }
-        }
-        let turned = state.real("bodies.orientation")?.as_chunks::<4>().0;
-        if turned.len() != self.list.len() {
-            return Err(missing("bodies.orientation"));
-        }
-        for (body, turned) in self.list.iter_mut().zip(turned) {
-            body.orientation = DQuat::from_array(*turned);
-            body.follow(self.plane, &self.polyhedra);
-        }
-        Ok(())
+        self.of(id).map(|body| self.list[self.rank[body as usize] as usize].orientation)
     }
 }
-
-/// Names of [`Body::vectors`] in a checkpoint.
-const VECTORS: [&str; 5] =
-    ["bodies.centre", "bodies.velocity", "bodies.acceleration", "bodies.angular-momentum", "bodies.torque"];
 
 /// The pieces of one block, as columns.
 pub(super) struct Block<'a> {

@@ -13,6 +13,7 @@ use crate::polyhedron::Turned;
 use crate::polyhedron::near::Near;
 use crate::polyhedron::touch::{Contact, Search, touch};
 use glam::{DMat3, DVec3};
+use multiversion::multiversion;
 use std::ops::Range;
 
 /// The contacts of a block in which a polyhedron takes part, in the order of the neighbour list and of the features.
@@ -22,6 +23,8 @@ pub(super) struct PairFeatures {
     pub near: Near,
     /// How polyhedra give way that the block sees, by local index.
     gives: Vec<Option<Gives>>,
+    /// How far these have gone [m].
+    paths: Vec<f64>,
     search: Search,
     /// Pairs of the block, the pair once more for each of its contacts.
     pairs: Vec<TouchingPair>,
@@ -40,30 +43,23 @@ struct Gives {
     inverse_inertia: DMat3,
 }
 
-/// A grain that the block sees.
-#[derive(Clone, Copy)]
-struct Seen<'a> {
-    /// The polyhedron that it is.
-    body: Option<Turned<'a>>,
-    /// How far that has gone [m].
-    path: f64,
-}
-
 impl PairFeatures {
     /// Takes the pairs with a polyhedron from those whose spheres touch.
     pub fn take(&mut self, touching: &mut TouchingPairs, input: &ForceInput, list: &BlockList, spheres: &Spheres) {
-        let Self { near, gives, search, pairs, contacts, .. } = self;
+        let Self { near, gives, paths, search, pairs, contacts, .. } = self;
         if !input.bodies.faceted() {
             return;
         }
         pairs.clear();
         contacts.clear();
         gives.clear();
+        paths.clear();
         let mut seen = Vec::with_capacity(list.grain_at.len());
         for grain in &list.grain_at {
             let body = input.bodies.body(*grain as usize);
             let turned = input.bodies.polyhedron(*grain as usize);
-            seen.push(Seen { body: turned, path: body.map_or(0.0, |body| body.path) });
+            seen.push(turned);
+            paths.push(body.map_or(0.0, |body| body.path));
             gives.push(turned.zip(body).map(|(turned, body)| {
                 // Without rotation no body gives way by turning.
                 let inverse_inertia = if input.laws.rotation { body.inverse_inertia } else { DMat3::ZERO };
@@ -72,14 +68,14 @@ impl PairFeatures {
         }
         let reach = input.laws.reach();
         let shaped = input.bodies.shaped();
+        let path =
+            |pair: &TouchingPair| paths[pair.first as usize] + paths[list.pairs[pair.pair as usize].second as usize];
+        // By itself, for a processor cannot guess who sleeps.
+        touching.keep(|pair| !near.is_apart(pair.pair as usize, path(pair)));
         touching.keep(|pair| {
             let (first, second) = (pair.first, list.pairs[pair.pair as usize].second);
-            let (a, b) = (&seen[first as usize], &seen[second as usize]);
-            let (pair_of, path) = (pair.pair as usize, a.path + b.path);
-            if near.is_apart(pair_of, path) {
-                return false;
-            }
-            if a.body.is_none() && b.body.is_none() {
+            let [a, b] = [first, second].map(|local| &seen[local as usize]);
+            if a.is_none() && b.is_none() {
                 return true;
             }
             // Superellipsoids touch polyhedra as they touch all: once, see [`super::shapes`].
@@ -89,11 +85,11 @@ impl PairFeatures {
             }
             let (p, q) = (spheres.at(first), spheres.at(second));
             let apart = DVec3::new(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
-            if let (Some(a), Some(b)) = (&a.body, &b.body) {
-                near.touch(pair_of, path, ([a, b], apart, reach), search, contacts);
+            if let (Some(a), Some(b)) = (a, b) {
+                near.touch(pair.pair as usize, path(pair), ([a, b], apart, reach), search, contacts);
             } else {
-                let a = a.body.unwrap_or_else(|| Turned::sphere(p[3]));
-                let b = b.body.unwrap_or_else(|| Turned::sphere(q[3]));
+                let a = a.unwrap_or_else(|| Turned::sphere(p[3]));
+                let b = b.unwrap_or_else(|| Turned::sphere(q[3]));
                 touch([&a, &b], apart, reach, search, contacts);
             }
             pairs.resize(contacts.len(), *pair);
@@ -174,20 +170,9 @@ impl PairFeatures {
 
     /// Gives the rows the mass that their bodies show there, see [`super::bodies::Bodies::show_mass`].
     pub fn show_mass(&self, batch: &mut ContactBatch, input: &ForceInput, list: &BlockList) {
-        for r in 0..batch.chunk.rows() {
-            let normal = Chunk::vector(&batch.chunk.normal, r);
-            let turning = |local: u32, shift: DVec3| match &self.gives[local as usize] {
-                Some(gives) => {
-                    let lever = shift.cross(normal);
-                    lever.dot(gives.inverse_inertia * lever)
-                }
-                None => input.bodies.turning(list.grain_at[local as usize] as usize, shift, normal),
-            };
-            let more = turning(batch.first[r], batch.shift(0, r)) + turning(batch.second[r], batch.shift(1, r));
-            if more > 0.0 {
-                batch.chunk.effective_mass[r] = 1.0 / (1.0 / batch.chunk.effective_mass[r] + more);
-            }
-        }
+        show_mass(batch, &self.gives, &|local, shift, normal| {
+            input.bodies.turning(list.grain_at[local as usize] as usize, shift, normal)
+        });
     }
 
     /// After the geometry of spheres: edges that lie back overlap by less, and nearer points close them less fast.
@@ -206,6 +191,28 @@ impl PairFeatures {
             let dissipative = Chunk::vector(&batch.dissipative, r) + lacks * batch.chunk.damping_force[r];
             Chunk::set(&mut batch.force, r, force);
             Chunk::set(&mut batch.dissipative, r, dissipative);
+        }
+    }
+}
+
+/// `turning` tells how much those give way that are no polyhedra.
+#[multiversion(targets = "simd")]
+fn show_mass(batch: &mut ContactBatch, gives: &[Option<Gives>], turning: &dyn Fn(u32, DVec3, DVec3) -> f64) {
+    for r in 0..batch.chunk.rows() {
+        let normal = Chunk::vector(&batch.chunk.normal, r);
+        let mut more = 0.0;
+        for (body, local) in [batch.first[r], batch.second[r]].into_iter().enumerate() {
+            let shift = batch.shift(body, r);
+            more += match &gives[local as usize] {
+                Some(gives) => {
+                    let lever = shift.cross(normal);
+                    lever.dot(gives.inverse_inertia * lever)
+                }
+                None => turning(local, shift, normal),
+            };
+        }
+        if more > 0.0 {
+            batch.chunk.effective_mass[r] = 1.0 / (1.0 / batch.chunk.effective_mass[r] + more);
         }
     }
 }

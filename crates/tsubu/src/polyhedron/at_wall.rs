@@ -44,7 +44,7 @@ impl Turned<'_> {
     pub fn at_ridge(&self, [a, b]: [DVec3; 2], reach: f64, mut found: impl FnMut(AtWall)) {
         let (radius, cut) = (self.rounding, self.rounding + reach);
         let beside = |face: usize| self.above(face, a).min(self.above(face, b)) >= cut;
-        if (0..self.normals.len()).any(beside) {
+        if (0..self.faces()).any(beside) {
             return;
         }
         let way = b - a;

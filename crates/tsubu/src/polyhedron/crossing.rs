@@ -29,6 +29,7 @@ pub(super) struct Edge {
 }
 
 /// Where two edges are nearest to each other: the points on both, and D^2 [m^2]. `back` is q [m^2].
+#[inline]
 pub(super) fn nearest(a: &Edge, b: &Edge, back: f64) -> ([DVec3; 2], f64) {
     let from = a.middle - b.middle;
     let (aa, bb, ab) = (a.squared + back, b.squared + back, a.way.dot(b.way));

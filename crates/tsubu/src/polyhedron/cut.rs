@@ -26,7 +26,7 @@ impl Turned<'_> {
     /// Volume of the core below a plane, times 3; area, times 2. Seen from a point of the plane every face is the base of a pyramid, and the cut has no height.
     fn core_below(&self, n: DVec3, height: f64) -> f64 {
         let point = n * height;
-        (0..self.normals.len()).map(|face| -self.above(face, point) * self.face_below(face, n, height)).sum()
+        (0..self.faces()).map(|face| -self.above(face, point) * self.face_below(face, n, height)).sum()
     }
 
     /// Area of a face of the core below a plane, or length of a side.
@@ -50,6 +50,6 @@ impl Turned<'_> {
             return below.iter().map(|p| p.distance(*first)).fold(0.0, f64::max);
         }
         let twice: DVec3 = below.windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum();
-        0.5 * twice.dot(self.normals[face])
+        0.5 * twice.dot(self.normal(face))
     }
 }

@@ -16,6 +16,8 @@ const LEAST: f64 = 1e-5;
 /// The features that are near, of all pairs of a list.
 #[derive(Clone, Debug, Default)]
 pub struct Near {
+    /// The path of both bodies of each pair up to which nothing of them can touch [m].
+    apart: Vec<f64>,
     pairs: Vec<Pair>,
     features: Vec<Sleeper>,
 }
@@ -37,13 +39,15 @@ struct Sleeper {
     /// The path of both bodies up to which it cannot touch [m].
     until: f64,
     feature: u32,
+    /// The face that a corner was nearest to.
+    face: u32,
 }
 
 /// Nothing is known.
 const UNKNOWN: Pair = Pair { until: f64::NEG_INFINITY, first: 0, count: 0, room: 0 };
 
 /// What is looked at.
-const AWAKE: Sleeper = Sleeper { until: f64::NEG_INFINITY, feature: 0 };
+const AWAKE: Sleeper = Sleeper { until: f64::NEG_INFINITY, feature: 0, face: 0 };
 
 /// The path up to which a gap [m] can be slept through, from a path on [m].
 fn sleep(path: f64, gap: f64, radii: f64) -> f64 {
@@ -53,6 +57,8 @@ fn sleep(path: f64, gap: f64, radii: f64) -> f64 {
 impl Near {
     /// Forgets all; from now on there are so many pairs.
     pub fn forget(&mut self, pairs: usize) {
+        self.apart.clear();
+        self.apart.resize(pairs, f64::NEG_INFINITY);
         self.pairs.clear();
         self.pairs.resize(pairs, UNKNOWN);
         self.features.clear();
@@ -66,8 +72,7 @@ impl Near {
     /// Whether nothing of a pair can touch before both bodies have gone farther than so far [m].
     #[inline]
     pub fn is_apart(&self, pair: usize, path: f64) -> bool {
-        let Pair { until, count, .. } = self.pairs[pair];
-        count == 0 && path <= until
+        path <= self.apart[pair]
     }
 
     /// Appends where the two bodies of a pair touch, or are nearer than `reach` [m], as [`touch`] does; `path` is how far both have gone [m].
@@ -89,7 +94,7 @@ impl Near {
             if path <= sleeper.until {
                 continue;
             }
-            match cut.at(bodies, apart, sleeper.feature) {
+            match cut.at(bodies, apart, sleeper.feature, &mut sleeper.face) {
                 Ok(contact) => found.push(contact),
                 Err(gap) => sleeper.until = sleep(path, gap, radii),
             }
@@ -108,10 +113,11 @@ impl Near {
         let margin = bodies[0].rounding + bodies[1].rounding;
         let before = found.len();
         let beyond = touch(bodies, apart, reach + margin, search, found);
-        let Self { pairs, features } = self;
+        let Self { apart: asleep, pairs, features } = self;
         let known = &mut pairs[pair];
         known.until = path + SHARE * (margin + beyond);
         known.count = (found.len() - before) as u32;
+        asleep[pair] = if known.count == 0 { known.until } else { f64::NEG_INFINITY };
         if known.count > known.room {
             // What it had stays behind; rooms double, so it is less than what is there.
             (known.first, known.room) = (features.len() as u32, known.count.next_power_of_two());

@@ -8,22 +8,48 @@ impl Turned<'_> {
     ///
     /// The slope of the distance is that direction, which turns without a jump as the nearest feature changes; the core is convex.
     pub(super) fn distance(&self, point: DVec3, cut: f64) -> Result<(f64, DVec3), f64> {
+        self.distance_at(self.highest(point), point, cut)
+    }
+
+    /// The same, faster where the nearest face is the one that it was; and tells which it is.
+    #[inline]
+    pub(super) fn distance_from(&self, face: &mut u32, point: DVec3, cut: f64) -> Result<(f64, DVec3), f64> {
+        let last = *face as usize;
+        if !self.is_amid(last, point) || self.above(last, point) <= 0.0 {
+            *face = self.highest(point) as u32;
+        }
+        self.distance_at(*face as usize, point, cut)
+    }
+
+    /// The face that a point is highest above.
+    fn highest(&self, point: DVec3) -> usize {
         let (mut face, mut height) = (0, f64::NEG_INFINITY);
-        for k in 0..self.normals.len() {
+        for k in 0..self.faces() {
             let above = self.above(k, point);
             if above > height {
                 (face, height) = (k, above);
             }
         }
+        face
+    }
+
+    /// The distance of a point that is highest above a face.
+    #[inline]
+    fn distance_at(&self, face: usize, point: DVec3, cut: f64) -> Result<(f64, DVec3), f64> {
+        let height = self.above(face, point);
         if height >= cut {
             return Err(height - cut);
         }
-        let normal = self.normals[face];
         if height <= 0.0 || self.is_over(face, point) {
-            return Ok((height, normal));
+            return Ok((height, self.normal(face)));
         }
+        self.distance_from_sides(point, cut)
+    }
+
+    /// The distance of a point that is straight above no face.
+    fn distance_from_sides(&self, point: DVec3, cut: f64) -> Result<(f64, DVec3), f64> {
         let (mut nearest, mut away) = (f64::INFINITY, DVec3::ZERO);
-        for k in (0..self.normals.len()).filter(|k| self.above(*k, point) > 0.0) {
+        for k in (0..self.faces()).filter(|k| self.above(*k, point) > 0.0) {
             self.sides(k, |a, side| {
                 let arm = point - a;
                 let share = (arm.dot(side) / side.length_squared()).clamp(0.0, 1.0);
@@ -40,9 +66,15 @@ impl Turned<'_> {
     }
 
     /// Whether a point lies straight above a face; a side of a polygon has no answer to that.
+    #[inline]
     pub(super) fn is_over(&self, face: usize, point: DVec3) -> bool {
-        let normal = self.normals[face];
-        self.shape.faces[face].len() > 2 && self.sides(face, |a, side| normal.dot(side.cross(point - a)) >= 0.0)
+        self.is_amid(face, point) || self.shape.faces[face].len() > 2 && self.is_within(face, point)
+    }
+
+    /// Whether a point is on the inner side of all sides of a face.
+    fn is_within(&self, face: usize, point: DVec3) -> bool {
+        let normal = self.normal(face);
+        self.sides(face, |a, side| normal.dot(side.cross(point - a)) >= 0.0)
     }
 
     /// Walks round a face as long as `goes_on` with the start and the way of each side [m].

@@ -60,10 +60,12 @@ impl Cut {
     }
 
     /// The contact of two features by their number, see [`Contact::feature`], or how far they are from being one at least [m].
-    pub fn at(self, [a, b]: [&Turned; 2], apart: DVec3, feature: u32) -> Result<Contact, f64> {
+    /// `face` is the nearest of a corner the last time, and now.
+    #[inline]
+    pub fn at(self, [a, b]: [&Turned; 2], apart: DVec3, feature: u32, face: &mut u32) -> Result<Contact, f64> {
         match [feature >> 16, feature & 0xffff] {
-            [0, second] => self.second_at(a, apart, second - 1, b.corner(second as usize - 1)),
-            [first, 0] => self.first_at(b, apart, first - 1, a.corner(first as usize - 1)),
+            [0, second] => self.second_at((a, face), apart, second - 1, b.corner(second as usize - 1)),
+            [first, 0] => self.first_at((b, face), apart, first - 1, a.corner(first as usize - 1)),
             [first, second] => {
                 let (p, mut q) = (a.edge((first ^ EDGE) as usize), b.edge((second ^ EDGE) as usize));
                 q.middle += apart;
@@ -73,24 +75,39 @@ impl Cut {
     }
 
     /// A corner of the first body at the core of the second.
-    fn first_at(self, core: &Turned, apart: DVec3, number: u32, corner: DVec3) -> Result<Contact, f64> {
+    #[inline]
+    fn first_at(
+        self,
+        (core, face): (&Turned, &mut u32),
+        apart: DVec3,
+        number: u32,
+        corner: DVec3,
+    ) -> Result<Contact, f64> {
         let point = corner - apart;
-        let (distance, away) = core.distance(point, self.distance())?;
+        let (distance, away) = core.distance_from(face, point, self.distance())?;
         let points = [corner, point - away * distance];
         let feature = feature(number + 1, 0);
         Ok(Contact { feature, points, overlap: self.radii - distance, normal: -away, share: 1.0 })
     }
 
     /// A corner of the second body at the core of the first.
-    fn second_at(self, core: &Turned, apart: DVec3, number: u32, corner: DVec3) -> Result<Contact, f64> {
+    #[inline]
+    fn second_at(
+        self,
+        (core, face): (&Turned, &mut u32),
+        apart: DVec3,
+        number: u32,
+        corner: DVec3,
+    ) -> Result<Contact, f64> {
         let point = apart + corner;
-        let (distance, away) = core.distance(point, self.distance())?;
+        let (distance, away) = core.distance_from(face, point, self.distance())?;
         let points = [point - away * distance, corner];
         let feature = feature(0, number + 1);
         Ok(Contact { feature, points, overlap: self.radii - distance, normal: away, share: 1.0 })
     }
 
     /// Two edges; that of the second from the centre of the first.
+    #[inline]
     fn crossing(self, p: &Edge, q: &Edge, apart: DVec3) -> Result<Contact, f64> {
         let (points, squared) = nearest(p, q, 8.0 * CROWN * self.radii * self.radii);
         let cut = self.distance();
@@ -113,11 +130,11 @@ impl Turned<'_> {
     /// Which face of this body separates it most from another, `apart` [m] away; an error where one does by more than `cut` [m], with how far.
     fn separating(&self, other: &Self, apart: DVec3, cut: f64) -> Result<Axis, f64> {
         let mut axis = Axis { face: 0, height: f64::NEG_INFINITY };
-        for face in 0..self.normals.len() {
+        for face in 0..self.faces() {
             // The centre of the other is not below its corners.
             let centre = self.above(face, apart);
             if centre > axis.height {
-                let height = centre + other.lowest(self.normals[face]);
+                let height = centre + other.lowest(self.normal(face));
                 if height >= cut {
                     return Err(height);
                 }
@@ -163,28 +180,28 @@ pub fn touch(bodies: [&Turned; 2], apart: DVec3, reach: f64, search: &mut Search
         Ok(axes) => axes,
         Err(height) => return height - cut,
     };
-    if !a.normals.is_empty() {
+    if a.faces() > 0 {
         for (i, corner) in b.corners() {
             if a.above(first.face, apart + corner) < cut {
-                found.extend(limit.second_at(a, apart, i as u32, corner));
+                found.extend(limit.second_at((a, &mut (first.face as u32)), apart, i as u32, corner));
             }
         }
     }
-    if b.normals.is_empty() {
+    if b.faces() == 0 {
         return 0.0;
     }
     for (i, corner) in a.corners() {
         if b.above(second.face, corner - apart) < cut {
-            found.extend(limit.first_at(b, apart, i as u32, corner));
+            found.extend(limit.first_at((b, &mut (second.face as u32)), apart, i as u32, corner));
         }
     }
     if a.shape.edges.is_empty() || b.shape.edges.is_empty() {
         return 0.0;
     }
     let (n, height) = if first.height > second.height {
-        (a.normals[first.face], first.height)
+        (a.normal(first.face), first.height)
     } else {
-        (-b.normals[second.face], second.height)
+        (-b.normal(second.face), second.height)
     };
     crossings(bodies, apart, (n, height), limit, search, found);
     0.0

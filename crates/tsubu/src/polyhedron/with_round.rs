@@ -50,8 +50,8 @@ fn least(round: &Outline, body: &Turned, apart: DVec3, tolerance: f64, cut: f64)
             least = Some(contact);
         }
     };
-    for (face, normal) in body.normals.iter().enumerate() {
-        let contact = round.at_plane(-*normal, body.above(face, from));
+    for face in 0..body.faces() {
+        let contact = round.at_plane(-body.normal(face), body.above(face, from));
         if contact.overlap <= -cut {
             return None;
         }
@@ -61,7 +61,7 @@ fn least(round: &Outline, body: &Turned, apart: DVec3, tolerance: f64, cut: f64)
     }
     for (edge, [first, second]) in body.shape.edges.iter().zip(&body.shape.sides) {
         let [a, b] = edge.map(|corner| apart + body.corner(corner));
-        let [u, other] = [first, second].map(|face| -body.normals[*face]);
+        let [u, other] = [first, second].map(|face| -body.normal(*face));
         let v = (other - u * u.dot(other)).normalize_or_zero();
         let ring = Ring { across: [u, v], axis: u.cross(v), lean: [1.0, 0.0] };
         if let Some(contact) = round.at_edge(a, &ring, [0.0, v.dot(other).atan2(u.dot(other))]) {

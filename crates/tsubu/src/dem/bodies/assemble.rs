@@ -69,7 +69,9 @@ impl Bodies {
             exponents: shape.exponents,
             reach: 0.5 * diameter,
         });
+        self.rank.push(body);
         self.list.push(Body {
+            number: body,
             mass,
             equivalent_radius: clump.is_one_piece().then(|| clump.equivalent_radius(self.plane) * diameter),
             submerged: Submerged { radius: seen.radius * diameter, ..seen },
@@ -98,7 +100,7 @@ impl Bodies {
     /// Puts a body in the place of a grain that stands for it: its pieces, with numbers from `first` on.
     pub fn enter(&mut self, clump: &Clump, grain: &Grain, first: u32, plan: &Plan) -> Vec<Grain> {
         let (plane, pieces) = (self.plane, &self.by_id[first as usize..][..clump.pieces.len()]);
-        let body = &mut self.list[pieces[0].body as usize];
+        let body = &mut self.list[self.rank[pieces[0].body as usize] as usize];
         let drawn = DQuat::from_mat3(&DMat3::from_cols_array_2d(&clump.axes)).normalize();
         let turned = match clump.orientation {
             ClumpOrientation::AsDrawn => DQuat::IDENTITY,

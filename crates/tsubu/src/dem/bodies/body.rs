@@ -15,9 +15,18 @@ use std::ops::Range;
 /// Rounds of the midpoint rule; at usual steps it takes five to eight.
 const ROUNDS: usize = 60;
 
-/// A rigid body.
+/// A rigid body. What every block asks of those that it sees stands first, in few lines of the cache.
 #[derive(Clone, Debug)]
+#[repr(C)]
 pub struct Body {
+    /// Of a polyhedron a path that no point of it has exceeded since the lists were made [m].
+    pub path: f64,
+    /// The polyhedron that is there.
+    pub polyhedron: Option<TurnedBody>,
+    /// Inverse inertia in space [1/(kg.m^2)].
+    pub inverse_inertia: DMat3,
+    /// See [`super::Bodies`].
+    pub number: u32,
     pub mass: f64,
     /// Radius of the sphere of its volume, in the plane of the disc of its area, where it is one piece [m].
     pub equivalent_radius: Option<f64>,
@@ -29,8 +38,6 @@ pub struct Body {
     pub moments: DVec3,
     /// What is in the place of its one sphere.
     pub superellipsoid: Option<Superellipsoid>,
-    /// The polyhedron that is there.
-    pub polyhedron: Option<TurnedBody>,
     /// Where its pieces are in the list of places; none where it is not there.
     pub pieces: Range<usize>,
     /// Centre of mass, never wrapped [m].
@@ -49,11 +56,7 @@ pub struct Body {
     pub axes: DMat3,
     /// The ellipsoid with the semi-axes of the superellipsoid.
     pub ellipsoid: Ellipsoid,
-    /// Inverse inertia in space [1/(kg.m^2)].
-    pub inverse_inertia: DMat3,
     pub spin: DVec3,
-    /// Of a polyhedron a path that no point of it has exceeded since the lists were made [m].
-    pub path: f64,
     /// What the losses of its contacts must be corrected by [W].
     pub correction: f64,
 }
@@ -74,12 +77,27 @@ impl Body {
         !self.pieces.is_empty()
     }
 
-    /// Finds what follows from attitude and angular momentum.
-    pub fn follow(&mut self, plane: bool, shapes: &[Polyhedron]) {
-        self.axes = DMat3::from_quat(self.orientation);
+    /// Two of a list change places. What polyhedra have in memory apart stays there, in the order of the list, and is to be found anew.
+    pub fn swap(list: &mut [Self], first: usize, second: usize) {
+        list.swap(first, second);
+        if let Ok([a, b]) = list.get_disjoint_mut([first, second])
+            && let (Some(a), Some(b)) = (&mut a.polyhedron, &mut b.polyhedron)
+        {
+            a.swap_memory(b);
+        }
+    }
+
+    /// Turns the polyhedron as the body is turned.
+    pub fn turn_polyhedron(&mut self, shapes: &[Polyhedron]) {
         if let Some(body) = &mut self.polyhedron {
             body.turn(shapes, &self.axes);
         }
+    }
+
+    /// Finds what follows from attitude and angular momentum.
+    pub fn follow(&mut self, plane: bool, shapes: &[Polyhedron]) {
+        self.axes = DMat3::from_quat(self.orientation);
+        self.turn_polyhedron(shapes);
         if let Some(shape) = &self.superellipsoid {
             self.ellipsoid.squared = Symmetric::along(shape.semi_axes * shape.semi_axes, &self.axes);
             self.ellipsoid.inverse_inertia = Symmetric::along(self.moments.recip(), &self.axes);

@@ -34,7 +34,8 @@ impl Bodies {
 
     /// Gives bodies the mass of the water that moves along with each [kg], `added` says how much with which at what height [m] of its centre.
     pub fn add_mass(&mut self, grains: &mut Grains, mut added: impl FnMut(&Body, f64) -> f64) {
-        for k in 0..self.list.len() {
+        for rank in &self.rank {
+            let k = *rank as usize;
             let body = &self.list[k];
             let Some(&first) = self.places.get(body.pieces.start).filter(|_| body.is_there()) else { continue };
             let first = first as usize;
