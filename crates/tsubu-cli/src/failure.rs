@@ -210,6 +210,8 @@ impl Failure {
     pub fn of_cases(error: &CasesError, scene: &Scene, folder: &Path) -> Self {
         match error {
             CasesError::Scene(message) => Self::wrong(message.as_str()),
+            CasesError::NotThisScene(message) => Self::wrong(message.as_str())
+                .hint("name another folder with `-o`, or replace the results with `--overwrite`"),
             CasesError::Complaints(complaints) => complaints.into(),
             CasesError::Open(error) => Self::of(WRONG, error),
             CasesError::Run { case, error } => Self::of_scene(error, scene, folder).about("case", case),

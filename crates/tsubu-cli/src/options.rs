@@ -82,8 +82,11 @@ impl FolderOptions {
 #[derive(Args)]
 pub struct WorkOptions {
     /// Threads to work with; results are the same for any number [default: all cores, shared by ranks]
-    #[arg(long, visible_alias = "jobs", value_name = "N", value_parser = value_parser!(u16).range(1..=4096))]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=4096))]
     threads: Option<u16>,
+    /// The same, as one says where many runs are done side by side
+    #[arg(long, value_name = "N", conflicts_with = "threads", value_parser = value_parser!(u16).range(1..=4096))]
+    jobs: Option<u16>,
     /// No progress on stderr
     #[arg(short, long)]
     pub quiet: bool,
@@ -95,12 +98,12 @@ const MOST: usize = 16;
 impl WorkOptions {
     /// The number of threads that the user has named.
     pub fn told(&self) -> Option<u16> {
-        self.threads
+        self.threads.or(self.jobs)
     }
 
     /// Whether the user has named one.
     pub fn is_told(&self) -> bool {
-        self.threads.is_some()
+        self.told().is_some()
     }
 
     /// The threads to work with.
@@ -110,7 +113,7 @@ impl WorkOptions {
         // Ranks that share a machine share its cores.
         let here = tsubu_mpi::started_here();
         let share = if here > 1 { (cores / here).max(1) } else { 0 };
-        let told = self.threads.map_or(share, usize::from);
+        let told = self.told().map_or(share, usize::from);
         if told > most && !self.quiet {
             crate::output::tell(&format!("{told} threads cannot help on {cores} cores: working with {most}\n"));
         }

@@ -165,6 +165,11 @@ impl FileError {
         }
     }
 
+    /// Whether somebody else writes there.
+    pub fn is_locked(&self) -> bool {
+        matches!(self, Self::Locked { .. })
+    }
+
     /// Whether the disk (or the quota) was full.
     pub fn is_disk_full(&self) -> bool {
         matches!(self, Self::Write { source, .. }

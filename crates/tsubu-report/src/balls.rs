@@ -47,6 +47,8 @@ pub struct Look {
     pub view: View,
     /// Time of the last picture of a series [s]: all are labelled alike.
     pub last: Option<f64>,
+    /// What the values 0, 1, 2... are called, where they are numbers of something; empty where they measure.
+    pub names: Vec<String>,
 }
 
 /// The grains and walls of one moment, turned to the viewer.

@@ -85,7 +85,8 @@ fn told_apart(source: &mut Source, found: &[Snapshot], stem: &str) -> Result<Vec
     let mut blocks = Vec::new();
     let frame = read_frame(&found[found.len() - 1].path)?;
     for name in ["radius", "group"] {
-        let look = Look { colour: ColourBy::Column(name.to_owned()), ..Look::default() };
+        let names = if name == "group" { source.names("particles") } else { Vec::new() };
+        let look = Look { colour: ColourBy::Column(name.to_owned()), names, ..Look::default() };
         let balls = Balls::of(&frame, &look);
         let (low, high) = balls.range();
         if balls.space && high > 1.02 * low && balls.values.len() == balls.centres.len() {

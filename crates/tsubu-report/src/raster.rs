@@ -10,7 +10,7 @@ use crate::balls::{Balls, Look, common};
 use crate::canvas::Canvas;
 use crate::colour;
 use crate::compass;
-use crate::legend::{colour_bar, time_label};
+use crate::legend::{Names, colour_bar, time_label};
 use crate::plot::{AXIS, INK};
 use crate::text::escape;
 use crate::veil::Veil;
@@ -81,7 +81,9 @@ pub fn picture(balls: &Balls, look: &Look, width: u32) -> Image {
     let inner = ((f64::from(width) * up / across).round() as u32).clamp(16, 8 * width);
     // Time and colour scale side by side need room; a narrow picture has them one below the other.
     let narrow = width < 400;
-    let footer = if narrow { 74 } else { 52 };
+    let range = look.range.unwrap_or((0.0, 1.0));
+    let names = Names::of(&look.names, range, f64::from(width));
+    let footer = names.as_ref().map_or(0.0, Names::height) as u32 + if narrow { 74 } else { 52 };
     let mut image = Image::filled(width, inner + footer, [255; 4]);
     image.put(&spheres(balls, &look, width, inner), 0, 0);
     let scale = f64::from(width) / across;
@@ -119,9 +121,13 @@ pub fn picture(balls: &Balls, look: &Look, width: u32) -> Image {
         inner + if narrow { 64 } else { 24 },
         escape(&time_label(balls.time, look.last.unwrap_or(balls.time)))
     );
-    let range = look.range.unwrap_or((0.0, 1.0));
     let middle = if narrow { f64::from(width) / 2.0 } else { f64::from(width) - 145.0 };
-    colour_bar(&mut svg, &balls.quantity, range, balls.range().1 > range.1, [middle, f64::from(inner) + 14.0], "scale");
+    if let Some(names) = names {
+        names.draw(&mut svg, f64::from(inner) + if narrow { 74.0 } else { 52.0 });
+    } else {
+        let above = balls.range().1 > range.1;
+        colour_bar(&mut svg, &balls.quantity, range, above, [middle, f64::from(inner) + 14.0], "scale");
+    }
     svg.push_str("</svg>");
     if let Some(over) = from_svg(&svg, 1.0) {
         image.put(&over, 0, 0);

@@ -37,9 +37,23 @@ impl Source {
         Self::new(&self.dir.join(name))
     }
 
+    /// The scene as it was run; empty where it cannot be read.
+    fn scene(&self) -> toml::Table {
+        self.text("scene.toml").unwrap_or_default().parse().unwrap_or_default()
+    }
+
+    /// The names in a table of the scene, as `particles`, in the order of the alphabet.
+    pub fn names(&self, table: &str) -> Vec<String> {
+        let scene = self.scene();
+        let named = scene.get(table).and_then(toml::Value::as_table);
+        let mut names: Vec<String> = named.into_iter().flat_map(|table| table.keys().cloned()).collect();
+        names.sort();
+        names
+    }
+
     /// The scene's title, else the name of the folder.
     pub fn title(&self) -> String {
-        let scene: toml::Table = self.text("scene.toml").unwrap_or_default().parse().unwrap_or_default();
+        let scene = self.scene();
         if let Some(title) = scene.get("title").and_then(toml::Value::as_str).filter(|title| !title.is_empty()) {
             return title.to_owned();
         }

@@ -128,6 +128,12 @@ impl<'a> Sweep<'a> {
         self.table.rows[row][column].number().unwrap_or(f64::NAN)
     }
 
+    /// Whether a result is not the same in all cases.
+    fn varies(&self, column: usize) -> bool {
+        let mut values = (0..self.table.rows.len()).map(|row| self.number(row, column)).filter(|x| x.is_finite());
+        values.next().is_none_or(|first| values.any(|other| other != first))
+    }
+
     /// The key with the most values that are numbers; cases that differ in the seed alone are one case tried again.
     fn along(&self) -> Option<&(&'a str, Vec<String>)> {
         let distinct = |values: &[String]| values.iter().collect::<BTreeSet<_>>().len();
@@ -140,15 +146,20 @@ impl<'a> Sweep<'a> {
         let Some((along, (x, unit))) = self.along().and_then(|(key, values)| Some((key, of_one_unit(values)?))) else {
             return Vec::new();
         };
-        let mut blocks = Vec::new();
-        // The energy residual is told in the table.
+        let watches = source.names("watch");
+        let watch_of = |name: &str| {
+            let own = |watch: &&String| name.strip_prefix(watch.as_str()).is_some_and(|rest| rest.starts_with(' '));
+            watches.iter().filter(own).max_by_key(|watch| watch.len()).cloned().unwrap_or_default()
+        };
+        let mut drawn: Vec<(String, Block)> = Vec::new();
+        // The energy residual is told in the table, and so is what is the same in all cases.
         let told = |column: &&usize| {
             let header = &self.table.header;
             let name = split_unit(&header[**column]).0;
             // What is told beside a mean comes before it only where the scene asks for it.
-            let mean = mean_beside(name).filter(|_| !name.ends_with(" final"));
+            let mean = mean_beside(name);
             let asked = mean.is_none_or(|mean| header.iter().position(|c| split_unit(c).0 == mean) > Some(**column));
-            !name.contains("residual") && asked
+            !name.contains("residual") && asked && self.varies(**column)
         };
         for &column in self.results.iter().filter(told).take(MOST_FIGURES) {
             let header = &self.table.header[column];
@@ -163,11 +174,16 @@ impl<'a> Sweep<'a> {
             }
             let file = format!("sweep_{}", name.replace(|c: char| !c.is_ascii_alphanumeric(), "_"));
             let band = if spread { " Lines: mean over the seeds; bands: the least and the largest." } else { "" };
-            blocks.extend(source.figure(&file, &figure, &format!("{name} over {along}.{band}")));
+            let figure = source.figure(&file, &figure, &format!("{name} over {along}.{band}"));
+            drawn.extend(figure.map(|figure| (watch_of(name), figure)));
         }
-        let rest = blocks.split_off(blocks.len().min(OPEN));
-        if !rest.is_empty() {
-            blocks.push(folded("More results over what varied", rest));
+        let rest = drawn.split_off(drawn.len().min(OPEN));
+        let mut blocks: Vec<Block> = drawn.into_iter().map(|(_, figure)| figure).collect();
+        // Behind the first ones, those of each watch by themselves.
+        for of_one in rest.chunk_by(|a, b| a.0 == b.0) {
+            let of = if of_one[0].0.is_empty() { String::new() } else { format!(": {}", of_one[0].0) };
+            let figures = of_one.iter().map(|(_, figure)| figure.clone()).collect();
+            blocks.push(folded(&format!("More results over what varied{of}"), figures));
         }
         blocks
     }

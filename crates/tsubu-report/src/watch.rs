@@ -26,6 +26,9 @@ struct Entry {
     #[serde(default)]
     about: String,
     scalars: Vec<String>,
+    /// Components of an axis, n and -n the same: they have no mean of their own.
+    #[serde(default)]
+    axis: Vec<String>,
     file: Option<String>,
     coordinates: Vec<String>,
     values: Vec<String>,
@@ -82,7 +85,7 @@ impl Watches {
     fn steady(&self, history: &Table) -> Option<Block> {
         let times = numbers(history, 0);
         let mut grid = Grid::new(["in the steady part", "mean", "± (95 %)", "unit", "from t [s]"]);
-        for scalar in self.0.iter().flat_map(|entry| &entry.scalars) {
+        for scalar in self.0.iter().flat_map(Entry::of_no_axis) {
             let Some(column) = history.header.iter().position(|header| header == scalar) else { continue };
             let values = numbers(history, column);
             let Some(found) = Steady::of(&values).filter(|found| found.error > 1e-9 * found.mean.abs()) else {
@@ -124,6 +127,11 @@ fn families<'a>(headers: &'a [(usize, &'a str)]) -> impl Iterator<Item = &'a [(u
 }
 
 impl Entry {
+    /// Columns of the history that have a mean of their own.
+    fn of_no_axis(&self) -> impl Iterator<Item = &String> {
+        self.scalars.iter().filter(|scalar| !self.axis.contains(scalar))
+    }
+
     fn caption(&self, what: &str) -> String {
         format!("{} ({}): {what}", self.name, self.kind.replace('-', " "))
     }

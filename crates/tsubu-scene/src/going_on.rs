@@ -43,7 +43,7 @@ pub struct Difference {
 impl Scene {
     /// What decides the steps of a run, as text. A run can go on from the state of another where these are equal.
     pub fn steps_toml(&self) -> String {
-        steps(&self.resolved_toml())
+        values(&self.resolved_toml(), FREE)
             .into_iter()
             .fold(String::new(), |text, (key, value)| text + &key + " = " + &value + "\n")
     }
@@ -73,7 +73,16 @@ impl Scene {
 
     /// What decides the steps and is not as in an earlier scene, `scene.toml` of a run folder.
     pub fn differences(&self, earlier: &str) -> Vec<Difference> {
-        let (before, now) = (steps(earlier), steps(&self.resolved_toml()));
+        self.against(earlier, FREE)
+    }
+
+    /// All that is not as in an earlier scene, `scene.toml` of a folder of results.
+    pub fn all_differences(&self, earlier: &str) -> Vec<Difference> {
+        self.against(earlier, &[])
+    }
+
+    fn against(&self, earlier: &str, free: &[&str]) -> Vec<Difference> {
+        let (before, now) = (values(earlier, free), values(&self.resolved_toml(), free));
         let keys: BTreeSet<&String> = before.keys().chain(now.keys()).collect();
         let differs = keys.into_iter().filter(|key| before.get(*key) != now.get(*key));
         differs
@@ -85,26 +94,26 @@ impl Scene {
     }
 }
 
-/// Every value of a resolved scene that decides the steps, under its path.
-fn steps(resolved: &str) -> BTreeMap<String, String> {
+/// Every value of a resolved scene under its path, but for those that are free to differ.
+fn values(resolved: &str, free: &[&str]) -> BTreeMap<String, String> {
     let mut values = BTreeMap::new();
-    flatten(&resolved.parse().unwrap_or_default(), "", &mut values);
+    flatten(&resolved.parse().unwrap_or_default(), "", free, &mut values);
     values
 }
 
-fn flatten(table: &Table, path: &str, values: &mut BTreeMap<String, String>) {
+fn flatten(table: &Table, path: &str, free: &[&str], values: &mut BTreeMap<String, String>) {
     for (key, value) in table {
         let here = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-        if FREE.contains(&here.as_str()) {
+        if free.contains(&here.as_str()) {
             continue;
         }
         match value {
-            Value::Table(inner) if !inner.is_empty() => flatten(inner, &here, values),
+            Value::Table(inner) if !inner.is_empty() => flatten(inner, &here, free, values),
             Value::Array(list) if list.iter().any(Value::is_table) => {
                 for (index, inner) in list.iter().enumerate() {
                     let here = format!("{here}.{index}");
                     match inner {
-                        Value::Table(inner) => flatten(inner, &here, values),
+                        Value::Table(inner) => flatten(inner, &here, free, values),
                         other => _ = values.insert(here, text(other, false)),
                     }
                 }

@@ -253,6 +253,14 @@ fn grains_vanish_where_they_are_told_to() {
     insta::assert_snapshot!([all(&texts), changed.join("\n\n")].join("\n\n"));
 }
 
+/// No time to settle in skipped it, and grains began in the air without a word.
+#[test]
+fn settling_takes_time() {
+    let text = edited(START, "start.settled.time = 0");
+    let refused = read(&text, &[]).expect_err("no time").to_string();
+    assert!(refused.contains("`time` must be above 0"), "{refused}");
+}
+
 #[test]
 fn grains_are_free_frozen_or_driven() {
     let motion = |text: &str| plan(&edited(START, &format!("{START}\nmotion.{text}"))).particles["sand"].motion.clone();

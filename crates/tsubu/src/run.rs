@@ -16,6 +16,7 @@ mod ways;
 pub use error::RunError;
 pub use leader::follow;
 pub use onlooker::{Onlooker, Wish};
+pub(crate) use resume::what_differs;
 pub use simulation::Simulation;
 pub(crate) use told::judge;
 pub(crate) use ways::run_with;

@@ -186,5 +186,20 @@ fn grains_of_cases(plan: &Plan, vary: &BTreeMap<String, Vec<toml::Value>>) -> f6
 
 /// A time, or from when to when.
 fn span(low: f64, high: f64) -> String {
-    if high <= 1.2 * low { human_time(high) } else { format!("{} to {}", human_time(low), human_time(high)) }
+    let [from, to] = [low, high].map(human_time);
+    // What is told alike is one number.
+    if high <= 1.2 * low || from == to { to } else { format!("{from} to {to}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::span;
+
+    /// A run of a moment took "about 1 ms to 1 ms".
+    #[test]
+    fn a_span_has_two_ends_that_differ() {
+        assert_eq!(span(1.0e-3, 1.4e-3), "1 ms");
+        assert_eq!(span(0.6e-3, 2.4e-3), "600.0 us to 2 ms");
+        assert_eq!(span(2.0, 3.0), "2.0 s to 3.0 s");
+    }
 }

@@ -13,6 +13,8 @@ use tsubu_verify::{CASES, Case, recorded};
 const WIDTH: usize = 96;
 /// Lines of a formula that are longer are cut between words.
 const LONGEST: usize = 124;
+/// A line of a sentence that is as long as this goes on in the next.
+const GOES_ON: usize = 80;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -78,11 +80,7 @@ fn thing(entry: &Entry) -> String {
         format!("{}\n{}.\n", Stream::Data.bold_cyan(&entry.choice.typed()), wrapped(&entry.choice.sentence(), 0));
     if let Some(about) = entry.about {
         text.push('\n');
-        for line in about.formula.lines() {
-            // Columns of a watch stay where they are.
-            let line = if line.chars().count() > LONGEST { wrapped(line, 6) } else { line.to_owned() };
-            let _ = writeln!(text, "  {line}");
-        }
+        text += &laid_out(about.formula);
         text.push('\n');
         for (heading, section) in about.sections().skip(1) {
             let _ = writeln!(text, "{heading:<8} {}", wrapped(section, 9));
@@ -206,6 +204,28 @@ fn claims() -> String {
     page
 }
 
+/// A text of columns and sentences: what fits stays as it is, sentences with lines that are too long are set anew.
+fn laid_out(text: &str) -> String {
+    let has_columns = |line: &str| line.trim_start().contains("  ") || line.starts_with(' ');
+    let mut lines = text.lines().peekable();
+    let mut out = String::new();
+    while let Some(line) = lines.next() {
+        if has_columns(line) {
+            let line = if line.chars().count() > LONGEST { wrapped(line, 6) } else { line.to_owned() };
+            let _ = writeln!(out, "  {line}");
+            continue;
+        }
+        let mut sentence = vec![line];
+        while sentence.last().is_some_and(|line| line.chars().count() > GOES_ON) {
+            let Some(next) = lines.next_if(|next| !has_columns(next)) else { break };
+            sentence.push(next);
+        }
+        let fits = sentence.iter().all(|line| line.chars().count() <= LONGEST);
+        let _ = writeln!(out, "  {}", if fits { sentence.join("\n  ") } else { wrapped(&sentence.join(" "), 2) });
+    }
+    out
+}
+
 /// Text in lines of a readable length; those after the first begin with `indent` blanks.
 fn wrapped(text: &str, indent: usize) -> String {
     let (mut wrapped, mut length) = (String::new(), indent);
@@ -227,7 +247,18 @@ fn wrapped(text: &str, indent: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::wrapped;
+    use super::{laid_out, wrapped};
+
+    /// Sentences over several lines were broken in the middle, with the rest of each line further to the right.
+    #[test]
+    fn sentences_are_set_anew_and_columns_stay() {
+        let long = "word ".repeat(26);
+        let text = laid_out(&format!("a column   [m]\n{long}\nthe end of it.\nF = k d\n"));
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!((lines[0], lines[3]), ("  a column   [m]", "  F = k d"));
+        assert!(lines[2].ends_with("word the end of it."), "{text}");
+        assert!(lines.iter().all(|line| line.starts_with("  ") && !line.starts_with("   ")), "{text}");
+    }
 
     #[test]
     fn text_is_cut_between_words() {

@@ -12,6 +12,7 @@ mod explain;
 mod held_against;
 mod new;
 mod origins;
+mod playground;
 mod points;
 mod predict;
 mod report;
@@ -58,6 +59,9 @@ pub enum Command {
     Bench(bench::Options),
     /// Look at runs in the browser
     View(view::Options),
+    /// Scenes that run in the browser itself: not there yet
+    #[command(hide = true)]
+    Playground(playground::Options),
     /// Write a commented example scene
     New(new::Options),
     /// Print the JSON Schema of the scene file, for editors
@@ -86,6 +90,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Report(options) => report::run(&options),
         Command::Bench(options) => bench::run(&options),
         Command::View(options) => view::run(&options),
+        Command::Playground(options) => playground::run(&options),
         Command::New(options) => new::run(&options),
         Command::Schema => schema::run(),
         Command::Completions(options) => completions::run(&options),

@@ -10,7 +10,7 @@ use std::path::Path;
 use tsubu::interrupt::Watcher;
 use tsubu::study::apart::Gathered;
 use tsubu::study::cases::CasesError;
-use tsubu_frame::{Status, Summary};
+use tsubu_frame::{ResultValue, Status, Summary};
 use tsubu_scene::Scene;
 
 #[derive(Args)]
@@ -91,6 +91,11 @@ pub fn tell(
     let claims: String = summary.claims.iter().map(claims::line).collect();
     session.show(&(table(folder)? + &claims + &warnings(&summary.warnings)), Some(&page))?;
     if summary.status == Status::Failed {
+        // A design all of whose runs were done may have nothing within its limits.
+        if summary.results.get("candidates failed") == Some(&ResultValue::Number(0.0)) {
+            let message = "no candidate keeps within the limits; the last warning above says by how much";
+            return Err(Failure::failed(message).hint("loosen that limit, or let `design.vary` reach farther"));
+        }
         return Err(Failure::failed("some of the runs failed; the warnings above name them").hint(again));
     }
     judge(&summary.claims)

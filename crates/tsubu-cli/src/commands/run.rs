@@ -7,7 +7,7 @@ use crate::options::{FolderOptions, SceneOptions, WorkOptions};
 use crate::session::{Session, judge, resume};
 use crate::stream::Stream;
 use crate::{machine, ranks, stop, table};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::fmt::Write as _;
 use std::sync::Arc;
 use tsubu::check::human_time;
@@ -41,12 +41,26 @@ pub struct Options {
     view: bool,
     #[command(flatten)]
     page: PageOptions,
+    /// What does the work: the processor; a GPU does not yet
+    #[arg(long, value_enum, default_value = "cpu", hide = true)]
+    device: Device,
     #[command(flatten)]
     work: WorkOptions,
 }
 
+/// What can do the work of a run.
+#[derive(Clone, Copy, ValueEnum)]
+enum Device {
+    Cpu,
+    Gpu,
+}
+
 pub fn run(options: &Options) -> Result<(), Failure> {
-    let Options { scene, folder, resume, view, page, work } = options;
+    let Options { scene, folder, resume, view, page, device, work } = options;
+    if let Device::Gpu = device {
+        return Err(Failure::wrong("no engine of this tsubu works on a GPU yet: `--device gpu` is not there")
+            .hint("leave it out: `--threads` and `mpirun -n N tsubu run SCENE` work on processors"));
+    }
     if !view && (page.port != 0 || page.no_open) {
         return Err(Failure::wrong("`--port` and `--no-open` are of the page: add `--view`"));
     }

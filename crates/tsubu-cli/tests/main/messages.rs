@@ -332,6 +332,37 @@ fn check_tells_the_time_of_slow_drives_and_of_endless_runs() {
     assert!(endless.stdout.contains("warn time: about"), "{}", endless.stdout);
 }
 
+/// A response that was to go on with another scene was told to use `--resume`, which it had, and not what differed; `--jobs` was called
+/// `--threads`.
+#[test]
+fn a_study_does_not_go_on_with_another_scene_and_options_have_the_names_that_were_typed() {
+    let desk = Desk::new();
+    let ratios = "--set 'response.frequency-ratio=[1.0]'";
+    desk.done(&format!("response balls.toml -q -o curve --set method=lattice {ratios}"));
+    let before = desk.files();
+    let other =
+        format!("response balls.toml -q -o curve --set method=lattice {ratios} --set materials.acrylic.friction=0.9");
+    for resume in ["", " --resume"] {
+        let refused = desk.run(&format!("{other}{resume}"));
+        assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+        for part in [
+            "the results in curve belong to another scene; what differs:",
+            "`materials.acrylic.friction` was",
+            "is 0.9",
+            "`--overwrite`",
+        ] {
+            assert!(refused.stderr.contains(part), "{}", refused.stderr);
+        }
+    }
+    // What decides the points of a response, and no step of a run, is named too.
+    let more = desk.run("response balls.toml -q -o curve --set method=lattice --set 'response.frequency-ratio=[0.9]'");
+    assert!(more.stderr.contains("`response.frequency-ratio` was"), "{}", more.stderr);
+    assert_eq!(desk.files(), before);
+    let none = desk.run("sweep balls.toml --jobs 0");
+    assert!(none.code == Some(2) && none.stderr.contains("'--jobs <N>'"), "{}", none.stderr);
+    assert!(!none.stderr.contains("--threads <N>"), "{}", none.stderr);
+}
+
 /// One case that blew up took all the others of a response with it, hours of them.
 #[test]
 fn a_response_keeps_the_cases_that_do_not_fail() {

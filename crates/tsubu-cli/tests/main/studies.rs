@@ -339,6 +339,12 @@ fn a_design_finds_the_best() {
     let page = desk.read("design1/report.html");
     assert!(page.contains("Before and after") && page.contains("front of mass and response"));
     desk.done("run design1/best.toml -q --set duration=0.1");
+    // Where nothing keeps within a limit that is known only after runs, no run has failed.
+    let tight = desk.run("design balls.toml -q -o tight --set method=lattice --set 'design.stroke-limit=1 um'");
+    assert_eq!(tight.code, Some(3), "{}", tight.stderr);
+    assert!(tight.stdout.contains("keeps within `design.stroke-limit`"), "{}", tight.stdout);
+    assert!(tight.stderr.contains("no candidate keeps within the limits"), "{}", tight.stderr);
+    assert!(!tight.stderr.contains("failed"), "{}", tight.stderr);
     let before = desk.files().len();
     for change in ["design.mass-limit=1e-6", "design.vary={}"] {
         insta::assert_snapshot!(desk.shown(&format!("design balls.toml -o new --set {change}")));

@@ -231,7 +231,7 @@ pub fn calibration(dir: &Path) {
             let words = [format!("friction = {friction}, seed = {seed}"), friction.to_string(), seed.to_string()];
             let mut row: Vec<Cell> = words.map(Cell::Text).to_vec();
             row.extend([Cell::from(if bad { "failed" } else { "finished" }), Cell::from(2.0)]);
-            row.extend((1..10).map(|i| Cell::from(1500.0 + f64::from(i))));
+            row.extend((1..10).map(|i| Cell::from(1500.0 + f64::from(i) + friction)));
             row.push(Cell::from(if bad { f64::NAN } else { friction + 0.1 * (seed - 2.0) }));
             row.push(Cell::from(if bad { "grain 7 overlaps its neighbour" } else { "" }));
             table.push(row);

@@ -209,7 +209,6 @@ fn a_sweep_over_seeds_has_bands_degrees_and_all_results() {
     assert!(row.contains(&"grain 7 overlaps its neighbour".to_owned()), "{row:?}");
 }
 
-/// Where nothing but the seed varies there is no axis to draw over.
 #[test]
 fn a_sweep_of_seeds_alone_has_a_table_of_spreads() {
     let dir = tempfile::tempdir().unwrap();

@@ -162,3 +162,19 @@ fn a_watch_that_saw_nothing_is_no_damage() {
     fixture::text(dir.path(), "watch/field.csv", "time [s],x [m]\n1,2");
     assert_ne!(damage(), before);
 }
+
+/// A page of 44 figures, two a number, in one heap. What is the same in all cases stands in the table alone.
+#[test]
+fn a_sweep_draws_each_number_once_and_watch_by_watch() {
+    let dir = tempfile::tempdir().unwrap();
+    let names = |watch: &str| (0..6).map(|k| format!("{watch} F{k} [N],{watch} F{k} final [N]")).collect::<Vec<_>>();
+    let head = [names("lid"), names("lid-shear"), vec!["lid-shear still [N]".to_owned()]].concat().join(",");
+    let row = |value: u32| format!("a,{value},finished,{},5\n", vec![value.to_string(); 24].join(","));
+    let table = format!("case [text],seed.of [text],status [text],{head}\n{}{}", row(1), row(2));
+    fixture::text(dir.path(), "sweep.csv", &table);
+    fixture::text(dir.path(), "scene.toml", "[watch.lid]\n[watch.lid-shear]\n");
+    let report = build(dir.path()).unwrap();
+    let over = report.sections.iter().find(|s| s.title == "Results over what varied").expect("section");
+    let Some(Block::Folded { summary, inside }) = over.blocks.get(8) else { panic!("{:?}", over.blocks.last()) };
+    assert_eq!((over.blocks.len(), summary.as_str(), inside.len()), (9, "More results over what varied: lid-shear", 4));
+}

@@ -5,8 +5,10 @@ use super::place::{Room, axes, millimetres};
 use crate::complaint::{Complaint, Place};
 use crate::plan::{Particles, Region, Shape, Start, Vector};
 
-/// Share of space or of the plane that equal grains thrown together can fill, and a little more.
-const DENSEST: [f64; 2] = [0.64, 0.85];
+/// Share of the plane or of space that equal grains thrown together can fill, and a little more.
+const DENSEST: [f64; 2] = [0.85, 0.64];
+/// The same where each stays at the random place that it found (random sequential addition; Zhang and Torquato 2013).
+const JAMMED: [f64; 2] = [0.547, 0.384];
 
 /// Regions: sizes, and whether they hold their grains and lie in the world.
 pub(super) fn regions(parts: &Parts<'_>, rooms: &[Room<'_>], complaints: &mut Vec<Complaint>) {
@@ -119,7 +121,7 @@ fn too_many(parts: &Parts<'_>, name: &str, group: &Particles, size: Vector, plac
     }
     Some(
         Complaint::new(format!("{} grains of `{name}` do not fit into their region", group.count))
-            .at(&at("count"), format!("{fits} fit{}", spaced(group)))
+            .at(&at("count"), format!("{fits} fit{}", placed(group, &room, parts.space())))
             .also(place, "the region")
             .hint("take fewer or smaller grains, or a larger region"),
     )
@@ -195,14 +197,19 @@ fn overfull(parts: &Parts<'_>, room: &Room<'_>, name: &str, group: &Particles, f
         format!("the groups of grains together do not fit into the box `{}`", room.name)
     };
     Complaint::new(title)
-        .at(&at("count"), format!("{fits} fit{}", spaced(group)))
+        .at(&at("count"), format!("{fits} fit{}", placed(group, room, parts.space())))
         .also(&box_place, "the box")
         .hint("take fewer or smaller grains, or a larger box")
 }
 
-fn spaced(group: &Particles) -> String {
+/// In which way so many fit.
+fn placed(group: &Particles, room: &Room<'_>, space: bool) -> String {
     match group.start {
         Start::Rows { spacing, .. } if spacing > 1.0 => format!(" at a spacing of {spacing} diameters"),
+        Start::Random { .. } => {
+            let jammed = thrown(group, room, space, JAMMED).max(1.0);
+            format!(" however close they lie, and about {jammed} at random places")
+        }
         _ => String::new(),
     }
 }
@@ -224,10 +231,16 @@ fn fits(group: &Particles, room: &Room<'_>, space: bool) -> f64 {
     if !matches!(group.start, Start::Random { .. }) || rows == 0.0 {
         return rows;
     }
-    let (own, all, densest) = if space {
-        (std::f64::consts::PI / 6.0 * group.diameter.powi(3), width * height * depth, DENSEST[0])
+    thrown(group, room, space, DENSEST).max(rows)
+}
+
+/// How many of the group fill such a share of the plane or of space.
+fn thrown(group: &Particles, room: &Room<'_>, space: bool, share: [f64; 2]) -> f64 {
+    let [width, depth, height] = room.size;
+    let (own, all) = if space {
+        (std::f64::consts::PI / 6.0 * group.diameter.powi(3), width * height * depth)
     } else {
-        (std::f64::consts::PI / 4.0 * group.diameter.powi(2), width * height, DENSEST[1])
+        (std::f64::consts::PI / 4.0 * group.diameter.powi(2), width * height)
     };
-    (densest * all / own).floor().max(rows)
+    (share[usize::from(space)] * all / own).floor()
 }

@@ -221,10 +221,10 @@ static START: &[Variant] = &[
         keys: &[Key::new(
             "time",
             Kind::Quantity(&TIME),
-            "Longest settling time; a bed that still moves then ends the run",
+            "Longest settling time; a bed that still moves then ends the run. Without settling: `rows`",
         )
         .default("'1 s'")
-        .at_least(0.0)],
+        .above(0.0)],
     },
     Variant {
         name: "rows",

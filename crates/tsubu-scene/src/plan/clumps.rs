@@ -89,6 +89,23 @@ impl Clump {
         area_of_discs(&discs)
     }
 
+    /// How far it reaches along x, y and z from end to end, as drawn.
+    pub fn extent(&self) -> Vector {
+        let points: Vec<(Vector, f64)> = match (&self.superellipsoid, &self.polyhedron) {
+            // Its axes are those of the drawing.
+            (Some(body), _) => return body.semi_axes.map(|axis| 2.0 * axis),
+            (_, Some(body)) => body.corners.iter().map(|corner| (*corner, body.rounding)).collect(),
+            _ => self.pieces.clone(),
+        };
+        [0, 1, 2].map(|along| {
+            let drawn = |arm: &Vector| (0..3).map(|k| arm[k] * self.axes[k][along]).sum::<f64>();
+            let ends = points.iter().map(|(arm, r)| [drawn(arm) - r, drawn(arm) + r]);
+            let [low, high] =
+                ends.fold([f64::INFINITY, f64::NEG_INFINITY], |all, end| [all[0].min(end[0]), all[1].max(end[1])]);
+            high - low
+        })
+    }
+
     /// Whether it is one convex body, no spheres.
     pub fn is_one_piece(&self) -> bool {
         self.superellipsoid.is_some() || self.polyhedron.is_some()
@@ -176,6 +193,28 @@ impl GrainShape {
     /// Whether it is a disc, a polygon or cells, whose mass goes with the square of the diameter.
     pub fn is_flat(&self) -> bool {
         matches!(self, Self::Disc { .. } | Self::Polygon { .. } | Self::Cells { .. })
+    }
+
+    /// The same shape, every grain of it turned as drawn.
+    #[must_use]
+    pub fn as_drawn(mut self) -> Self {
+        match &mut self {
+            Self::Sphere {} | Self::Disc { .. } => {}
+            Self::Clump { orientation, .. }
+            | Self::ClumpFile { orientation, .. }
+            | Self::ClumpMesh { orientation, .. }
+            | Self::Superellipsoid { orientation, .. }
+            | Self::Polyhedron { orientation, .. }
+            | Self::PolyhedronMesh { orientation, .. }
+            | Self::Polygon { orientation, .. }
+            | Self::Cells { orientation, .. } => *orientation = ClumpOrientation::AsDrawn,
+        }
+        self
+    }
+
+    /// The nominal diameter (Wadell 1932) of a grain of that diameter: of the sphere of its volume; of a polygon that of the disc of its area.
+    pub fn nominal_diameter(&self, diameter: f64) -> f64 {
+        self.clump().map_or(diameter, |body| 2.0 * body.equivalent_radius(self.is_flat()) * diameter)
     }
 
     /// Whether it is a polyhedron or a polygon, or cells that become one.

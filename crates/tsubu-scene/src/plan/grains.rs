@@ -308,8 +308,8 @@ pub struct GrainTable {
     pub spin: Vec<Vector>,
 }
 
-/// Mean density [kg/m^3] and diameter [m] of the free grains, of one group or of all: mass over volume, and by number. Not
-/// numbers where there are none.
+/// Mean density [kg/m^3] and diameter [m] of the free grains, of one group or of all: mass over volume, and by number, of the spheres of
+/// their volume. Not numbers where there are none.
 pub fn submerged<'a>(groups: impl Iterator<Item = (&'a String, &'a Particles)>, only: Option<&str>) -> (f64, f64) {
     let (mut number, mut mass, mut volume, mut diameters) = (0.0, 0.0, 0.0, 0.0);
     for (_, group) in groups.filter(|(name, group)| {
@@ -319,7 +319,7 @@ pub fn submerged<'a>(groups: impl Iterator<Item = (&'a String, &'a Particles)>, 
         number += count;
         mass += count * group.mass;
         volume += count * group.shape.mass(1.0, group.diameter);
-        diameters += count * group.diameter;
+        diameters += count * group.shape.nominal_diameter(group.diameter);
     }
     (mass / volume, diameters / number)
 }

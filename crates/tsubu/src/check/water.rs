@@ -149,8 +149,8 @@ pub(super) fn judge(verdict: &mut Verdict, plan: &Plan, hosts: &Hosts, dt: f64) 
         }
         let Some(shear) = water.stream.shear_velocity() else { continue };
         // At the mean grain, as in published transport rates.
-        let d = group.diameter;
-        let density = group.mass / group.shape.mass(1.0, d);
+        let d = group.shape.nominal_diameter(group.diameter);
+        let density = group.mass / group.shape.mass(1.0, group.diameter);
         let relative = density / water.density - 1.0;
         if relative > 0.0 && gravity > 0.0 {
             let shields = shear * shear / (relative * gravity * d);

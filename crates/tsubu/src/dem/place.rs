@@ -266,7 +266,7 @@ impl Placing<'_> {
             });
             let Some(p) = free else {
                 return Err(format!(
-                    "there is room for {count} of {} grains only; take a larger `region`, fewer grains, or `start.rows`",
+                    "{count} of {} grains found room, the next not at {ATTEMPTS} random places; take a larger `region`, fewer grains, or `start.rows`",
                     group.count
                 ));
             };

@@ -56,6 +56,7 @@ impl DemEngine {
         let mut notes = self.overlapping_grains(plan, &groups);
         notes.extend(self.strays(&groups));
         notes.extend(out_of_reach(plan));
+        notes.extend(self.emptied_at_once(plan));
         let refused: Vec<Note> = notes.iter().filter(|note| note.verdict == Verdict::Refused).cloned().collect();
         if refused.is_empty() {
             self.notes.extend(notes);
@@ -139,6 +140,22 @@ impl DemEngine {
             }));
         }
         notes
+    }
+
+    /// Regions of removal in which all grains begin.
+    fn emptied_at_once(&self, plan: &Plan) -> Vec<Note> {
+        let free = || (0..self.grains.len()).filter(|i| self.grains.inverse_mass[*i] > 0.0);
+        let takes_all = |removal: &Removal| free().all(|i| removal.takes(self.grains.position[i].to_array()));
+        let all = plan.removal.iter().filter(|(_, removal)| free().next().is_some() && takes_all(removal));
+        all.map(|(name, removal)| {
+            let way_out = match removal {
+                Removal::Behind { .. } => "does `normal` point to where grains stay?",
+                Removal::Inside { .. } => "move it to where grains leave",
+            };
+            let text = format!("all grains that forces move begin in there and vanish at once; {way_out}");
+            Note { key: format!("removal.{name}"), verdict: Verdict::Doubtful, text }
+        })
+        .collect()
     }
 
     /// Overlap over diameter, of the smaller grain.

@@ -15,37 +15,19 @@ use tsubu_frame::state::{MissingSection, Section};
 use tsubu_frame::{Frame, State};
 use tsubu_scene::{Plan, Scene};
 
-/// What all engines do together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Order {
-    Advance = 1,
-    Change,
-    Frame,
-    Glimpse,
-    Places,
-    Forces,
-    Save,
-    Load,
-    End,
-}
+macro_rules! orders {
+    ($($order:ident)*) => {
+        /// What all engines do together.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        enum Order {
+            $($order),*
+        }
 
-impl Order {
-    fn number(self) -> f64 {
-        f64::from(self as u8)
-    }
+        /// Each at the place of its number.
+        const ORDERS: &[Order] = &[$(Order::$order),*];
+    };
 }
-
-const ORDERS: [Order; 9] = [
-    Order::Advance,
-    Order::Change,
-    Order::Frame,
-    Order::Glimpse,
-    Order::Places,
-    Order::Forces,
-    Order::Save,
-    Order::Load,
-    Order::End,
-];
+orders! { Advance Change Frame Glimpse Places Forces Save Load End }
 
 /// The engine of rank 0.
 pub(super) struct Leader {
@@ -63,7 +45,7 @@ impl Leader {
     }
 
     fn tell(&self, order: Order, more: impl IntoIterator<Item = f64>) {
-        let mut message = vec![order.number()];
+        let mut message = vec![f64::from(order as u8)];
         message.extend(more);
         self.communicator.broadcast(&mut message);
     }
@@ -87,9 +69,7 @@ pub fn follow(scene: &Scene, communicator: &Arc<dyn Communicator>, interrupt: &I
         let mut message = Vec::new();
         communicator.broadcast(&mut message);
         let mut message = Reader::new(&message);
-        let order = message.number();
-        let order = ORDERS.into_iter().find(|one| one.number() == order).unwrap_or(Order::End);
-        match order {
+        match ORDERS.get(message.number() as usize).copied().unwrap_or(Order::End) {
             // What went wrong went wrong on all ranks: the first tells it, and ends the run.
             Order::Advance => _ = engine.advance(message.number() as u64, &mut hosts, &mut ledger),
             Order::Change => {

@@ -62,11 +62,15 @@ const NAMED: usize = 8;
 /// What differs from the scene of the folder, a line a key.
 fn differences(scene: &Scene, folder: &Path) -> String {
     let earlier = std::fs::read_to_string(folder.join("scene.toml")).unwrap_or_default();
-    let all = scene.differences(&earlier);
+    what_differs(&scene.differences(&earlier))
+}
+
+/// The end of a sentence about another scene.
+pub(crate) fn what_differs(all: &[Difference]) -> String {
     if all.is_empty() {
         return ", and the scene.toml beside it does not tell which".to_owned();
     }
-    format!("; what differs:{}", lines(&all))
+    format!("; what differs:{}", lines(all))
 }
 
 /// A line for each of the first differences.

@@ -70,7 +70,7 @@ impl Run<'_> {
     /// What was watched in this stage.
     pub(super) fn tell(&self, summary: &mut Summary) {
         let mut seen = Summary::default();
-        self.watches.results(&mut seen);
+        self.watches.results(&mut seen, self.stages.is_last());
         self.measured.results(&self.hosts, &mut seen);
         // Where nothing is watched, this is what happened.
         if self.plan.watch.is_empty() {

@@ -4,13 +4,12 @@
 //! is finished is kept, so each may be asked for as often as a cluster likes. The last one gathers.
 
 use super::cases::CasesError;
-use crate::interrupt::Watcher;
+use crate::interrupt::{Interrupt, Watcher};
 use crate::methods;
 use crate::partner::Hosts;
-use crate::run::RunError;
 use crate::{memory, trial};
 use std::time::{Duration, Instant};
-use tsubu_frame::{FileError, Status, Summary};
+use tsubu_frame::{Status, Summary};
 use tsubu_scene::Plan;
 
 /// A study whose runs can be done apart.
@@ -58,14 +57,15 @@ pub fn need(plans: &[(Plan, f64)]) -> Option<Need> {
 /// How long to wait between two looks at a folder that somebody else holds.
 const LOOK: Duration = Duration::from_millis(500);
 
-/// Does what needs a folder as soon as nobody else holds it.
-pub(super) fn unlocked<T>(watcher: &Watcher, mut work: impl FnMut() -> Result<T, CasesError>) -> Result<T, CasesError> {
+/// Does what needs a folder as soon as nobody else holds it, unless that is interrupted; `locked` tells of an error whether somebody does.
+pub fn unlocked<T, E>(
+    interrupt: &Interrupt,
+    locked: impl Fn(&E) -> bool,
+    mut work: impl FnMut() -> Result<T, E>,
+) -> Result<T, E> {
     loop {
         match work() {
-            Err(
-                CasesError::File(FileError::Locked { .. })
-                | CasesError::Run { error: RunError::File(FileError::Locked { .. }), .. },
-            ) if !watcher.interrupt.asked() => std::thread::sleep(LOOK),
+            Err(error) if locked(&error) && !interrupt.asked() => std::thread::sleep(LOOK),
             done => return done,
         }
     }

@@ -13,6 +13,9 @@ pub enum CasesError {
     /// The scene does not say what the study needs, or a case of it is wrong.
     #[error("{0}")]
     Scene(String),
+    /// What is in the folder was made of another scene, or by another version.
+    #[error("{0}")]
+    NotThisScene(String),
     /// A case of it cannot be read.
     #[error("{0}")]
     Complaints(Complaints),
@@ -30,6 +33,16 @@ pub enum CasesError {
     /// A file or folder.
     #[error(transparent)]
     File(#[from] FileError),
+}
+
+impl CasesError {
+    /// Whether somebody else holds the folder.
+    pub(super) fn is_locked(&self) -> bool {
+        match self {
+            Self::File(error) | Self::Run { error: RunError::File(error), .. } => error.is_locked(),
+            _ => false,
+        }
+    }
 }
 
 /// One combination.

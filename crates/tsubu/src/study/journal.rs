@@ -4,7 +4,8 @@
 //! Runs that are done apart, by processes of their own, are lines of files of their own in `progress/`, for files that several
 //! machines lengthen are not whole on every disk. There a run that failed is a line too.
 
-use crate::run::scene_hash;
+use super::cases::CasesError;
+use crate::run::{scene_hash, what_differs};
 use crate::scene_files;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -41,9 +42,17 @@ impl PartialEq for Exact {
 
 impl Eq for Exact {}
 
-/// First line of the journal: which scene it belongs to.
+/// First line of the journal: which scene it belongs to, and who wrote it.
+#[derive(Serialize, Deserialize)]
+struct Mark {
+    scene: String,
+    version: String,
+}
+
 fn mark(resolved: &str) -> String {
-    serde_json::json!({ "scene": scene_hash(resolved), "version": crate::VERSION }).to_string()
+    let mark = Mark { scene: scene_hash(resolved), version: crate::VERSION.to_owned() };
+    // Two texts make JSON in any case.
+    serde_json::to_string(&mark).unwrap_or_default()
 }
 
 /// The folder of what is done apart.
@@ -102,7 +111,7 @@ pub(super) fn earlier<K: Ord + DeserializeOwned, P: DeserializeOwned>(
     path: &Path,
     scene: &Scene,
     overwrite: bool,
-) -> Result<Option<BTreeMap<K, P>>, FileError> {
+) -> Result<Option<BTreeMap<K, P>>, CasesError> {
     if overwrite {
         return Ok(None);
     }
@@ -113,8 +122,22 @@ pub(super) fn earlier<K: Ord + DeserializeOwned, P: DeserializeOwned>(
         let of_all = [text].into_iter().chain(parts(path, &mark).into_iter().map(|(_, text)| text));
         return Ok(Some(of_all.flat_map(|text| lines(&text)).collect()));
     }
+    if let Some(Ok(mark)) = text.lines().next().map(serde_json::from_str::<Mark>) {
+        return Err(of_another(path, scene, &mark));
+    }
     let occupied = std::fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_some());
-    if occupied { Err(FileError::NotEmpty { path: path.to_owned() }) } else { Ok(None) }
+    if occupied { Err(FileError::NotEmpty { path: path.to_owned() }.into()) } else { Ok(None) }
+}
+
+/// Why a study cannot go on in a folder with the journal of another.
+fn of_another(path: &Path, scene: &Scene, mark: &Mark) -> CasesError {
+    let why = if mark.version == crate::VERSION {
+        let earlier = std::fs::read_to_string(path.join("scene.toml")).unwrap_or_default();
+        format!("belong to another scene{}", what_differs(&scene.all_differences(&earlier)))
+    } else {
+        format!("were written by tsubu {}, this is tsubu {}: go on with the other", mark.version, crate::VERSION)
+    };
+    CasesError::NotThisScene(format!("the results in {} {why}", path.display()))
 }
 
 /// Makes the folder, or takes the one that an earlier study has begun. `tables` are the study's own files; those of its page come later.

@@ -157,7 +157,8 @@ impl Apart for Sweep<'_> {
             CasesError::Scene(format!("the sweep has no case `{name}`: `tsubu sweep SCENE --dry-run` names all"))
         })?;
         // Whoever holds it may be a worker that its cluster has given up: what it does is not done twice.
-        unlocked(watcher, || one(self.scene, case, &self.place(case), watcher)).map(|summary| summary.status)
+        unlocked(watcher.interrupt, CasesError::is_locked, || one(self.scene, case, &self.place(case), watcher))
+            .map(|summary| summary.status)
     }
 
     fn plans(&self) -> Result<Vec<(Plan, f64)>, CasesError> {

@@ -34,7 +34,8 @@ is new, or comes into the region moving, has not started.
 V is that of the shape; of a clump each sphere carries its share, and is counted as a grain.
 In the plane A is a length and V the area of the disc or polygon, so q is again per width; with `width` grains are spheres
 in a bed of that width, V = pi d^3 / 6 / width, and polygons as thick as they are. Entrainment is per length then. Density
-and d of the Einstein number are means over the free groups, or of the one that is asked for, as the scene tells them.",
+and d of the Einstein number are means over the free groups, or of the one that is asked for, as the scene tells them; of a grain that is
+no sphere d is the diameter of the sphere of its volume, of a polygon that of the disc of its area.",
     symbols: "",
     limits: "Q is of volumes without voids; a grain that starts and stops between two looks is not seen; entrainment \
 depends on the two speeds, so tell them with it.",

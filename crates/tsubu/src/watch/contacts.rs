@@ -9,12 +9,17 @@ use tsubu_scene::plan::{Plan, watch};
 pub(super) const ABOUT: About = About {
     key: "watch.NAME.contacts",
     formula: "\
-The contacts one by one, a row of the table for each look and contact: numbers of both grains, or of a grain and a wall (walls
-are numbered from 0 in the order of their names, and `wall` is 1), point of contact [m], unit normal from the first to the
-second, force on the first [N], overlap [m]. In the history: how many there are, the deepest overlap, the largest force.
-The region holds points of contact; a point beyond a periodic end is put back between the ends.
-Where some grains are no spheres: also the numbers of the bodies, which are those of their first grains (0 for a wall), and how many pairs of bodies
-touch, each once however many of their grains do.",
+The contacts one by one, a row of the table for each look and contact
+first, second     numbers of both grains, or of a grain and a wall (`wall` is 1)
+position, normal  where they touch [m]; unit vector from the first to the second
+force, overlap    on the first [N]; how deep [m]
+and in the history
+contacts          how many there are
+deepest overlap, largest force
+Walls are numbered from 0 in the order of their names. The region holds points of contact; a point
+beyond a periodic end is put back between the ends. Where some grains are no spheres, also
+first body, second body   their numbers, which are those of their first grains; 0 for a wall
+pairs of bodies   how many touch, each once however many of their grains do; without walls",
     symbols: "",
     limits: "The list is long. A look at every contact of a large bed is a large table; look rarely.",
     reference: "by definition",

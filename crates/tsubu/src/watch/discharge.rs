@@ -166,12 +166,14 @@ impl Watch for Discharge {
         Sample { scalars: all.into_iter().chain(self.by_size.iter().copied()).collect(), rows: Vec::new() }
     }
 
-    /// Of outlets, which grains fall through, that have come to a stop with grains above them.
-    fn remark(&self) -> Option<String> {
-        let (first, last) = (self.first?, self.last?);
-        let quiet = last - self.passage.unwrap_or(first) > QUIET * (last - first);
+    /// Of outlets, which grains fall through, that have come to a stop with grains above them. One that nothing has passed may be shut, and
+    /// opened by a later stage.
+    fn remark(&self, last: bool) -> Option<String> {
+        let (begin, end) = (self.first?, self.last?);
+        let quiet = end - self.passage.unwrap_or(begin) > QUIET * (end - begin);
         let down = self.gravity.dot(self.normal) > 0.5 * self.gravity.length();
-        if !quiet || !down || self.waiting == 0 {
+        let shut = self.passage.is_none() && !last;
+        if !quiet || !down || self.waiting == 0 || shut {
             return None;
         }
         let verb = if self.waiting == 1 { "is" } else { "are" };

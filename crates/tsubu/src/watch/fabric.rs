@@ -1,9 +1,9 @@
 //! The fabric of the contacts.
 
+use super::axial::{dyad, principal};
 use super::{Axes, Inside, LETTERS, Sample, Watch, axes};
 use crate::about::About;
 use crate::view::{View, Wants};
-use glam::DVec3;
 use nalgebra::{Matrix3, SymmetricEigen};
 use tsubu_scene::plan::{Plan, watch};
 
@@ -58,23 +58,23 @@ impl Watch for Fabric {
         names
     }
 
+    fn axis(&self) -> Option<&'static str> {
+        Some("principal direction")
+    }
+
     fn take(&mut self, view: &View) -> Sample {
         let counted =
             view.contacts.iter().filter(|c| (self.walls || !c.wall) && self.region.holds(view.put(c.position)));
         let (mut sum, mut number) = (Matrix3::zeros(), 0.0);
         for c in counted {
-            let n = nalgebra::Vector3::from(c.normal.to_array());
-            sum += n * n.transpose();
+            sum += dyad(c.normal);
             number += 1.0;
         }
         if number == 0.0 {
             return Sample { scalars: vec![f64::NAN; self.scalars().len()], rows: Vec::new() };
         }
         let fabric = sum / number;
-        let eigen = SymmetricEigen::new(fabric);
-        let largest = eigen.eigenvalues.imax();
-        let direction = DVec3::from_slice(eigen.eigenvectors.column(largest).as_slice());
-        let values = eigen.eigenvalues.as_slice();
+        let values = SymmetricEigen::new(fabric).eigenvalues;
         // The plane has no third value: what nalgebra finds for y is zero.
         let deviator = if self.axes.len() == 2 {
             (fabric[(0, 0)] - fabric[(2, 2)]).hypot(2.0 * fabric[(0, 2)])
@@ -84,8 +84,8 @@ impl Watch for Fabric {
         };
         let mut scalars: Vec<f64> = self.entries().map(|(a, b)| fabric[(a, b)]).collect();
         scalars.push(deviator);
-        let up = [2, 1, 0].into_iter().map(|a| direction[a]).find(|x| x.abs() > 1e-12).unwrap_or(1.0);
-        scalars.extend(self.axes.iter().map(|&a| direction[a] * up.signum()));
+        let (_, direction) = principal(fabric);
+        scalars.extend(self.axes.iter().map(|&a| direction[a]));
         Sample { scalars, rows: Vec::new() }
     }
 }

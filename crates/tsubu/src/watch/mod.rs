@@ -4,6 +4,7 @@
 //! [`Watches`] are those of a run: when they look ([`Trigger`]), where their rows go, what their means are, and what of
 //! them a checkpoint holds. One file a watch; each says what it measures, in which units, after whom, and where it ends.
 
+mod axial;
 mod cells;
 mod classes;
 mod course;
@@ -43,6 +44,11 @@ pub trait Watch: Send + Debug {
         &[]
     }
 
+    /// How the names of those begin that are the components of an axis whose head and tail are alike: their means say nothing, the mean axis does.
+    fn axis(&self) -> Option<&'static str> {
+        None
+    }
+
     /// Its own table, if it has one.
     fn sheet(&self) -> Option<Sheet> {
         None
@@ -51,8 +57,8 @@ pub trait Watch: Send + Debug {
     /// Looks.
     fn take(&mut self, view: &View) -> Sample;
 
-    /// What the reader of the results should know: that what was to be measured did not happen.
-    fn remark(&self) -> Option<String> {
+    /// What the reader of the results should know: that what was to be measured did not happen. `last`: no stage follows in which it may.
+    fn remark(&self, _last: bool) -> Option<String> {
         None
     }
 

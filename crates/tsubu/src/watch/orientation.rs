@@ -1,10 +1,11 @@
 //! How bodies that are no spheres are turned.
 
+use super::axial::{dyad, principal};
 use super::{Axes, Inside, LETTERS, Sample, Sheet, Watch, axes, group_number};
 use crate::about::About;
 use crate::view::{Body, View, Wants};
 use glam::DVec3;
-use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+use nalgebra::Matrix3;
 use std::f64::consts::FRAC_PI_2;
 use tsubu_scene::plan::{BodyAxis, Plan, watch};
 
@@ -16,6 +17,7 @@ bodies             N                                                            
 order parameter    largest eigenvalue of Q: 1 where all lie along one direction, 0 where none is preferred [-]
 director           its unit vector, the preferred direction, its last entry not negative                   [-]
 alignment          entry of Q along `along`: 1 for bodies along it, -1/2 across it, -1 in the plane        [-]
+The director of a run is the principal axis of sum n n over the directors n of its looks: n and -n are the same.
 The table has for each angle to `along` how many times as many bodies lie there as if all directions were alike. A body counts where its
 centre of mass is inside. `long` is the principal axis of the least moment of inertia, `short` that of the largest; in the plane `short` lies
 across `long`.",
@@ -83,6 +85,10 @@ impl Watch for Orientation {
         first.into_iter().chain(director).chain(["alignment [-]".to_owned()]).collect()
     }
 
+    fn axis(&self) -> Option<&'static str> {
+        Some("director")
+    }
+
     fn sheet(&self) -> Option<Sheet> {
         let (coordinates, values) = (vec!["angle [deg]".to_owned()], vec!["density over random [-]".to_owned()]);
         Some(Sheet { coordinates, values, steady: true })
@@ -95,7 +101,7 @@ impl Watch for Orientation {
         let lie: Vec<DVec3> =
             view.bodies.iter().filter(of_the_group).filter(inside).map(|body| self.axis(body)).collect();
         let number = lie.len() as f64;
-        let dyads: Matrix3<f64> = lie.iter().map(|u| Vector3::from(u.to_array())).map(|u| u * u.transpose()).sum();
+        let dyads: Matrix3<f64> = lie.iter().copied().map(dyad).sum();
         let (times, less) = if self.plane() { (2.0, 1.0) } else { (1.5, 0.5) };
         // Without bodies not numbers.
         let alike = dyads / number;
@@ -103,12 +109,9 @@ impl Watch for Orientation {
         if lie.is_empty() {
             scalars.resize(self.scalars().len(), f64::NAN);
         } else {
-            let eigen = SymmetricEigen::new(alike);
-            let largest = eigen.eigenvalues.imax();
-            let director = DVec3::from_slice(eigen.eigenvectors.column(largest).as_slice());
-            let up = [2, 1, 0].into_iter().map(|a| director[a]).find(|x| x.abs() > 1e-12).unwrap_or(1.0);
-            scalars.push(times * eigen.eigenvalues[largest] - less);
-            scalars.extend(self.axes.iter().map(|&a| director[a] * up.signum()));
+            let (largest, director) = principal(alike);
+            scalars.push(times * largest - less);
+            scalars.extend(self.axes.iter().map(|&a| director[a]));
             let along = lie.iter().map(|u| u.dot(self.along).powi(2)).sum::<f64>() / number;
             scalars.push(times * along - less);
         }

@@ -1,5 +1,6 @@
 //! The watches of a run: when they look, where their numbers go, what of them a checkpoint holds.
 
+use super::axial::MeanAxis;
 use super::means::{Extremes, Means};
 use super::{Axes, Sheet, Trigger, Watch, axes, open, wall_load};
 use crate::engine::Engine;
@@ -21,6 +22,8 @@ struct Entry<'a> {
     about: String,
     /// Columns of `history.csv`.
     scalars: Vec<String>,
+    /// Those of them that are components of an axis.
+    axis: Vec<String>,
     /// Its table in the run folder.
     file: Option<String>,
     coordinates: Vec<String>,
@@ -47,6 +50,8 @@ struct Watched {
     mark: Option<Mark>,
     /// Means of the scalars, and of the cells of the table.
     means: [Means; 2],
+    /// That of the scalars that are components of an axis.
+    axis: Option<MeanAxis>,
     /// The least and the largest of the scalars.
     extremes: Extremes,
     /// What the last look gave.
@@ -62,11 +67,14 @@ impl Watched {
 
     fn entry(&self) -> Entry<'_> {
         let sheet = self.sheet.clone().unwrap_or_default();
+        let columns = || self.watch.scalars().into_iter().map(|what| self.column(&what));
+        let of_axis = |place: usize| self.axis.as_ref().is_some_and(|axis| axis.has(place));
         Entry {
             name: &self.name,
             kind: self.kind,
             about: self.watch.about().text(),
-            scalars: self.watch.scalars().iter().map(|what| self.column(what)).collect(),
+            scalars: columns().collect(),
+            axis: columns().enumerate().filter(|(place, _)| of_axis(*place)).map(|(_, column)| column).collect(),
             file: self.sheet.as_ref().map(|_| file(&self.name)),
             coordinates: sheet.coordinates,
             values: sheet.values,
@@ -79,12 +87,17 @@ impl Watched {
         Some(["time [s]".to_owned()].into_iter().chain(columns).collect())
     }
 
-    /// Of each scalar what stands for the whole: its mean over the looks, or its last value where that tells what has been so far.
+    /// Of each scalar what stands for the whole: its mean over the looks, of an axis that of the axis, or its last value where that tells
+    /// what has been so far.
     fn told(&self) -> Vec<f64> {
         let begins = self.watch.so_far();
         let so_far = |what: &String| begins.iter().any(|begin| what.starts_with(begin));
         let scalars = self.watch.scalars().into_iter().zip(self.means[0].get().zip(&self.last));
-        scalars.map(|(what, (mean, last))| if so_far(&what) { *last } else { mean }).collect()
+        let mut told: Vec<f64> = scalars.map(|(what, (mean, last))| if so_far(&what) { *last } else { mean }).collect();
+        if let Some(axis) = &self.axis {
+            axis.put(&mut told);
+        }
+        told
     }
 
     fn look(&mut self, view: &View) -> Result<(), FileError> {
@@ -92,6 +105,9 @@ impl Watched {
         self.looks += 1.0;
         self.means[0].take(sample.scalars.iter().copied());
         self.extremes.take(&sample.scalars);
+        if let Some(axis) = &mut self.axis {
+            axis.take(&sample.scalars);
+        }
         self.last = sample.scalars;
         let Some(sheet) = &self.sheet else { return Ok(()) };
         if sheet.steady {
@@ -118,6 +134,7 @@ impl Watches {
             let watch = open(&watch.measure, plan);
             let last = vec![f64::NAN; watch.scalars().len()];
             let means = [Means::new(last.len()), Means::default()];
+            let first = watch.axis().and_then(|begin| watch.scalars().iter().position(|what| what.starts_with(begin)));
             Watched {
                 name: name.clone(),
                 kind,
@@ -127,6 +144,7 @@ impl Watches {
                 file: None,
                 mark: None,
                 means,
+                axis: first.map(|first| MeanAxis::new(first, axes(plan))),
                 extremes: Extremes::new(last.len()),
                 last,
                 looks: 0.0,
@@ -259,19 +277,24 @@ impl Watches {
         Ok(())
     }
 
-    /// Means and last values, for the summary.
-    pub fn results(&self, summary: &mut Summary) {
+    /// Means and last values, for the summary; `last`: of the last stage of a run.
+    pub fn results(&self, summary: &mut Summary, last: bool) {
         for w in &self.list {
             if w.looks == 0.0 {
                 summary.warnings.push(format!("the watch `{}` has not looked once: it begins later", w.name));
             }
-            summary.warnings.extend(w.watch.remark().map(|remark| format!("the watch `{}`: {remark}", w.name)));
+            summary.warnings.extend(w.watch.remark(last).map(|remark| format!("the watch `{}`: {remark}", w.name)));
             let means = w.told().into_iter().zip(w.means[0].spreads()).zip(&w.extremes.0).zip(&w.last);
-            for (what, (((mean, spread), [least, largest]), last)) in w.watch.scalars().iter().zip(means) {
+            for (place, (what, (((mean, spread), [least, largest]), last))) in
+                w.watch.scalars().iter().zip(means).enumerate()
+            {
                 let (what, unit) = split_unit(what);
                 let unit = unit.unwrap_or("-");
                 summary.give(w.column(what), unit, mean);
-                for (which, value) in [("spread", spread), ("least", *least), ("largest", *largest), ("final", *last)] {
+                let ends = [("spread", spread), ("least", *least), ("largest", *largest), ("final", *last)];
+                // Of n and -n neither is the larger.
+                let skipped = if w.axis.as_ref().is_some_and(|axis| axis.has(place)) { 3 } else { 0 };
+                for (which, value) in ends.into_iter().skip(skipped) {
                     summary.give(w.column(&format!("{what} {which}")), unit, value);
                 }
             }
@@ -296,6 +319,9 @@ impl Watches {
             for (means, what) in w.means.iter().zip(["scalars", "cells"]) {
                 state.put_real(&format!("{name}.{what}"), means.numbers());
             }
+            if let Some(axis) = &w.axis {
+                state.put_real(&format!("{name}.axis"), axis.numbers());
+            }
             if let Some(mark) = w.mark {
                 state.put_integer(&format!("{name}.file"), mark.numbers());
             }
@@ -317,6 +343,12 @@ impl Watches {
                 return Err(MissingSection { name, kind: "real" });
             }
             w.extremes = Extremes(extremes.to_vec());
+            if let Some(axis) = &mut w.axis {
+                let key = format!("{name}.axis");
+                if !axis.load(state.real(&key)?) {
+                    return Err(MissingSection { name: key, kind: "real" });
+                }
+            }
             for (means, what) in w.means.iter_mut().zip(["scalars", "cells"]) {
                 *means = Means::from_numbers(state.real(&format!("{name}.{what}"))?);
             }

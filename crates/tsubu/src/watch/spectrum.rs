@@ -232,7 +232,7 @@ impl Watch for Spectrum {
         Sample { scalars: self.told.to_vec(), rows }
     }
 
-    fn remark(&self) -> Option<String> {
+    fn remark(&self, _last: bool) -> Option<String> {
         let short = self.done == 0.0;
         short.then(|| format!("no segment of {} s has ended: `segment` is longer than what was looked at", self.length))
     }

@@ -15,7 +15,7 @@ The water. Of a stream along x (`water.flow.coupled`, `water.flow.log-law`)
 shear velocity    U*, sqrt(stress on the bottom over density)                            [m/s]
 bed stress        stress at the top of the bed, and what is given to grains above it     [Pa]
 Shields number    bed stress / ((s - 1) rho g d), s density of the grains over rho       [-]
-Rouse number      w / (0.40 sqrt(bed stress / rho)), w terminal speed of a grain         [-]
+Rouse number      w / (0.40 sqrt(bed stress / rho)), w terminal speed of a sphere of d   [-]
 of layers (`coupled`, `water.flow.column`)
 discharge         of water per width of a stream; of a column per plan area              [m^2/s] or [m/s]
 mean velocity     discharge over the depth of water, sum of shares times thickness       [m/s]
@@ -27,13 +27,15 @@ share of water    what the grains leave of the layer                            
 shear             dU/dz, between the middles of the layers below and above               [1/s]
 stress            shear stress of the water, mean of the lower and the upper face        [Pa]
 The bed ends with the highest layer that grains fill by 0.3; of a log-law stream, which knows no grains, bed stress is rho U*^2. Density,
-d and w are those of the mean grain of the free groups, or of the group that is asked for, as the scene tells them.
+d and w are those of the mean grain of the free groups, or of the group that is asked for, as the scene tells them. Of a grain that is no
+sphere d is the diameter of the sphere of its volume, the nominal diameter of Wadell 1932, and not `diameter`, that of the sphere which
+holds it.
 Which is which: U* is that on the bottom, below the bed, where little of the stress comes to; Shields and Rouse number are those at the
 top of the bed, in the mean and at the end; `check` tells them of the stream as typed, before grains take from it.",
     symbols: "",
     limits: "As those of the layers; velocities and stresses are those of the last step, shares are measured every 50 \
 steps. While the stream gains or loses speed the bed stress is not the weight of the water along the slope.",
-    reference: "Shields 1936; Rouse 1937",
+    reference: "Shields 1936; Rouse 1937; Wadell 1932",
 };
 
 /// Reads the water.

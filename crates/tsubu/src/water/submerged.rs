@@ -21,7 +21,7 @@ impl Submerged {
     /// A grain of that shape and diameter [m].
     pub fn of(shape: &GrainShape, diameter: f64) -> Self {
         shape.clump().map_or(Self::sphere(0.5 * diameter), |body| Self {
-            radius: body.equivalent_radius(false) * diameter,
+            radius: 0.5 * shape.nominal_diameter(diameter),
             sphericity: body.sphericity(),
         })
     }

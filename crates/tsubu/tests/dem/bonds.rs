@@ -44,8 +44,9 @@ fn bonds(engine: &dyn Engine) -> (usize, u64) {
 /// Bodies that lie farther apart than the `gap` are not bonded, and `check` says so; with a wider gap they are.
 #[test]
 fn bodies_too_far_apart_are_told() {
-    let text =
-        cantilever(1, |_| 0.0, "gap = 0.1").replace("position = [[2e", "position = [[2.8e").replace("[0.002,", "[0.0028,");
+    let text = cantilever(1, |_| 0.0, "gap = 0.1")
+        .replace("position = [[2e", "position = [[2.8e")
+        .replace("[0.002,", "[0.0028,");
     let (engine, ..) = open_text(&text, &[]);
     assert_eq!(bonds(&*engine), (0, 0));
     let told = |engine: &dyn Engine| {

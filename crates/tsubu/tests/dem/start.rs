@@ -203,6 +203,27 @@ fn removal_behind_a_wall_is_said() {
     assert_eq!(note(below, "shape.plane = {}\nuntil = 0.05"), "", "a gate opens");
 }
 
+/// A normal that points the wrong way took all grains away at once, and the run went on without them and without a word.
+#[test]
+fn removal_of_all_grains_at_once_is_said() {
+    let notes = |removal: &str| {
+        let text = format!(
+            "{GLASS}[particles.beads]\nmaterial = \"glass\"\ndiameter = \"6 mm\"\n\
+             start.at.position = [[0, 0, 0.01], [0, 0, 0.03]]\n[removal.bin]\n{removal}\n"
+        );
+        let engine = opened(&text, Path::new(".")).unwrap();
+        engine.notes().iter().map(|note| format!("{}: {}", note.key, note.text)).collect::<Vec<String>>().join("\n")
+    };
+    let wrong = notes("behind = { point = [0, 0, 0], normal = \"-z\" }");
+    assert!(wrong.starts_with("removal.bin: all grains that forces move begin in there"), "{wrong}");
+    assert!(wrong.ends_with("does `normal` point to where grains stay?"), "{wrong}");
+    assert!(
+        notes("inside.region = { low = [-1, -1, -1], high = [1, 1, 1] }").contains("move it to where grains leave")
+    );
+    assert_eq!(notes("inside.region = { low = [-1, -1, -1], high = [1, 1, 0.02] }"), "", "one of two is meant so");
+    assert_eq!(notes("behind = { point = [0, 0, 0], normal = \"z\" }"), "");
+}
+
 /// Over a mesh the speed scale was 1 m/s, whatever grains fell through; contacts and the time step were judged at it.
 #[test]
 fn the_speed_scale_knows_how_far_grains_fall() {

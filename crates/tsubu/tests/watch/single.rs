@@ -106,7 +106,7 @@ track.ids = [0]
         engine.advance(1, &mut hosts, &mut ledger).unwrap();
     }
     let mut summary = Summary::default();
-    watches.results(&mut summary);
+    watches.results(&mut summary, true);
     let number = |what: &str| match summary.results.get(&format!("ball position z {what}")) {
         Some(ResultValue::Number(value)) => *value,
         other => panic!("{what}: {other:?}"),

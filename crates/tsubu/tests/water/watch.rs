@@ -78,6 +78,36 @@ fn shields_and_rouse_numbers_are_those_of_the_depth_and_the_slope() {
     }
 }
 
+/// The diameter of a cube is that of the sphere which holds it, a sqrt(3); its Shields number takes that of the sphere of its volume,
+/// a (6/pi)^(1/3), and by the former it was 1.4 times too small.
+#[test]
+fn the_shields_number_of_a_body_takes_the_sphere_of_its_volume() {
+    let cube = "particles.sand.shape.polyhedron={corners=[[-1,-1,-1],[1,-1,-1],[-1,1,-1],[1,1,-1],[-1,-1,1],[1,-1,1],[-1,1,1],[1,1,1]],rounding=0.001}";
+    let shields = |changes: &[&str]| {
+        let changes: Vec<String> =
+            [&[LOG_LAW, "watch.water.stream.group='sand'", "water.drag={haider-levenspiel={}}"], changes]
+                .concat()
+                .into_iter()
+                .map(str::to_owned)
+                .collect();
+        let scene = Scene::parse("test", SCENE, Path::new("."), &changes).unwrap_or_else(|c| panic!("{c}"));
+        let (engine, hosts, _) = open_text(SCENE, &changes.iter().map(String::as_str).collect::<Vec<_>>());
+        let mut watch = watch::open(&scene.plan().watch["water"].measure, scene.plan());
+        let sample = watch.take(&engine.view(Wants::GRAINS));
+        let place = watch.scalars().iter().position(|name| name.starts_with("Shields")).expect("a Shields number");
+        let verdict = tsubu::check::verdict(scene.plan(), &hosts, &*engine).to_string();
+        let told =
+            verdict.split("sand in the stream as typed").nth(1).and_then(|text| text.split("Shields number ").nth(1));
+        let told = told.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok()).expect("a number");
+        [sample.scalars[place], told]
+    };
+    let (sphere, cube) = (shields(&[]), shields(&[cube]));
+    let wanted = 3.0_f64.sqrt() * (std::f64::consts::PI / 6.0).cbrt();
+    for (sphere, cube) in sphere.into_iter().zip(cube) {
+        assert!((cube / sphere / wanted - 1.0).abs() < 3e-3, "{cube} {sphere}");
+    }
+}
+
 /// In layers without grains the stress falls in a straight line to the surface, and the shear is that of the log law, U*/(0.40 z), to what
 /// a difference over two layers makes of it. The bed's neighbour is left out.
 #[test]

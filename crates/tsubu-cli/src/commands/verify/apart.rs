@@ -11,9 +11,8 @@ use crate::output;
 use crate::stream::Stream;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::thread::sleep;
-use std::time::Duration;
-use tsubu::study::apart::Need;
+use tsubu::interrupt::Interrupt;
+use tsubu::study::apart::{Need, unlocked};
 use tsubu_frame::{Existing, FileError, RunFolder, Status};
 use tsubu_verify::{Archive, Case, Done, How, recorded_run};
 
@@ -21,8 +20,6 @@ use tsubu_verify::{Archive, Case, Done, How, recorded_run};
 const TASKS: &str = "tasks";
 /// More than any case takes [bytes].
 const MEMORY: f64 = 500e6;
-/// How long to wait between two looks at a folder that somebody else holds.
-const LOOK: Duration = Duration::from_millis(500);
 
 /// The cases that were chosen.
 pub struct Cases<'a> {
@@ -115,12 +112,9 @@ impl Runs for Cases<'_> {
         };
         let folder = self.task(case);
         let existing = if folder.is_dir() { Existing::Resume } else { Existing::Refuse };
-        let archive = loop {
-            match RunFolder::create(&folder, existing, [RESULTS]).and_then(Archive::new) {
-                Err(FileError::Locked { .. }) => sleep(LOOK),
-                other => break other.map_err(|error| Failure::of_file(&error, &folder))?,
-            }
-        };
+        let archive = || RunFolder::create(&folder, existing, [RESULTS]).and_then(Archive::new);
+        let archive = unlocked(&Interrupt::new(), FileError::is_locked, archive);
+        let archive = archive.map_err(|error| Failure::of_file(&error, &folder))?;
         let how = How { archive: Some(Arc::new(archive)), controls: self.controls };
         let done = self.work.pool()?.install(|| case.done(&how, Arc::new(|| ())));
         let done = done.map_err(|error| Failure::failed(format!("`{name}` did not run: {error}")))?;

@@ -99,7 +99,7 @@ impl Apart for Runs<'_> {
     }
 
     fn run(&mut self, name: &str, watcher: &Watcher) -> Result<Status, CasesError> {
-        unlocked(watcher, || self.one(name, watcher))
+        unlocked(watcher.interrupt, CasesError::is_locked, || self.one(name, watcher))
     }
 
     fn plans(&self) -> Result<Vec<(Plan, f64)>, CasesError> {

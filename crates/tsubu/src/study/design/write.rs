@@ -28,6 +28,7 @@ pub(super) fn write(
     }
     let measured: Vec<usize> = work.values().into_iter().map(|(index, _)| index).collect();
     summary.give("candidates measured", "-", measured.len() as f64);
+    summary.give("candidates failed", "-", work.failures.len() as f64);
     let farthest = task.candidates.farthest(&measured).map_or(0.0, |(_, distance)| distance);
     summary.give("distance of the farthest from those", "-", farthest);
     if let Some(two) = work.differences().filter(|_| task.wanted.cheap.is_some()) {
