@@ -85,10 +85,10 @@ fn bodies(engine: &dyn Engine) -> BTreeMap<i64, usize> {
     bodies
 }
 
-/// The same bits for any number of threads and after a resume in the midst of it, the books closed; bodies are there with all of their pieces.
-#[test]
-fn clumps_come_and_go() {
-    let text = format!("{HEAD}{SHOWER}");
+/// What `look` sees at the end of a scene, and what has come and gone: the same bits for any number of threads and after a resume in the midst
+/// of it, the books closed.
+fn traffic<T: Send>(scene: &str, look: fn(&dyn Engine) -> T) -> (T, BTreeMap<String, u64>) {
+    let text = format!("{HEAD}{scene}");
     let run = |threads, resume| {
         hash(
             || open_text(&text, &[]),
@@ -97,12 +97,21 @@ fn clumps_come_and_go() {
             resume,
             |engine, hosts, ledger| {
                 let traffic: BTreeMap<String, u64> = engine.traffic().into_iter().collect();
-                (missing(engine, hosts, ledger), bodies(engine), traffic)
+                (missing(engine, hosts, ledger), look(engine), traffic)
             },
         )
     };
-    let (alone, (residual, bodies, traffic)) = run(1, false);
+    let (alone, (residual, seen, traffic)) = run(1, false);
     assert!(residual < 1e-3, "{residual}");
+    assert_eq!(alone, run(2, false).0);
+    assert_eq!(alone, run(7, true).0);
+    (seen, traffic)
+}
+
+/// Bodies are there with all of their pieces.
+#[test]
+fn clumps_come_and_go() {
+    let (bodies, traffic) = traffic(SHOWER, bodies);
     let (rods, balls, gone) =
         (traffic["stream rods grains"], traffic["stream balls grains"], traffic["removal below grains"]);
     assert!(rods > 40 && gone > 20, "{traffic:?}");
@@ -111,8 +120,6 @@ fn clumps_come_and_go() {
     assert_eq!(5 + rods + balls, there + alone_there + gone, "{traffic:?}");
     // The five that begin have numbers 0 to 4 and two pieces, the rods three.
     assert!(bodies.iter().all(|(body, pieces)| *body < 0 || *pieces == if *body < 5 { 2 } else { 3 }), "{bodies:?}");
-    assert_eq!(alone, run(2, false).0);
-    assert_eq!(alone, run(7, true).0);
 }
 
 /// A clump of a large and a small sphere falls freely through a plane: it goes at the first look after its centre of mass has passed, at
@@ -147,30 +154,14 @@ normal = [0, 0, 1]
 mod patient {
     use super::*;
 
-    /// What comes and has not gone is there, whatever its shape; same bits, closed books.
+    /// What comes and has not gone is there, whatever its shape.
     #[test]
     #[ignore = "8 s: cargo xtask patient"]
     fn ellipsoids_and_cubes_come_and_go() {
-        let text = format!("{HEAD}{SHAPES}");
-        let run = |threads, resume| {
-            hash(
-                || open_text(&text, &[]),
-                [9000, 11_000],
-                threads,
-                resume,
-                |engine, hosts, ledger| {
-                    let traffic: BTreeMap<String, u64> = engine.traffic().into_iter().collect();
-                    (missing(engine, hosts, ledger), engine.grains() as u64, traffic)
-                },
-            )
-        };
-        let (alone, (residual, there, traffic)) = run(1, false);
-        assert!(residual < 1e-3, "{residual}");
+        let (there, traffic) = traffic(SHAPES, |engine| engine.grains() as u64);
         let (eggs, cubes, gone) =
             (traffic["stream eggs grains"], traffic["stream cubes grains"], traffic["removal below grains"]);
         assert!(eggs > 40 && cubes > 25 && gone > 20, "{traffic:?}");
         assert_eq!(2 + eggs + cubes, there + gone, "{traffic:?}");
-        assert_eq!(alone, run(2, false).0);
-        assert_eq!(alone, run(7, true).0);
     }
 }
