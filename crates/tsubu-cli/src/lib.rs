@@ -58,10 +58,10 @@ tsubu simulates granular matter from one scene file.
 /// Does what a command line says, the name of the program first, and gives the exit code. A line that is no command ends the process,
 /// as `--help` does.
 pub fn run(line: impl IntoIterator<Item = OsString>) -> u8 {
+    stop::listen();
     let words: Vec<OsString> = line.into_iter().collect();
     options::typed(&words);
     let arguments = Arguments::parse_from(words);
-    stop::listen();
     let done = match arguments.command {
         Some(command) => commands::run(command),
         None => output::print(BRIEF),

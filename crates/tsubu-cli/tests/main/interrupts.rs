@@ -1,6 +1,6 @@
 //! Ctrl-C and a polite kill end every command soon, with 130, and no state is lost.
 
-use crate::support::{Desk, SCENE, signal, wait_for};
+use crate::support::{Desk, SCENE, listening, signal, wait_for};
 use std::time::{Duration, Instant};
 
 /// Settles for minutes: its steps are a hundred thousandth of a contact.
@@ -11,6 +11,7 @@ const SOON: Duration = Duration::from_secs(8);
 
 fn stops(desk: &Desk, line: &str, after: Duration, how: &str) {
     let mut child = desk.start(line);
+    listening(&child);
     std::thread::sleep(after);
     signal(&child, how);
     let begun = Instant::now();
@@ -29,6 +30,7 @@ fn stops(desk: &Desk, line: &str, after: Duration, how: &str) {
 fn an_interrupted_verification_says_how_far_it_came() {
     let desk = Desk::new();
     let mut child = desk.command("verify --all --threads 1").stderr(std::process::Stdio::piped()).spawn().unwrap();
+    listening(&child);
     std::thread::sleep(Duration::from_millis(1500));
     signal(&child, "INT");
     let mut said = String::new();

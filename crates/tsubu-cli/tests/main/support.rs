@@ -186,10 +186,29 @@ pub fn wait_for(file: &Path) {
     }
 }
 
-/// Sends a signal to a child of ours.
+/// Waits until a child of ours listens to signals: on a busy machine a program takes its time to begin.
+pub fn listening(child: &Child) {
+    let begun = Instant::now();
+    while !listens(child) {
+        assert!(begun.elapsed() < Duration::from_mins(1), "the program never listened to signals");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// Sends a signal to a child of ours that listens, or kills it.
 pub fn signal(child: &Child, name: &str) {
+    if name != "KILL" {
+        listening(child);
+    }
     let status = Command::new("kill").args(["-s", name, &child.id().to_string()]).status().unwrap();
     assert!(status.success());
+}
+
+/// Whether a program has a handler for Ctrl-C, as Linux tells; elsewhere it is taken to have one.
+fn listens(child: &Child) -> bool {
+    let Ok(status) = fs::read_to_string(format!("/proc/{}/status", child.id())) else { return true };
+    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
+    u64::from_str_radix(caught.trim(), 16).unwrap() & 0b10 != 0
 }
 
 fn words(line: &str) -> Vec<String> {
