@@ -193,10 +193,16 @@ impl Claim {
         high: Option<f64>,
         source: Source<'_>,
     ) -> Self {
-        let mean = ensemble.members.iter().sum::<f64>() / ensemble.members.len() as f64;
-        let inside = |&end: &f64| low.is_none_or(|l| end >= l) && high.is_none_or(|h| end <= h);
+        Self::judge(name, f64::NAN, low, high, source).drawn(ensemble)
+    }
+
+    /// The same claim of the mean of an ensemble.
+    #[must_use]
+    pub fn drawn(self, ensemble: Ensemble) -> Self {
+        let value = ensemble.members.iter().sum::<f64>() / ensemble.members.len() as f64;
+        let inside = |&end: &f64| self.low.is_none_or(|l| end >= l) && self.high.is_none_or(|h| end <= h);
         let pass = ensemble.interval.len() == 2 && ensemble.interval.iter().all(inside);
-        Self { pass, ensemble: Some(ensemble), ..Self::judge(name, mean, low, high, source) }
+        Self { value, pass, ensemble: Some(ensemble), ..self }
     }
 
     /// What became of it. Not-a-number fails.

@@ -3,6 +3,7 @@
 use super::beds::{law, mean, sampled};
 use super::bench::{Rig, within};
 use super::control::refused;
+use super::ensemble;
 use crate::origin::own;
 use tsubu_frame::Claim;
 
@@ -15,7 +16,7 @@ const LOWEST: usize = 19;
 
 /// A box of 20 diameters, shaken as a whole, so that its walls drag the bed into rolls; one grain of its own size begins in the
 /// middle at a height, on the floor as a rule.
-fn bed(size: f64, height: f64, seed: u32, perturbation: f64) -> Result<Rig, String> {
+fn bed(size: f64, height: f64, seed: u64, perturbation: f64) -> Result<Rig, String> {
     let text = format!(
         r#"
         title = "one large grain in a shaken bed"
@@ -66,7 +67,7 @@ fn all_heights(rig: &Rig) -> Vec<f64> {
 /// Mean height of grains over that of all: at the start, and in the mean over the looks.
 fn heights(
     size: f64,
-    seed: u32,
+    seed: u64,
     perturbation: f64,
     followed: impl Fn(&[f64]) -> Vec<usize>,
 ) -> Result<[f64; 2], String> {
@@ -92,26 +93,24 @@ fn rises(what: &str, [start, end]: [f64; 2]) -> [Claim; 2] {
 
 /// V-38: a grain of four diameters comes up from the floor and stays on top; grains of the bed's own size go everywhere.
 pub(super) fn brazil_nut(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let (mut claims, mut highest) = (Vec::new(), 0.0_f64);
-    for seed in 1..=3 {
+    ensemble::drawn("shaken beds", 1..=5, |seed| {
         let found = heights(4.0, seed, perturbation, |_| vec![0])?;
-        highest = highest.max(found[1]);
-        claims.extend(rises(&format!("shaken bed, seed {seed}, a grain of 4 diameters"), found));
-    }
-    let lowest = |z: &[f64]| {
-        let mut order: Vec<usize> = (0..z.len()).collect();
-        order.sort_by(|&a, &b| z[a].total_cmp(&z[b]));
-        order.truncate(LOWEST);
-        order
-    };
-    let control = heights(1.0, 1, perturbation, lowest)?;
-    let source = own("grains of equal size have no reason to rise").after();
-    let name = "shaken bed, the 19 lowest of equal grains: height over the bed's mean after 90 shakes";
-    claims.push(within(name, control[1], 1.0, 0.25, source));
-    claims.push(refused("a grain of 4 diameters for equal ones", &[within(name, highest, 1.0, 0.25, source)], 1));
-    let on_top = all_heights(&bed(4.0, 40.0, 1, perturbation)?);
-    let above = rises("", [on_top[0] / mean(&on_top).0, f64::NAN]);
-    claims.push(refused("the grain above the bed at the start", &above[..1], 1));
-    claims.push(refused("the grain no larger than the others", &rises("", control)[1..], 1));
-    Ok(claims)
+        let mut claims = rises("shaken bed, a grain of 4 diameters", found).to_vec();
+        let lowest = |z: &[f64]| {
+            let mut order: Vec<usize> = (0..z.len()).collect();
+            order.sort_by(|&a, &b| z[a].total_cmp(&z[b]));
+            order.truncate(LOWEST);
+            order
+        };
+        let control = heights(1.0, seed, perturbation, lowest)?;
+        let source = own("grains of equal size have no reason to rise").after();
+        let name = "shaken bed, the 19 lowest of equal grains: height over the bed's mean after 90 shakes";
+        claims.push(within(name, control[1], 1.0, 0.25, source));
+        claims.push(refused("a grain of 4 diameters for equal ones", &[within(name, found[1], 1.0, 0.25, source)], 1));
+        let on_top = all_heights(&bed(4.0, 40.0, seed, perturbation)?);
+        let above = rises("", [on_top[0] / mean(&on_top).0, f64::NAN]);
+        claims.push(refused("the grain above the bed at the start", &above[..1], 1));
+        claims.push(refused("the grain no larger than the others", &rises("", control)[1..], 1));
+        Ok(claims)
+    })
 }

@@ -17,6 +17,7 @@ pub(super) use shaken::{convection, rise};
 use super::beds::line;
 use super::bench::{Rig, at_least, between};
 use super::control::refused;
+use super::ensemble;
 use crate::origin::{closed_form, own};
 use collapse::{collapsing, moved};
 use glam::DVec3;
@@ -74,26 +75,31 @@ fn surface_gates(grains: &[DVec3]) -> Vec<Claim> {
 
 /// C-x3: grains are poured; slopes of the heap, and how often each angle is met along its surface.
 pub(super) fn pour(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let text = include_str!("../../../studies/cl-ca-2001/pour.toml");
-    let mut plan = super::bench::plan(text)?;
-    plan.watch.clear();
-    if perturbation != 1.0 {
-        plan.cl_ca.fall_height = Some(1e3);
-        plan.duration = 0.1;
-    }
-    let (still, grains) = poured(&plan, plan.duration, 0.2)?;
-    let rests = |moved: f64| between("grains that still move", moved, 0.0, 0.0, closed_form("the scene"));
-    let mut claims =
-        vec![at_least("grains poured", grains.len() as f64, 600.0, closed_form("the scene")), rests(still)];
-    claims.extend(surface_gates(&grains));
-    let half_way = poured(&plan, 0.3 * plan.duration, 0.1)?.0;
-    claims.push(refused("a heap that is still poured", &[rests(half_way)], 1));
-    // As wide as the floor: a bed, not a heap.
-    let mut wide = super::bench::plan(&text.replace("[\"-5 mm\"", "[\"-170 mm\"").replace("[\"5 mm\"", "[\"170 mm\""))?;
-    wide.watch.clear();
-    let level = poured(&wide, wide.duration, 0.2)?.1;
-    claims.push(refused("grains poured along the whole floor", &surface_gates(&level), 3));
-    Ok(claims)
+    ensemble::drawn("heap", 1..=8, |seed| {
+        let text = include_str!("../../../studies/cl-ca-2001/pour.toml");
+        let mut plan = super::bench::plan(text)?;
+        plan.watch.clear();
+        plan.seed = seed;
+        if perturbation != 1.0 {
+            plan.cl_ca.fall_height = Some(1e3);
+            plan.duration = 0.1;
+        }
+        let (still, grains) = poured(&plan, plan.duration, 0.2)?;
+        let rests = |moved: f64| between("grains that still move", moved, 0.0, 0.0, closed_form("the scene"));
+        let mut claims =
+            vec![at_least("grains poured", grains.len() as f64, 600.0, closed_form("the scene")), rests(still)];
+        claims.extend(surface_gates(&grains));
+        let half_way = poured(&plan, 0.3 * plan.duration, 0.1)?.0;
+        claims.push(refused("a heap that is still poured", &[rests(half_way)], 1));
+        // As wide as the floor: a bed, not a heap.
+        let mut wide =
+            super::bench::plan(&text.replace("[\"-5 mm\"", "[\"-170 mm\"").replace("[\"5 mm\"", "[\"170 mm\""))?;
+        wide.watch.clear();
+        wide.seed = seed;
+        let level = poured(&wide, wide.duration, 0.2)?.1;
+        claims.push(refused("grains poured along the whole floor", &surface_gates(&level), 3));
+        Ok(claims)
+    })
 }
 
 /// C-6: what holds after every step, whatever the scene: the collapse under the active rule, the pushed plate under the passive

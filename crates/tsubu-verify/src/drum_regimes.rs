@@ -3,6 +3,7 @@
 use super::beds::{law, line, sampled};
 use super::bench::{Rig, scalars};
 use super::control::refused;
+use super::ensemble;
 use crate::origin::own;
 use glam::DVec3;
 use tsubu_frame::{Claim, Kind};
@@ -27,10 +28,11 @@ struct Bed {
     last: f64,
 }
 
-fn drum(froude: f64, friction: f64, perturbation: f64) -> Result<Rig, String> {
+fn drum(froude: f64, friction: f64, seed: u64, perturbation: f64) -> Result<Rig, String> {
     let text = format!(
         r#"
         title = "discs in a rotating drum"
+        seed = {seed}
         gravity = 1
         duration = 10000
         {law}
@@ -69,8 +71,8 @@ fn turning(froude: f64) -> f64 {
 }
 
 impl Bed {
-    fn of(froude: f64, friction: f64, perturbation: f64) -> Result<Self, String> {
-        let mut rig = drum(froude, friction, perturbation)?;
+    fn of(froude: f64, friction: f64, seed: u64, perturbation: f64) -> Result<Self, String> {
+        let mut rig = drum(froude, friction, seed, perturbation)?;
         let turn = (std::f64::consts::TAU / turning(froude)).max(LEAST);
         let [begin, end] = TURNS.map(|turns| turns * turn);
         let samples = sampled(&mut rig, [begin, end, turn / 200.0], |rig| rig.vectors("position"))?;
@@ -159,18 +161,24 @@ fn bend(samples: &[Vec<DVec3>], flights: &[Vec<bool>]) -> f64 {
 /// V-37: at Froude numbers in the middle of the ranges the bed rolls, cascades, cataracts and is centrifuged, and is refused by
 /// the gates of its neighbours.
 pub(super) fn regimes(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let middle =
-        [(0.005, Regime::Rolling), (0.05, Regime::Cascading), (0.35, Regime::Cataracting), (4.0, Regime::Centrifuging)];
-    let beds = middle.map(|(froude, _)| Bed::of(froude, 0.5, perturbation));
-    let beds = beds.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let mut claims = Vec::new();
-    for (k, (bed, (_, regime))) in beds.iter().zip(middle).enumerate() {
-        claims.extend(bed.gates(regime));
-        let (froude, other) = middle[if k == 0 { 1 } else { k - 1 }];
-        let what = format!("drum at Froude number {}, for one at {froude}", bed.froude);
-        claims.push(refused(&what, &bed.gates(other), 1));
-    }
-    let smooth = Bed::of(4.0, 0.0, perturbation)?;
-    claims.push(refused("drum without friction at Froude number 4", &smooth.gates(Regime::Centrifuging), 1));
-    Ok(claims)
+    ensemble::drawn("drums", 1..=5, |seed| {
+        let middle = [
+            (0.005, Regime::Rolling),
+            (0.05, Regime::Cascading),
+            (0.35, Regime::Cataracting),
+            (4.0, Regime::Centrifuging),
+        ];
+        let beds = middle.map(|(froude, _)| Bed::of(froude, 0.5, seed, perturbation));
+        let beds = beds.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let mut claims = Vec::new();
+        for (k, (bed, (_, regime))) in beds.iter().zip(middle).enumerate() {
+            claims.extend(bed.gates(regime));
+            let (froude, other) = middle[if k == 0 { 1 } else { k - 1 }];
+            let what = format!("drum at Froude number {}, for one at {froude}", bed.froude);
+            claims.push(refused(&what, &bed.gates(other), 1));
+        }
+        let smooth = Bed::of(4.0, 0.0, seed, perturbation)?;
+        claims.push(refused("drum without friction at Froude number 4", &smooth.gates(Regime::Centrifuging), 1));
+        Ok(claims)
+    })
 }

@@ -1,9 +1,11 @@
 //! Ensembles: runs of one scene that differ in their seed, side by side on all threads, and what their mean is worth.
 
+use crate::case::Judged;
 use crate::keep;
 use std::ops::RangeInclusive;
+use std::sync::OnceLock;
 use tsubu::student::interval_of_mean;
-use tsubu_frame::Ensemble;
+use tsubu_frame::{Claim, Ensemble, Origin};
 
 /// Runs one member for every seed; they come in the order of the seeds whatever the threads. `of` says what is run, in words that no
 /// other ensemble of the case has: an interrupted verification finds its runs again by it.
@@ -15,6 +17,41 @@ pub(super) fn members<const N: usize>(
     let seeds: Vec<u64> = seeds.collect();
     let found = keep::members(of, &seeds, run)?;
     Ok(std::array::from_fn(|i| self::of(&seeds, found.iter().map(|values| values[i]).collect())))
+}
+
+/// The claims of a whole case, drawn once for every seed: each is judged by the interval of the mean of its values. What comes out the
+/// same of every draw stays a single value, and a control has to refuse in each.
+pub(super) fn drawn(of: &str, seeds: RangeInclusive<u64>, run: impl Fn(u64) -> Judged + Sync) -> Judged {
+    let seeds: Vec<u64> = seeds.collect();
+    if keep::is_spoilt() {
+        // One draw shows whether a gate refuses wrong constants.
+        return run(seeds[0]);
+    }
+    let first = OnceLock::new();
+    let found = keep::runs(of, &seeds, |seed| {
+        let claims = run(seed)?;
+        let values = claims.iter().map(|claim| claim.value).collect();
+        if seed == seeds[0] {
+            let _ = first.set(claims);
+        }
+        Ok(values)
+    })?;
+    // Values alone are kept of a run that was done before.
+    let first = first.into_inner().map_or_else(|| run(seeds[0]), Ok)?;
+    let values = |i: usize| found.iter().map(|values| values[i]).collect();
+    Ok(first.into_iter().enumerate().map(|(i, claim)| of_all(claim, &seeds, values(i))).collect())
+}
+
+/// The claim of the first draw as one of all draws.
+fn of_all(claim: Claim, seeds: &[u64], values: Vec<f64>) -> Claim {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    if values.iter().all(|value| value.to_bits() == claim.value.to_bits()) {
+        claim
+    } else if claim.origin == Origin::Control {
+        Claim { value: least, pass: claim.low.is_none_or(|low| least >= low), ..claim }
+    } else {
+        claim.drawn(of(seeds, values))
+    }
 }
 
 /// The members with the 95 % confidence interval of their mean, by Student's t.
@@ -41,6 +78,26 @@ mod tests {
         assert_eq!(judged(None, Some(0.95)), Verdict::Undecided);
         assert_eq!(judged(Some(1.2), None), Verdict::Fail);
         assert_eq!(judged(None, Some(f64::NAN)), Verdict::Fail);
+    }
+
+    /// What hangs on the draw becomes an ensemble, what does not stays a value, and a control that refuses in one draw alone fails.
+    #[test]
+    fn claims_are_drawn_again() {
+        let source = |origin| Source::new(origin, "");
+        let case = |seed: u64| {
+            let control = if seed == 2 { 0.0 } else { 1.0 };
+            Ok(vec![
+                Claim::judge("drawn", seed as f64, Some(0.0), Some(9.0), source(Origin::Own)),
+                Claim::judge("the same", 4.0, Some(4.0), Some(4.0), source(Origin::ClosedForm)),
+                Claim::judge("control", control, Some(1.0), None, source(Origin::Control)),
+            ])
+        };
+        let claims = drawn("case", 1..=3, case).expect("claims");
+        assert_eq!(claims[0].ensemble.as_ref().expect("an ensemble").members, [1.0, 2.0, 3.0]);
+        assert_eq!((claims[0].value, claims[0].verdict()), (2.0, Verdict::Pass));
+        assert!(claims[1].ensemble.is_none() && claims[1].pass);
+        assert!(claims[2].ensemble.is_none() && !claims[2].pass && claims[2].value == 0.0);
+        assert!(drawn("case", 1..=1, case).expect("claims").iter().all(|claim| claim.ensemble.is_none()));
     }
 
     #[test]

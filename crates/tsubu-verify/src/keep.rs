@@ -149,12 +149,7 @@ impl AtHand {
     }
 
     /// One run of an ensemble: as it was kept, or done and kept.
-    fn member<const N: usize>(
-        &self,
-        of: &str,
-        seed: u64,
-        run: impl Fn(u64) -> Result<[f64; N], String>,
-    ) -> Result<[f64; N], String> {
+    fn member(&self, of: &str, seed: u64, run: impl Fn(u64) -> Result<Vec<f64>, String>) -> Result<Vec<f64>, String> {
         let Some(archive) = &self.archive else {
             let values = run(seed)?;
             self.count(0.0);
@@ -164,9 +159,9 @@ impl AtHand {
         let fingerprint =
             archive.fingerprint(&[self.case, of, &seed.to_string(), &self.perturbation.to_bits().to_string()]);
         let kept = read_json::<Member>(&archive.folder.file(&name)).ok().filter(|kept| kept.fingerprint == fingerprint);
-        if let Some((values, seconds)) = kept.and_then(|kept| Some((kept.values.try_into().ok()?, kept.seconds))) {
-            self.count(seconds);
-            return Ok(values);
+        if let Some(kept) = kept {
+            self.count(kept.seconds);
+            return Ok(kept.values);
         }
         let begun = Instant::now();
         let values = run(seed)?;
@@ -177,11 +172,11 @@ impl AtHand {
             version: tsubu::VERSION.to_owned(),
             fingerprint,
             seconds: begun.elapsed().as_secs_f64(),
-            values: values.to_vec(),
+            values,
         };
         archive.folder.write_json(&name, &member).map_err(|error| error.to_string())?;
         self.count(0.0);
-        Ok(values)
+        Ok(member.values)
     }
 
     fn count(&self, kept_seconds: f64) {
@@ -195,11 +190,11 @@ impl AtHand {
 
 /// Runs an ensemble side by side on all threads of the pool; its runs come in the order of the seeds. `of` tells it from the other
 /// ensembles of the case: two of one name would be taken for one another.
-pub(crate) fn members<const N: usize>(
+pub(crate) fn runs(
     of: &str,
     seeds: &[u64],
-    run: impl Fn(u64) -> Result<[f64; N], String> + Sync,
-) -> Result<Vec<[f64; N]>, String> {
+    run: impl Fn(u64) -> Result<Vec<f64>, String> + Sync,
+) -> Result<Vec<Vec<f64>>, String> {
     let Some(at_hand) = AT_HAND.with_borrow(Clone::clone) else {
         return seeds.par_iter().map(|&seed| run(seed)).collect();
     };
@@ -207,6 +202,22 @@ pub(crate) fn members<const N: usize>(
         return Err(format!("two ensembles of `{}` are called `{of}`", at_hand.case));
     }
     seeds.par_iter().map(|&seed| at_hand.member(of, seed, &run)).collect()
+}
+
+/// The same of runs that give so many values each.
+pub(crate) fn members<const N: usize>(
+    of: &str,
+    seeds: &[u64],
+    run: impl Fn(u64) -> Result<[f64; N], String> + Sync,
+) -> Result<Vec<[f64; N]>, String> {
+    let found = runs(of, seeds, |seed| run(seed).map(Vec::from))?;
+    let whole = |values: Vec<f64>| values.try_into().map_err(|_| format!("a run of `{of}` has not {N} values"));
+    found.into_iter().map(whole).collect()
+}
+
+/// Whether the case at hand is run a second time, with constants that are wrong.
+pub(crate) fn is_spoilt() -> bool {
+    AT_HAND.with_borrow(|at_hand| at_hand.as_ref().is_some_and(|at_hand| at_hand.perturbation != 1.0))
 }
 
 /// A name for a file: letters and digits, and a hash, for names that differ in nothing else.

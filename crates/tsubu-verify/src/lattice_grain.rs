@@ -4,6 +4,7 @@
 
 use super::bench::{between, within};
 use super::control::refused;
+use super::ensemble;
 use crate::origin::{closed_form, own};
 use tsubu::lattice::grid::Grid;
 use tsubu::lattice::gutt_haff::{Grain, LatticeGrains};
@@ -131,14 +132,14 @@ fn gas(pull: f64, perturbation: f64) -> Result<Claim, String> {
 }
 
 /// Load on the floor of a silo, and on all its walls, in rows of weight: the mean of the second half of a run under `heavier` gravity.
-fn floor_load(columns: usize, rows: usize, heavier: f64, restitution: f64) -> Result<(f64, f64), String> {
+fn floor_load(columns: usize, rows: usize, heavier: f64, restitution: f64, seed: u64) -> Result<(f64, f64), String> {
     let grid = boxed(columns, rows + 10);
     let grains: Vec<Grain> = (1..=columns)
         .flat_map(|c| (1..=rows).map(move |r| (c, r)))
         .map(|(c, r)| Grain { node: grid.index(c, r), ..Grain::default() })
         .collect();
     let dt = 1e-4;
-    let mut model = LatticeGrains::new(grid, grains, heavier * gravity(dt), [restitution; 2], 1);
+    let mut model = LatticeGrains::new(grid, grains, heavier * gravity(dt), [restitution; 2], seed);
     let steps = 12_000;
     let (mut floor, mut all) = (0.0, 0.0);
     for step in 0..steps {
@@ -158,22 +159,24 @@ fn floor_load(columns: usize, rows: usize, heavier: f64, restitution: f64) -> Re
 
 /// the load on the floor of a silo saturates, as Janssen has it; that of water does not.
 pub(super) fn janssen(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let heights = [10, 20, 40];
-    let loads = |columns: usize, heavier: f64| -> Result<Vec<(f64, f64)>, String> {
-        heights.iter().map(|rows| floor_load(columns, *rows, heavier, 0.5 * perturbation)).collect()
-    };
-    let source = own("Janssen 1895: the weight of what lies higher than a few widths goes to the walls").after();
-    let gates = |loads: &[(f64, f64)]| {
-        let name = |what: &str| format!("lattice grains in a silo: {what}");
-        let all = loads[2].1 / 40.0;
-        vec![
-            within(name("all walls over weight, 40 rows"), all, 1.0, 0.01, closed_form("balance of forces")),
-            between(name("floor load over weight, 10 rows"), loads[0].0 / 10.0, 0.55, 0.85, source),
-            between(name("floor load at 40 rows over that at 20"), loads[2].0 / loads[1].0, 0.95, 1.15, source),
-        ]
-    };
-    let mut claims = gates(&loads(10, 1.0)?);
-    claims.push(refused("gravity 5 % too large", &gates(&loads(10, 1.05)?)[..1], 1));
-    claims.push(refused("a silo as wide as it is high", &gates(&loads(60, 1.0)?)[1..], 2));
-    Ok(claims)
+    ensemble::drawn("silo", 1..=4, |seed| {
+        let heights = [10, 20, 40];
+        let loads = |columns: usize, heavier: f64| -> Result<Vec<(f64, f64)>, String> {
+            heights.iter().map(|rows| floor_load(columns, *rows, heavier, 0.5 * perturbation, seed)).collect()
+        };
+        let source = own("Janssen 1895: the weight of what lies higher than a few widths goes to the walls").after();
+        let gates = |loads: &[(f64, f64)]| {
+            let name = |what: &str| format!("lattice grains in a silo: {what}");
+            let all = loads[2].1 / 40.0;
+            vec![
+                within(name("all walls over weight, 40 rows"), all, 1.0, 0.01, closed_form("balance of forces")),
+                between(name("floor load over weight, 10 rows"), loads[0].0 / 10.0, 0.55, 0.85, source),
+                between(name("floor load at 40 rows over that at 20"), loads[2].0 / loads[1].0, 0.95, 1.15, source),
+            ]
+        };
+        let mut claims = gates(&loads(10, 1.0)?);
+        claims.push(refused("gravity 5 % too large", &gates(&loads(10, 1.05)?)[..1], 1));
+        claims.push(refused("a silo as wide as it is high", &gates(&loads(60, 1.0)?)[1..], 2));
+        Ok(claims)
+    })
 }

@@ -4,6 +4,7 @@
 
 use super::bench::within;
 use super::control::refused;
+use super::ensemble;
 use crate::origin::{closed_form, own};
 use tsubu::lattice::hemmingsson_herrmann::{Pile, Rule, Split};
 use tsubu::lattice::sheet::{Layout, Sheet, WALL};
@@ -58,11 +59,11 @@ fn flat(name: &str, loads: &[[f64; 2]]) -> Vec<Claim> {
     ]
 }
 
-/// How far the mean load of the five middle base grains lies below the largest mean of five, over the mean of all.
-fn dip(rule: Rule, perturbation: f64) -> f64 {
+/// Of a set of a hundred draws: how far the mean load of the five middle base grains lies below the largest mean of five, over the mean of all.
+fn dip(rule: Rule, set: u64, perturbation: f64) -> f64 {
     let size = 61;
     let mut mean = vec![0.0; size];
-    for seed in 0..100 {
+    for seed in 100 * set..100 * (set + 1) {
         for (sum, load) in mean.iter_mut().zip(base(triangle(size), rule, seed, perturbation).0) {
             *sum += load[1];
         }
@@ -73,40 +74,41 @@ fn dip(rule: Rule, perturbation: f64) -> f64 {
 }
 
 /// the closed forms but for the q-model, which is a case of its own, and the dip by arching.
-#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
 pub(super) fn pile(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let size = 40;
-    let total = triangle(size).grains() as f64;
-    let carried = |rule: Rule| base(triangle(size), rule, 1, perturbation).1[1] / total;
-    let arch = Rule { arching: 0.3, ..BALANCE };
-    let mut claims = Vec::new();
-    for (name, rule) in [
-        ("frictionless", BALANCE),
-        ("friction 0.3 and arching 0.3", Rule { friction: 0.3, ..arch }),
-        ("random shares", Rule { split: Split::Random, ..BALANCE }),
-    ] {
-        claims.push(within(
-            format!("pile, {name}: base load over weight"),
-            carried(rule),
-            1.0,
-            1e-12,
-            closed_form("balance of forces"),
-        ));
-    }
-    claims.extend(flat("pile, frictionless", &base(triangle(size), BALANCE, 1, perturbation).0));
-    claims.push(refused("arching in the flat pile", &flat("", &base(triangle(size), arch, 1, 1.0).0), 2));
-    let gate = |dip| {
-        Claim::judge(
-            "pile, arching 0.5: dip below the axis over the mean load",
-            dip,
-            Some(0.2),
-            None,
-            own("arching carries load outwards").after(),
-        )
-    };
-    let none = dip(BALANCE, perturbation);
-    claims.push(gate(dip(Rule { arching: 0.5, ..BALANCE }, 1.0)));
-    claims.push(within("pile, no arching: dip", none, 0.0, 1e-12, closed_form("closed form: flat")));
-    claims.push(refused("no arching", &[gate(none)], 1));
-    Ok(claims)
+    ensemble::drawn("piles", 0..=7, |set| {
+        let size = 40;
+        let total = triangle(size).grains() as f64;
+        let carried = |rule: Rule| base(triangle(size), rule, 1, perturbation).1[1] / total;
+        let arch = Rule { arching: 0.3, ..BALANCE };
+        let mut claims = Vec::new();
+        for (name, rule) in [
+            ("frictionless", BALANCE),
+            ("friction 0.3 and arching 0.3", Rule { friction: 0.3, ..arch }),
+            ("random shares", Rule { split: Split::Random, ..BALANCE }),
+        ] {
+            claims.push(within(
+                format!("pile, {name}: base load over weight"),
+                carried(rule),
+                1.0,
+                1e-12,
+                closed_form("balance of forces"),
+            ));
+        }
+        claims.extend(flat("pile, frictionless", &base(triangle(size), BALANCE, 1, perturbation).0));
+        claims.push(refused("arching in the flat pile", &flat("", &base(triangle(size), arch, 1, 1.0).0), 2));
+        let gate = |dip| {
+            Claim::judge(
+                "pile, arching 0.5: dip below the axis over the mean load",
+                dip,
+                Some(0.2),
+                None,
+                own("arching carries load outwards").after(),
+            )
+        };
+        let none = dip(BALANCE, set, perturbation);
+        claims.push(gate(dip(Rule { arching: 0.5, ..BALANCE }, set, 1.0)));
+        claims.push(within("pile, no arching: dip", none, 0.0, 1e-12, closed_form("closed form: flat")));
+        claims.push(refused("no arching", &[gate(none)], 1));
+        Ok(claims)
+    })
 }

@@ -5,6 +5,7 @@
 
 use super::bench::{Rig, at_least, between, within};
 use super::control::refused;
+use super::ensemble;
 use super::pile_stress::{BALANCE, base};
 use crate::origin::{closed_form, own};
 use std::fmt::Write as _;
@@ -234,84 +235,97 @@ fn piled(size: usize, tangent: f64, rule: Rule, seed: u64, perturbation: f64) ->
     Heap { floor: seats.into_iter().zip(loads).map(|(x, load)| (x, load[1])).collect(), grains }
 }
 
+/// Heaps by DEM that are looked at together.
+const HEAPS: u64 = 5;
+
 /// R-5, point 5: the automaton beside DEM.
 pub(super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let tangent = 0.5 * DISC[1] / (DISC[0] * DISC[0] - 0.25 * DISC[1] * DISC[1]).sqrt();
-    let mut claims = flat("the same pile by DEM", &same(0.0)?, tangent);
-    claims.push(refused("discs that rub", &flat("", &same(0.5)?, tangent), 2));
-    let falling = Carried::of(&[poured(1, 1.5)?]).total;
-    let poured = (1..=5).map(|seed| poured(seed, 3.5)).collect::<Result<Vec<Heap>, String>>()?;
-    let slope = poured.iter().map(Heap::tangent).sum::<f64>() / poured.len() as f64;
-    let size = poured.iter().map(|heap| heap.floor.len()).sum::<usize>() / poured.len();
-    let dem = Carried::of(&poured);
-    let by = |rule: Rule| {
-        Carried::of(&(1..=50).map(|seed| piled(size, slope, rule, seed, perturbation)).collect::<Vec<_>>())
-    };
-    let balance = by(BALANCE);
-    let arched = by(Rule { arching: 0.3, ..BALANCE });
-    let random = by(Rule { split: Split::Random, ..BALANCE });
-    let rests = |total: f64| {
-        let source = closed_form("balance of forces: at rest");
-        within("poured heap by DEM: base load over weight", total, 1.0, 0.01, source)
-    };
-    let carries = |total: f64| {
-        within("pile of its slope: base load over weight", total, 1.0, 1e-9, closed_form("balance of forces"))
-    };
-    claims.extend([rests(dem.total), carries(balance.total)]);
-    claims.push(refused("a heap that is still poured", &[rests(falling)], 1));
-    let mut light = piled(size, slope, BALANCE, 1, 0.95);
-    light.grains.iter_mut().for_each(|grain| grain[2] = 1.0);
-    claims.push(refused(
-        "grains of which half weigh 5 % less than they are said to",
-        &[carries(Carried::of(&[light]).total)],
-        1,
-    ));
-    let twin = own("five heaps of 600 discs poured by DEM; a third either way").after();
-    let spread = |name: &str, of: &Carried| {
-        between(format!("{name}: spread of base loads over that by DEM"), of.spread / dem.spread, 0.67, 1.5, twin)
-    };
-    let shares = |name: &str, of: &Carried| -> Vec<Claim> {
-        let each = SHARES.iter().zip(of.below.iter().zip(dem.below));
-        each.map(|(end, (share, dem))| {
-            let mut text = name.to_owned();
-            let _ = write!(text, ": share of base loads below {end} of their neighbours' mean, less that by DEM");
-            within(text, share - dem, 0.0, 0.1, own("five heaps of 600 discs poured by DEM; 0.1 either way").after())
-        })
-        .collect()
-    };
-    claims.extend(shares("random shares", &random));
-    claims.push(spread("random shares", &random));
-    claims.push(spread("arching 0.3", &arched));
-    let mut wrong = shares("", &balance);
-    wrong.push(spread("", &balance));
-    claims.push(refused("a balance in which neighbours carry alike", &wrong, 2));
-    let profile = |name: &str, of: &Carried| {
-        [
-            between(
-                format!("{name}: load round the axis over the weight above it, over the same by DEM"),
-                of.axis / dem.axis,
-                0.8,
-                1.25,
-                own("five heaps of 600 discs poured by DEM; a quarter either way").after(),
-            ),
-            within(
-                format!("{name}: dip over the mean load, less that by DEM"),
-                of.dip - dem.dip,
-                0.0,
-                0.2,
-                own("five heaps of 600 discs poured by DEM; 0.2 either way").after(),
-            ),
-        ]
-    };
-    claims.extend(profile("balance", &balance));
-    claims.extend(profile("arching 0.3", &arched));
-    let hollow = by(Rule { arching: 1.0, ..BALANCE });
-    claims.push(refused("arching 1: every grain gives all it carries outwards", &profile("", &hollow), 1));
-    claims.push(at_least(
-        "poured heap by DEM: dip over the mean load",
-        dem.dip,
-        0.1,
-        own("heaps of sand poured from a point have one (what the automata were made for)").after(),
-    ));
-    Ok(claims)
+    ensemble::drawn("heaps", 0..=9, |set| {
+        let tangent = 0.5 * DISC[1] / (DISC[0] * DISC[0] - 0.25 * DISC[1] * DISC[1]).sqrt();
+        let mut claims = flat("the same pile by DEM", &same(0.0)?, tangent);
+        claims.push(refused("discs that rub", &flat("", &same(0.5)?, tangent), 2));
+        let falling = Carried::of(&[poured(HEAPS * set + 1, 1.5)?]).total;
+        let poured = (1..=HEAPS).map(|heap| poured(HEAPS * set + heap, 3.5)).collect::<Result<Vec<Heap>, String>>()?;
+        let slope = poured.iter().map(Heap::tangent).sum::<f64>() / poured.len() as f64;
+        let size = poured.iter().map(|heap| heap.floor.len()).sum::<usize>() / poured.len();
+        let dem = Carried::of(&poured);
+        let by = |rule: Rule| {
+            Carried::of(
+                &(1..=50).map(|pile| piled(size, slope, rule, 50 * set + pile, perturbation)).collect::<Vec<_>>(),
+            )
+        };
+        let balance = by(BALANCE);
+        let arched = by(Rule { arching: 0.3, ..BALANCE });
+        let random = by(Rule { split: Split::Random, ..BALANCE });
+        let rests = |total: f64| {
+            let source = closed_form("balance of forces: at rest");
+            within("poured heap by DEM: base load over weight", total, 1.0, 0.01, source)
+        };
+        let carries = |total: f64| {
+            within("pile of its slope: base load over weight", total, 1.0, 1e-9, closed_form("balance of forces"))
+        };
+        claims.extend([rests(dem.total), carries(balance.total)]);
+        claims.push(refused("a heap that is still poured", &[rests(falling)], 1));
+        let mut light = piled(size, slope, BALANCE, 1, 0.95);
+        light.grains.iter_mut().for_each(|grain| grain[2] = 1.0);
+        claims.push(refused(
+            "grains of which half weigh 5 % less than they are said to",
+            &[carries(Carried::of(&[light]).total)],
+            1,
+        ));
+        let twin = own("five heaps of 600 discs poured by DEM; a third either way").after();
+        let spread = |name: &str, of: &Carried| {
+            between(format!("{name}: spread of base loads over that by DEM"), of.spread / dem.spread, 0.67, 1.5, twin)
+        };
+        let shares = |name: &str, of: &Carried| -> Vec<Claim> {
+            let each = SHARES.iter().zip(of.below.iter().zip(dem.below));
+            each.map(|(end, (share, dem))| {
+                let mut text = name.to_owned();
+                let _ = write!(text, ": share of base loads below {end} of their neighbours' mean, less that by DEM");
+                within(
+                    text,
+                    share - dem,
+                    0.0,
+                    0.1,
+                    own("five heaps of 600 discs poured by DEM; 0.1 either way").after(),
+                )
+            })
+            .collect()
+        };
+        claims.extend(shares("random shares", &random));
+        claims.push(spread("random shares", &random));
+        claims.push(spread("arching 0.3", &arched));
+        let mut wrong = shares("", &balance);
+        wrong.push(spread("", &balance));
+        claims.push(refused("a balance in which neighbours carry alike", &wrong, 2));
+        let profile = |name: &str, of: &Carried| {
+            [
+                between(
+                    format!("{name}: load round the axis over the weight above it, over the same by DEM"),
+                    of.axis / dem.axis,
+                    0.8,
+                    1.25,
+                    own("five heaps of 600 discs poured by DEM; a quarter either way").after(),
+                ),
+                within(
+                    format!("{name}: dip over the mean load, less that by DEM"),
+                    of.dip - dem.dip,
+                    0.0,
+                    0.2,
+                    own("five heaps of 600 discs poured by DEM; 0.2 either way").after(),
+                ),
+            ]
+        };
+        claims.extend(profile("balance", &balance));
+        claims.extend(profile("arching 0.3", &arched));
+        let hollow = by(Rule { arching: 1.0, ..BALANCE });
+        claims.push(refused("arching 1: every grain gives all it carries outwards", &profile("", &hollow), 1));
+        claims.push(at_least(
+            "poured heap by DEM: dip over the mean load",
+            dem.dip,
+            0.1,
+            own("heaps of sand poured from a point have one (what the automata were made for)").after(),
+        ));
+        Ok(claims)
+    })
 }

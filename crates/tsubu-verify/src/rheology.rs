@@ -3,6 +3,7 @@
 use super::beds::{law, line, sampled};
 use super::bench::{Rig, scalars, within};
 use super::control::refused;
+use super::ensemble;
 use crate::origin::{own, remembered};
 use std::fmt::Write;
 use tsubu_frame::{Claim, Kind};
@@ -33,18 +34,19 @@ struct Run {
     /// Speed at the begin over about that of the steady flow.
     begins: f64,
     looked: [f64; 2],
+    seed: u64,
 }
 
 impl Run {
-    fn steady(degrees: f64, friction: f64) -> Self {
-        Self { degrees, friction, begins: 1.0, looked: LOOKED }
+    fn steady(degrees: f64, friction: f64, seed: u64) -> Self {
+        Self { degrees, friction, begins: 1.0, looked: LOOKED, seed }
     }
 }
 
 /// Discs of the published study (a fifth larger or smaller, friction 0.4, restitution 0.1) on a row of frozen ones with gaps. They
 /// begin with a profile like that which they will have.
 fn slope(run: &Run, perturbation: f64) -> Result<Rig, String> {
-    let Run { degrees, friction, begins, .. } = *run;
+    let Run { degrees, friction, begins, seed, .. } = *run;
     let (sin, cos) = degrees.to_radians().sin_cos();
     let mut groups = String::new();
     let (sheets, high) = (4, LAYERS * 2.2 / 4.0);
@@ -71,6 +73,7 @@ fn slope(run: &Run, perturbation: f64) -> Result<Rig, String> {
     let text = format!(
         r#"
         title = "discs on a rough slope"
+        seed = {seed}
         gravity = [{sin}, {down}]
         duration = 1000
         periodic.x = [0, {LENGTH}]
@@ -179,19 +182,22 @@ fn straight(flows: &[Flow]) -> [Claim; 2] {
 
 /// V-35: four slopes lie on the published straight lines, which are those of flows sheared under a constant pressure.
 pub(super) fn friction(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let flows = |runs: &[Run], perturbation: f64| {
-        runs.iter().map(|run| Flow::of(run, perturbation)).collect::<Result<Vec<_>, _>>()
-    };
-    let all = flows(&SLOPES.map(|degrees| Run::steady(degrees, 0.4)), perturbation)?;
-    let mut claims: Vec<Claim> = all.iter().flat_map(Flow::gates).collect();
-    claims.extend(straight(&all));
-    let slippery = Flow::of(&Run::steady(20.0, 0.0), perturbation)?;
-    claims.push(refused("discs without friction, 20 degrees", &slippery.gates(), 1));
-    let slippery = [10.0, 16.0].map(|degrees| Run { looked: [60.0, 120.0], ..Run::steady(degrees, 0.0) });
-    claims.push(refused("discs without friction", &straight(&flows(&slippery, 1.0)?)[..1], 1));
-    let quickening = [20.0, 24.0].map(|degrees| Run { begins: 0.0, looked: [5.0, 25.0], ..Run::steady(degrees, 0.4) });
-    let quickening = flows(&quickening, 1.0)?;
-    let gates = [quickening[0].gates()[3..].to_vec(), straight(&quickening)[1..].to_vec()].concat();
-    claims.push(refused("discs that begin at rest, while they quicken", &gates, 2));
-    Ok(claims)
+    ensemble::drawn("slopes", 1..=5, |seed| {
+        let flows = |runs: &[Run], perturbation: f64| {
+            runs.iter().map(|run| Flow::of(run, perturbation)).collect::<Result<Vec<_>, _>>()
+        };
+        let all = flows(&SLOPES.map(|degrees| Run::steady(degrees, 0.4, seed)), perturbation)?;
+        let mut claims: Vec<Claim> = all.iter().flat_map(Flow::gates).collect();
+        claims.extend(straight(&all));
+        let slippery = Flow::of(&Run::steady(20.0, 0.0, seed), perturbation)?;
+        claims.push(refused("discs without friction, 20 degrees", &slippery.gates(), 1));
+        let slippery = [10.0, 16.0].map(|degrees| Run { looked: [60.0, 120.0], ..Run::steady(degrees, 0.0, seed) });
+        claims.push(refused("discs without friction", &straight(&flows(&slippery, 1.0)?)[..1], 1));
+        let quickening =
+            [20.0, 24.0].map(|degrees| Run { begins: 0.0, looked: [5.0, 25.0], ..Run::steady(degrees, 0.4, seed) });
+        let quickening = flows(&quickening, 1.0)?;
+        let gates = [quickening[0].gates()[3..].to_vec(), straight(&quickening)[1..].to_vec()].concat();
+        claims.push(refused("discs that begin at rest, while they quicken", &gates, 2));
+        Ok(claims)
+    })
 }

@@ -4,6 +4,7 @@
 
 use super::bench::near;
 use super::control::refused;
+use super::ensemble;
 use super::voids::slope;
 use crate::origin::{closed_form, own};
 use tsubu::lattice::savage::{Chute, Moves};
@@ -15,12 +16,12 @@ const SMALL: Moves = Moves { down: 0.025, diagonal: 0.015, sideways: 0.05, up: 0
 const COLUMNS: usize = 122;
 
 /// A bed of 20 rows on a slope without end, half of the grains larger than the rest.
-fn bed(ratio: f64, moves: Moves) -> (Chute, Vec<bool>) {
+fn bed(ratio: f64, moves: Moves, seed: u64) -> (Chute, Vec<bool>) {
     let mut sheet = Sheet::new(Layout::Square, COLUMNS, 42);
     let count = sheet.fill(1, 21, 0);
-    let large: Vec<bool> = (0..count as u32).map(|i| words(1, Purpose::Size, i, 0)[0] < 1 << 31).collect();
+    let large: Vec<bool> = (0..count as u32).map(|i| words(seed, Purpose::Size, i, 0)[0] < 1 << 31).collect();
     let sieve = large.iter().map(|large| if *large { ratio } else { 1.0 }).collect();
-    (Chute::new(sheet, sieve, moves, 0.4, true, 1), large)
+    (Chute::new(sheet, sieve, moves, 0.4, true, seed), large)
 }
 
 /// Grains and their rows.
@@ -30,8 +31,8 @@ fn seats(chute: &Chute) -> impl Iterator<Item = (usize, usize)> + '_ {
 }
 
 /// Logarithm of n/(1-n) and of the speed against the row, as slopes, both over -1/h of the closed form.
-fn profile(perturbation: f64) -> [f64; 2] {
-    let (mut chute, _) = bed(1.0, Moves { up: SMALL.up * perturbation, ..SMALL });
+fn profile(perturbation: f64, seed: u64) -> [f64; 2] {
+    let (mut chute, _) = bed(1.0, Moves { up: SMALL.up * perturbation, ..SMALL }, seed);
     let rows = chute.sheet.rows();
     let (mut here, mut gone) = (vec![0.0; rows], vec![0.0; rows]);
     for step in 0..16000 {
@@ -55,8 +56,9 @@ fn profile(perturbation: f64) -> [f64; 2] {
 
 /// Height of large grains over small ones, in rows, after every so many steps; and how far the mean grain has come,
 /// in spacings.
-fn sorted(ratio: f64, perturbation: f64) -> Vec<(f64, f64)> {
-    let (mut chute, large) = bed(ratio, Moves { down: 0.5, diagonal: 0.3, sideways: 0.6, up: 0.3 * perturbation });
+fn sorted(ratio: f64, perturbation: f64, seed: u64) -> Vec<(f64, f64)> {
+    let (mut chute, large) =
+        bed(ratio, Moves { down: 0.5, diagonal: 0.3, sideways: 0.6, up: 0.3 * perturbation }, seed);
     let (mut way, mut found) = (0.0, Vec::new());
     for step in 1..=3000 {
         chute.advance();
@@ -77,48 +79,49 @@ fn sorted(ratio: f64, perturbation: f64) -> Vec<(f64, f64)> {
 }
 
 /// the profile of the flow, and large grains that come to lie on top.
-#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
 pub(super) fn chute(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let closed = closed_form(
-        "closed form: n/(1-n) = exp((z0-z)/h), speed as exp(-(z0-z)/h), h = 1/ln(downward chances / upward)",
-    );
-    let falls = |[odds, speed]: [f64; 2]| {
-        [
-            near("chute after Savage: fall-off of voids with depth over closed form", odds, 1.0, 0.1, closed),
-            near("chute after Savage: fall-off of speed with depth over closed form", speed, 1.0, 0.1, closed),
-        ]
-    };
-    let mut claims = falls(profile(perturbation)).to_vec();
-    claims.push(refused("upward moves 20 % more likely", &falls(profile(1.2)), 2));
-    let gates = |found: &[(f64, f64)]| {
-        let (first, last) = (found[0], found[found.len() - 1]);
-        let source = own("inverse grading that grows on the way (kinetic sieving)").after();
-        vec![
-            Claim::judge(
-                "chute after Savage: large grains over small ones at the end, rows",
-                last.1,
-                Some(2.0),
-                None,
-                source,
-            ),
-            Claim::judge(
-                "chute after Savage: the same over that after a sixth of the way",
-                last.1 / first.1,
-                Some(1.5),
-                None,
-                source,
-            ),
-        ]
-    };
-    let (mixed, equal) = (sorted(0.6, perturbation), sorted(1.0, perturbation));
-    claims.extend(gates(&mixed));
-    let none = |found: &[(f64, f64)]| {
-        let name = "chute after Savage: equal sizes, one colour over the other, rows";
-        let source = closed_form("no sieving, no sorting; noise 0.25");
-        Claim::judge(name, found[found.len() - 1].1, Some(-0.6), Some(0.6), source)
-    };
-    claims.push(none(&equal));
-    claims.push(refused("equal sizes", &gates(&equal), 1));
-    claims.push(refused("two sizes for one", &[none(&mixed)], 1));
-    Ok(claims)
+    ensemble::drawn("chute", 1..=5, |seed| {
+        let closed = closed_form(
+            "closed form: n/(1-n) = exp((z0-z)/h), speed as exp(-(z0-z)/h), h = 1/ln(downward chances / upward)",
+        );
+        let falls = |[odds, speed]: [f64; 2]| {
+            [
+                near("chute after Savage: fall-off of voids with depth over closed form", odds, 1.0, 0.1, closed),
+                near("chute after Savage: fall-off of speed with depth over closed form", speed, 1.0, 0.1, closed),
+            ]
+        };
+        let mut claims = falls(profile(perturbation, seed)).to_vec();
+        claims.push(refused("upward moves 20 % more likely", &falls(profile(1.2, seed)), 2));
+        let gates = |found: &[(f64, f64)]| {
+            let (first, last) = (found[0], found[found.len() - 1]);
+            let source = own("inverse grading that grows on the way (kinetic sieving)").after();
+            vec![
+                Claim::judge(
+                    "chute after Savage: large grains over small ones at the end, rows",
+                    last.1,
+                    Some(2.0),
+                    None,
+                    source,
+                ),
+                Claim::judge(
+                    "chute after Savage: the same over that after a sixth of the way",
+                    last.1 / first.1,
+                    Some(1.5),
+                    None,
+                    source,
+                ),
+            ]
+        };
+        let (mixed, equal) = (sorted(0.6, perturbation, seed), sorted(1.0, perturbation, seed));
+        claims.extend(gates(&mixed));
+        let none = |found: &[(f64, f64)]| {
+            let name = "chute after Savage: equal sizes, one colour over the other, rows";
+            let source = closed_form("no sieving, no sorting; noise 0.25");
+            Claim::judge(name, found[found.len() - 1].1, Some(-0.6), Some(0.6), source)
+        };
+        claims.push(none(&equal));
+        claims.push(refused("equal sizes", &gates(&equal), 1));
+        claims.push(refused("two sizes for one", &[none(&mixed)], 1));
+        Ok(claims)
+    })
 }

@@ -4,7 +4,9 @@
 
 use super::bench::within;
 use super::control::refused;
+use super::ensemble;
 use crate::origin::{closed_form, own, regression, remembered};
+use std::ops::Range;
 use tsubu::lattice::caram_hong::{CaramHong, Chances};
 use tsubu::lattice::litwiniszyn::{Litwiniszyn, SPREAD, frequency};
 use tsubu::lattice::sheet::{EMPTY, Layout, OUT, ROW_SPACING, Sheet, WALL};
@@ -48,10 +50,15 @@ fn spreading(passed: &[f64], sheet: &Sheet) -> [f64; 2] {
     [slope(&rows) / (2.0 * SPREAD), moments(passed, sheet, 40)[1] - MIDDLE as f64]
 }
 
+/// So many beds, of their own for every set.
+fn beds(set: u64, count: u64) -> Range<u64> {
+    count * set..count * (set + 1)
+}
+
 /// Where the voids of many beds passed; each bed gives `voids` of them.
-fn litwiniszyn(sheet: &Sheet, left: f64, beds: u64, voids: u64) -> Vec<f64> {
+fn litwiniszyn(sheet: &Sheet, left: f64, seeds: Range<u64>, voids: u64) -> Vec<f64> {
     let mut passed = vec![0.0; sheet.cells.len()];
-    for seed in 0..beds {
+    for seed in seeds {
         let mut model = Litwiniszyn::new(sheet.clone(), left, 1.0, seed);
         for _ in 0..voids {
             model.advance(&mut |site| passed[site] += 1.0);
@@ -61,9 +68,9 @@ fn litwiniszyn(sheet: &Sheet, left: f64, beds: u64, voids: u64) -> Vec<f64> {
 }
 
 /// The same after Caram and Hong.
-fn caram_hong(sheet: &Sheet, chances: Chances, beds: u64, voids: usize) -> Vec<f64> {
+fn caram_hong(sheet: &Sheet, chances: Chances, seeds: Range<u64>, voids: usize) -> Vec<f64> {
     let mut passed = vec![0.0; sheet.cells.len()];
-    for seed in 0..beds {
+    for seed in seeds {
         let mut model = CaramHong::new(sheet.clone(), chances, seed);
         let mut left = voids;
         while left > 0 {
@@ -92,43 +99,48 @@ fn spread_gates(name: &str, passed: &[f64], sheet: &Sheet) -> Vec<Claim> {
 }
 
 /// (a) spreading, (b) flux against height, (c) wide outlet, (d) reflecting walls, (e) discharge against fill height.
-#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
 pub(super) fn litwiniszyn_case(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let left = 0.5 * perturbation;
-    let sheet = bed(COLUMNS, 102, MIDDLE..=MIDDLE);
-    let passed = litwiniszyn(&sheet, left, 150, 300);
-    let mut claims = spread_gates("Litwiniszyn, voids", &passed, &sheet);
-    claims.extend(spread_gates("Litwiniszyn, mean", &frequency(&sheet, left), &sheet));
-    let even = |passed: &[f64]| {
-        let flux = |row| moments(passed, &sheet, row)[0];
-        let uneven = (1..40).map(|row| (flux(row) / flux(1) - 1.0).abs()).fold(0.0, f64::max);
-        let name = "Litwiniszyn: flux at 40 heights less that at the outlet";
-        within(name, uneven, 0.0, 1e-12, closed_form("no void is lost"))
-    };
-    claims.push(even(&passed));
-    let mut leaking = sheet.clone();
-    leaking.cells[sheet.index(MIDDLE + 5, 20)] = OUT;
-    claims.push(refused("a second outlet in the middle of the bed", &[even(&litwiniszyn(&leaking, left, 5, 300))], 1));
-    let (low, far) = (SPREAD, 1.0);
-    let source = remembered(
-        "measured: 1 to 3.5 grain diameters (as the literature has it); one site a grain spreads far too little",
-    );
-    claims.push(Claim::judge(
-        "Litwiniszyn: B of the lattice over the least measured",
-        low / far,
-        None,
-        Some(0.15),
-        source,
-    ));
-    claims.push(wide_outlet(left));
-    claims.extend(walls_reflect(left));
-    claims.extend(discharge(left));
-    claims.push(refused(
-        "a walk with probabilities 0.6 and 0.4",
-        &spread_gates("", &frequency(&sheet, 0.6), &sheet),
-        2,
-    ));
-    Ok(claims)
+    ensemble::drawn("voids", 0..=4, |set| {
+        let left = 0.5 * perturbation;
+        let sheet = bed(COLUMNS, 102, MIDDLE..=MIDDLE);
+        let passed = litwiniszyn(&sheet, left, beds(set, 150), 300);
+        let mut claims = spread_gates("Litwiniszyn, voids", &passed, &sheet);
+        claims.extend(spread_gates("Litwiniszyn, mean", &frequency(&sheet, left), &sheet));
+        let even = |passed: &[f64]| {
+            let flux = |row| moments(passed, &sheet, row)[0];
+            let uneven = (1..40).map(|row| (flux(row) / flux(1) - 1.0).abs()).fold(0.0, f64::max);
+            let name = "Litwiniszyn: flux at 40 heights less that at the outlet";
+            within(name, uneven, 0.0, 1e-12, closed_form("no void is lost"))
+        };
+        claims.push(even(&passed));
+        let mut leaking = sheet.clone();
+        leaking.cells[sheet.index(MIDDLE + 5, 20)] = OUT;
+        claims.push(refused(
+            "a second outlet in the middle of the bed",
+            &[even(&litwiniszyn(&leaking, left, beds(set, 5), 300))],
+            1,
+        ));
+        let (low, far) = (SPREAD, 1.0);
+        let source = remembered(
+            "measured: 1 to 3.5 grain diameters (as the literature has it); one site a grain spreads far too little",
+        );
+        claims.push(Claim::judge(
+            "Litwiniszyn: B of the lattice over the least measured",
+            low / far,
+            None,
+            Some(0.15),
+            source,
+        ));
+        claims.push(wide_outlet(left));
+        claims.extend(walls_reflect(left));
+        claims.extend(discharge(left));
+        claims.push(refused(
+            "a walk with probabilities 0.6 and 0.4",
+            &spread_gates("", &frequency(&sheet, 0.6), &sheet),
+            2,
+        ));
+        Ok(claims)
+    })
 }
 
 /// (c) An outlet of width w: the difference of two error functions.
@@ -209,24 +221,27 @@ fn discharge(left: f64) -> Vec<Claim> {
 
 /// rare voids spread as R-1; dense ones do not; V-shaped depression, stable slope, shadow of an obstacle, voids kept.
 pub(super) fn caram_hong_case(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let left = 0.5 * perturbation;
-    let sheet = bed(COLUMNS, 102, MIDDLE..=MIDDLE);
-    let passed = caram_hong(&sheet, Chances { left, rate: 0.1 }, 80, 300);
-    let mut claims = spread_gates("after Caram and Hong, rare voids", &passed, &sheet);
-    let leaning = caram_hong(&sheet, Chances { left: 0.65, rate: 0.1 }, 40, 300);
-    claims.push(refused("probabilities 0.65 and 0.35", &spread_gates("", &leaning, &sheet), 2));
-    claims.extend(crowd(left));
-    claims.extend(shadow(left));
-    claims.extend(emptied(left)?);
-    Ok(claims)
+    ensemble::drawn("voids", 0..=4, |set| {
+        let left = 0.5 * perturbation;
+        let sheet = bed(COLUMNS, 102, MIDDLE..=MIDDLE);
+        let passed = caram_hong(&sheet, Chances { left, rate: 0.1 }, beds(set, 80), 300);
+        let mut claims = spread_gates("after Caram and Hong, rare voids", &passed, &sheet);
+        let leaning = caram_hong(&sheet, Chances { left: 0.65, rate: 0.1 }, beds(set, 40), 300);
+        claims.push(refused("probabilities 0.65 and 0.35", &spread_gates("", &leaning, &sheet), 2));
+        claims.extend(crowd(left, set));
+        claims.extend(shadow(left, set));
+        claims.extend(emptied(left, set + 1)?);
+        Ok(claims)
+    })
 }
 
 /// Variance of the flow over an outlet of 15 sites, over that of the error functions, with rare and with dense voids.
-fn crowd(left: f64) -> Vec<Claim> {
+fn crowd(left: f64, set: u64) -> Vec<Claim> {
     let sheet = bed(125, 102, 55..=69);
     let row = 30;
     let closed = 2.0 * SPREAD * ROW_SPACING * row as f64 + (15.0 * 15.0 - 1.0) / 12.0;
-    let share = |rate: f64| moments(&caram_hong(&sheet, Chances { left, rate }, 10, 1500), &sheet, row)[2] / closed;
+    let share =
+        |rate: f64| moments(&caram_hong(&sheet, Chances { left, rate }, beds(set, 10), 1500), &sheet, row)[2] / closed;
     let gate = |share| {
         let name = "after Caram and Hong: crowded voids, variance over that of free ones";
         Claim::judge(
@@ -246,7 +261,7 @@ fn crowd(left: f64) -> Vec<Claim> {
 }
 
 /// Over a wall of 7 sites lies a triangle in which nothing moves; higher up the flow closes again, from the sides.
-fn shadow(left: f64) -> Vec<Claim> {
+fn shadow(left: f64, set: u64) -> Vec<Claim> {
     let mut sheet = bed(COLUMNS, 102, MIDDLE - 9..=MIDDLE + 9);
     let wall = sheet.index(MIDDLE - 3, 10);
     sheet.cells[wall..wall + 7].fill(WALL);
@@ -258,9 +273,9 @@ fn shadow(left: f64) -> Vec<Claim> {
             (x - MIDDLE as f64).abs() <= 3.0 - (z / ROW_SPACING - 10.0) * 0.5 + 1e-9
         })
         .collect();
-    let passed = caram_hong(&sheet, Chances { left, rate: 0.1 }, 20, 1000);
+    let passed = caram_hong(&sheet, Chances { left, rate: 0.1 }, beds(set, 20), 1000);
     let in_triangle = |passed: &[f64]| triangle.iter().map(|&s| passed[s]).sum::<f64>();
-    let free = caram_hong(&bed(COLUMNS, 102, MIDDLE - 9..=MIDDLE + 9), Chances { left, rate: 0.1 }, 5, 1000);
+    let free = caram_hong(&bed(COLUMNS, 102, MIDDLE - 9..=MIDDLE + 9), Chances { left, rate: 0.1 }, beds(set, 5), 1000);
     let centre = |passed: &[f64], row: usize| {
         let near = (MIDDLE - 1..=MIDDLE + 1).map(|c| passed[sheet.index(c, row)]).sum::<f64>();
         let whole = moments(passed, &sheet, row)[0];
@@ -288,10 +303,10 @@ fn shadow(left: f64) -> Vec<Claim> {
 
 /// A bed over an outlet until nothing runs any more; where `thief`, a grain is taken out of it that nobody counts. Gates on its slopes
 /// and on what left it.
-fn run_empty(left: f64, outlet: std::ops::RangeInclusive<usize>, thief: bool) -> Result<[Claim; 5], String> {
+fn run_empty(left: f64, outlet: std::ops::RangeInclusive<usize>, thief: bool, seed: u64) -> Result<[Claim; 5], String> {
     let sheet = bed(COLUMNS, 42, outlet);
     let (grains, holes) = (sheet.grains(), sheet.sites(EMPTY).count());
-    let mut model = CaramHong::new(sheet, Chances { left, rate: 1.0 }, 1);
+    let mut model = CaramHong::new(sheet, Chances { left, rate: 1.0 }, seed);
     if thief {
         let taken = model.sheet.index(MIDDLE, 20);
         model.sheet.cells[taken] = EMPTY;
@@ -330,11 +345,11 @@ fn run_empty(left: f64, outlet: std::ops::RangeInclusive<usize>, thief: bool) ->
 }
 
 /// A bed that has run out: slopes of 60 degrees down to the outlet, none missing.
-fn emptied(left: f64) -> Result<Vec<Claim>, String> {
-    let mut claims = run_empty(left, MIDDLE - 1..=MIDDLE + 1, false)?.to_vec();
-    let wide = run_empty(left, 1..=COLUMNS - 2, false)?;
+fn emptied(left: f64, seed: u64) -> Result<Vec<Claim>, String> {
+    let mut claims = run_empty(left, MIDDLE - 1..=MIDDLE + 1, false, seed)?.to_vec();
+    let wide = run_empty(left, 1..=COLUMNS - 2, false, seed)?;
     claims.push(refused("an outlet as wide as the bed", &wide[..3], 3));
-    let robbed = run_empty(left, MIDDLE - 1..=MIDDLE + 1, true)?;
+    let robbed = run_empty(left, MIDDLE - 1..=MIDDLE + 1, true, seed)?;
     claims.push(refused("a grain that is taken out of the bed", &robbed[3..], 2));
     Ok(claims)
 }

@@ -2,6 +2,7 @@
 
 use super::super::bench::{self, Rig, at_least, between};
 use super::super::control::{refused, refused_number};
+use super::super::ensemble;
 use crate::origin::own;
 use std::path::Path;
 use tsubu::view::{Contact, Contacts, Wants};
@@ -13,32 +14,35 @@ pub(super) const PUSHED: f64 = 1.46;
 
 /// C-x4: shared points of a bed into which a plate has been pushed by 1 mm: some grains carry, most of them below the plate.
 pub(in super::super) fn plate(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let pushed = |plate: bool| -> Result<_, String> {
-        let mut plan = bench::plan(include_str!("../../../../studies/cl-ca-2001/plate.toml"))?;
-        if !plate {
-            plan.particles.retain(|name, _| name != "plate");
-            plan.cl_ca.rule = tsubu_scene::plan::ClCaRule::Passive;
-        }
-        let mut rig = Rig::of(plan, 1.0)?;
-        // The plate comes down at 50 mm/s from 116 mm and meets the bed at 1.44 s: it has gone 1 mm into it.
-        rig.until(PUSHED)?;
-        let Network { loads, carry, under } = network(&rig, Contacts::Places);
-        let source = own("chain-like, not uniform").after();
-        Ok([
-            at_least("pairs that share points", loads.len() as f64, 20.0, source),
-            at_least("spread of shared points over their mean", scatter(&loads), 0.3, source),
-            between("share of grains that carry", carry, 0.02, 0.5, source),
-            at_least(
-                "of those, share below the plate",
-                under,
-                0.45,
-                own("the plate covers 30 of 80 mm: 0.37 if all alike").after(),
-            ),
-        ])
-    };
-    let mut claims = pushed(perturbation == 1.0)?.to_vec();
-    claims.push(refused("no plate", &pushed(false)?, 4));
-    Ok(claims)
+    ensemble::drawn("plate", 1..=5, |seed| {
+        let pushed = |plate: bool| -> Result<_, String> {
+            let mut plan = bench::plan(include_str!("../../../../studies/cl-ca-2001/plate.toml"))?;
+            plan.seed = seed;
+            if !plate {
+                plan.particles.retain(|name, _| name != "plate");
+                plan.cl_ca.rule = tsubu_scene::plan::ClCaRule::Passive;
+            }
+            let mut rig = Rig::of(plan, 1.0)?;
+            // The plate comes down at 50 mm/s from 116 mm and meets the bed at 1.44 s: it has gone 1 mm into it.
+            rig.until(PUSHED)?;
+            let Network { loads, carry, under } = network(&rig, Contacts::Places);
+            let source = own("chain-like, not uniform").after();
+            Ok([
+                at_least("pairs that share points", loads.len() as f64, 20.0, source),
+                at_least("spread of shared points over their mean", scatter(&loads), 0.3, source),
+                between("share of grains that carry", carry, 0.02, 0.5, source),
+                at_least(
+                    "of those, share below the plate",
+                    under,
+                    0.45,
+                    own("the plate covers 30 of 80 mm: 0.37 if all alike").after(),
+                ),
+            ])
+        };
+        let mut claims = pushed(perturbation == 1.0)?.to_vec();
+        claims.push(refused("no plate", &pushed(false)?, 4));
+        Ok(claims)
+    })
 }
 
 /// What a bed hands on from grain to grain.
@@ -122,30 +126,33 @@ fn chains(discs: &Network) -> Vec<Claim> {
 
 /// C-x4 beside DEM: the forces of a bed of discs into which the same plate has been pushed as far.
 pub(in super::super) fn plate_twin(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let pressed = perturbation == 1.0;
-    let mut hexagons = bed("cl-ca", pressed, &[])?;
-    hexagons.until(PUSHED)?;
-    let lattice = network(&hexagons, Contacts::Places);
-    // 1 mm at 50 mm/s.
-    let discs = pushed_discs(pressed, &[], 0.3, 0.02)?;
-    let twin = own("the same plate, pushed 1 mm into discs by DEM; a third either way").after();
-    let alike = |name: &str, spread: f64| between(name, spread / scatter(&discs.loads), 0.67, 1.5, twin);
-    let mut claims = chains(&discs);
-    claims.extend([
-        alike("spread of loads, CL-CA over DEM", scatter(&lattice.loads)),
-        refused_number("a network where all pairs carry alike", &[alike("", 0.0)], 1),
-        between("share of grains that carry, CL-CA over DEM", lattice.carry / discs.carry, 0.67, 1.5, twin),
-    ]);
-    let aside: Vec<String> = (0..9).map(|i| format!("['{} mm', '116 mm']", 2 + 3 * i)).collect();
-    let aside = format!("particles.plate.start.at.position=[{}]", aside.join(", "));
-    let deep = chains(&pushed_discs(true, &[aside], 0.3, 0.1)?);
-    claims.push(refused("a plate at the side, pushed 5 mm", &deep[2..], 1));
-    let weightless = chains(&pushed_discs(true, &["gravity=0".to_owned()], 0.3, 0.02)?);
-    claims.push(refused("discs without weight", &weightless[1..2], 1));
-    let quick = "particles.plate.motion.driven.signal.steady.rate='1 m/s'".to_owned();
-    let blow = chains(&pushed_discs(true, &[quick], 0.05, 0.0)?);
-    claims.push(refused("a blow of 1 m/s", &blow[..1], 1));
-    Ok(claims)
+    ensemble::drawn("plate in discs", 1..=5, |seed| {
+        let drawn = format!("seed={seed}");
+        let pressed = perturbation == 1.0;
+        let mut hexagons = bed("cl-ca", pressed, std::slice::from_ref(&drawn))?;
+        hexagons.until(PUSHED)?;
+        let lattice = network(&hexagons, Contacts::Places);
+        // 1 mm at 50 mm/s.
+        let discs = pushed_discs(pressed, std::slice::from_ref(&drawn), 0.3, 0.02)?;
+        let twin = own("the same plate, pushed 1 mm into discs by DEM; a third either way").after();
+        let alike = |name: &str, spread: f64| between(name, spread / scatter(&discs.loads), 0.67, 1.5, twin);
+        let mut claims = chains(&discs);
+        claims.extend([
+            alike("spread of loads, CL-CA over DEM", scatter(&lattice.loads)),
+            refused_number("a network where all pairs carry alike", &[alike("", 0.0)], 1),
+            between("share of grains that carry, CL-CA over DEM", lattice.carry / discs.carry, 0.67, 1.5, twin),
+        ]);
+        let aside: Vec<String> = (0..9).map(|i| format!("['{} mm', '116 mm']", 2 + 3 * i)).collect();
+        let aside = format!("particles.plate.start.at.position=[{}]", aside.join(", "));
+        let deep = chains(&pushed_discs(true, &[aside, drawn.clone()], 0.3, 0.1)?);
+        claims.push(refused("a plate at the side, pushed 5 mm", &deep[2..], 1));
+        let weightless = chains(&pushed_discs(true, &["gravity=0".to_owned(), drawn.clone()], 0.3, 0.02)?);
+        claims.push(refused("discs without weight", &weightless[1..2], 1));
+        let quick = "particles.plate.motion.driven.signal.steady.rate='1 m/s'".to_owned();
+        let blow = chains(&pushed_discs(true, &[quick, drawn], 0.05, 0.0)?);
+        claims.push(refused("a blow of 1 m/s", &blow[..1], 1));
+        Ok(claims)
+    })
 }
 
 /// Whether a grain of the plate touches one of the bed.

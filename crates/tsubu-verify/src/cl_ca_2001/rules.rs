@@ -5,6 +5,7 @@
 
 use crate::bench::{between, within};
 use crate::control::refused;
+use crate::ensemble;
 use crate::origin::closed_form;
 use tsubu::clca::active::Active;
 use tsubu::clca::bed::{Bed, GrainKind};
@@ -72,9 +73,9 @@ fn passive(sketch: Sketch, seed: u64) -> Option<Direction> {
     bed.grains.last[0]
 }
 
-/// Share of draws in which something happens.
-fn share(happens: impl Fn(u64) -> bool) -> f64 {
-    (1..=SEEDS).filter(|&seed| happens(seed)).count() as f64 / SEEDS as f64
+/// Share of a set of draws in which something happens.
+fn share(set: u64, happens: impl Fn(u64) -> bool) -> f64 {
+    (1..=SEEDS).filter(|draw| happens(set * SEEDS + draw)).count() as f64 / SEEDS as f64
 }
 
 /// A share of draws that is to be all, none, or a part: then within three deviations of it.
@@ -120,10 +121,10 @@ const PUSHED_TWICE: Sketch = &[((0, 0), FREE), ((-2, 2), Driven(Some(SE))), ((2,
 const PRESSED: Sketch = &[((0, 0), FREE), ((0, 4), Driven(Some(S))), ((0, -4), Driven(Some(N)))];
 
 /// The active rule: C-F5 to C-F7.
-fn active_rule(pull: Pull) -> Vec<Claim> {
+fn active_rule(pull: Pull, set: u64) -> Vec<Claim> {
     let alone: Sketch = &[((0, 0), FREE)];
-    let one = |sketch, wanted: Direction| share(|seed| active::<1>(sketch, pull, seed) == [Some(wanted)]);
-    let two = |sketch, wanted: [Option<Direction>; 2]| share(|seed| active(sketch, pull, seed) == wanted);
+    let one = |sketch, wanted: Direction| share(set, |seed| active::<1>(sketch, pull, seed) == [Some(wanted)]);
+    let two = |sketch, wanted: [Option<Direction>; 2]| share(set, |seed| active(sketch, pull, seed) == wanted);
     vec![
         drawn("a grain with room below goes straight down", one(alone, S), 1.0),
         drawn("a grain on another goes to the right", one(BLOCKED, SE), 0.5),
@@ -138,8 +139,8 @@ fn active_rule(pull: Pull) -> Vec<Claim> {
 }
 
 /// The passive rule: C-F8.
-fn passive_rule(step: impl Fn(Sketch, u64) -> Option<Direction>) -> Vec<Claim> {
-    let goes = |sketch, wanted: Option<Direction>| share(|seed| step(sketch, seed) == wanted);
+fn passive_rule(step: impl Fn(Sketch, u64) -> Option<Direction>, set: u64) -> Vec<Claim> {
+    let goes = |sketch, wanted: Option<Direction>| share(set, |seed| step(sketch, seed) == wanted);
     vec![
         drawn("a pushed grain goes to the right", goes(PUSHED, Some(SE)), 1.0 / 3.0),
         drawn("a pushed grain goes straight on", goes(PUSHED, Some(S)), 1.0 / 3.0),
@@ -150,24 +151,25 @@ fn passive_rule(step: impl Fn(Sketch, u64) -> Option<Direction>) -> Vec<Claim> {
 }
 
 /// C-F4 to C-F8, exactly. The perturbation makes hexagons one point larger, lets gravity pull up, and gives nobody a push.
-#[expect(clippy::unnecessary_wraps, reason = "what a case gives")]
 pub(crate) fn rules(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let spoilt = perturbation != 1.0;
-    let source = closed_form("counted row by row");
-    let counted = |added| {
-        (1..=4).map(move |radius| {
-            let points = 3 * radius * (radius + 1) + 1;
-            let name = format!("overlap of hexagons of {points} points: distances with another count");
-            between(name, f64::from(overlap(radius, added)), 0.0, 0.0, source)
-        })
-    };
-    let nobody = |_: Sketch, _: u64| None;
-    let mut claims: Vec<Claim> = counted(usize::from(spoilt)).collect();
-    claims.extend(active_rule(if spoilt { Pull::UP } else { Pull::DOWN }));
-    claims.extend(if spoilt { passive_rule(nobody) } else { passive_rule(passive) });
-    claims.push(refused("hexagons a point larger", &counted(1).collect::<Vec<_>>(), 4));
-    claims.push(refused("gravity that pulls up", &active_rule(Pull::UP), 8));
-    let against = |sketch: Sketch, seed| passive(sketch, seed).map(Direction::opposite);
-    claims.push(refused("grains that go against the push", &passive_rule(against), 4));
-    Ok(claims)
+    ensemble::drawn("sketches", 0..=7, |set| {
+        let spoilt = perturbation != 1.0;
+        let source = closed_form("counted row by row");
+        let counted = |added| {
+            (1..=4).map(move |radius| {
+                let points = 3 * radius * (radius + 1) + 1;
+                let name = format!("overlap of hexagons of {points} points: distances with another count");
+                between(name, f64::from(overlap(radius, added)), 0.0, 0.0, source)
+            })
+        };
+        let nobody = |_: Sketch, _: u64| None;
+        let mut claims: Vec<Claim> = counted(usize::from(spoilt)).collect();
+        claims.extend(active_rule(if spoilt { Pull::UP } else { Pull::DOWN }, set));
+        claims.extend(if spoilt { passive_rule(nobody, set) } else { passive_rule(passive, set) });
+        claims.push(refused("hexagons a point larger", &counted(1).collect::<Vec<_>>(), 4));
+        claims.push(refused("gravity that pulls up", &active_rule(Pull::UP, set), 8));
+        let against = |sketch: Sketch, seed| passive(sketch, seed).map(Direction::opposite);
+        claims.push(refused("grains that go against the push", &passive_rule(against, set), 4));
+        Ok(claims)
+    })
 }

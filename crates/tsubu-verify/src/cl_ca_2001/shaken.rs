@@ -2,6 +2,7 @@
 
 use super::super::bench::{Rig, at_least, between};
 use super::super::control::refused;
+use super::super::ensemble;
 use crate::origin::own;
 use glam::DVec3;
 use tsubu_frame::Claim;
@@ -99,7 +100,7 @@ pub(in super::super) fn rise(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// Mean rise per cycle [mm] in seven slices between the side walls, in the middle of the bed's height.
-fn rolls(rough: bool) -> Result<[f64; 7], String> {
+fn rolls(rough: bool, seed: u64) -> Result<[f64; 7], String> {
     const CYCLES: usize = 300;
     let heights = (0..24).map(|k| 3e-3 + 5e-3 * f64::from(k));
     let places = heights.flat_map(|z| [format!("[1.4e-3, {z:.4e}]"), format!("[58.4e-3, {z:.4e}]")]);
@@ -108,7 +109,7 @@ fn rolls(rough: bool) -> Result<[f64; 7], String> {
         places.collect::<Vec<_>>().join(", ")
     );
     let more = ["gravity-switch = { up = 60, down = 200 }\n", if rough { &bumps } else { "" }].concat();
-    let mut rig = shaken(&more, 1, 1.0)?;
+    let mut rig = shaken(&more, seed, 1.0)?;
     let first = if rough { 48 } else { 0 };
     let (mut sum, mut count) = ([0.0; 7], [0.0; 7]);
     let free = |rig: &Rig| -> Vec<DVec3> { rig.vectors("position").split_off(first) };
@@ -129,19 +130,22 @@ fn rolls(rough: bool) -> Result<[f64; 7], String> {
 
 /// C-x2: down along rough walls, up beside that; along smooth walls next to nothing.
 pub(in super::super) fn convection(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let source = own("convection needs rough walls").after();
-    let rough = rolls(perturbation == 1.0)?;
-    let smooth = rolls(false)?;
-    let outer = |v: &[f64; 7]| 0.5 * (v[0] + v[6]);
-    let inner = |v: &[f64; 7]| 0.5 * (v[1] + v[5]);
-    let strength = |v: &[f64; 7]| inner(v) - outer(v);
-    let none =
-        |rolls: &[f64; 7]| between("smooth walls: strength of the roll mm a cycle", strength(rolls), -0.1, 0.1, source);
-    Ok(vec![
-        between("rough walls: rise at the walls mm a cycle", outer(&rough), -5.0, -0.05, source),
-        between("rough walls: rise beside that mm a cycle", inner(&rough), 0.05, 5.0, source),
-        none(&smooth),
-        refused("rough walls for smooth ones", &[none(&rough)], 1),
-        at_least("strength, rough over smooth", strength(&rough) / strength(&smooth).abs().max(0.02), 5.0, source),
-    ])
+    ensemble::drawn("rolls", 1..=5, |seed| {
+        let source = own("convection needs rough walls").after();
+        let rough = rolls(perturbation == 1.0, seed)?;
+        let smooth = rolls(false, seed)?;
+        let outer = |v: &[f64; 7]| 0.5 * (v[0] + v[6]);
+        let inner = |v: &[f64; 7]| 0.5 * (v[1] + v[5]);
+        let strength = |v: &[f64; 7]| inner(v) - outer(v);
+        let none = |rolls: &[f64; 7]| {
+            between("smooth walls: strength of the roll mm a cycle", strength(rolls), -0.1, 0.1, source)
+        };
+        Ok(vec![
+            between("rough walls: rise at the walls mm a cycle", outer(&rough), -5.0, -0.05, source),
+            between("rough walls: rise beside that mm a cycle", inner(&rough), 0.05, 5.0, source),
+            none(&smooth),
+            refused("rough walls for smooth ones", &[none(&rough)], 1),
+            at_least("strength, rough over smooth", strength(&rough) / strength(&smooth).abs().max(0.02), 5.0, source),
+        ])
+    })
 }

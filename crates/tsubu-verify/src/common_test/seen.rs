@@ -1,7 +1,9 @@
 //! A scene of the common test by every method: what was seen, measured, and left in a folder to be looked at.
 
 use super::super::bench::Rig;
+use super::super::ensemble;
 use glam::DVec3;
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::time::Instant;
 use tsubu::study::compare::{self, Refused};
@@ -140,17 +142,23 @@ impl Measured {
     }
 }
 
+/// Draws of each test; pictures and tables are of the first.
+const SEEDS: RangeInclusive<u64> = 1..=5;
+
 /// Runs a test and judges it; into a folder also pictures and tables.
 pub(super) fn judged(test: &Test, perturbation: f64, folder: Option<&RunFolder>) -> Result<Vec<Claim>, String> {
-    let measured = run(test, perturbation)?;
-    if let Some(folder) = folder {
-        keep(test, &measured, folder).map_err(|error| error.to_string())?;
-    }
-    Ok((test.judge)(&measured))
+    ensemble::drawn(test.name, SEEDS, |seed| {
+        let measured = run(test, seed, perturbation)?;
+        if let Some(folder) = folder.filter(|_| seed == *SEEDS.start()) {
+            keep(test, &measured, folder).map_err(|error| error.to_string())?;
+        }
+        Ok((test.judge)(&measured))
+    })
 }
 
-fn run(test: &Test, perturbation: f64) -> Result<Measured, String> {
-    let scene = Scene::parse(test.name, test.scene, Path::new("."), &[]).map_err(|c| c.to_string())?;
+fn run(test: &Test, seed: u64, perturbation: f64) -> Result<Measured, String> {
+    let scene =
+        Scene::parse(test.name, test.scene, Path::new("."), &[format!("seed={seed}")]).map_err(|c| c.to_string())?;
     let of = |list: &str| {
         let variants =
             if list.is_empty() { Vec::new() } else { Variant::list(list).map_err(|error| error.to_string())? };

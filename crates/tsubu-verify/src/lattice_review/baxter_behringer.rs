@@ -2,6 +2,7 @@
 
 use super::super::bench::within;
 use super::super::control::refused;
+use super::super::ensemble;
 use crate::origin::{closed_form, own};
 use tsubu::lattice::direction::Direction;
 use tsubu::lattice::gas::collide::{REST, SLOTS};
@@ -37,21 +38,23 @@ struct Make {
     roughness: f64,
     /// Whether the throat is shut.
     shut: bool,
+    /// Of its grains, and of what happens to them.
+    seed: u64,
 }
 
 /// The hopper of the claims.
-const HOPPER: Make = Make { roughness: 1.0, shut: false };
+const HOPPER: Make = Make { roughness: 1.0, shut: false, seed: 1 };
 
 /// A hopper; what falls out below comes in above. Two grains a site at first.
-fn hopper(elongated: bool, Make { roughness, shut }: Make) -> Grains {
+fn hopper(elongated: bool, Make { roughness, shut, seed }: Make) -> Grains {
     let habits = Habits { gravity: 0.2, dissipation: 0.3, roughness };
-    let mut grains = Grains::new(COLUMNS, ROWS, [true, true], habits, 1);
+    let mut grains = Grains::new(COLUMNS, ROWS, [true, true], habits, seed);
     for column in 0..COLUMNS {
         for row in 0..ROWS {
             if from_middle(column) > half_width(row) || shut && row == 33 {
                 grains.set_wall(column, row, Some(0));
             } else if row > THROAT {
-                let drawn = words(1, Purpose::Placement, (column * ROWS + row) as u32, 0);
+                let drawn = words(seed, Purpose::Placement, (column * ROWS + row) as u32, 0);
                 let there = |slot: &usize| drawn[slot % 4].rotate_left(5 * *slot as u32) < u32::MAX / 7 * 2;
                 grains.set_site(column, row, (0..SLOTS).filter(there).map(|slot| 1 << slot).sum());
             }
@@ -130,68 +133,72 @@ fn run(alignment: Option<Alignment>, make: Make) -> Seen {
 }
 
 /// Grains that like to lie along their way stand upright where the hopper narrows; nothing else changes.
-#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
 pub(crate) fn hopper_order(perturbation: f64) -> Result<Vec<Claim>, String> {
-    // The perturbation heats the grains.
-    let temperature = 1.0 / perturbation.powi(60);
-    let with = run(Some(Alignment { neighbours: 0.5, way: 1.0, temperature }), HOPPER);
-    let without = run(Some(Alignment { neighbours: 0.0, way: 0.0, temperature: 1.0 }), HOPPER);
-    let round = run(None, HOPPER);
-    let (smooth, shut) = (run(None, Make { roughness: 0.0, ..HOPPER }), run(None, Make { shut: true, ..HOPPER }));
-    let gates = |seen: &Seen| {
-        [
-            Claim::judge("hopper: share of upright grains in the throat", seen.throat, Some(0.8), None, SOURCE),
-            Claim::judge(
-                "hopper: that share less the one above the slope",
-                seen.throat - seen.above,
-                Some(0.05),
-                None,
-                SOURCE,
-            ),
-        ]
-    };
-    let alike = |seen: &Seen| {
-        let differ = seen.sites.iter().zip(&round.sites).filter(|(a, b)| a != b).count();
-        let source = closed_form("grains that are alike on all sides are those after Peng and Herrmann");
-        [
-            within(
-                "hopper: share of upright grains in the throat without alignment",
-                seen.throat,
-                1.0 / 3.0,
-                0.03,
-                closed_form("symmetry"),
-            ),
-            within("hopper: sites that differ from round grains", differ as f64, 0.0, 0.0, source),
-        ]
-    };
-    let flow =
-        |seen: &Seen| Claim::judge("hopper: grains through the throat in a step", seen.flow, Some(1.0), None, SOURCE);
-    let slow = |seen: &Seen| {
-        let name = "hopper: speed near the walls of the slope over that in the middle";
-        Claim::judge(name, seen.corner / seen.middle, None, Some(0.6), SOURCE)
-    };
-    let mut claims = gates(&with).to_vec();
-    claims.push(refused("no alignment", &gates(&without), 2));
-    claims.extend(alike(&without));
-    claims.push(refused("grains that align", &alike(&with)[..1], 1));
-    claims.extend([flow(&with), slow(&with)]);
-    claims.push(refused("smooth walls", &[slow(&smooth), alike(&smooth)[1].clone()], 2));
-    claims.push(refused("a throat that is shut", &[flow(&shut)], 1));
-    Ok(claims)
+    ensemble::drawn("hopper", 1..=5, |seed| {
+        let hopper = Make { seed, ..HOPPER };
+        // The perturbation heats the grains.
+        let temperature = 1.0 / perturbation.powi(60);
+        let with = run(Some(Alignment { neighbours: 0.5, way: 1.0, temperature }), hopper);
+        let without = run(Some(Alignment { neighbours: 0.0, way: 0.0, temperature: 1.0 }), hopper);
+        let round = run(None, hopper);
+        let (smooth, shut) = (run(None, Make { roughness: 0.0, ..hopper }), run(None, Make { shut: true, ..hopper }));
+        let gates = |seen: &Seen| {
+            [
+                Claim::judge("hopper: share of upright grains in the throat", seen.throat, Some(0.8), None, SOURCE),
+                Claim::judge(
+                    "hopper: that share less the one above the slope",
+                    seen.throat - seen.above,
+                    Some(0.05),
+                    None,
+                    SOURCE,
+                ),
+            ]
+        };
+        let alike = |seen: &Seen| {
+            let differ = seen.sites.iter().zip(&round.sites).filter(|(a, b)| a != b).count();
+            let source = closed_form("grains that are alike on all sides are those after Peng and Herrmann");
+            [
+                within(
+                    "hopper: share of upright grains in the throat without alignment",
+                    seen.throat,
+                    1.0 / 3.0,
+                    0.03,
+                    closed_form("symmetry"),
+                ),
+                within("hopper: sites that differ from round grains", differ as f64, 0.0, 0.0, source),
+            ]
+        };
+        let flow = |seen: &Seen| {
+            Claim::judge("hopper: grains through the throat in a step", seen.flow, Some(1.0), None, SOURCE)
+        };
+        let slow = |seen: &Seen| {
+            let name = "hopper: speed near the walls of the slope over that in the middle";
+            Claim::judge(name, seen.corner / seen.middle, None, Some(0.6), SOURCE)
+        };
+        let mut claims = gates(&with).to_vec();
+        claims.push(refused("no alignment", &gates(&without), 2));
+        claims.extend(alike(&without));
+        claims.push(refused("grains that align", &alike(&with)[..1], 1));
+        claims.extend([flow(&with), slow(&with)]);
+        claims.push(refused("smooth walls", &[slow(&smooth), alike(&smooth)[1].clone()], 2));
+        claims.push(refused("a throat that is shut", &[flow(&shut)], 1));
+        Ok(claims)
+    })
 }
 
 /// Order was to grow near walls as well as along the slope.
-#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
 pub(crate) fn hopper_walls(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let gate = |alignment: Alignment| {
-        let [walls, middle] = run(Some(alignment), HOPPER).shoulder;
-        let name =
-            "hopper, above the slope: share of upright grains within four columns of the walls less that in the middle";
-        Claim::judge(name, walls - middle, Some(0.1), None, SOURCE)
-    };
-    let temperature = 1.0 / perturbation.powi(60);
-    Ok(vec![
-        gate(Alignment { neighbours: 0.5, way: 1.0, temperature }),
-        refused("no alignment", &[gate(Alignment { neighbours: 0.0, way: 0.0, temperature: 1.0 })], 1),
-    ])
+    ensemble::drawn("walls of the hopper", 1..=5, |seed| {
+        let hopper = Make { seed, ..HOPPER };
+        let gate = |alignment: Alignment| {
+            let [walls, middle] = run(Some(alignment), hopper).shoulder;
+            let name = "hopper, above the slope: share of upright grains within four columns of the walls less that in the middle";
+            Claim::judge(name, walls - middle, Some(0.1), None, SOURCE)
+        };
+        let temperature = 1.0 / perturbation.powi(60);
+        Ok(vec![
+            gate(Alignment { neighbours: 0.5, way: 1.0, temperature }),
+            refused("no alignment", &[gate(Alignment { neighbours: 0.0, way: 0.0, temperature: 1.0 })], 1),
+        ])
+    })
 }

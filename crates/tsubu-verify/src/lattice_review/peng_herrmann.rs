@@ -2,6 +2,7 @@
 
 use super::super::bench::within;
 use super::super::control::refused;
+use super::super::ensemble;
 use super::fhp::slope;
 use crate::origin::{closed_form, own};
 use std::f64::consts::TAU;
@@ -16,14 +17,14 @@ const LENGTH: usize = 512;
 const WIDTH: usize = 10;
 
 /// A pipe that is closed in itself, with `density` grains a site in it.
-fn pipe(density: f64, habits: Habits) -> Grains {
-    let mut grains = Grains::new(WIDTH + 2, LENGTH, [true, true], habits, 1);
+fn pipe(density: f64, habits: Habits, seed: u64) -> Grains {
+    let mut grains = Grains::new(WIDTH + 2, LENGTH, [true, true], habits, seed);
     for row in 0..LENGTH {
         grains.set_wall(0, row, Some(0));
         grains.set_wall(WIDTH + 1, row, Some(0));
         for column in 1..=WIDTH {
             let there = |slot: &u64| {
-                let w = words(1, Purpose::Placement, (column * LENGTH + row) as u32, *slot);
+                let w = words(seed, Purpose::Placement, (column * LENGTH + row) as u32, *slot);
                 unit(w[0], w[1]) < density / 7.0
             };
             grains.set_site(column, row, (0..7).filter(there).map(|slot| 1 << slot).sum());
@@ -48,8 +49,8 @@ fn power(series: &[f64], frequency: usize) -> f64 {
 
 /// How much more the density varies over the eight longest waves of the pipe than if every grain were on its own, in the mean of
 /// steps 3000 to 6000.
-fn waves(density: f64, dissipation: f64, roughness: f64) -> f64 {
-    let mut grains = pipe(density, Habits { gravity: 0.1, dissipation, roughness });
+fn waves(density: f64, dissipation: f64, roughness: f64, seed: u64) -> f64 {
+    let mut grains = pipe(density, Habits { gravity: 0.1, dissipation, roughness }, seed);
     let (mut sum, mut looks) = (0.0, 0.0);
     while grains.steps() < 6000 {
         grains.step();
@@ -69,35 +70,37 @@ fn none(name: &str, value: f64) -> Claim {
 }
 
 /// Waves come with dissipation and a density that is neither low nor high; what smooth walls do says [`pipe_smooth`].
-#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
 pub(crate) fn pipe_waves(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let wave = waves(0.25, perturbation.min(1.0).powi(20), 1.0);
-    let is = |name: &str, value: f64| Claim::judge(name, value, Some(8.0), None, SOURCE);
-    let mut claims = vec![is("pipe: variance of the density over that of lone grains", wave)];
-    let without = [
-        ("pipe: the same without dissipation", waves(0.25, 0.0, 1.0)),
-        ("pipe: the same at density 0.1", waves(0.1, 1.0, 1.0)),
-        ("pipe: the same at density 1", waves(1.0, 1.0, 1.0)),
-    ];
-    claims.extend(without.map(|(name, value)| none(name, value)));
-    let gates = without.map(|(name, value)| is(name, value));
-    claims.push(refused("a wave where there is none", &gates, 3));
-    Ok(claims)
+    ensemble::drawn("pipe waves", 1..=5, |seed| {
+        let wave = waves(0.25, perturbation.min(1.0).powi(20), 1.0, seed);
+        let is = |name: &str, value: f64| Claim::judge(name, value, Some(8.0), None, SOURCE);
+        let mut claims = vec![is("pipe: variance of the density over that of lone grains", wave)];
+        let without = [
+            ("pipe: the same without dissipation", waves(0.25, 0.0, 1.0, seed)),
+            ("pipe: the same at density 0.1", waves(0.1, 1.0, 1.0, seed)),
+            ("pipe: the same at density 1", waves(1.0, 1.0, 1.0, seed)),
+        ];
+        claims.extend(without.map(|(name, value)| none(name, value)));
+        let gates = without.map(|(name, value)| is(name, value));
+        claims.push(refused("a wave where there is none", &gates, 3));
+        Ok(claims)
+    })
 }
 
 /// The abstract says that waves need rough walls.
-#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
 pub(crate) fn pipe_smooth(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let name = "pipe, smooth walls: variance of the density over that of lone grains";
-    let rough = none(name, waves(0.25, perturbation.min(1.0).powi(20), 1.0));
-    Ok(vec![none(name, waves(0.25, 1.0, 0.0)), refused("rough walls", &[rough], 1)])
+    ensemble::drawn("pipe smooth", 1..=5, |seed| {
+        let name = "pipe, smooth walls: variance of the density over that of lone grains";
+        let rough = none(name, waves(0.25, perturbation.min(1.0).powi(20), 1.0, seed));
+        Ok(vec![none(name, waves(0.25, 1.0, 0.0, seed)), refused("rough walls", &[rough], 1)])
+    })
 }
 
 /// Without gravity and dissipation the grains are FHP-II, site by site.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
 pub(crate) fn pipe_limit(perturbation: f64) -> Result<Vec<Claim>, String> {
     let differing = |dissipation: f64, thief: bool| {
-        let mut grains = pipe(2.0, Habits { gravity: 0.0, dissipation, roughness: 1.0 });
+        let mut grains = pipe(2.0, Habits { gravity: 0.0, dissipation, roughness: 1.0 }, 1);
         let mut gas = Gas::new(Rules::Two, WIDTH + 2, LENGTH, [true, true], 1);
         for row in 0..LENGTH {
             for column in 0..WIDTH + 2 {
@@ -141,7 +144,7 @@ pub(crate) fn pipe_limit(perturbation: f64) -> Result<Vec<Claim>, String> {
 fn exponent(dissipation: f64) -> f64 {
     const LOOKS: usize = 16_384;
     const STRIDE: usize = 2;
-    let mut grains = pipe(0.25, Habits { gravity: 0.1, dissipation, roughness: 1.0 });
+    let mut grains = pipe(0.25, Habits { gravity: 0.1, dissipation, roughness: 1.0 }, 1);
     (0..3000).for_each(|_| grains.step());
     let mut series = vec![Vec::new(); 16];
     for look in 0..LOOKS {

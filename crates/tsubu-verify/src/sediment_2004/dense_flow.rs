@@ -2,6 +2,7 @@
 
 use super::super::bench::{Rig, within};
 use super::super::control::{refused, refused_number};
+use super::super::ensemble;
 use super::rig;
 use crate::origin::{closed_form, own, printed};
 use glam::DVec3;
@@ -46,8 +47,9 @@ struct Flow {
 }
 
 /// The flow of the scene with some keys changed.
-fn flow(changes: &[&str], perturbation: f64) -> Result<Flow, String> {
-    let changes: Vec<String> = changes.iter().map(|c| (*c).to_owned()).collect();
+fn flow(changes: &[&str], seed: u64, perturbation: f64) -> Result<Flow, String> {
+    let drawn = format!("seed={seed}");
+    let changes: Vec<String> = changes.iter().chain([&drawn.as_str()]).map(|c| (*c).to_owned()).collect();
     let mut rig = rig(SCENE, &changes, perturbation)?;
     rig.until(FROM)?;
     let (mut count, mut sum) = ([0.0; LAYERS], [0.0; LAYERS]);
@@ -110,54 +112,61 @@ fn takahashi(slope: f64, friction: f64) -> f64 {
 
 /// B-F17: the paper's stream, which grains do not slow, and one that digs into its bed and is slowed.
 pub(in super::super) fn dense_flow(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let upper = |value: f64, what: &str| {
-        let source = printed("concentration near the surface about 0.3 (Osada 2004, figure 17)").after();
-        within(format!("dense flow, {what}: solid fraction in the upper third"), value, 0.3, 0.1, source)
-    };
-    let strong = |value: f64, what: &str| {
-        let source =
-            own("strong motion up and down (Osada 2004, figure 17); in layers it would be less than a diameter")
-                .after();
-        let name = format!("dense flow, {what}: way up and down in 0.2 s, upper half, diameters");
-        Claim::judge(name, value, Some(1.0), None, source)
-    };
-    let driven = flow(&DRIVEN, perturbation)?;
-    let driven_gently = flow(&[DRIVEN.as_slice(), &["slope='2 deg'"]].concat(), perturbation)?;
-    let coupled = flow(&[], perturbation)?;
-    let turbulent = flow(&[TURBULENT], perturbation)?;
-    let gentle = flow(&["slope='2 deg'", TURBULENT], perturbation)?;
-    let source = printed("depth of the flume test, 1.48 cm (Osada 2004)");
-    let deep = |value: f64, what: &str| within(format!("dense flow, {what}: depth m"), value, 0.0148, 0.003, source);
-    let equal = |value: f64, what: &str, friction: f64| {
-        let name = format!("dense flow, {what}: solid fraction over Takahashi's for {friction} degrees");
-        within(name, value / takahashi(15.2, friction), 1.0, 0.25, printed("Takahashi 1978: 0.324 at 15.2 degrees"))
-    };
-    let faster = |driven: &Flow| {
-        let source = closed_form("grains slow a stream that hears of them");
-        let name = "dense flow: speed in the log law over that of the coupled stream";
-        Claim::judge(name, driven.speed / coupled.speed, Some(1.0), None, source)
-    };
-    let mut claims = vec![
-        upper(driven.upper, "log law"),
-        strong(driven.zigzag, "log law"),
-        upper(coupled.upper, "coupled"),
-        strong(coupled.zigzag, "coupled"),
-        deep(coupled.depth, "coupled"),
-        equal(coupled.fraction, "coupled", 38.0),
-        upper(turbulent.upper, "coupled and turbulent"),
-        strong(turbulent.zigzag, "coupled and turbulent"),
-        deep(turbulent.depth, "coupled and turbulent"),
-        equal(turbulent.fraction, "coupled and turbulent", 38.0),
-        faster(&driven),
-    ];
-    claims.push(refused("the log law of a slope of 2 degrees", &[faster(&driven_gently)], 1));
-    let wrong =
-        [upper(gentle.upper, ""), strong(gentle.zigzag, ""), deep(gentle.depth, ""), equal(gentle.fraction, "", 38.0)];
-    claims.push(refused("a slope of 2 degrees", &wrong, 2));
-    claims.push(refused_number(
-        "Takahashi's fraction for a friction of 25 degrees",
-        &[equal(turbulent.fraction, "", 25.0)],
-        1,
-    ));
-    Ok(claims)
+    ensemble::drawn("flows", 1..=5, |seed| {
+        let upper = |value: f64, what: &str| {
+            let source = printed("concentration near the surface about 0.3 (Osada 2004, figure 17)").after();
+            within(format!("dense flow, {what}: solid fraction in the upper third"), value, 0.3, 0.1, source)
+        };
+        let strong = |value: f64, what: &str| {
+            let source =
+                own("strong motion up and down (Osada 2004, figure 17); in layers it would be less than a diameter")
+                    .after();
+            let name = format!("dense flow, {what}: way up and down in 0.2 s, upper half, diameters");
+            Claim::judge(name, value, Some(1.0), None, source)
+        };
+        let driven = flow(&DRIVEN, seed, perturbation)?;
+        let driven_gently = flow(&[DRIVEN.as_slice(), &["slope='2 deg'"]].concat(), seed, perturbation)?;
+        let coupled = flow(&[], seed, perturbation)?;
+        let turbulent = flow(&[TURBULENT], seed, perturbation)?;
+        let gentle = flow(&["slope='2 deg'", TURBULENT], seed, perturbation)?;
+        let source = printed("depth of the flume test, 1.48 cm (Osada 2004)");
+        let deep =
+            |value: f64, what: &str| within(format!("dense flow, {what}: depth m"), value, 0.0148, 0.003, source);
+        let equal = |value: f64, what: &str, friction: f64| {
+            let name = format!("dense flow, {what}: solid fraction over Takahashi's for {friction} degrees");
+            within(name, value / takahashi(15.2, friction), 1.0, 0.25, printed("Takahashi 1978: 0.324 at 15.2 degrees"))
+        };
+        let faster = |driven: &Flow| {
+            let source = closed_form("grains slow a stream that hears of them");
+            let name = "dense flow: speed in the log law over that of the coupled stream";
+            Claim::judge(name, driven.speed / coupled.speed, Some(1.0), None, source)
+        };
+        let mut claims = vec![
+            upper(driven.upper, "log law"),
+            strong(driven.zigzag, "log law"),
+            upper(coupled.upper, "coupled"),
+            strong(coupled.zigzag, "coupled"),
+            deep(coupled.depth, "coupled"),
+            equal(coupled.fraction, "coupled", 38.0),
+            upper(turbulent.upper, "coupled and turbulent"),
+            strong(turbulent.zigzag, "coupled and turbulent"),
+            deep(turbulent.depth, "coupled and turbulent"),
+            equal(turbulent.fraction, "coupled and turbulent", 38.0),
+            faster(&driven),
+        ];
+        claims.push(refused("the log law of a slope of 2 degrees", &[faster(&driven_gently)], 1));
+        let wrong = [
+            upper(gentle.upper, ""),
+            strong(gentle.zigzag, ""),
+            deep(gentle.depth, ""),
+            equal(gentle.fraction, "", 38.0),
+        ];
+        claims.push(refused("a slope of 2 degrees", &wrong, 2));
+        claims.push(refused_number(
+            "Takahashi's fraction for a friction of 25 degrees",
+            &[equal(turbulent.fraction, "", 25.0)],
+            1,
+        ));
+        Ok(claims)
+    })
 }

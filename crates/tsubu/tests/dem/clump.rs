@@ -58,7 +58,8 @@ fn a_clump_of_one_sphere_is_that_sphere() {
     assert_ne!(one, bits(PAIR));
 }
 
-/// An impact gives back, at the place of contact, the speed that was asked for: smooth, without gravity, the pair turned by 50 degrees.
+/// An impact gives back, at the place of contact, the speed that was asked for (the restitution that Feng 2026, arXiv 2604.18494, shows
+/// to be the one that a law can promise): smooth, without gravity, the pair turned by 50 degrees.
 /// A law that takes the whole mass for the one that gives way has another dashpot: with the number z of that, c = 2 z sqrt(k m), the pair
 /// of mass m* = m / (1 + (r x n)^2 m / I) has z sqrt(m / m*), and gives back 0.574: the gate refuses it.
 #[test]
