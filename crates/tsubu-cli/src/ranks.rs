@@ -18,7 +18,7 @@ pub fn refuse() -> Result<(), Failure> {
         return Ok(());
     }
     let message = format!("this command was started on {started} ranks, and works on one");
-    let hint = "of all commands `tsubu run` alone works on several; many runs go over `--launcher`";
+    let hint = "`tsubu run` works on several, and `tsubu sweep --case` does; many runs go over `--launcher`";
     Err(said_once(Failure::wrong(message).hint(hint)))
 }
 

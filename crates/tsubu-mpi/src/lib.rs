@@ -22,6 +22,9 @@ pub struct WithoutMpi {
 pub const HOW_TO_BUILD: &str = "start it without `mpirun`; or build it with MPI: `cargo build --release --package tsubu-cli --features mpi` \
                                 wants the packages libopenmpi-dev (or libmpich-dev) and libclang-dev";
 
+/// Whether this program knows MPI.
+pub const BUILT: bool = cfg!(feature = "mpi");
+
 /// Variables in which launchers tell programs how many ranks there are: Open MPI, MPICH and its relatives, Slurm with PMIx.
 const SIZES: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"];
 

@@ -26,30 +26,8 @@ const ONE_DRAW: &[(&str, &[&str])] = &[
         &["stacked", "bed-at-rest", "gutt-haff"],
     ),
     (
-        "the share of hundreds of draws, or the mean of thousands of paths, in a range that its scatter gives",
-        &["cl-ca-rules", "litwiniszyn", "caram-hong", "fhp-sound", "savage", "gutt-haff-silo"],
-    ),
-    ("the two runs that are compared start from one draw, and the range is their difference", &["turning"]),
-    (
-        "a mean over a long run, in a range that another program or a paper gives and that is wider than what another draw moves",
-        &["impact-damper", "saltation-space", "pile-avalanches"],
-    ),
-    (
-        "an effect that is there or not: the range asks for a multiple or a part of it, several times what another draw moves",
-        &[
-            "collapse",
-            "poured-heap",
-            "pushed-plate",
-            "convection",
-            "hemmingsson-herrmann",
-            "pipe-waves",
-            "pipe-smooth",
-            "pile-angle",
-            "hopper-order",
-            "hopper-walls",
-            "pile-segregation",
-            "silo-layers",
-        ],
+        "one ball on the orbit of a closed form: nothing is drawn, and the last bit moves the last digits",
+        &["impact-damper"],
     ),
 ];
 

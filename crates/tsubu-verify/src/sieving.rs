@@ -30,7 +30,7 @@ fn seats(chute: &Chute) -> impl Iterator<Item = (usize, usize)> + '_ {
     cells.filter_map(|(site, &cell)| Some((usize::try_from(cell).ok()?, chute.sheet.column_and_row(site).1)))
 }
 
-/// Logarithm of n/(1-n) and of the speed against the row, as slopes, both over -1/h of the closed form.
+/// Fall of ln n/(1-n) and of ln of the speed from row to row, both over that of the closed form.
 fn profile(perturbation: f64, seed: u64) -> [f64; 2] {
     let (mut chute, _) = bed(1.0, Moves { up: SMALL.up * perturbation, ..SMALL }, seed);
     let rows = chute.sheet.rows();
@@ -47,11 +47,11 @@ fn profile(perturbation: f64, seed: u64) -> [f64; 2] {
     }
     let full = 2400.0 * (COLUMNS - 2) as f64;
     let fall = ((SMALL.down + SMALL.diagonal) / SMALL.up).ln();
-    // Where voids are few, but not too few to count.
-    let deep: Vec<usize> = (8..16).collect();
+    // Three rows over the three below them, where voids are few, but not too few to count: single rows scatter too much for a line.
+    let three = |from: usize| (from..from + 3).map(|r| gone[r] / here[r]).sum::<f64>();
+    let speed = (three(14) / three(11)).ln() / 3.0;
     let odds: Vec<(f64, f64)> = (8..26).map(|r| (r as f64, (here[r] / (full - here[r])).ln())).collect();
-    let speed: Vec<(f64, f64)> = deep.iter().map(|&r| (r as f64, (gone[r] / here[r]).ln())).collect();
-    [-slope(&odds) / fall, slope(&speed) / fall]
+    [-slope(&odds) / fall, speed / fall]
 }
 
 /// Height of large grains over small ones, in rows, after every so many steps; and how far the mean grain has come,
@@ -80,7 +80,7 @@ fn sorted(ratio: f64, perturbation: f64, seed: u64) -> Vec<(f64, f64)> {
 
 /// the profile of the flow, and large grains that come to lie on top.
 pub(super) fn chute(perturbation: f64) -> Result<Vec<Claim>, String> {
-    ensemble::drawn("chute", 1..=5, |seed| {
+    ensemble::drawn("chute", 1..=12, |seed| {
         let closed = closed_form(
             "closed form: n/(1-n) = exp((z0-z)/h), speed as exp(-(z0-z)/h), h = 1/ln(downward chances / upward)",
         );

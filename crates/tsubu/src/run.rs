@@ -19,7 +19,7 @@ pub use onlooker::{Onlooker, Wish};
 pub(crate) use resume::what_differs;
 pub use simulation::Simulation;
 pub(crate) use told::judge;
-pub(crate) use ways::run_with;
+pub(crate) use ways::one_of_many;
 pub use ways::{run, run_on_ranks, run_seen};
 
 use crate::engine::{self, Engine};

@@ -5,11 +5,13 @@ use crate::failure::Failure;
 use crate::launch::{LaunchOptions, Left, Logs, OfStudy};
 use crate::options::{FolderOptions, SceneOptions, WorkOptions};
 use crate::session::{Session, judge, resume};
-use crate::table;
+use crate::{ranks, table};
 use clap::Args;
 use std::fmt::Write as _;
 use std::path::Path;
-use tsubu::interrupt::Watcher;
+use std::sync::Arc;
+use tsubu::interrupt::{Interrupt, Watcher};
+use tsubu::ranks::Communicator;
 use tsubu::study::sweep::{Outcome, Sweep};
 use tsubu_frame::{Status, Summary, Table, csv::split_unit, unit::for_people};
 
@@ -39,7 +41,19 @@ pub struct Options {
     launch: LaunchOptions,
 }
 
+impl Options {
+    /// Whether it does single cases, as a task does.
+    pub fn is_task(&self) -> bool {
+        !self.launch.cases().is_empty()
+    }
+}
+
 pub fn run(options: &Options) -> Result<(), Failure> {
+    if options.is_task()
+        && let Some(ranks) = ranks::join()?
+    {
+        return on_ranks(options, ranks.communicator());
+    }
     let session = Session::begin("sweep", "-sweep", &options.scene, &options.folder, &options.work)?;
     if options.resume {
         session.needs_folder()?;
@@ -67,6 +81,24 @@ pub fn run(options: &Options) -> Result<(), Failure> {
 
 fn is_whole(summary: &Summary) -> bool {
     summary.status == Status::Finished
+}
+
+/// A task on several ranks.
+fn on_ranks(options: &Options, communicator: &Arc<dyn Communicator>) -> Result<(), Failure> {
+    let session = Session::begin("sweep", "-sweep", &options.scene, &options.folder, &options.work);
+    let done = ranks::together(&**communicator, session).and_then(|session| {
+        let Session { scene, folder, .. } = &session;
+        let broken = |error| Failure::of_cases(&error, scene, folder);
+        let sweep = Sweep::new(scene, folder).map_err(broken);
+        let sweep = ranks::together(&**communicator, sweep)?;
+        if communicator.rank() > 0 {
+            let follow = |interrupt: &Interrupt| ranks::at_work(|| sweep.follow(communicator, interrupt));
+            return session.silently(follow).map_err(|error| broken(error).quiet());
+        }
+        let runs = &mut OfStudy { study: &mut sweep.on_ranks(communicator.clone()), session: &session };
+        options.launch.go("sweep", runs, false, &options.work).map(|_| ())
+    });
+    ranks::part(&**communicator, done)
 }
 
 /// The cases are done apart, or what is there of them is gathered.

@@ -27,8 +27,10 @@ pub struct Job {
     pub tasks: Vec<Vec<String>>,
     /// Runs of a task, where the user says how many.
     pub per_task: Option<usize>,
-    /// Threads of a task.
+    /// Threads of a task, or of each of its ranks.
     pub threads: u16,
+    /// Ranks of MPI that make each run together.
+    pub ranks: u16,
     /// What the longest run needs; none where that cannot be told soon.
     pub need: Option<Need>,
     /// Words by which a task knows the study.
@@ -53,7 +55,7 @@ impl Job {
         let size = per_task.unwrap_or(short).clamp(1, missing.len().max(1)).max(missing.len().div_ceil(MOST));
         let tasks = missing.chunks(size).map(<[String]>::to_vec).collect();
         let words = runs.words(&folder.display().to_string());
-        Ok(Self { name, folder, tasks, per_task, threads, need, words, program: program() })
+        Ok(Self { name, folder, tasks, per_task, threads, ranks: 1, need, words, program: program() })
     }
 
     /// Runs of all tasks.

@@ -48,6 +48,9 @@ pub struct LaunchOptions {
     /// Runs that a task does one after the other [default: what takes a minute]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     per_task: Option<u32>,
+    /// Ranks of MPI that make each run together, for `tsubu sweep` over Slurm
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..))]
+    ranks: Option<u16>,
     /// Address of Dask's scheduler, as tcp://node:8786 [default: DASK_SCHEDULER_ADDRESS]
     #[arg(long, value_name = "ADDRESS")]
     scheduler: Option<String>,
@@ -98,10 +101,34 @@ impl LaunchOptions {
         if self.per_task.is_some() && local {
             return Err(Failure::wrong("`--per-task` is for `--launcher slurm` or `dask`"));
         }
+        if self.ranks.is_some() && self.launcher != Launcher::Slurm {
+            return Err(Failure::wrong("`--ranks` is for `--launcher slurm`").hint("here: mpirun -n N tsubu run SCENE"));
+        }
         if self.scheduler.is_some() && self.launcher != Launcher::Dask {
             return Err(Failure::wrong("`--scheduler` is for `--launcher dask`"));
         }
         Ok(local && !self.dry_run && !self.gather && self.cases.is_empty())
+    }
+
+    /// The runs that a task is to do.
+    pub fn cases(&self) -> &[String] {
+        &self.cases
+    }
+
+    /// On how many ranks a run is to be made; refused where it cannot be.
+    fn ranks(&self, name: &str) -> Result<u16, Failure> {
+        let Some(ranks) = self.ranks else { return Ok(1) };
+        if name != "sweep" {
+            return Err(Failure::wrong(format!(
+                "the runs of `tsubu {name}` are made on one rank each: leave `--ranks` out"
+            ))
+            .hint("`tsubu sweep` and `tsubu run` work on several"));
+        }
+        if !tsubu_mpi::BUILT {
+            return Err(Failure::wrong("`--ranks` asks for MPI, and this program was built without")
+                .hint(tsubu_mpi::HOW_TO_BUILD));
+        }
+        Ok(ranks)
     }
 
     /// Does what was asked for with the runs of a study; `name` is that of the command.
@@ -115,6 +142,7 @@ impl LaunchOptions {
         if !self.cases.is_empty() {
             return cases::cases(runs, &self.cases).map(|()| Left::Nothing);
         }
+        let ranks = self.ranks(name)?;
         let scheduler = self.scheduler.as_deref();
         let folder = runs.folder().to_owned();
         if !self.dry_run && !self.gather {
@@ -142,7 +170,8 @@ impl LaunchOptions {
                 return Ok(Left::Gather);
             }
             let per_task = self.per_task.map(|n| n as usize);
-            let job = Job::new(name, runs, &missing, per_task, work.told().unwrap_or(1))?;
+            let mut job = Job::new(name, runs, &missing, per_task, work.told().unwrap_or(1))?;
+            job.ranks = ranks;
             match (self.launcher, self.dry_run) {
                 (Launcher::Dask, true) => return output::print(&dask::script(&job, scheduler)).map(|()| Left::Nothing),
                 (_, true) => return output::print(&slurm::script(&job)).map(|()| Left::Nothing),

@@ -39,22 +39,30 @@ pub fn script(job: &Job) -> String {
          # After a lost node or preemption a task goes on from its checkpoint; before its time is over it writes one.\n\
          #SBATCH --requeue\n\
          #SBATCH --signal=B:TERM@60\n\
-         #SBATCH --nodes=1\n\
-         #SBATCH --ntasks=1\n\
+         {}#SBATCH --ntasks={}\n\
          #SBATCH --cpus-per-task={}\n",
         job.name,
         job.name,
         job.logs().display(),
+        // Ranks may be on several nodes.
+        if job.ranks == 1 { "#SBATCH --nodes=1\n" } else { "" },
+        job.ranks,
         job.threads
     );
     match job.need {
         Some(need) => {
-            let minutes = LEAST + (TIME * need.seconds * job.longest() as f64 / 60.0).ceil();
+            let ranks = f64::from(job.ranks);
+            let minutes = LEAST + (TIME * need.seconds * job.longest() as f64 / ranks / 60.0).ceil();
             let megabytes = ((MEMORY * need.bytes + PROGRAM) / 1e6).ceil();
+            // A node may have any number of the ranks.
+            let memory = match job.ranks {
+                1 => format!("--mem={megabytes:.0}M"),
+                _ => format!("--mem-per-cpu={:.0}M", (megabytes / f64::from(job.threads)).ceil()),
+            };
             let _ = writeln!(
                 text,
                 "# The longest run was estimated here to take {} and {:.0} MB; SBATCH_TIMELIMIT says otherwise.\n\
-                 #SBATCH --time={minutes:.0}\n#SBATCH --mem={megabytes:.0}M",
+                 #SBATCH --time={minutes:.0}\n#SBATCH {memory}",
                 human_time(need.seconds),
                 need.bytes / 1e6
             );
@@ -71,8 +79,14 @@ pub fn script(job: &Job) -> String {
     if let Some(per_task) = job.per_task {
         let _ = write!(text, " --per-task {per_task}");
     }
-    text += "\nfi\n\
-             exec \"${tsubu[@]}\" ${tasks[$SLURM_ARRAY_TASK_ID]}\n";
+    if job.ranks > 1 {
+        let _ = write!(text, " --ranks {}", job.ranks);
+    }
+    text += "\nfi\nexec ";
+    if job.ranks > 1 {
+        let _ = write!(text, "mpirun -n {} ", job.ranks);
+    }
+    text += "\"${tsubu[@]}\" ${tasks[$SLURM_ARRAY_TASK_ID]}\n";
     text
 }
 
@@ -114,7 +128,7 @@ pub fn submit(job: &Job) -> Result<(), Failure> {
     let number = first(&number);
     let after = format!("--dependency=afterany:{number}");
     let output = format!("--output={}", logs.join("%j_last.txt").display());
-    let last = told("sbatch", &["--parsable", &after, &output], &script)?;
+    let last = told("sbatch", &["--parsable", "--ntasks=1", &after, &output], &script)?;
     let last = first(&last);
     std::fs::write(logs.join(NUMBERS), format!("{number} {last}\n")).map_err(kept)?;
     let folder = job.folder.display();

@@ -233,10 +233,12 @@ fn without_slurm_or_dask_it_says_what_to_install() {
         assert!(out.status.code() == Some(2) && said.contains(package), "{said}");
         assert!(!desk.path("out").exists());
     }
-    for option in ["--per-task 3", "--scheduler tcp://node:8786"] {
+    for option in ["--per-task 3", "--scheduler tcp://node:8786", "--ranks 4"] {
         let ended = desk.run(&format!("sweep balls.toml -o out {option}"));
         assert!(ended.code == Some(2) && ended.stderr.contains("is for `--launcher"), "{}", ended.stderr);
     }
+    let ended = desk.run("response balls.toml -o out --launcher slurm --dry-run --ranks 4");
+    assert!(ended.code == Some(2) && ended.stderr.contains("on one rank each"), "{}", ended.stderr);
     let ended = desk.run("verify contact-time --launcher slurm");
     assert!(ended.code == Some(2) && ended.stderr.contains("name it with `-o DIR`"), "{}", ended.stderr);
 }

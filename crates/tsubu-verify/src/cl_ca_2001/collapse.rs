@@ -156,7 +156,7 @@ pub(in super::super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
 /// The collapse of triangles that may turn by 60 degrees, against those that may not (C-7). DEM has no triangles; what turning
 /// does to discs says [`twin`].
 pub(in super::super) fn turning(perturbation: f64) -> Result<Vec<Claim>, String> {
-    ensemble::drawn("triangles that turn", 1..=8, |seed| {
+    ensemble::drawn("triangles that turn", 1..=24, |seed| {
         let drawn = format!("seed={seed}");
         // 6 and 21 points, for the 7 and 19 of the hexagons.
         const TRIANGLES: &str = "cl-ca.shapes={ small = { polygon = { corners = [[0, 0], [0, 4], [2, 2]] } }, \

@@ -152,7 +152,7 @@ fn passive_rule(step: impl Fn(Sketch, u64) -> Option<Direction>, set: u64) -> Ve
 
 /// C-F4 to C-F8, exactly. The perturbation makes hexagons one point larger, lets gravity pull up, and gives nobody a push.
 pub(crate) fn rules(perturbation: f64) -> Result<Vec<Claim>, String> {
-    ensemble::drawn("sketches", 0..=7, |set| {
+    ensemble::drawn("sketches", 0..=3, |set| {
         let spoilt = perturbation != 1.0;
         let source = closed_form("counted row by row");
         let counted = |added| {

@@ -130,7 +130,7 @@ fn rolls(rough: bool, seed: u64) -> Result<[f64; 7], String> {
 
 /// C-x2: down along rough walls, up beside that; along smooth walls next to nothing.
 pub(in super::super) fn convection(perturbation: f64) -> Result<Vec<Claim>, String> {
-    ensemble::drawn("rolls", 1..=5, |seed| {
+    ensemble::drawn("rolls", 1..=3, |seed| {
         let source = own("convection needs rough walls").after();
         let rough = rolls(perturbation == 1.0, seed)?;
         let smooth = rolls(false, seed)?;

@@ -134,7 +134,7 @@ fn run(alignment: Option<Alignment>, make: Make) -> Seen {
 
 /// Grains that like to lie along their way stand upright where the hopper narrows; nothing else changes.
 pub(crate) fn hopper_order(perturbation: f64) -> Result<Vec<Claim>, String> {
-    ensemble::drawn("hopper", 1..=5, |seed| {
+    ensemble::drawn("hopper", 1..=3, |seed| {
         let hopper = Make { seed, ..HOPPER };
         // The perturbation heats the grains.
         let temperature = 1.0 / perturbation.powi(60);
@@ -188,7 +188,7 @@ pub(crate) fn hopper_order(perturbation: f64) -> Result<Vec<Claim>, String> {
 
 /// Order was to grow near walls as well as along the slope.
 pub(crate) fn hopper_walls(perturbation: f64) -> Result<Vec<Claim>, String> {
-    ensemble::drawn("walls of the hopper", 1..=5, |seed| {
+    ensemble::drawn("walls of the hopper", 1..=3, |seed| {
         let hopper = Make { seed, ..HOPPER };
         let gate = |alignment: Alignment| {
             let [walls, middle] = run(Some(alignment), hopper).shoulder;

@@ -10,7 +10,7 @@ use tsubu_scene::Scene;
 
 /// Runs a scene to its end, or until it is interrupted, into `folder`.
 pub fn run(scene: &Scene, folder: &Path, existing: Existing, watcher: &Watcher) -> Result<Summary, RunError> {
-    run_with(scene, folder, existing, true, watcher)
+    work(scene, folder, existing, watcher, Manner::ALONE)
 }
 
 /// The same, with somebody who looks on. The run is the same to the last bit.
@@ -35,16 +35,16 @@ pub fn run_on_ranks(
     work(scene, folder, existing, watcher, Manner { communicator: Some(communicator), ..Manner::ALONE })
 }
 
-/// The same. One of many runs (`alone` false) keeps no checkpoint of its end, and does not wait for the disk there: after a power cut
-/// it is done again.
-pub(crate) fn run_with(
+/// One of many runs, on rank 0 of several if there is a communicator: it keeps no checkpoint of its end, and does not wait for the disk
+/// there. After a power cut it is done again.
+pub(crate) fn one_of_many(
     scene: &Scene,
     folder: &Path,
     existing: Existing,
-    alone: bool,
+    communicator: Option<Arc<dyn Communicator>>,
     watcher: &Watcher,
 ) -> Result<Summary, RunError> {
-    work(scene, folder, existing, watcher, Manner { alone, ..Manner::ALONE })
+    work(scene, folder, existing, watcher, Manner { alone: false, communicator, ..Manner::ALONE })
 }
 
 /// How a run is made.

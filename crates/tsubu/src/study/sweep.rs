@@ -4,6 +4,7 @@
 //! machine ([`Sweep::run`]); [`Sweep::gather`] makes the tables of what is there.
 
 mod table;
+mod together;
 
 pub use table::Outcome;
 
@@ -13,12 +14,14 @@ use crate::engine::OpenError;
 use crate::interrupt::Watcher;
 use crate::methods;
 use crate::partner::Hosts;
+use crate::ranks::Communicator;
 use crate::run::{self, RunError};
 use crate::scene_files;
 use crate::trial;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use tsubu_frame::summary::read_json;
@@ -73,6 +76,8 @@ pub struct Sweep<'a> {
     scene: &'a Scene,
     cases: Vec<Case>,
     folder: PathBuf,
+    /// How the ranks talk that make each run together.
+    communicator: Option<Arc<dyn Communicator>>,
 }
 
 impl<'a> Sweep<'a> {
@@ -81,7 +86,7 @@ impl<'a> Sweep<'a> {
         let wanted = scene.plan().sweep.as_ref().ok_or_else(|| {
             CasesError::Scene("the scene has no `[sweep]`: say what varies, for example `vary = { \"particles.balls.count\" = [10, 20] }`".to_owned())
         })?;
-        Ok(Self { scene, cases: cases(&wanted.vary), folder: folder.to_owned() })
+        Ok(Self { scene, cases: cases(&wanted.vary), folder: folder.to_owned(), communicator: None })
     }
 
     /// The folder, with the scene in it; refused where a method refuses a case.
@@ -153,11 +158,13 @@ impl Apart for Sweep<'_> {
     }
 
     fn run(&mut self, name: &str, watcher: &Watcher) -> Result<Status, CasesError> {
-        let case = self.cases.iter().find(|case| case.folder() == name).ok_or_else(|| {
+        let index = self.cases.iter().position(|case| case.folder() == name).ok_or_else(|| {
             CasesError::Scene(format!("the sweep has no case `{name}`: `tsubu sweep SCENE --dry-run` names all"))
         })?;
+        let case = &self.cases[index];
+        let run = |scene: &Scene, folder: &Path, existing| self.run_together(index, scene, folder, existing, watcher);
         // Whoever holds it may be a worker that its cluster has given up: what it does is not done twice.
-        unlocked(watcher.interrupt, CasesError::is_locked, || one(self.scene, case, &self.place(case), watcher))
+        unlocked(watcher.interrupt, CasesError::is_locked, || made(self.scene, case, &self.place(case), &run))
             .map(|summary| summary.status)
     }
 
@@ -190,14 +197,24 @@ fn is_of(scene: &Scene, folder: &Path) -> bool {
 
 /// Runs a case into a folder of its own; one that is finished is kept, one that was cut goes on.
 pub(super) fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<Summary, CasesError> {
+    let quiet = Watcher { interrupt: watcher.interrupt, progress: &|_| {} };
+    made(scene, case, folder, &|scene, folder, existing| run::one_of_many(scene, folder, existing, None, &quiet))
+}
+
+/// The same by those who make the run.
+fn made(
+    scene: &Scene,
+    case: &Case,
+    folder: &Path,
+    run: &dyn Fn(&Scene, &Path, Existing) -> Result<Summary, RunError>,
+) -> Result<Summary, CasesError> {
     let scene = case.scene(scene).map_err(CasesError::Complaints)?;
     if let Some(summary) = earlier(&scene, folder).filter(|s| s.status == Status::Finished) {
         return Ok(summary);
     }
     let cut = is_of(&scene, folder) && tsubu_frame::checkpoint::path(folder).exists();
     let existing = if cut { Existing::Resume } else { Existing::Overwrite };
-    let quiet = Watcher { interrupt: watcher.interrupt, progress: &|_| {} };
-    match run::run_with(&scene, folder, existing, false, &quiet) {
+    match run(&scene, folder, existing) {
         Ok(summary) => Ok(summary),
         // One case that goes wrong leaves the others their results.
         Err(RunError::Fault(fault) | RunError::Open(OpenError::Settling(fault))) => {
