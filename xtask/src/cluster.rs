@@ -1,7 +1,8 @@
 //! Many runs on real clusters: Slurm and Dask are started on this machine, and their workers killed.
 
+use crate::mpi;
 use crate::python::{environment, recent};
-use crate::shell::{command, program, root, run};
+use crate::shell::{command, program_with, root, run};
 
 /// Starts them and tests; says so where there is no Python or no network. Where there is no Slurm, its tests say that they are skipped.
 pub fn cluster(arguments: &[&str]) -> Result<(), String> {
@@ -15,7 +16,9 @@ pub fn cluster(arguments: &[&str]) -> Result<(), String> {
         return skipped("Dask cannot be installed: is there a network?");
     };
     let mut test = command(&python.to_string_lossy(), &["-m", "pytest", "--quiet", "-rs", "-p", "no:cacheprovider"]);
-    test.env("TSUBU", program("tsubu")?).args(arguments).arg(tests);
+    // Without MPI the test of runs on several ranks says that it is skipped.
+    let features: &[&str] = if mpi::missing().is_empty() { &mpi::FEATURES } else { &[] };
+    test.env("TSUBU", program_with("tsubu", features)?).args(arguments).arg(tests);
     run(test)
 }
 

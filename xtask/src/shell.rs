@@ -28,7 +28,12 @@ pub fn cargo_path() -> String {
 /// A program of the workspace as the tests run it. It is built together with them: built alone it would have other features of its
 /// dependencies, and all that stands between would be compiled a second time.
 pub fn program(name: &str) -> Result<String, String> {
-    cargo(&["build", "--workspace", "--bins", "--tests", "--locked", "--quiet"])?;
+    program_with(name, &[])
+}
+
+/// The same with features.
+pub fn program_with(name: &str, features: &[&str]) -> Result<String, String> {
+    cargo(&[&["build", "--workspace", "--bins", "--tests", "--locked", "--quiet"], features].concat())?;
     Ok(root().join("target/debug").join(name).to_string_lossy().into_owned())
 }
 

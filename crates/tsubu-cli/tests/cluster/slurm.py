@@ -1,4 +1,4 @@
-"""A Slurm of its own on this machine: an authentication service, a controller, and nodes of one processor each."""
+"""A Slurm of its own on this machine: an authentication service, a controller, nodes of one processor each, and one of two in a partition of its own."""
 
 import getpass
 import os
@@ -38,7 +38,8 @@ SelectTypeParameters=CR_CPU_Memory
 ReturnToService=2
 SlurmdParameters=config_overrides
 {nodes}
-PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+PartitionName=main Nodes={singles} Default=YES MaxTime=INFINITE State=UP
+PartitionName=pair Nodes=pair MaxTime=INFINITE State=UP
 """
 
 
@@ -58,14 +59,15 @@ class Slurm:
         self.home = Path(home)
         # The authentication service wants its socket to be within reach of all.
         self.home.chmod(0o755)
-        names = [f"n{i}" for i in range(NODES)]
-        ports = free(NODES + 1)
+        singles = [f"n{i}" for i in range(NODES)]
+        names = [*singles, "pair"]
+        ports = free(len(names) + 1)
         nodes = "\n".join(
-            f"NodeName={name} NodeHostname=localhost NodeAddr=127.0.0.1 Port={port} CPUs=1 RealMemory=2000"
+            f"NodeName={name} NodeHostname=localhost NodeAddr=127.0.0.1 Port={port} CPUs={2 if name == 'pair' else 1} RealMemory=2000"
             for name, port in zip(names, ports[1:])
         )
         conf = self.home / "slurm.conf"
-        conf.write_text(CONF.format(home=home, user=getpass.getuser(), ports=ports, nodes=nodes))
+        conf.write_text(CONF.format(home=home, user=getpass.getuser(), ports=ports, nodes=nodes, singles=",".join(singles)))
         for folder in ["state", *names]:
             (self.home / folder).mkdir()
         key = self.home / "key"
@@ -81,8 +83,12 @@ class Slurm:
         self.start("slurmctld", "-D", "-c")
         for name in names:
             self.start("slurmd", "-D", "-N", name)
-        idle = [str(NODES), "idle"]
-        wait(lambda: self.told("sinfo", "--noheader", "--format=%D %t").split() == idle, "the nodes", 60, self.said)
+        wait(lambda: self.idle() == len(names), "the nodes", 60, self.said)
+
+    def idle(self):
+        """Nodes that wait for work."""
+        lines = self.told("sinfo", "--noheader", "--format=%D %t").splitlines()
+        return sum(int(count) for count, state in map(str.split, lines) if state == "idle")
 
     def start(self, *command):
         said = open(self.home / f"{command[0]}{len(self.started)}.said", "w")

@@ -3,6 +3,7 @@
 `TSUBU` names the program. Every result is held against that of the same sweep on this machine alone, and no case that is complete is run again.
 """
 
+import contextlib
 import csv
 import json
 import os
@@ -201,6 +202,55 @@ def test_a_requeued_task_goes_on_from_its_checkpoint(cluster, tmp_path):
     assert said.count(f"case {case}: begun") == 2 and said.count(f"case {case}: finished") == 1, said
     assert (out / "cases" / case / "history.csv").stat().st_ino == begun, "it began anew"
     assert hashes(out) == hashes(tmp_path / "local")
+
+
+@contextlib.contextmanager
+def small_disk(folder):
+    """A disk with room for the scene, and for little else."""
+    folder.mkdir(parents=True)
+    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=32k", "tsubu", folder], capture_output=True, text=True)
+    if mounted.returncode != 0:
+        pytest.skip(f"no disk can be made here: {mounted.stderr.strip()}")
+    try:
+        yield
+    finally:
+        subprocess.run(["umount", folder], check=True)
+
+
+def test_a_full_disk_leaves_the_others_to_be_done(cluster, witness, tmp_path):
+    path, out = scene(tmp_path, seeds=3), tmp_path / "out"
+    changes = ["--set", "output.history-interval=0.1 ms"]
+    tsubu("sweep", path, *changes, "-q", "-o", tmp_path / "local")
+    command = ["sweep", path, *changes, "-o", out, "--launcher", "slurm", "--per-task", 1]
+    case = "restitution=0.5,seed=2"
+    tsubu("sweep", path, *changes, "-o", out, "--gather", code=3)
+    with small_disk(out / "cases" / case):
+        tsubu(*command, env=cluster.environment)
+        slurm.wait(cluster.over, "the end of the array")
+        others = [row for row in rows(out) if row["folder [text]"] != f"cases/{case}"]
+        assert len(others) == 5 and all(row["status [text]"] == "finished" for row in others), others
+        (full,) = [row for row in rows(out) if row not in others]
+        assert full["status [text]"] != "finished" and "no space left" in full["remark [text]"].lower(), full
+        assert "no space left" in (out / "report.html").read_text().lower()
+    tsubu(*command, env=cluster.environment)
+    assert (out / "launch/runs").read_text().split() == [case]
+    slurm.wait(cluster.over, "the end of the second array")
+    assert rows(out) == rows(tmp_path / "local") and hashes(out) == hashes(tmp_path / "local")
+
+
+def test_each_case_runs_on_the_ranks_of_its_allocation(cluster, tmp_path):
+    path, out = scene(tmp_path, seeds=1), tmp_path / "out"
+    command = ["sweep", path, "-o", out, "--launcher", "slurm", "--ranks", 2, "--per-task", 1]
+    if "built without" in subprocess.run([TSUBU, *map(str, command), "--dry-run"], capture_output=True, text=True).stderr:
+        pytest.skip("the program knows no MPI (Debian: libopenmpi-dev, openmpi-bin, libclang-dev)")
+    tsubu("sweep", path, "-q", "-o", tmp_path / "local")
+    allowed = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    tsubu(*command, env={**cluster.environment, **allowed, "SBATCH_PARTITION": "pair"})
+    slurm.wait(cluster.over, "the end of the array")
+    said = "\n".join(file.read_text() for file in (out / "launch").glob("*.txt"))
+    assert hashes(out) == hashes(tmp_path / "local") and len(hashes(out)) == 2, said
+    for summary in out.glob("cases/*/summary.json"):
+        assert json.loads(summary.read_text())["ranks"]["count"] == 2
 
 
 def test_slurm_does_a_response_round_by_round(local, cluster, tmp_path):
