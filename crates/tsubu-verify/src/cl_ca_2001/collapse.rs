@@ -157,10 +157,10 @@ pub(in super::super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
 /// does to discs says [`twin`].
 pub(in super::super) fn turning(perturbation: f64) -> Result<Vec<Claim>, String> {
     ensemble::drawn("triangles that turn", 1..=24, |seed| {
-        let drawn = format!("seed={seed}");
         // 6 and 21 points, for the 7 and 19 of the hexagons.
         const TRIANGLES: &str = "cl-ca.shapes={ small = { polygon = { corners = [[0, 0], [0, 4], [2, 2]] } }, \
                              large = { polygon = { corners = [[0, 0], [0, 10], [5, 5]] } } }";
+        let drawn = format!("seed={seed}");
         let run = |shapes: &[&str], turning: bool, opened: bool| -> Result<_, String> {
             let turning = format!("cl-ca.turning={}", turning && perturbation == 1.0);
             let mut rig = collapsing("cl-ca", opened, &[shapes, &[turning.as_str(), &drawn]].concat())?;

@@ -50,8 +50,8 @@ fn hops(changes: &[&str], perturbation: f64) -> Result<[f64; 4], String> {
 /// V-58 in space: hops as high, long and fast as measured ones, to a factor of 2; contact times as in figure 6.
 pub(in super::super) fn saltation_space(perturbation: f64) -> Result<Vec<Claim>, String> {
     ensemble::drawn("leaping grains", 1..=3, |seed| {
-        let drawn = format!("seed={seed}");
         const D: f64 = 2e-3;
+        let drawn = format!("seed={seed}");
         let gates = |found: [f64; 4]| {
             let wanted = [
                 ("hop height over d", found[0] / D, 3.4),
