@@ -61,7 +61,9 @@ pub fn diagnose(triangles: &[[Vector; 3]]) -> Diagnosis {
     let rims = rim.all();
     diagnosis.rims = rims.len();
     let small = SMALL * largest(diagnosis.extent);
-    diagnosis.openings = rims.iter().filter(|rim| rim.closed && rim.edges > 3 && rim.size >= small).count();
+    let openings = || rims.iter().filter(|rim| rim.closed && rim.edges > 3 && rim.size >= small);
+    diagnosis.openings = openings().count();
+    diagnosis.narrowest = openings().map(|rim| rim.width).reduce(f64::min);
     diagnosis
 }
 
@@ -246,6 +248,7 @@ mod tests {
         let mut hopper = tube(24);
         let diagnosis = diagnose(&hopper);
         assert_eq!((diagnosis.rims, diagnosis.openings), (2, 2), "{diagnosis}");
+        assert!(diagnosis.narrowest.is_some_and(|width| (width - 0.2).abs() < 1e-12), "{diagnosis:?}");
         // One triangle that is missing is a hole, a whole side is an opening.
         let mut more = cube();
         more.remove(11);

@@ -89,7 +89,7 @@ mod tests {
         let case = |seed: u64| {
             let control = if seed == 2 { 1.0 } else { 0.0 };
             Ok(vec![
-                Claim::judge("drawn", seed as f64, Some(0.0), Some(9.0), source(Origin::Own)),
+                Claim::judge("drawn", seed as f64, Some(-2.0), Some(9.0), source(Origin::Own)),
                 Claim::judge("the same", 4.0, Some(4.0), Some(4.0), source(Origin::ClosedForm)),
                 Claim::judge("control", control, Some(1.0), None, source(Origin::Control)),
             ])

@@ -69,6 +69,8 @@ pub struct Diagnosis {
     /// Rims that look as if they were meant: closed lines of more than three edges (a triangle that is missing has three)
     /// which are not small beside the mesh.
     pub openings: usize,
+    /// Width of the narrowest of them along the axes [m].
+    pub narrowest: Option<f64>,
     /// Edges that more than two triangles share.
     pub crowded_edges: Found,
     /// Edges whose two triangles go round the same way, so that their normals are on different sides.

@@ -1,6 +1,6 @@
 //! Rims: the lines that the open edges of a mesh make.
 
-use super::{NO_ENDS, largest, length, wider};
+use super::{NO_ENDS, length, wider};
 use crate::plan::Vector;
 use std::collections::BTreeMap;
 
@@ -21,6 +21,8 @@ pub(super) struct Rim {
     ends: [Vector; 2],
     /// Its largest extent.
     pub(super) size: f64,
+    /// The smaller of the two extents of a line that lies level, or nearly so: what is thicker does not pass.
+    pub(super) width: f64,
 }
 
 impl Rims {
@@ -48,10 +50,12 @@ impl Rims {
         let mut rims: BTreeMap<usize, Rim> = BTreeMap::new();
         for (corner, edge) in std::mem::take(&mut self.edges) {
             let root = self.root(corner);
-            let rim = rims.entry(root).or_insert(Rim { edges: 0, closed: true, ends: NO_ENDS, size: 0.0 });
+            let rim = rims.entry(root).or_insert(Rim { edges: 0, closed: true, ends: NO_ENDS, size: 0.0, width: 0.0 });
             rim.edges += 1;
             rim.ends = edge.into_iter().fold(rim.ends, wider);
-            rim.size = largest(length(rim.ends));
+            let mut extents = length(rim.ends);
+            extents.sort_by(f64::total_cmp);
+            [_, rim.width, rim.size] = extents;
         }
         for corner in 0..self.parent.len() {
             let root = self.root(corner);

@@ -1,6 +1,6 @@
 //! The verdict on the meshes of walls: what is wrong with one, or at least worth knowing.
 
-use super::Verdict;
+use super::{Verdict, opening};
 use tsubu_scene::mesh::{Diagnosis, diagnose};
 use tsubu_scene::plan::{Plan, Shape, Vector};
 
@@ -26,6 +26,9 @@ pub(super) fn meshes(verdict: &mut Verdict, plan: &Plan) {
             });
         }
         rims(verdict, &found, &label);
+        if let Some(width) = found.narrowest {
+            opening::judge(verdict, plan, name, width);
+        }
         for (what, found, advice) in [
             (
                 "edges where the normal changes sides",
@@ -73,7 +76,7 @@ fn is_huge(extent: Vector, diameter: f64) -> bool {
 }
 
 /// In the unit that people would take.
-fn length(metres: f64) -> String {
+pub(super) fn length(metres: f64) -> String {
     let (number, unit) = match metres {
         x if x >= 1.0 || x == 0.0 => (x, "m"),
         x if x >= 1e-3 => (x * 1e3, "mm"),

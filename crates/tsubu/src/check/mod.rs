@@ -6,6 +6,7 @@ mod drive;
 mod fall;
 mod idle;
 mod mesh;
+mod opening;
 mod rest;
 mod verdict;
 mod water;

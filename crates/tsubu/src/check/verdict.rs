@@ -1,7 +1,7 @@
 //! The verdict: is this scene resolved well enough, and what will it cost?
 
 use super::rest::{self, IN_A_BED, IN_A_FILM, IN_AN_IMPACT};
-use super::{bodies, bonds, clump, idle, mesh, shortest_period, speed_scale, water};
+use super::{bodies, bonds, clump, idle, mesh, opening, shortest_period, speed_scale, water};
 use crate::contact::{Pair, Table};
 use crate::engine::{Engine, Fault, Verdict as Noted};
 use crate::memory::{self, human_memory};
@@ -107,6 +107,7 @@ pub fn verdict(plan: &Plan, hosts: &Hosts, engine: &dyn Engine) -> Verdict {
         | Method::AfterKarolyiKertesz => {}
     }
     mesh::meshes(&mut verdict, plan);
+    opening::cones(&mut verdict, plan);
     clump::packings(&mut verdict, plan);
     clump::cells(&mut verdict, plan);
     idle::gates(&mut verdict, plan);

@@ -322,6 +322,42 @@ fn a_brick_is_as_heavy_as_its_mesh() {
     assert_eq!(alone, run(7, true).0);
 }
 
+/// A clump that is longer than an outlet is wide is told, of a cone and of a mesh; one that fits is not.
+#[test]
+fn a_clump_longer_than_an_outlet_is_told() {
+    let desk = tempfile::tempdir().unwrap();
+    // A square funnel: 4 mm below, 40 mm above.
+    let ring = |half: f64, z: f64| {
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| format!("v {} {} {z}\n", x * half, y * half))
+    };
+    let sides = (1..=4).map(|k| format!("f {k} {} {} {}\n", k % 4 + 1, k % 4 + 5, k + 4));
+    let obj: String = ring(2.0, -20.0).into_iter().chain(ring(20.0, 0.0)).chain(sides).collect();
+    std::fs::write(desk.path().join("funnel.obj"), obj).unwrap();
+    let told = |shape: &str, diameter: &str| {
+        let text =
+            PAIR.replace("shape.plane = { point = [0, 0, 0], normal = [0, 0, 1] }", shape).replace("3.2 mm", diameter);
+        let scene = Scene::parse("outlet.toml", &text, desk.path(), &[]).unwrap_or_else(|c| panic!("{c}"));
+        let hosts = tsubu::partner::Hosts::default();
+        let engine = tsubu::methods::open(scene.plan(), &hosts).unwrap();
+        tsubu::check::verdict(scene.plan(), &hosts, &*engine).to_string()
+    };
+    for (shape, width) in [
+        (
+            "shape.cone = { point = [0, 0, '-20 mm'], axis = [0, 0, 1], radius = '2 mm', end-radius = '20 mm', length = '20 mm' }",
+            "4 mm",
+        ),
+        ("shape.mesh = { path = 'funnel.obj', scale = 0.001 }", "4 mm"),
+    ] {
+        let long = told(shape, "4.2 mm");
+        let warning = format!(
+            "warn wall `floor`: its narrowest opening is {width} wide, and grains `pair` are up to 4.2 mm long"
+        );
+        assert!(long.contains(&warning), "{long}");
+        let short = told(shape, "3.2 mm");
+        assert!(!short.contains("narrowest opening"), "{short}");
+    }
+}
+
 /// The check tells what `Packing::error` is held to: of one sphere in a cube, 1 - pi/6 of the volume is missing, and a warning names the key.
 #[test]
 fn the_check_tells_how_well_spheres_stand_for_a_mesh() {
