@@ -51,7 +51,7 @@ fn drum(froude: f64, friction: f64, seed: u64, perturbation: f64) -> Result<Rig,
         size.uniform = {{ smallest = 0.85, largest = 1.15 }}
         mass = 1
         shape.disc.thickness = 1
-        start.random.region = {{ low = [-12, -9], high = [12, 9] }}
+        start.rows = {{ spacing = 1.02, jitter = 1, speed = 0.5, region = {{ low = [-12, -9], high = [12, 9] }} }}
         [walls.drum]
         material = "wall"
         shape.cylinder.radius = {DRUM}
