@@ -123,7 +123,8 @@ pub fn printed(tsubu: &str, name: &str) -> Result<String, String> {
 
 /// Claims of some studies case by case: how many hold, and each that fails.
 fn claim_table(kept: &[Value], studies: &str) -> String {
-    let mut table = String::from("| case | claims | hold | FAIL: value (accepted range) |\n|---|---|---|---|\n");
+    let mut table =
+        String::from("| case | claims | hold | FAIL or undecided: value (accepted range) |\n|---|---|---|---|\n");
     let text = |claim: &Value, what: &str| claim[what].as_str().unwrap_or_default().to_owned();
     let wanted = kept.iter().filter(|claim| studies.split(' ').any(|study| claim["study"] == study));
     let mut cases: Vec<(String, Vec<&Value>)> = Vec::new();
@@ -136,8 +137,18 @@ fn claim_table(kept: &[Value], studies: &str) -> String {
     }
     for (case, claims) in cases {
         let failed: Vec<&&Value> = claims.iter().filter(|claim| claim["pass"] == false).collect();
-        let told: Vec<String> =
-            failed.iter().map(|c| format!("{}: {} ({})", text(c, "name"), number(&c["value"]), range(c))).collect();
+        let told: Vec<String> = failed
+            .iter()
+            .map(|c| {
+                format!(
+                    "{}: {} ({}{})",
+                    text(c, "name"),
+                    number(&c["value"]),
+                    range(c),
+                    if is_undecided(c) { "; undecided" } else { "" }
+                )
+            })
+            .collect();
         let _ = writeln!(
             table,
             "| `{case}` | {} | {} | {} |",
@@ -149,15 +160,30 @@ fn claim_table(kept: &[Value], studies: &str) -> String {
     table
 }
 
-/// Claims of a case one by one.
+/// Claims of a case one by one; of ensembles with the interval of their mean.
 fn value_table(kept: &[Value], case: &str) -> String {
-    let mut table = String::from("| claim | value | accepted | |\n|---|---|---|---|\n");
+    let mut table = String::from("| claim | value | 95 % interval | accepted | |\n|---|---|---|---|---|\n");
     for claim in kept.iter().filter(|claim| claim["case"] == case && claim["origin"] != "control") {
         let name = claim["name"].as_str().unwrap_or_default().replace('|', "\\|");
-        let verdict = if claim["pass"] == true { "pass" } else { "**FAIL**" };
-        let _ = writeln!(table, "| {name} | {} | {} | {verdict} |", number(&claim["value"]), range(claim));
+        let verdict = match claim["pass"] == true {
+            true => "pass",
+            false if is_undecided(claim) => "undecided",
+            false => "**FAIL**",
+        };
+        let ends = &claim["ensemble"]["interval"];
+        let interval =
+            if ends.is_array() { format!("{} to {}", number(&ends[0]), number(&ends[1])) } else { String::new() };
+        let _ = writeln!(table, "| {name} | {} | {interval} | {} | {verdict} |", number(&claim["value"]), range(claim));
     }
     table
+}
+
+/// Whether the interval of a claim that does not hold lies neither in its range nor outside.
+fn is_undecided(claim: &Value) -> bool {
+    let end = |value: &Value, open: f64| value.as_f64().unwrap_or(open);
+    let interval = &claim["ensemble"]["interval"];
+    let (Some(from), Some(to)) = (interval[0].as_f64(), interval[1].as_f64()) else { return false };
+    to >= end(&claim["low"], f64::NEG_INFINITY) && from <= end(&claim["high"], f64::INFINITY)
 }
 
 /// With five figures.
@@ -229,6 +255,18 @@ mod tests {
             table.contains("| bed | 7 | tsubu | 10.0 | 18.0 |  |  |\n| bed | 7 | L | 4.0 | 9.0 | 2.50 | 2.00 |"),
             "{table}"
         );
+    }
+
+    /// A mean whose interval reaches over an end of the range was told as one that fails.
+    #[test]
+    fn what_is_undecided_is_told_as_that() {
+        let claim = |interval: [f64; 2]| json!({ "case": "a", "study": "s", "name": "x", "value": 2.5, "high": 2.0, "pass": false, "ensemble": { "interval": interval } });
+        let kept = [claim([1.5, 3.5]), claim([2.25, 2.75])];
+        let table = value_table(&kept, "a");
+        assert!(table.contains("| 1.5 to 3.5 | at most 2 | undecided |"), "{table}");
+        assert!(table.contains("| 2.25 to 2.75 | at most 2 | **FAIL** |"), "{table}");
+        let table = claim_table(&kept, "s");
+        assert!(table.contains("x: 2.5 (at most 2; undecided)<br>x: 2.5 (at most 2) |"), "{table}");
     }
 
     #[test]
