@@ -108,8 +108,13 @@ const REASONS: &[(&str, &str, &str)] = &[
     ),
     (
         "avalanche",
+        "avalanche, forward-euler, 0.01 s and 0.001 s: distance",
+        "with long contacts grains go 10.4 % farther, ten draws from 9.8 to 10.9, about a bar of 10 % that is ours",
+    ),
+    (
+        "avalanche",
         "avalanche, forward",
-        "the longer contact is the faster one as in the paper, but by more than the 1 m/s that it names, and denser, by 8 and 16 % in two versions; energy gained by forward differences is a part of it",
+        "the longer contact is the faster one as in the paper, but by more than the 1 m/s that it names, 3.6 in ten draws, and 14 % denser; energy gained by forward differences is a part of it",
     ),
     (
         "avalanche",
