@@ -13,8 +13,7 @@ use tsubu_verify::{CASES, Case, recorded};
 const PROMPT: u32 = 5;
 
 /// So do these: whole numbers that are checked for overflow make them several times as slow as in a release.
-const SLOWER_IN_TESTS: &[&str] =
-    &["convection", "fhp-channel", "gutt-haff-silo", "pull-off", "rise", "saltation-space"];
+const SLOWER_IN_TESTS: &[&str] = &["fhp-channel", "pull-off", "rise"];
 
 /// Cases against closed forms: a wrong law must show in a third of their claims at least. What is left holds for any constants:
 /// energy, rest, symmetry, and rates on which these constants have no say.

@@ -11,7 +11,7 @@ use tsubu_frame::{Existing, Summary};
 use tsubu_scene::Scene;
 
 impl Sweep<'_> {
-    /// The sweep on rank 0 of several, which [`Sweep::follow`] it until it is dropped.
+    /// The sweep on rank 0 of several; the others [`Sweep::follow`] it until it is dropped.
     #[must_use]
     pub fn on_ranks(mut self, communicator: Arc<dyn Communicator>) -> Self {
         self.communicator = Some(communicator);
