@@ -16,6 +16,10 @@ pub fn optional() -> Result<(), String> {
     }
     fmu::fmu(&[])?;
     mpi::mpi(&[])?;
-    cluster::cluster(&[])?;
-    python::python(&[])
+    // Two thirds of the time of clusters are waiting.
+    std::thread::scope(|scope| {
+        let clusters = scope.spawn(|| cluster::cluster(&[]));
+        python::python(&[])?;
+        clusters.join().unwrap_or_else(|_| Err("the runs over Slurm and Dask have panicked".to_owned()))
+    })
 }

@@ -1,6 +1,7 @@
 //! The report of a calibration: what is known of each key, what is not told apart, and what fresh runs gave.
 
 use tsubu_frame::Table;
+use tsubu_frame::csv::split_unit;
 
 use crate::figure::{Axis, Figure, Mark, Series, Style};
 use crate::page::{Block, Grid, Report, Tone};
@@ -41,7 +42,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     }
     let densities = densities(source, &keys, &posterior);
     let scattered = scattered(source, &posterior, &correlations);
-    let compared = compared(&measured);
+    let compared = [curve(source), compared(&measured)].concat();
     let runs = source.table("runs.csv");
     let mut remarks = source.note_blocks();
     remarks.extend(summary.iter().flat_map(|s| &s.warnings).map(|text| Block::Note(Tone::Warning, text.clone())));
@@ -158,6 +159,25 @@ fn scattered(source: &mut Source, posterior: &Table, correlations: &Table) -> Ve
         blocks.push(folded("All correlations", vec![shown(correlations)]));
     }
     blocks
+}
+
+/// A measured response curve, what is expected, and what fresh runs gave.
+fn curve(source: &mut Source) -> Vec<Block> {
+    let Some(table) = source.table("curve.csv").filter(|table| table.header.len() == 7) else { return Vec::new() };
+    let axis = |column: usize| Axis::from_header(&table.header[column]);
+    let names: Vec<&str> = table.header.iter().map(|header| split_unit(header).0).collect();
+    let column = |column: usize| table.numbers(names[column]).unwrap_or_default();
+    let frequency = column(0);
+    let along = |values: Vec<f64>| frequency.iter().copied().zip(values).collect::<Vec<_>>();
+    let band = column(4).into_iter().zip(column(5)).collect();
+    let uncertain = column(1).into_iter().zip(column(2));
+    let mut figure = Figure::new("", axis(0), axis(1))
+        .with(Series::line("expected (95 %)", along(column(3))).with_band(band))
+        .with(Series::line("fresh runs, mean", along(column(6))).styled(Style::Points));
+    let within = uncertain.map(|(value, uncertainty)| (value - uncertainty, value + uncertainty)).collect();
+    figure = figure.with(Series::line("measured", along(column(1))).styled(Style::Points).with_band(within));
+    let caption = "The measured response with its uncertainty, what is expected of the values that were found, and what fresh runs with them gave.";
+    source.figure("curve", &figure, caption).into_iter().collect()
 }
 
 fn compared(measured: &Table) -> Vec<Block> {

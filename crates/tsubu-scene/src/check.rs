@@ -205,11 +205,30 @@ fn calibrate(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
             );
         }
     }
-    if wanted.get("measured").and_then(toml::Value::as_array).is_some_and(Vec::is_empty) {
+    let asked = parts.root.find(&["calibrate", "curve"]).is_some();
+    if !asked && wanted.get("measured").and_then(toml::Value::as_array).is_some_and(Vec::is_empty) {
         complaints.push(
             Complaint::new("nothing is measured that values could fit")
                 .at(&parts.root.locate(&["calibrate", "measured"]), "the list is empty")
-                .hint("add [[calibrate.measured]] with `result`, `value` and `uncertainty`"),
+                .hint("add [[calibrate.measured]] with `result`, `value` and `uncertainty`")
+                .hint("or [calibrate.curve] with the file of a measured response"),
+        );
+    }
+    let response = parts.resolved.get("response");
+    let place = parts.root.locate(&["calibrate", "curve"]);
+    if asked && response.is_none() {
+        complaints.push(
+            Complaint::new("a response curve was measured, and the scene has no `[response]`")
+                .at(&place, "asked for here")
+                .hint("add [response] with frequency-ratio = [1]: those of the curve take its place"),
+        );
+    }
+    let path = response.and_then(|response| response.get("path")).and_then(toml::Value::as_str);
+    if asked && path == Some("up-and-down") {
+        complaints.push(
+            Complaint::new("one curve was measured, and the response has two, up and down")
+                .at(&parts.root.locate(&["response", "path"]), "which of both was measured?")
+                .hint("path = \"up\", or \"down\""),
         );
     }
 }

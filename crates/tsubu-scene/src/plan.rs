@@ -49,7 +49,10 @@ pub use polyhedron::{Polyhedron, PolyhedronFace};
 pub use region::{Ball, Cylinder, Region};
 pub use sites::{GuttHaff, Heap, Savage, Split, Voids};
 pub use stage::{Stage, Until};
-pub use study::{Atlas, Calibrate, Claim, Cost, Design, Envelope, Goal, Keep, Measured, Output, Path, Response, Sweep};
+pub use study::{
+    Atlas, Calibrate, Claim, Cost, Curve, Design, Envelope, Goal, Keep, Measured, Output, Path, Responded, Response,
+    Sweep,
+};
 pub use superellipsoid::Superellipsoid;
 pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall, box_of_planes};
 pub use watch::{Axis, Bed, BodyAxis, Face, Heading, Kernel, Measure, Quantity, Watch};

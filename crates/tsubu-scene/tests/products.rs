@@ -148,6 +148,12 @@ result = "peak"
 value = 0.01
 uncertainty = 0.001
 source = "a test"
+[calibrate.curve]
+quantity = "rms-displacement"
+frequency = ["5 Hz", 6]
+value = [1e-3, 2e-3]
+uncertainty = [1e-4, 1e-4]
+source = "a shaker"
 
 [sweep.vary]
 "contact.damping" = [{ quarter = {} }, { linear = { reference-speed = "2 m/s" } }]

@@ -191,13 +191,55 @@ static MEASURED: &[Key] = &[
     Key::new("source", Kind::Text, "Where it was measured").default("''"),
 ];
 
+static RESPONDED: &[Word] = &[
+    Word { name: "rms-displacement", about: "Root mean square of the displacement, mean removed [m]" },
+    Word { name: "peak-displacement", about: "Largest displacement from the mean [m]" },
+    Word { name: "acceleration", about: "Amplitude of the acceleration at the driving frequency [m/s^2]" },
+    Word {
+        name: "transmissibility",
+        about: "Amplitude of the displacement over that of the base [-]; of a force, of the force on the base over it",
+    },
+    Word { name: "base-force", about: "Amplitude of the force on the base [N]" },
+    Word { name: "apparent-mass", about: "The mass that the grains add [kg]" },
+    Word { name: "loss-per-cycle", about: "Energy lost per cycle [J]" },
+];
+
+static CURVE: &[Key] = &[
+    Key::new(
+        "file",
+        Kind::Text,
+        "CSV file beside the scene with three columns, `frequency`, what was measured, and its `uncertainty`; the header tells what and in which units: `frequency [Hz], rms displacement [mm], uncertainty [mm]`",
+    )
+    .optional()
+    .rivals(&["quantity", "frequency", "value", "uncertainty"]),
+    Key::new("quantity", Kind::OneOf(RESPONDED), "What was measured at each frequency").derived("from `file`").rivals(&["file"]),
+    Key::new("frequency", Kind::Quantities(&FREQUENCY), "Frequencies, rising").above(0.0).derived("from `file`").rivals(&["file"]),
+    Key::new("value", Kind::Quantities(&NUMBER), "What was measured there, in SI units").derived("from `file`").rivals(&["file"]),
+    Key::new("uncertainty", Kind::Quantities(&NUMBER), "Standard uncertainties, in SI units")
+        .above(0.0)
+        .derived("from `file`")
+        .rivals(&["file"]),
+    Key::new("source", Kind::Text, "Where it was measured").default("''"),
+];
+
 pub(super) static CALIBRATE: &[Key] = &[
     Key::new(
         "vary",
         Kind::Vary,
         "Scene keys with the least and the largest value of each; a range of a factor of 10 or more counts by its logarithm",
     ),
-    Key::new("measured", Kind::Many(MEASURED), "What a run of the scene should give"),
+    Key::new(
+        "measured",
+        Kind::Many(MEASURED),
+        "What a run of the scene should give; with a `curve`, what its response should",
+    )
+    .default("[]"),
+    Key::new(
+        "curve",
+        Kind::Table(CURVE),
+        "A measured response curve: each run is then a response at its frequencies, as `[response]` says, without what that varies",
+    )
+    .optional(),
     Key::new("runs", Kind::Whole, "Runs, at most, beside those that check what was found")
         .default("100")
         .at_least(8.0)

@@ -1,5 +1,6 @@
 //! Studies, what is written, and what is claimed.
 
+use crate::units::{ACCELERATION, Dimension, ENERGY, FORCE, LENGTH, MASS, NUMBER};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -200,8 +201,11 @@ pub enum Goal {
 pub struct Calibrate {
     /// Scene keys with the least and the largest value of each.
     pub vary: BTreeMap<String, Vec<toml::Value>>,
-    /// What a run of the scene should give.
+    /// What a run of the scene should give; with a curve, what its response should.
     pub measured: Vec<Measured>,
+    /// A measured response curve.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub curve: Option<Curve>,
     /// Runs, at most, beside the checks.
     pub runs: u32,
     /// How near the results must be known, over the uncertainties of what was measured [-].
@@ -222,6 +226,90 @@ pub struct Measured {
     pub uncertainty: f64,
     /// Where it was measured.
     pub source: String,
+}
+
+/// A measured response curve.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Curve {
+    /// What was measured.
+    pub quantity: Responded,
+    /// Where [Hz], rising.
+    pub frequency: Vec<f64>,
+    /// What it was there, in SI units.
+    pub value: Vec<f64>,
+    /// Its standard uncertainties.
+    pub uncertainty: Vec<f64>,
+    /// Where it was measured.
+    pub source: String,
+}
+
+/// What a response tells at every frequency.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Responded {
+    /// Root mean square of the displacement, mean removed.
+    RmsDisplacement,
+    /// Largest displacement from the mean.
+    PeakDisplacement,
+    /// Amplitude of the acceleration at the driving frequency.
+    Acceleration,
+    /// That of the displacement over that of the base; of a force, of the force on the base over it.
+    Transmissibility,
+    /// Amplitude of the force on the base.
+    BaseForce,
+    /// The mass that the grains add.
+    ApparentMass,
+    /// Energy lost per cycle.
+    LossPerCycle,
+}
+
+impl Responded {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::RmsDisplacement,
+        Self::PeakDisplacement,
+        Self::Acceleration,
+        Self::Transmissibility,
+        Self::BaseForce,
+        Self::ApparentMass,
+        Self::LossPerCycle,
+    ];
+
+    /// The word of a scene.
+    pub fn name(self) -> String {
+        self.column().replace(' ', "-")
+    }
+
+    /// The column of `response.csv`, without its unit.
+    pub fn column(self) -> &'static str {
+        match self {
+            Self::RmsDisplacement => "rms displacement",
+            Self::PeakDisplacement => "peak displacement",
+            Self::Acceleration => "acceleration",
+            Self::Transmissibility => "transmissibility",
+            Self::BaseForce => "base force",
+            Self::ApparentMass => "apparent mass",
+            Self::LossPerCycle => "loss per cycle",
+        }
+    }
+
+    /// What its numbers measure.
+    pub(crate) fn dimension(self) -> &'static Dimension {
+        match self {
+            Self::RmsDisplacement | Self::PeakDisplacement => &LENGTH,
+            Self::Acceleration => &ACCELERATION,
+            Self::Transmissibility => &NUMBER,
+            Self::BaseForce => &FORCE,
+            Self::ApparentMass => &MASS,
+            Self::LossPerCycle => &ENERGY,
+        }
+    }
+
+    /// Its SI unit, `-` for none.
+    pub fn unit(self) -> &'static str {
+        Some(self.dimension().si).filter(|unit| !unit.is_empty()).unwrap_or("-")
+    }
 }
 
 /// A parameter sweep: every combination of the values is a run.

@@ -1,5 +1,6 @@
 //! Values that follow from others: masses from densities, counts from positions, tables from files.
 
+mod curve;
 mod films;
 mod grains;
 mod hosts;
@@ -53,6 +54,7 @@ pub(crate) fn derive(
     derive.host_of_study(resolved, "response", "a response needs a host to respond");
     derive.host_of_study(resolved, "atlas", "an atlas needs a host whose walls are shaken");
     derive.response(resolved);
+    derive.curve(resolved);
     derive.complaints
 }
 
@@ -135,6 +137,14 @@ impl Derive<'_> {
             ),
         }
     }
+}
+
+fn list(numbers: Vec<f64>) -> Value {
+    Value::Array(numbers.into_iter().map(Value::Float).collect())
+}
+
+fn numbers(table: &toml::Table, key: &str) -> Option<Vec<f64>> {
+    table.get(key)?.as_array().map(|list| list.iter().filter_map(Value::as_float).collect())
 }
 
 /// The names of all hosts.

@@ -1,11 +1,11 @@
-//! Signals and spectra given as a table: a CSV file with two columns, of which the first rises.
+//! Signals, spectra and measured curves given as a table: a CSV file of a few columns, of which the first rises.
 
 use crate::complaint::{Complaint, Place};
 use crate::header::{self, Header};
 use crate::lines::{Cell, Line, MOST_COMPLAINTS, lines};
 use crate::units::{Dimension, FREQUENCY, Scale, TIME};
 
-/// What stands in the first column, and what the second is called beside it.
+/// What stands in the first column, and what the others are called beside it.
 pub(super) struct Axis {
     table: &'static str,
     name: &'static str,
@@ -26,27 +26,34 @@ pub(super) static OF_FREQUENCY: Axis = Axis {
     dimension: &FREQUENCY,
 };
 
-/// The two columns of such a table.
-#[derive(Debug, Default, PartialEq)]
-pub(super) struct Columns {
-    pub axis: Vec<f64>,
-    pub value: Vec<f64>,
-}
+/// A measured response: a value at each frequency, and how well it is known.
+pub(super) static OF_RESPONSE: Axis = Axis {
+    table: "a measured response curve",
+    name: "frequency",
+    short: "f",
+    beside: "what was measured, and its uncertainty",
+    dimension: &FREQUENCY,
+};
 
-/// Reads a CSV text that is the given source. A header line may give units: `time [ms], displacement [mm]`.
-pub(super) fn read(text: &str, source: usize, axis: &Axis, value: &Dimension) -> Result<Columns, Vec<Complaint>> {
-    let mut columns = Columns::default();
+/// Reads a CSV text that is the given source: its columns, of which those behind the first measure `values`. A header line may give units:
+/// `time [ms], displacement [mm]`.
+pub(super) fn read(
+    text: &str,
+    source: usize,
+    axis: &Axis,
+    values: &[&Dimension],
+) -> Result<Vec<Vec<f64>>, Vec<Complaint>> {
+    let dimensions: Vec<&Dimension> = [axis.dimension].into_iter().chain(values.iter().copied()).collect();
+    let mut columns: Vec<Vec<f64>> = vec![Vec::new(); dimensions.len()];
     let mut complaints = Vec::new();
     let mut comment = None;
-    let mut layout: Option<(Option<char>, [Scale; 2])> = None;
+    let mut layout: Option<(Option<char>, Vec<Scale>)> = None;
     for line in lines(text).filter(|line| !line.text.is_empty()) {
         if line.text.starts_with('#') {
             comment = Some(line);
             continue;
         }
-        let (separator, scales) = if let Some(known) = layout {
-            known
-        } else {
+        if layout.is_none() {
             let separator = line.separator();
             let cells = header::cells(&line, separator);
             let hidden = comment.take().and_then(|comment| header::commented_out(&comment, &cells, source));
@@ -54,24 +61,25 @@ pub(super) fn read(text: &str, source: usize, axis: &Axis, value: &Dimension) ->
                 return Err(vec![complaint]);
             }
             let named = !cells.is_empty() && cells.iter().all(|cell| header::is_name(cell.text));
-            let scales = if named { header_scales(&line, &cells, source, axis, value) } else { Ok([Scale::SI; 2]) };
-            match scales {
-                Ok(scales) => layout = Some((separator, scales)),
-                Err(wrong) => return Err(wrong),
-            }
+            let scales = if named {
+                header_scales(&line, &cells, source, axis, &dimensions)?
+            } else {
+                vec![Scale::SI; dimensions.len()]
+            };
+            layout = Some((separator, scales));
             if named {
                 continue;
             }
-            (separator, [Scale::SI; 2])
-        };
-        match row(&line, separator, scales, source, [axis.dimension, value], axis) {
-            Ok(([x, value], place)) => {
-                if let Some(last) = columns.axis.last().filter(|last| **last >= x) {
+        }
+        let Some((separator, scales)) = &layout else { continue };
+        match row(&line, *separator, scales, source, &dimensions, axis) {
+            Ok((numbers, place)) => {
+                let x = numbers[0];
+                if let Some(last) = columns[0].last().filter(|last| **last >= x) {
                     complaints
                         .push(axis.falls(x, *last).at(&place, format!("must be {} than the line before", axis.more())));
                 } else {
-                    columns.axis.push(x);
-                    columns.value.push(value);
+                    columns.iter_mut().zip(numbers).for_each(|(column, number)| column.push(number));
                 }
             }
             Err(wrong) => complaints.extend(wrong),
@@ -80,7 +88,7 @@ pub(super) fn read(text: &str, source: usize, axis: &Axis, value: &Dimension) ->
             break;
         }
     }
-    if complaints.is_empty() && columns.axis.is_empty() {
+    if complaints.is_empty() && columns[0].is_empty() {
         complaints
             .push(Complaint::new("the table has no rows").at(&Place::new(source, 0..0), "no numbers in this file"));
     }
@@ -104,7 +112,8 @@ impl Axis {
     }
 
     fn columns(&self) -> String {
-        format!("{} and {}", self.name, self.beside)
+        let and = if self.beside.contains(" and ") { ", " } else { " and " };
+        format!("{}{and}{}", self.name, self.beside)
     }
 }
 
@@ -114,11 +123,11 @@ fn header_scales(
     cells: &[Cell<'_>],
     source: usize,
     axis: &Axis,
-    value: &Dimension,
-) -> Result<[Scale; 2], Vec<Complaint>> {
-    let headers =
-        two(line, cells, source, axis).map_err(|complaint| vec![complaint])?.map(|cell| Header::read(cell, source));
-    if let [Ok(first), Ok(second)] = &headers
+    dimensions: &[&Dimension],
+) -> Result<Vec<Scale>, Vec<Complaint>> {
+    counted(line, cells, source, axis, dimensions.len())?;
+    let headers: Vec<_> = cells.iter().map(|cell| Header::read(*cell, source)).collect();
+    if let [Ok(first), Ok(second), ..] = &headers[..]
         && !axis.is(first)
         && axis.is(second)
     {
@@ -128,40 +137,51 @@ fn header_scales(
                 .hint(format!("the columns of {} are {}, in this order", axis.table, axis.columns())),
         ]);
     }
-    let [first, values] = headers;
-    let scales = [
-        first.and_then(|header| header.scale(source, axis.dimension)),
-        values.and_then(|header| header.scale(source, value)),
-    ];
-    match scales {
-        [Ok(first), Ok(value)] => Ok([first, value]),
-        wrong => Err(wrong.into_iter().filter_map(Result::err).collect()),
+    all(headers.into_iter().zip(dimensions).map(|(header, dimension)| header?.scale(source, dimension)))
+}
+
+/// All that was found, or all that is wrong.
+fn all<T>(found: impl Iterator<Item = Result<T, Complaint>>) -> Result<Vec<T>, Vec<Complaint>> {
+    let (mut right, mut wrong) = (Vec::new(), Vec::new());
+    for one in found {
+        match one {
+            Ok(one) => right.push(one),
+            Err(complaint) => wrong.push(complaint),
+        }
     }
+    if wrong.is_empty() { Ok(right) } else { Err(wrong) }
 }
 
-fn two<'a>(line: &Line<'_>, cells: &[Cell<'a>], source: usize, axis: &Axis) -> Result<[Cell<'a>; 2], Complaint> {
-    <[Cell<'a>; 2]>::try_from(cells).map_err(|_| {
-        Complaint::new(format!("{} has two columns, {}", axis.table, axis.columns()))
-            .at(&line.place(source), format!("{} cells in this line", cells.len()))
-    })
+/// A line has a cell for each column.
+fn counted(
+    line: &Line<'_>,
+    cells: &[Cell<'_>],
+    source: usize,
+    axis: &Axis,
+    columns: usize,
+) -> Result<(), Vec<Complaint>> {
+    if cells.len() == columns {
+        return Ok(());
+    }
+    let number = if columns == 2 { "two" } else { "three" };
+    let wrong = Complaint::new(format!("{} has {number} columns, {}", axis.table, axis.columns()));
+    Err(vec![wrong.at(&line.place(source), format!("{} cells in this line", cells.len()))])
 }
 
-/// Both numbers of a row, and where the first stands.
+/// The numbers of a row, and where the first stands.
 fn row(
     line: &Line<'_>,
     separator: Option<char>,
-    scales: [Scale; 2],
+    scales: &[Scale],
     source: usize,
-    dimensions: [&Dimension; 2],
+    dimensions: &[&Dimension],
     axis: &Axis,
-) -> Result<([f64; 2], Place), Vec<Complaint>> {
+) -> Result<(Vec<f64>, Place), Vec<Complaint>> {
     let cells: Vec<Cell<'_>> = line.cells(separator).collect();
-    let cells = two(line, &cells, source, axis).map_err(|complaint| vec![complaint])?;
-    let numbers = [0, 1].map(|k| number(&cells[k], scales[k], source, dimensions[k]));
-    match numbers {
-        [Ok(first), Ok(value)] => Ok(([first, value], cells[0].place(source))),
-        wrong => Err(wrong.into_iter().filter_map(Result::err).collect()),
-    }
+    counted(line, &cells, source, axis, dimensions.len())?;
+    let numbers = cells.iter().zip(scales).zip(dimensions);
+    let numbers = all(numbers.map(|((cell, scale), dimension)| number(cell, *scale, source, dimension)))?;
+    Ok((numbers, cells[0].place(source)))
 }
 
 fn number(cell: &Cell<'_>, scale: Scale, source: usize, dimension: &Dimension) -> Result<f64, Complaint> {

@@ -8,6 +8,7 @@
 mod apart;
 #[cfg(test)]
 mod coverage;
+mod curve;
 mod posterior;
 mod write;
 
@@ -29,11 +30,12 @@ use tsubu_frame::{Existing, FileError, ResultValue, RunFolder, Status, Summary};
 use tsubu_scene::{Scene, nearest, plan};
 
 /// What a calibration writes beside its scene.
-const FILES: [&str; 9] = [
+const FILES: [&str; 10] = [
     "posterior.csv",
     "parameters.csv",
     "correlations.csv",
     "measured.csv",
+    "curve.csv",
     "runs.csv",
     "best.toml",
     "check.txt",
@@ -91,6 +93,8 @@ struct Task<'a> {
     scene: &'a Scene,
     wanted: plan::Calibrate,
     ranges: Vec<Range>,
+    /// What was measured, the points of a curve among it.
+    measured: Vec<plan::Measured>,
 }
 
 impl<'a> Task<'a> {
@@ -102,7 +106,28 @@ impl<'a> Task<'a> {
             )
         })?;
         let ranges = Range::all("calibrate", &wanted.vary).map_err(CasesError::Scene)?;
-        Ok(Self { scene, wanted, ranges })
+        let mut measured = wanted.measured.clone();
+        measured.extend(wanted.curve.iter().flat_map(curve::measured));
+        Ok(Self { scene, wanted, ranges, measured })
+    }
+
+    /// What a run is made of: a place, and a seed of its own.
+    fn case(&self, place: &Case, run: usize) -> Result<Case, CasesError> {
+        let seed = self.seed().wrapping_add(run as u64) & i64::MAX as u64;
+        let mut case = place.clone();
+        case.values.push(("seed".to_owned(), (seed as i64).into()));
+        if let Some(curve) = &self.wanted.curve {
+            curve::at_its_frequencies(&mut case, self.scene, curve)?;
+        }
+        Ok(case)
+    }
+
+    /// Makes a run in its folder.
+    fn make(&self, case: &Case, folder: &Path, watcher: &Watcher) -> Result<Summary, CasesError> {
+        match &self.wanted.curve {
+            Some(_) => curve::one(self.scene, case, folder, watcher),
+            None => sweep::one(self.scene, case, folder, watcher),
+        }
     }
 
     fn seed(&self) -> u64 {
@@ -116,7 +141,7 @@ impl<'a> Task<'a> {
             let variance = measured.uncertainty.powi(2) + deviation.powi(2);
             -0.5 * ((measured.value - guess).powi(2) / variance + variance.ln())
         };
-        fits.iter().zip(&self.wanted.measured).map(of_one).sum()
+        fits.iter().zip(&self.measured).map(of_one).sum()
     }
 }
 
@@ -218,27 +243,28 @@ impl Work<'_> {
                 return Ok(None);
             }
             let (case, place) = Range::case(&task.ranges, place);
-            let seed = task.seed().wrapping_add((before + index) as u64) & i64::MAX as u64;
-            let mut seeded = case.clone();
-            seeded.values.push(("seed".to_owned(), (seed as i64).into()));
+            let seeded = task.case(&case, before + index)?;
             let at = self.runs.join(numbered(before + index));
             let kept = || sweep::kept(task.scene, &seeded, &at);
-            let summary = match only.map(|only| Ok::<_, CasesError>((only, kept()?))).transpose()? {
+            let mut summary = match only.map(|only| Ok::<_, CasesError>((only, kept()?))).transpose()? {
                 Some((_, Some(summary))) if summary.status != Status::Interrupted => summary,
                 Some((only, _)) => {
                     asked.lock().unwrap_or_else(PoisonError::into_inner).push(before + index);
                     if only == Some(before + index) {
-                        sweep::one(task.scene, &seeded, &at, watcher)?;
+                        task.make(&seeded, &at, watcher)?;
                     }
                     return Ok(None);
                 }
-                None => sweep::one(task.scene, &seeded, &at, watcher)?,
+                None => task.make(&seeded, &at, watcher)?,
             };
+            if let (Some(curve), Status::Finished) = (&task.wanted.curve, summary.status) {
+                curve::tell(curve, &at, &mut summary)?;
+            }
             let result = |measured: &plan::Measured| match summary.results.get(&measured.result) {
                 Some(ResultValue::Number(value)) if summary.status == Status::Finished => *value,
                 _ => f64::NAN,
             };
-            let results = task.wanted.measured.iter().map(result).collect();
+            let results = task.measured.iter().map(result).collect();
             (watcher.progress)((counter.fetch_add(1, Ordering::Relaxed) + 1) as f64 / all);
             Ok(Some(Ran { case, place, purpose, results, summary }))
         };
@@ -262,7 +288,7 @@ impl Work<'_> {
             Surrogate::fit(&places, &values)
                 .ok_or_else(|| CasesError::Scene(self.missing(&measured.result, values.len())))
         };
-        self.task.wanted.measured.iter().enumerate().map(of_one).collect()
+        self.task.measured.iter().enumerate().map(of_one).collect()
     }
 
     /// Why a result cannot be fitted.
@@ -290,7 +316,7 @@ impl Task<'_> {
             let squares: Vec<f64> = samples.par_iter().map(|place| fit.at(place)[1].powi(2)).collect();
             (squares.iter().sum::<f64>() / samples.len() as f64).sqrt() / measured.uncertainty
         };
-        fits.iter().zip(&self.wanted.measured).map(of_one).collect()
+        fits.iter().zip(&self.measured).map(of_one).collect()
     }
 
     /// The samples at which the results are known worst, each as if those before it had come out as guessed.
@@ -300,7 +326,7 @@ impl Task<'_> {
             let doubt = |place: &&Vec<f64>| -> f64 {
                 let of_one =
                     |(fit, measured): (&Surrogate, &plan::Measured)| (fit.at(place)[1] / measured.uncertainty).powi(2);
-                fits.iter().zip(&self.wanted.measured).map(of_one).sum()
+                fits.iter().zip(&self.measured).map(of_one).sum()
             };
             let all: Vec<(&Vec<f64>, f64)> =
                 samples.iter().step_by(THINNED).map(|place| (place, doubt(&place))).collect();

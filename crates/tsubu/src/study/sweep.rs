@@ -185,7 +185,7 @@ pub(super) fn kept(scene: &Scene, case: &Case, folder: &Path) -> Result<Option<S
 }
 
 /// Whether the folder is of this scene. What else is varied in the sweep is nothing to a case.
-fn is_of(scene: &Scene, folder: &Path) -> bool {
+pub(super) fn is_of(scene: &Scene, folder: &Path) -> bool {
     let alone = |text: &str| {
         let mut table: toml::Table = toml::from_str(text).ok()?;
         table.remove("sweep");
@@ -225,7 +225,7 @@ fn made(
 }
 
 /// What a case that went wrong has left; one whose grains would not settle has left nothing, and is written down here.
-fn failed(scene: &Scene, folder: &Path, fault: &str) -> Result<Summary, tsubu_frame::FileError> {
+pub(super) fn failed(scene: &Scene, folder: &Path, fault: &str) -> Result<Summary, tsubu_frame::FileError> {
     let left = Summary::read(&folder.join("summary.json")).ok();
     let of_this = |s: &Summary| s.status == Status::Failed && s.warnings.last().is_some_and(|last| last == fault);
     if let Some(summary) = left.filter(of_this) {

@@ -1,12 +1,18 @@
 //! Signals that are sums of sines: typed, or realised from a power spectral density.
 
-use super::table::{self, Columns, OF_FREQUENCY};
-use super::{Derive, join};
+use super::table::{self, OF_FREQUENCY};
+use super::{Derive, join, list, numbers};
 use crate::complaint::{Complaint, Source};
 use crate::resolve::spectrum::{Sines, Spectrum};
 use crate::units::{ACCELERATION_DENSITY, Dimension, FORCE, FORCE_DENSITY};
 use std::f64::consts::TAU;
 use toml::{Table, Value};
+
+/// A spectral density as a table gives it.
+struct Columns {
+    frequency: Vec<f64>,
+    density: Vec<f64>,
+}
 
 impl Derive<'_> {
     /// Replaces a random vibration by the sines that it is: of displacements by those whose acceleration has the density. It begins at 0.
@@ -21,7 +27,7 @@ impl Derive<'_> {
             _ => self.typed_spectrum(&random, &path),
         };
         let whole = |key: &str| random.get(key).and_then(Value::as_integer);
-        let (Some(Columns { axis: frequency, value: density }), Some(lines)) = (columns, whole("lines")) else {
+        let (Some(Columns { frequency, density }), Some(lines)) = (columns, whole("lines")) else {
             return;
         };
         let lines = u32::try_from(lines).unwrap_or_default();
@@ -51,11 +57,15 @@ impl Derive<'_> {
                 return None;
             }
         };
-        let wrong = match table::read(&text, self.sources.len(), &OF_FREQUENCY, dimension) {
-            Ok(columns) => match unfit(&columns) {
-                None => return Some(columns),
-                Some(what) => vec![Complaint::new(what)],
-            },
+        let wrong = match table::read(&text, self.sources.len(), &OF_FREQUENCY, &[dimension]) {
+            Ok(columns) => {
+                let [frequency, density] = columns.try_into().ok()?;
+                let columns = Columns { frequency, density };
+                match unfit(&columns) {
+                    None => return Some(columns),
+                    Some(what) => vec![Complaint::new(what)],
+                }
+            }
             Err(wrong) => {
                 self.sources.push(Source { name: file.to_string(), text, numbered: true });
                 wrong
@@ -78,20 +88,23 @@ impl Derive<'_> {
             }
             return None;
         }
-        let columns = Columns { axis: numbers(random, "frequency")?, value: numbers(random, "psd")? };
-        if columns.axis.len() != columns.value.len() {
+        let columns = Columns { frequency: numbers(random, "frequency")?, density: numbers(random, "psd")? };
+        if columns.frequency.len() != columns.density.len() {
             let place = self.root.locate(&[path, &["psd"]].concat());
             self.complain(
                 Complaint::new(format!("`{}` needs as many densities as frequencies", join(&path.join("."), "psd")))
-                    .at(&place, format!("{} densities for {} frequencies", columns.value.len(), columns.axis.len())),
+                    .at(
+                        &place,
+                        format!("{} densities for {} frequencies", columns.density.len(), columns.frequency.len()),
+                    ),
             );
             return None;
         }
-        if let Some(index) = columns.axis.windows(2).position(|pair| pair[0] >= pair[1]) {
+        if let Some(index) = columns.frequency.windows(2).position(|pair| pair[0] >= pair[1]) {
             let place = self.root.locate(&[path, &["frequency", &(index + 1).to_string()]].concat());
             self.complain(
                 OF_FREQUENCY
-                    .falls(columns.axis[index + 1], columns.axis[index])
+                    .falls(columns.frequency[index + 1], columns.frequency[index])
                     .at(&place, "must be higher than the one before"),
             );
             return None;
@@ -132,18 +145,10 @@ impl Derive<'_> {
 /// What is wrong with a spectrum whose frequencies rise.
 fn unfit(columns: &Columns) -> Option<&'static str> {
     let positive = |numbers: &[f64]| numbers.iter().all(|x| *x > 0.0);
-    match (columns.axis.len(), positive(&columns.axis), positive(&columns.value)) {
+    match (columns.frequency.len(), positive(&columns.frequency), positive(&columns.density)) {
         (0 | 1, ..) => Some("a spectral density needs two frequencies or more"),
         (_, false, _) => Some("a spectral density needs frequencies above 0"),
         (.., false) => Some("a spectral density that is straight in logarithms is above 0"),
         _ => None,
     }
-}
-
-fn list(numbers: Vec<f64>) -> Value {
-    Value::Array(numbers.into_iter().map(Value::Float).collect())
-}
-
-fn numbers(table: &Table, key: &str) -> Option<Vec<f64>> {
-    table.get(key)?.as_array().map(|list| list.iter().filter_map(Value::as_float).collect())
 }

@@ -1,7 +1,7 @@
 //! Signals given as tables: read from files, or typed.
 
 use super::table::OF_TIME;
-use super::{Derive, join, table, tables_in};
+use super::{Derive, join, list, table, tables_in};
 use crate::complaint::{Complaint, Source};
 use crate::units::{ANGLE, Dimension, FORCE, LENGTH};
 use std::f64::consts::TAU;
@@ -79,11 +79,11 @@ impl Derive<'_> {
             Ok(text) => text,
             Err(wrong) => return self.file_is_wrong(wrong, &path),
         };
-        match table::read(&text, self.sources.len(), &OF_TIME, dimension) {
+        match table::read(&text, self.sources.len(), &OF_TIME, &[dimension]) {
             Ok(columns) => {
-                let list = |numbers: Vec<f64>| Value::Array(numbers.into_iter().map(Value::Float).collect());
-                table.insert("time".into(), list(columns.axis));
-                table.insert("value".into(), list(columns.value));
+                for (key, column) in ["time", "value"].into_iter().zip(columns) {
+                    table.insert(key.into(), list(column));
+                }
             }
             Err(wrong) => {
                 self.sources.push(Source { name: file.to_string(), text, numbered: true });

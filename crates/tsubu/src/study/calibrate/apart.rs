@@ -3,7 +3,7 @@
 //! What a round asks for follows from the runs before, so whoever reads the folder comes to the same round. A run that failed counts as
 //! done: with its values it fails again.
 
-use super::{RUNS, Share, Task, Work, existing, numbered, open, write};
+use super::{RUNS, Share, Task, Work, curve, existing, numbered, open, write};
 use crate::interrupt::{Interrupt, Watcher};
 use crate::methods;
 use crate::partner::Hosts;
@@ -68,7 +68,8 @@ impl Apart for Runs<'_> {
 
     fn plans(&self) -> Result<Vec<(Plan, f64)>, CasesError> {
         let plan = self.scene.plan();
-        Ok(vec![(plan.clone(), plan.duration)])
+        let curve = self.task.wanted.curve.as_ref();
+        Ok(vec![(plan.clone(), curve.map_or(plan.duration, |curve| curve::seconds(plan, curve)))])
     }
 }
 

@@ -18,7 +18,7 @@ const END: f64 = 0.05;
 /// Half a 95 % interval of a normal distribution, over its standard deviation.
 const INTERVAL: f64 = 1.96;
 
-/// Writes `posterior.csv`, `parameters.csv`, `correlations.csv`, `measured.csv`, `runs.csv`, `best.toml`, `check.txt` and `summary.json`.
+/// Writes `posterior.csv`, `parameters.csv`, `correlations.csv`, `measured.csv`, `curve.csv`, `runs.csv`, `best.toml`, `check.txt` and `summary.json`.
 pub(super) fn write(
     folder: &RunFolder,
     work: &Work<'_>,
@@ -43,10 +43,12 @@ pub(super) fn write(
         if !correlations.is_empty() {
             folder.write("correlations.csv", pairs(work, &correlations).to_csv().as_bytes())?;
         }
-        let measured: Vec<Compared> =
-            (0..task.wanted.measured.len()).map(|index| Compared::new(work, found, index)).collect();
+        let measured: Vec<Compared> = (0..task.measured.len()).map(|index| Compared::new(work, found, index)).collect();
         folder.write("posterior.csv", posterior(work, found, &measured).to_csv().as_bytes())?;
         folder.write("measured.csv", compared(&measured).to_csv().as_bytes())?;
+        if let Some(of) = &task.wanted.curve {
+            folder.write("curve.csv", curve(of, &measured).to_csv().as_bytes())?;
+        }
         let (case, _) = Range::case(&task.ranges, &found.samples[found.best]);
         if let Ok(best) = case.scene(task.scene) {
             folder.write_editable("best.toml", best.resolved_toml().as_bytes())?;
@@ -148,7 +150,7 @@ struct Compared<'a> {
 
 impl<'a> Compared<'a> {
     fn new(work: &Work<'a>, found: &Found, index: usize) -> Self {
-        let measured = &work.task.wanted.measured[index];
+        let measured = &work.task.measured[index];
         let fit = &found.fits[index];
         let guesses: Vec<f64> = found.samples.iter().map(|place| fit.at(place)[0]).collect();
         let checks = work.ran.iter().filter(|ran| ran.purpose == Purpose::Check && ran.results[index].is_finite());
@@ -234,7 +236,7 @@ fn failures(work: &Work<'_>, summary: &mut Summary) {
         let why = ran.summary.warnings.last().map_or("", String::as_str);
         summary.warnings.push(format!("run `{}` failed and is left out: {why}", ran.case.name));
     }
-    for (index, measured) in work.task.wanted.measured.iter().enumerate() {
+    for (index, measured) in work.task.measured.iter().enumerate() {
         let none = |ran: &&Ran| ran.summary.status == Status::Finished && ran.results[index].is_nan();
         let number = work.ran.iter().filter(none).count();
         if number > 0 {
@@ -309,6 +311,22 @@ fn compared(measured: &[Compared<'_>]) -> Table {
     table
 }
 
+/// A measured response curve beside what the samples are guessed to give, 95 % of them, and what fresh runs gave; its points are the last of
+/// what was measured.
+fn curve(of: &plan::Curve, measured: &[Compared<'_>]) -> Table {
+    let (what, unit) = (of.quantity.column(), of.quantity.unit());
+    let columns = ["", " uncertainty", " expected", " expected low", " expected high", " of fresh runs"];
+    let header = columns.map(|column| format!("{what}{column} [{unit}]"));
+    let mut table = Table::new(["frequency [Hz]".to_owned()].into_iter().chain(header));
+    for (frequency, one) in of.frequency.iter().zip(&measured[measured.len() - of.frequency.len()..]) {
+        let plan::Measured { value, uncertainty, .. } = one.measured;
+        let [mean, deviation] = one.guessed;
+        let ends = [mean - INTERVAL * deviation, mean + INTERVAL * deviation];
+        table.push([*frequency, *value, *uncertainty, mean, ends[0], ends[1], one.checked].map(Cell::Number));
+    }
+    table
+}
+
 /// A row for every run, in the order in which they were.
 fn runs(work: &Work<'_>) -> Table {
     let task = work.task;
@@ -317,8 +335,7 @@ fn runs(work: &Work<'_>) -> Table {
         let known = work.ran.iter().find(|ran| ran.summary.results.get(result).is_some());
         known.map_or("-", |ran| ran.summary.unit(result)).to_owned()
     };
-    let results =
-        task.wanted.measured.iter().map(|measured| format!("{} [{}]", measured.result, unit(&measured.result)));
+    let results = task.measured.iter().map(|measured| format!("{} [{}]", measured.result, unit(&measured.result)));
     let header = ["run [-]".to_owned(), "purpose [text]".to_owned()].into_iter().chain(keys);
     let mut table = Table::new(header.chain(results).chain(["status [text]".to_owned()]));
     for (index, ran) in work.ran.iter().enumerate() {
