@@ -11,14 +11,17 @@ pub fn cluster(arguments: &[&str]) -> Result<(), String> {
     }
     let tests = root().join("crates/tsubu-cli/tests/cluster");
     let requirements = tests.join("requirements.txt");
-    let Some(python) = environment(&root().join("target/cluster-test"), &["-r", &requirements.to_string_lossy()])
-    else {
+    let home = root().join("target/cluster-test");
+    let Some(python) = environment(&home, &["-r", &requirements.to_string_lossy()]) else {
         return skipped("Dask cannot be installed: is there a network?");
     };
     let mut test = command(&python.to_string_lossy(), &["-m", "pytest", "--quiet", "-rs", "-p", "no:cacheprovider"]);
     // Without MPI the test of runs on several ranks says that it is skipped.
     let features: &[&str] = if mpi::missing().is_empty() { &mpi::FEATURES } else { &[] };
-    test.env("TSUBU", program_with("tsubu", features)?).args(arguments).arg(tests);
+    // Other tests that run beside these build the program anew.
+    let own = home.join("tsubu");
+    std::fs::copy(program_with("tsubu", features)?, &own).map_err(|error| format!("{}: {error}", own.display()))?;
+    test.env("TSUBU", own).args(arguments).arg(tests);
     run(test)
 }
 

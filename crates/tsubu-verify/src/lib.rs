@@ -49,6 +49,7 @@ mod reasons;
 mod recorded;
 mod registry;
 mod rheology;
+mod rock_core;
 mod rods;
 mod rolling;
 mod sediment_2004;

@@ -5,8 +5,8 @@ use crate::{
     apparent_mass, bedload, brazil_nut, carried, chung_ooi_2011, chute, cl_ca_2001, cohesion, common_test, contact,
     cooling, damper_2003, drop, drum, drum_regimes, expansion, film, gdr_midi_2004, held, host, impact_damper,
     lattice_grain, lattice_review, lump, open_dem_benchmark, order, orifice, outlet, packing, pile_stress, pile_twin,
-    plastic, prediction, random_loads, rheology, rods, rolling, sediment_2004, shapes, sieving, silo, spin_in_water,
-    stack, triaxial, twisting, voids, water, window,
+    plastic, prediction, random_loads, rheology, rock_core, rods, rolling, sediment_2004, shapes, sieving, silo,
+    spin_in_water, stack, triaxial, twisting, voids, water, window,
 };
 
 /// All cases, in the order they are listed and run.
@@ -50,6 +50,7 @@ pub static CASES: &[Case] = &[
         "frictionless ellipsoids lie denser than spheres",
         packing::ellipsoids,
     ),
+    case("rock-core", "dem-benchmarks", 900, "a core whose bonds have scattered strengths", rock_core::core),
     case("rods", "dem-benchmarks", 200, "a gas of smooth rods shares its energy and cools", rods::cool),
     case("q-model", "dem-benchmarks", 5, "random loads on a lattice", random_loads::q_model),
     case("rebound-on-steel", "open-dem-benchmark", 1, "rebound at 0.4 m/s", open_dem_benchmark::rebound),

@@ -28,6 +28,7 @@ use crate::view;
 pub(super) use body::Body;
 use body::{Felt, TOGETHER};
 use glam::{DQuat, DVec3};
+use multiversion::multiversion;
 
 /// A sphere of a body, or one that is none.
 #[derive(Clone, Copy, Debug)]
@@ -277,22 +278,14 @@ impl Bodies {
     /// centre of mass (Goldsmith 1960). So what was asked for comes back from an impact anywhere on a body.
     /// Only to the rows that are `asked` for.
     pub fn show_mass(&self, batch: &mut ContactBatch, list: &BlockList, wall: bool, asked: impl Fn(usize) -> bool) {
-        if self.is_empty() {
-            return;
-        }
-        for r in (0..batch.chunk.rows()).filter(|r| asked(*r)) {
-            let normal = Chunk::vector(&batch.chunk.normal, r);
-            let mut more = self.turning(list.first + batch.first[r] as usize, batch.shift(0, r), normal);
-            if !wall {
-                more += self.turning(list.grain_at[batch.second[r] as usize] as usize, batch.shift(1, r), normal);
-            }
-            if more > 0.0 {
-                batch.chunk.effective_mass[r] = 1.0 / (1.0 / batch.chunk.effective_mass[r] + more);
-            }
+        if !self.is_empty() && !self.locked {
+            show_mass(self, batch, list, wall, &asked);
         }
     }
 
     /// How much a body gives way by turning, to a push along a normal on a piece of it, or on what is `shift` [m] beside that [1/kg].
+    #[expect(clippy::inline_always, reason = "a call inside a row would end the wide code of its loop")]
+    #[inline(always)]
     pub fn turning(&self, i: usize, shift: DVec3, normal: DVec3) -> f64 {
         let piece = &self.sorted[i];
         let Some(body) = self.list.get(piece.body as usize).filter(|_| !self.locked) else { return 0.0 };
@@ -368,4 +361,18 @@ pub(super) struct Block<'a> {
     pub spin: &'a mut [DVec3],
     pub unwrap_offset: &'a [DVec3],
     pub reference: &'a [DVec3],
+}
+
+#[multiversion(targets = "simd")]
+fn show_mass(bodies: &Bodies, batch: &mut ContactBatch, list: &BlockList, wall: bool, asked: &dyn Fn(usize) -> bool) {
+    for r in (0..batch.chunk.rows()).filter(|r| asked(*r)) {
+        let normal = Chunk::vector(&batch.chunk.normal, r);
+        let mut more = bodies.turning(list.first + batch.first[r] as usize, batch.shift(0, r), normal);
+        if !wall {
+            more += bodies.turning(list.grain_at[batch.second[r] as usize] as usize, batch.shift(1, r), normal);
+        }
+        if more > 0.0 {
+            batch.chunk.effective_mass[r] = 1.0 / (1.0 / batch.chunk.effective_mass[r] + more);
+        }
+    }
 }

@@ -117,7 +117,7 @@ impl Body {
     }
 
     /// From the centre of mass to that of a piece [m].
-    #[inline]
+    #[inline(always)]
     pub(super) fn arm(&self, piece: &Piece, plane: bool) -> DVec3 {
         let mut arm = self.axes * piece.offset;
         if plane {

@@ -1,6 +1,6 @@
-//! Bodies a second in a bed of 10,000 cubes that has settled, on one thread.
+//! Bodies a second, and their pieces, in a bed that has settled, on one thread: `cubes`, `clumps`, `ellipsoids` or `spheres` of `benches/race`.
 //!
-//! `cargo bench -p tsubu --bench cubes -- [FOLDER] [STEPS]`
+//! `cargo bench -p tsubu --bench bodies -- NAME [FOLDER] [STEPS]`
 //!
 //! The bed settles first, which takes minutes; with a folder its state is kept there, and taken from there the next time. Steps are timed in lots of `STEPS` by the time that the
 //! thread has had, where the system tells it: others on the machine then count for little. The median of the lots is told, with the slowest and the fastest.
@@ -15,22 +15,27 @@ use tsubu::threads::alone;
 use tsubu_frame::State;
 use tsubu_frame::checkpoint;
 use tsubu_scene::Scene;
+use tsubu_scene::plan::GrainShape;
 
-const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../benches/race/cubes.toml");
+const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../benches/race");
 /// Lots that are timed.
 const LOTS: usize = 9;
 
 fn main() {
     // Cargo adds `--bench`.
     let words: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
-    let folder = words.first().map(Path::new);
-    let steps = words.get(1).map_or(500, |word| word.parse().unwrap_or_else(|e| panic!("{word}: {e}")));
+    let Some(name) = words.first() else {
+        println!("say which: cubes, clumps, ellipsoids or spheres");
+        return;
+    };
+    let folder = words.get(1).map(Path::new);
+    let steps = words.get(2).map_or(500, |word| word.parse().unwrap_or_else(|e| panic!("{word}: {e}")));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap_or_else(|e| panic!("{e}"));
-    pool.install(|| alone(|| cubes(folder, steps)));
+    pool.install(|| alone(|| bed(name, folder, steps)));
 }
 
-fn cubes(folder: Option<&Path>, steps: u64) {
-    let scene = Scene::read(Path::new(SCENE), &[]).unwrap_or_else(|c| panic!("{c}"));
+fn bed(name: &str, folder: Option<&Path>, steps: u64) {
+    let scene = Scene::read(&Path::new(SCENES).join(format!("{name}.toml")), &[]).unwrap_or_else(|c| panic!("{c}"));
     let mut hosts = Hosts::new(&scene.plan().hosts);
     let mut engine = methods::open(scene.plan(), &hosts).unwrap_or_else(|e| panic!("{e}"));
     let begun = seconds();
@@ -57,8 +62,14 @@ fn cubes(folder: Option<&Path>, steps: u64) {
         .collect();
     rates.sort_by(f64::total_cmp);
     let kinetic = engine.grain_energies().kinetic;
-    println!("{} cubes, {} contacts, kinetic energy {kinetic:.2e} J", engine.grains(), engine.contacts());
-    println!("{:.3} million body-steps a second ({:.3} to {:.3})", rates[LOTS / 2], rates[0], rates[LOTS - 1]);
+    let (pieces, contacts) = (engine.grains(), engine.contacts());
+    println!("{pieces} pieces of {name}, {contacts} contacts, kinetic energy {kinetic:.2e} J");
+    println!("{:.3} million piece-steps a second ({:.3} to {:.3})", rates[LOTS / 2], rates[0], rates[LOTS - 1]);
+    let each = scene.plan().particles.values().map(|group| match &group.shape {
+        GrainShape::Clump { centre, .. } => centre.len(),
+        _ => 1,
+    });
+    println!("{:.3} million body-steps a second", rates[LOTS / 2] / each.max().unwrap_or(1) as f64);
     let mut state = State::default();
     engine.save(&mut state);
     println!("state {}", state.hash());
