@@ -72,6 +72,11 @@ impl Bodies {
         self.list.is_empty()
     }
 
+    /// Whether every grain is a piece of one.
+    pub fn are_all(&self) -> bool {
+        self.places.len() == self.sorted.len() && !self.is_empty()
+    }
+
     /// Whether there are superellipsoids; otherwise all pieces are spheres.
     pub fn shaped(&self) -> bool {
         self.shaped
@@ -206,35 +211,15 @@ impl Bodies {
         self.numbered().map(|body| body.is_there() && takes(body.centre)).collect()
     }
 
-    /// Before the forces: bodies go to the end of the step. Their pieces follow block by block, see [`Bodies::place`].
+    /// Before the forces: bodies go to the end of the step. Their pieces follow block by block, see [`place`].
     pub fn first_half(&mut self, dt: f64) {
         let Self { list, places, polyhedra, plane, .. } = self;
         let (plane, shapes) = (*plane, &**polyhedra);
         let (many, others) = list.as_chunks_mut::<TOGETHER>();
         each_in_parts(many, shares(places.len()), &|bodies: &mut [Body; TOGETHER]| {
-            Body::first_half(bodies, dt, plane, shapes);
+            body::first_half(bodies, dt, plane, shapes);
         });
-        Body::first_half(others, dt, plane, shapes);
-    }
-
-    /// Puts the pieces of a block where their bodies have them. Returns, of all of its grains, the sum of the velocities [m/s] and how far the
-    /// farthest is from where it was at the search and from `offset` [m].
-    pub fn place(&self, block: &mut Block, offset: DVec3) -> (DVec3, f64) {
-        let (mut total, mut farthest, mut sum) = (DVec3::ZERO, 0.0_f64, 0.0);
-        for (i, piece) in self.sorted[block.first..].iter().enumerate().take(block.position.len()) {
-            if let Some(body) = self.list.get(piece.body as usize) {
-                let arm = body.arm(piece, self.plane);
-                block.position[i] = body.centre + arm - block.unwrap_offset[i];
-                block.velocity[i] = body.velocity + body.spin.cross(arm);
-                block.spin[i] = body.spin;
-            }
-            total += block.velocity[i];
-            let away = (block.position[i] - block.reference[i] - offset).length_squared();
-            farthest = farthest.max(away);
-            sum += away;
-        }
-        // The sum catches what a maximum hides.
-        (total, if f64::is_finite(sum) { farthest.sqrt() } else { f64::NAN })
+        body::first_half(others, dt, plane, shapes);
     }
 
     /// After the forces: sums what the pieces feel, which their columns carry ([`super::integrate`]), finds the new accelerations and completes
@@ -361,6 +346,27 @@ pub(super) struct Block<'a> {
     pub spin: &'a mut [DVec3],
     pub unwrap_offset: &'a [DVec3],
     pub reference: &'a [DVec3],
+}
+
+/// Puts the pieces of a block where their bodies have them. Returns, of all of its grains, the sum of the velocities [m/s] and how far the
+/// farthest is from where it was at the search and from `offset` [m].
+#[multiversion(targets = "simd")]
+pub(super) fn place(bodies: &Bodies, block: &mut Block, offset: DVec3) -> (DVec3, f64) {
+    let (mut total, mut farthest, mut sum) = (DVec3::ZERO, 0.0_f64, 0.0);
+    for (i, piece) in bodies.sorted[block.first..].iter().enumerate().take(block.position.len()) {
+        if let Some(body) = bodies.list.get(piece.body as usize) {
+            let arm = body.arm(piece, bodies.plane);
+            block.position[i] = body.centre + arm - block.unwrap_offset[i];
+            block.velocity[i] = body.velocity + body.spin.cross(arm);
+            block.spin[i] = body.spin;
+        }
+        total += block.velocity[i];
+        let away = (block.position[i] - block.reference[i] - offset).length_squared();
+        farthest = farthest.max(away);
+        sum += away;
+    }
+    // The sum catches what a maximum hides.
+    (total, if f64::is_finite(sum) { farthest.sqrt() } else { f64::NAN })
 }
 
 #[multiversion(targets = "simd")]

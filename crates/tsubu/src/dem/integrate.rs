@@ -1,7 +1,7 @@
 //! Time integration of grains, split around the evaluation of forces. Both halves go block by block, on many threads where
 //! that is worth it.
 
-use super::bodies::{Block, Bodies};
+use super::bodies::{self, Block, Bodies};
 use super::contact_forces::BlockContacts;
 use super::orientation::Orientation;
 use super::ranks::{Halves, Ranks};
@@ -198,12 +198,13 @@ fn first_half(s: &mut Slice, bodies: &Bodies, motion: &Motion) {
     let drift = &mut s.drifts[0];
     drift.offset += drift.velocity * motion.dt;
     let offset = drift.offset;
-    let (mut total, mut farthest) = drift_on(s, offset, motion);
+    // Pieces go where their bodies take them.
+    let (mut total, mut farthest) = if bodies.are_all() { (DVec3::ZERO, 0.0) } else { drift_on(s, offset, motion) };
     if !bodies.is_empty() {
         let Slice { position, velocity, spin, unwrap_offset, reference, lists, .. } = s;
         let first = lists[0].first;
         (total, farthest) =
-            bodies.place(&mut Block { first, position, velocity, spin, unwrap_offset, reference }, offset);
+            bodies::place(bodies, &mut Block { first, position, velocity, spin, unwrap_offset, reference }, offset);
     }
     let velocity = total / s.position.len() as f64;
     s.drifts[0] = Drift { offset, velocity, farthest };

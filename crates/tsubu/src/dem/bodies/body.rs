@@ -25,6 +25,12 @@ pub struct Body {
     pub polyhedron: Option<TurnedBody>,
     /// Inverse inertia in space [1/(kg.m^2)].
     pub inverse_inertia: DMat3,
+    pub axes: DMat3,
+    /// Centre of mass, never wrapped [m].
+    pub centre: DVec3,
+    /// Velocity of the centre [m/s].
+    pub velocity: DVec3,
+    pub spin: DVec3,
     /// See [`super::Bodies`].
     pub number: u32,
     pub mass: f64,
@@ -40,10 +46,6 @@ pub struct Body {
     pub superellipsoid: Option<Superellipsoid>,
     /// Where its pieces are in the list of places; none where it is not there.
     pub pieces: Range<usize>,
-    /// Centre of mass, never wrapped [m].
-    pub centre: DVec3,
-    /// Velocity of the centre [m/s].
-    pub velocity: DVec3,
     /// Acceleration of the centre at the last time level [m/s^2].
     pub acceleration: DVec3,
     /// Turns the principal axes from x, y, z to where they are.
@@ -52,11 +54,8 @@ pub struct Body {
     pub angular_momentum: DVec3,
     /// Torque about the centre at the last time level [N.m].
     pub torque: DVec3,
-    // What follows from these.
-    pub axes: DMat3,
     /// The ellipsoid with the semi-axes of the superellipsoid.
     pub ellipsoid: Ellipsoid,
-    pub spin: DVec3,
     /// What the losses of its contacts must be corrected by [W].
     pub correction: f64,
 }
@@ -95,6 +94,7 @@ impl Body {
     }
 
     /// Finds what follows from attitude and angular momentum.
+    #[inline(always)]
     pub fn follow(&mut self, plane: bool, shapes: &[Polyhedron]) {
         self.axes = DMat3::from_quat(self.orientation);
         self.turn_polyhedron(shapes);
@@ -109,6 +109,7 @@ impl Body {
     }
 
     /// Finds the spin in an attitude.
+    #[inline(always)]
     fn turn(&mut self, plane: bool) {
         self.spin = self.inverse_inertia * self.angular_momentum;
         if plane {
@@ -124,28 +125,6 @@ impl Body {
             arm.y = 0.0;
         }
         arm
-    }
-
-    /// Up to [`TOGETHER`] bodies go to the end of a step, velocities predicted with the old acceleration as those of spheres are.
-    pub fn first_half(bodies: &mut [Self], dt: f64, plane: bool, shapes: &[Polyhedron]) {
-        let mut turns = Turns::default();
-        for (k, body) in bodies.iter_mut().enumerate().filter(|(_, body)| body.is_there()) {
-            let kick = body.acceleration * (0.5 * dt);
-            let half = body.velocity + kick;
-            body.centre += half * dt;
-            body.go(half.length() * dt);
-            body.velocity = half + kick;
-            body.angular_momentum += body.torque * (0.5 * dt);
-            turns.set(k, body.orientation, body.angular_momentum, body.moments, dt);
-        }
-        turn(&mut turns);
-        for (k, body) in bodies.iter_mut().enumerate().filter(|(_, body)| body.is_there()) {
-            body.orientation = turns.turned(k, body.orientation);
-            // It turns by twice the arc tangent of this, about its centre.
-            body.go(body.polyhedron.as_ref().map_or(0.0, |body| at(&turns.a, k).length() * body.size));
-            body.angular_momentum += body.torque * (0.5 * dt);
-            body.follow(plane, shapes);
-        }
     }
 
     /// Adds to the path of a polyhedron, with what rounding may lose.
@@ -165,6 +144,7 @@ impl Body {
     }
 
     /// Takes forces and torques, and completes the velocities, which the old ones have brought `share` [s] of the way.
+    #[inline(always)]
     pub fn second_half(&mut self, felt: &Felt, gravity: DVec3, share: f64, plane: bool) {
         let acceleration = felt.force / (self.mass + self.added_mass) + gravity;
         let change = (acceleration - self.acceleration) * share;
@@ -176,6 +156,29 @@ impl Body {
         let before = self.spin;
         self.turn(plane);
         self.correction = felt.loss[0].dot(change) + felt.loss[1].dot(self.spin - before);
+    }
+}
+
+/// Up to [`TOGETHER`] bodies go to the end of a step, velocities predicted with the old acceleration as those of spheres are.
+#[multiversion(targets = "simd")]
+pub fn first_half(bodies: &mut [Body], dt: f64, plane: bool, shapes: &[Polyhedron]) {
+    let mut turns = Turns::default();
+    for (k, body) in bodies.iter_mut().enumerate().filter(|(_, body)| body.is_there()) {
+        let kick = body.acceleration * (0.5 * dt);
+        let half = body.velocity + kick;
+        body.centre += half * dt;
+        body.go(half.length() * dt);
+        body.velocity = half + kick;
+        body.angular_momentum += body.torque * (0.5 * dt);
+        turns.set(k, body.orientation, body.angular_momentum, body.moments, dt);
+    }
+    turn(&mut turns);
+    for (k, body) in bodies.iter_mut().enumerate().filter(|(_, body)| body.is_there()) {
+        body.orientation = turns.turned(k, body.orientation);
+        // It turns by twice the arc tangent of this, about its centre.
+        body.go(body.polyhedron.as_ref().map_or(0.0, |body| at(&turns.a, k).length() * body.size));
+        body.angular_momentum += body.torque * (0.5 * dt);
+        body.follow(plane, shapes);
     }
 }
 
@@ -198,6 +201,7 @@ struct Turns {
 }
 
 impl Turns {
+    #[inline(always)]
     fn set(&mut self, k: usize, orientation: DQuat, momentum: DVec3, moments: DVec3, dt: f64) {
         let p = orientation.conjugate() * momentum;
         let slowness = moments.recip() * (0.5 * dt);
@@ -207,6 +211,7 @@ impl Turns {
     }
 
     /// An orientation after the turn.
+    #[inline(always)]
     fn turned(&self, k: usize, orientation: DQuat) -> DQuat {
         let a = at(&self.a, k);
         (orientation * DQuat::from_xyzw(a.x, a.y, a.z, 1.0).normalize()).normalize()
