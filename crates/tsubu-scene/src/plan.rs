@@ -54,6 +54,7 @@ pub use study::{
     Sweep,
 };
 pub use superellipsoid::Superellipsoid;
+pub(crate) use superellipsoid::deep;
 pub use walls::{Body, Motion, Rotation, Servo, Shape, Wall, box_of_planes};
 pub use watch::{Axis, Bed, BodyAxis, Face, Heading, Kernel, Measure, Quantity, Watch};
 pub use water::{Buoyancy, Directions, Drag, Flow, Fluctuation, Hindrance, Lid, Lift, StreamStart, Torque, Water};

@@ -14,6 +14,13 @@ pub struct Watcher<'a> {
     pub progress: &'a (dyn Fn(f64) + Sync),
 }
 
+impl Watcher<'_> {
+    /// The same for a run among many, whose progress nobody looks at.
+    pub(crate) fn quiet(&self) -> Watcher<'_> {
+        Watcher { interrupt: self.interrupt, progress: &|_| {} }
+    }
+}
+
 /// Set from outside, for example by Ctrl-C.
 #[derive(Debug, Default)]
 pub struct Interrupt {

@@ -3,7 +3,7 @@
 use super::{Parts, polyhedron};
 use crate::complaint::Complaint;
 use crate::grain_file::{How, clump::MOST_PIECES};
-use crate::plan::{GrainMotion, GrainShape, NO_GRAIN, Particles, Size, Start, Vector};
+use crate::plan::{GrainMotion, GrainShape, NO_GRAIN, Particles, Size, Start, Vector, deep};
 
 /// Longest semi-axis of a superellipsoid over its shortest; the search for contacts has been tried so far.
 const MOST_SLENDER: f64 = 10.0;
@@ -66,17 +66,13 @@ fn clump(parts: &Parts<'_>, name: &str, group: &Particles, complaints: &mut Vec<
     }
 }
 
-/// A superellipsoid is a body in space with three semi-axes.
+/// A superellipsoid has a thickness along each of its axes.
 fn superellipsoid(parts: &Parts<'_>, name: &str, group: &Particles, complaints: &mut Vec<Complaint>) {
     let GrainShape::Superellipsoid { semi_axes, exponents, .. } = &group.shape else { return };
     let at = |keys: &[&str]| parts.root.locate(&[&["particles", name, "shape", "superellipsoid"], keys].concat());
-    if !parts.space() {
-        complaints.push(
-            Complaint::new(format!("the grains `{name}` are superellipsoids, which only space has"))
-                .at(&at(&[]), "the scene has dimension 2")
-                .hint("set dimension = 3, or write shape.disc or shape.clump"),
-        );
-    } else if let Some(axis) = semi_axes.iter().find(|axis| **axis <= 0.0) {
+    let axes = deep(*semi_axes);
+    // In space a depth of 0 is no word for another.
+    if let Some(axis) = if parts.space() { semi_axes } else { &axes }.iter().find(|axis| **axis <= 0.0) {
         complaints.push(
             Complaint::new(format!("the superellipsoid `{name}` has no thickness"))
                 .at(&at(&["semi-axes"]), format!("{axis} is not above 0")),
@@ -88,7 +84,7 @@ fn superellipsoid(parts: &Parts<'_>, name: &str, group: &Particles, complaints: 
                 .at(&at(&["exponents"]), "needs two: of the profile and of the equator"),
         );
     }
-    let [short, long] = [f64::min, f64::max].map(|pick| semi_axes.iter().copied().fold(semi_axes[0], pick));
+    let [short, long] = [f64::min, f64::max].map(|pick| axes.iter().copied().fold(axes[0], pick));
     if short > 0.0 && long > MOST_SLENDER * short {
         complaints.push(
             Complaint::new(format!("the superellipsoid `{name}` is {:.1} times as long as it is thick", long / short))

@@ -75,9 +75,9 @@ static SHAPE: &[Variant] = &[
     },
     Variant {
         name: "superellipsoid",
-        about: "(|x/a|^r + |y/b|^r)^(p/r) + |z/c|^p = 1, scaled so that it just fits a sphere of the grain's `diameter`; only in space. A contact is that of two spheres as round as the bodies are there, sqrt(R1 R2) of both radii of curvature, at most ten times half the `diameter` where a place is flat; the place of contact of two flat faces is not unique",
+        about: "(|x/a|^r + |y/b|^r)^(p/r) + |z/c|^p = 1, scaled so that it just fits a sphere of the grain's `diameter`; in the plane as deep as its shorter semi-axis. A contact is that of two spheres as round as the bodies are there, sqrt(R1 R2) of both radii of curvature, at most ten times half the `diameter` where a place is flat; the place of contact of two flat faces is not unique",
         keys: &[
-            Key::new("semi-axes", Kind::Vector(&NUMBER), "Semi-axes a, b and c, in any unit"),
+            Key::new("semi-axes", Kind::Vector(&NUMBER), "Semi-axes a, b and c, in any unit; in the plane a and c"),
             Key::new(
                 "exponents",
                 Kind::Quantities(&NUMBER),

@@ -82,8 +82,11 @@ impl Clump {
         if flat { (self.volume / pi).sqrt() } else { (0.75 / pi * self.volume).cbrt() }
     }
 
-    /// Of spheres in the plane the area of their discs there; what overlaps counts once.
+    /// Of spheres in the plane the area of their discs there, what overlaps counts once; of a superellipsoid that of its cut.
     pub fn area(&self) -> f64 {
+        if let Some(body) = &self.superellipsoid {
+            return body.area();
+        }
         let drawn = |arm: &Vector, along: usize| (0..3).map(|k| arm[k] * self.axes[k][along]).sum::<f64>();
         let discs: Vec<_> = self.pieces.iter().map(|(arm, r)| ([drawn(arm, 0), drawn(arm, 2)], *r)).collect();
         area_of_discs(&discs)

@@ -26,14 +26,20 @@ fn longest(a: f64, b: f64, p: f64) -> f64 {
     long * (1.0 + (short / long).powf(twice)).powf(1.0 / twice)
 }
 
+/// Semi-axes with a depth: in the plane, where two are given and the one between them is 0, it is the shorter of both.
+pub(crate) fn deep([a, b, c]: Vector) -> Vector {
+    [a, if b == 0.0 { a.min(c) } else { b }, c]
+}
+
 /// Euler's beta function.
 fn beta(x: f64, y: f64) -> f64 {
     tgamma(x) * tgamma(y) / tgamma(x + y)
 }
 
 impl Superellipsoid {
-    /// Scaled so that a sphere of diameter 1 just holds it.
+    /// Scaled so that a sphere of diameter 1 just holds it; of two semi-axes as deep as the shorter one.
     pub fn new(semi_axes: Vector, exponents: [f64; 2]) -> Self {
+        let semi_axes = deep(semi_axes);
         let [a, b, c] = semi_axes;
         let [profile, equator] = exponents;
         let reach = longest(longest(a, b, equator), c, profile);
@@ -50,6 +56,12 @@ impl Superellipsoid {
         let along = 4.0 * size * beta(0.5 * f, 0.5 * f + 1.0) * beta(1.5 * e, e + 1.0);
         let moments = [b * b * across + c * c * along, a * a * across + c * c * along, (a * a + b * b) * across];
         (volume, moments.map(|moment| moment / volume))
+    }
+
+    /// Area of its cut with the plane of a and c, 4 a c Gamma(1 + 1/p)^2 / Gamma(1 + 2/p).
+    pub(super) fn area(&self) -> f64 {
+        let ([a, _, c], p) = (self.semi_axes, self.exponents[0]);
+        4.0 * a * c * tgamma(1.0 + 1.0 / p).powi(2) / tgamma(1.0 + 2.0 / p)
     }
 
     /// Its surface, to about 1e-4: of a direction u of the solid angle dw it is |grad F| / F^3 dw, F(u) = 1 on the surface.

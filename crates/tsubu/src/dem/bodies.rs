@@ -242,6 +242,9 @@ impl Bodies {
             if locked {
                 (felt.torque, felt.loss[1]) = (DVec3::ZERO, DVec3::ZERO);
             }
+            if plane {
+                felt.stay_in_plane();
+            }
             if body.is_there() {
                 body.second_half(&felt, gravity, share, plane);
             }

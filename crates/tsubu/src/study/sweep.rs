@@ -197,7 +197,7 @@ pub(super) fn is_of(scene: &Scene, folder: &Path) -> bool {
 
 /// Runs a case into a folder of its own; one that is finished is kept, one that was cut goes on.
 pub(super) fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<Summary, CasesError> {
-    let quiet = Watcher { interrupt: watcher.interrupt, progress: &|_| {} };
+    let quiet = watcher.quiet();
     made(scene, case, folder, &|scene, folder, existing| run::one_of_many(scene, folder, existing, None, &quiet))
 }
 

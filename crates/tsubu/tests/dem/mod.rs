@@ -8,6 +8,7 @@ mod clump;
 mod clump_traffic;
 mod come_and_go;
 pub mod everything;
+mod flat_superellipsoids;
 mod gates;
 mod idle;
 mod lever;

@@ -69,11 +69,13 @@ impl Bodies {
             exponents: shape.exponents,
             reach: 0.5 * diameter,
         });
+        // A polygon; a superellipsoid in the plane has a depth.
+        let flat = self.plane && superellipsoid.is_none();
         self.rank.push(body);
         self.list.push(Body {
             number: body,
             mass,
-            equivalent_radius: clump.is_one_piece().then(|| clump.equivalent_radius(self.plane) * diameter),
+            equivalent_radius: clump.is_one_piece().then(|| clump.equivalent_radius(flat) * diameter),
             submerged: Submerged { radius: seen.radius * diameter, ..seen },
             added_mass: 0.0,
             moments: DVec3::from_array(clump.moments) * (mass * diameter * diameter),

@@ -70,6 +70,14 @@ pub struct Felt {
     pub loss: [DVec3; 2],
 }
 
+impl Felt {
+    /// Leaves out what rounding would bring out of the plane, where round bodies are looked for as in space.
+    pub fn stay_in_plane(&mut self) {
+        self.force.y = 0.0;
+        self.torque = DVec3::new(0.0, self.torque.y, 0.0);
+    }
+}
+
 impl Body {
     /// Whether it is among the grains.
     pub fn is_there(&self) -> bool {

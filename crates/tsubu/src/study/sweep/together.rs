@@ -42,7 +42,7 @@ impl Sweep<'_> {
         if let Some(communicator) = &self.communicator {
             communicator.broadcast(&mut vec![index as f64]);
         }
-        let quiet = Watcher { interrupt: watcher.interrupt, progress: &|_| {} };
+        let quiet = watcher.quiet();
         run::one_of_many(scene, folder, existing, self.communicator.clone(), &quiet)
     }
 }
