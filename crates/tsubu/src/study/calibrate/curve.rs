@@ -12,6 +12,9 @@ use tsubu_frame::{Advise, FileError, Status, Summary, Table};
 use tsubu_scene::Scene;
 use tsubu_scene::plan::{Curve, Measured, Plan};
 
+/// A frequency that is a ratio of the natural one, and multiplied by it again, is within this of what it was.
+const SAME: f64 = 1e-12;
+
 /// Its points as results of a run.
 pub(super) fn measured(curve: &Curve) -> impl Iterator<Item = Measured> + '_ {
     let points = curve.frequency.iter().zip(&curve.value).zip(&curve.uncertainty);
@@ -58,10 +61,13 @@ pub(super) fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) 
 /// Puts what the response in a folder tells at the frequencies of the curve into its summary; nothing where some is missing.
 pub(super) fn tell(curve: &Curve, folder: &Path, summary: &mut Summary) -> Result<(), FileError> {
     let table = Table::read(&folder.join("response.csv"))?;
-    let values = table.numbers(curve.quantity.column()).unwrap_or_default();
-    if values.len() == curve.frequency.len() {
-        for (frequency, value) in curve.frequency.iter().zip(values) {
-            summary.give(result(curve, *frequency), curve.quantity.unit(), value);
+    let [frequencies, values] =
+        ["frequency", curve.quantity.column()].map(|column| table.numbers(column).unwrap_or_default());
+    for frequency in &curve.frequency {
+        // A response may have looked at more, about its peak.
+        let there = frequencies.iter().position(|there| (there / frequency - 1.0).abs() < SAME);
+        if let Some(value) = there.and_then(|row| values.get(row)) {
+            summary.give(result(curve, *frequency), curve.quantity.unit(), *value);
         }
     }
     Ok(())
