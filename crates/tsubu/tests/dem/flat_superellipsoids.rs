@@ -6,7 +6,7 @@ use tsubu::partner::Hosts;
 use tsubu_frame::{Frame, Kind};
 use tsubu_scene::Scene;
 
-/// Four bodies that fly at each other in a box; `D` is the dimension, the others are keys that a plane has otherwise.
+/// Four bodies that fly at each other in a box; what the plane says otherwise than space is put in by [`scene`].
 const BOX: &str = r#"
 dimension = DIM
 duration = "0.1 s"

@@ -48,8 +48,7 @@ pub(super) fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) 
         return Ok(summary);
     }
     let scene = case.scene(scene).map_err(CasesError::Complaints)?;
-    let quiet = watcher.quiet();
-    match response(&scene, folder, !sweep::is_of(&scene, folder), &quiet) {
+    match response(&scene, folder, !sweep::is_of(&scene, folder), &watcher.quiet()) {
         // One that goes wrong leaves the others their results.
         Err(CasesError::Run { error: RunError::Fault(fault) | RunError::Open(OpenError::Settling(fault)), .. }) => {
             Ok(sweep::failed(&scene, folder, &fault.told())?)
