@@ -78,6 +78,29 @@ pub(crate) fn both(first: impl FnOnce() + Send, second: impl FnOnce() + Send) {
     rayon::join(|| (first(), wait()), second);
 }
 
+/// Fewer grains than this are not worth waking threads for.
+pub const WORTH_THREADS: usize = 2000;
+
+/// On how many threads so many grains are worth it.
+pub fn shares(grains: usize) -> usize {
+    if grains >= WORTH_THREADS { rayon::current_num_threads() } else { 1 }
+}
+
+/// How many of so many grains a thread does at a time, at least, where little is done to each.
+pub(crate) fn piece(grains: usize) -> usize {
+    if shares(grains) > 1 { 4096 } else { grains.max(1) }
+}
+
+/// Gives each place its value, on many threads.
+pub(crate) fn fill<T: Send>(places: &mut [T], value: impl Fn(usize) -> T + Sync) {
+    let piece = piece(places.len());
+    places.par_chunks_mut(piece).enumerate().for_each(|(k, places)| {
+        for (i, place) in (k * piece..).zip(places) {
+            *place = value(i);
+        }
+    });
+}
+
 /// Does something to each of `things`, on many threads if there are several `shares`.
 pub(crate) fn each<T: Send>(things: &mut [T], shares: usize, work: impl Fn(&mut T) + Sync + Send) {
     if shares > 1 {

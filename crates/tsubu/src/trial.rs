@@ -7,8 +7,8 @@ use crate::bench::Bench;
 use crate::check::{Verdict, human_time, verdict};
 use crate::engine::{Engine, OpenError};
 use crate::methods;
-use crate::neighbours::lists::WORTH_THREADS;
 use crate::partner::Hosts;
+use crate::threads::WORTH_THREADS;
 use std::collections::BTreeMap;
 use tsubu_scene::plan::{Method, Particles, Plan, Start};
 

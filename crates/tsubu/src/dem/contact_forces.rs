@@ -30,14 +30,16 @@ use crate::check;
 use crate::contact::chunk::ROWS;
 use crate::contact::{Law, Table};
 use crate::neighbours::NeighbourLists;
-use crate::neighbours::lists::{BLOCK, BlockList, shares};
+use crate::neighbours::lists::{BLOCK, BlockList};
 use crate::partner::Hosts;
 use crate::polyhedron::near::Near;
 use crate::state::Grains;
+use crate::threads::{piece, shares};
 use crate::view::WallLoad;
 use crate::wall::Wall;
 use crate::water::Parcel;
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 use tsubu_scene::plan::{Plan, SlipLever};
 
@@ -222,12 +224,13 @@ impl ContactForces {
         // steps, so that memory is not asked for each time.
         let contacts = self.blocks.iter().map(|block| block.sums.contacts).max().unwrap_or_default();
         let contacts = (contacts + contacts / 8).next_multiple_of(128);
-        for (block, list) in self.blocks.iter_mut().zip(lists) {
+        let blocks = self.blocks.par_iter_mut().zip(lists).with_min_len(piece(input.grains.len()).div_ceil(BLOCK));
+        blocks.for_each(|(block, list)| {
             block.walls.resize(input.walls.len(), WallLoad::default());
             // Of a block of another rank its loads on own grains alone are here, as they come.
             if !own.contains(&(list.first / BLOCK)) {
                 (block.history, block.loads) = Default::default();
-                continue;
+                return;
             }
             let loads = list.own + list.halo.len();
             block.loads.reserve_exact(loads.saturating_sub(block.loads.len()));
@@ -239,7 +242,7 @@ impl ContactForces {
             for (history, _) in block.history.iter_mut().zip(laws).filter(|(_, law)| law.width() > 0) {
                 history.pairs.reserve(contacts);
             }
-        }
+        });
     }
 
     /// Other laws hold from now on: batches keep the constants of the last pair of materials.

@@ -9,11 +9,13 @@ use super::sweep::{Direction, sweep};
 use crate::contact::Law;
 use crate::mutation::{Mutation, left_out};
 use crate::neighbours::NeighbourLists;
-use crate::neighbours::lists::{BLOCK, BlockList, shares};
+use crate::neighbours::lists::{BLOCK, BlockList};
 use crate::polyhedron::touch::turned_feature;
 use crate::ranks::Reader;
-use crate::threads;
+use crate::threads::{self, piece, shares};
 use crate::wall::Wall;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A remembered contact by the ids of its bodies. For a wall the second number is the wall, and `patch` tells the place
 /// on it; between grains it tells the features of polyhedra, and is 0 for others.
@@ -41,11 +43,11 @@ impl ContactId {
 }
 
 /// The contact history of all blocks by ids.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct HistorySnapshot {
     pub blocks: Vec<BlockHistory>,
     /// Index of the grain with each id; [`REMOVED`] where there is none.
-    index: Vec<u32>,
+    index: Vec<AtomicU32>,
     /// Destinations that follow one another in a block's history and are in one block; by that block, then by the other.
     runs: Vec<Run>,
     /// Whether every rank has all contacts, as from a checkpoint.
@@ -94,7 +96,7 @@ const REMOVED: u32 = u32::MAX;
 
 /// What tells where contacts belong.
 struct Lookup<'a> {
-    index: &'a [u32],
+    index: &'a [AtomicU32],
     neighbours: &'a NeighbourLists,
     walls: &'a [Wall],
     laws: &'a [Law],
@@ -133,12 +135,12 @@ impl ContactForces {
         let (laws, ids) = (input.laws.all(), &input.grains.id);
         let shares = shares(ids.len());
         let HistorySnapshot { blocks: parts, index, runs, whole } = &mut snapshot;
-        index.clear();
-        index.resize(ids.iter().max().map_or(0, |m| *m as usize + 1), REMOVED);
+        let piece = piece(ids.len());
+        index.resize_with(ids.par_iter().with_min_len(piece).max().map_or(0, |m| *m as usize + 1), AtomicU32::default);
+        index.par_iter_mut().with_min_len(piece).for_each(|i| *i.get_mut() = REMOVED);
         if !left_out(Mutation::HistoryTransfer) {
-            for (i, id) in (0..).zip(ids) {
-                index[*id as usize] = i;
-            }
+            let ids = ids.par_iter().enumerate().with_min_len(piece);
+            ids.for_each(|(i, id)| index[*id as usize].store(i as u32, Ordering::Relaxed));
         }
         let lookup = Lookup { index, neighbours: input.neighbours, walls: input.walls, laws, width };
         threads::each(parts, shares, |part| part.locate(&lookup));
@@ -147,15 +149,9 @@ impl ContactForces {
             pass_on(parts, &lookup, ranks);
         }
         runs.clear();
-        for (from, BlockHistory { destinations, .. }) in parts.iter().enumerate() {
-            let mut first = 0;
-            while let Some(&Destination { block, .. }) = destinations.get(first) {
-                let last = first + destinations[first..].partition_point(|one| one.block == block);
-                runs.push(Run { block, from, destinations: first..last });
-                first = last;
-            }
-        }
-        runs.sort_by_key(|run| run.block);
+        let from = parts.par_iter().enumerate().with_min_len(piece.div_ceil(BLOCK));
+        runs.par_extend(from.flat_map_iter(|(from, part)| part.runs(from)));
+        runs.par_sort_by_key(|run| run.block);
         let own = input.neighbours.own();
         let range = (&mut self.blocks[own.clone()], &input.neighbours.lists[own]);
         sweep(range, Direction::Forward, shares, &|(blocks, lists): (&mut [BlockContacts], &[BlockList])| {
@@ -232,6 +228,16 @@ impl BlockHistory {
         }
     }
 
+    /// The runs of its destinations, where it is part `from`.
+    fn runs(&self, from: usize) -> impl Iterator<Item = Run> {
+        let mut end = 0;
+        self.destinations.chunk_by(|a, b| a.block == b.block).map(move |run| {
+            let first = end;
+            end += run.len();
+            Run { block: run[0].block, from, destinations: first..end }
+        })
+    }
+
     /// Adds the contacts of a message.
     fn receive(&mut self, message: &[f64], width: usize) {
         let mut message = Reader::new(message);
@@ -299,7 +305,7 @@ impl Lookup<'_> {
     }
 
     fn index(&self, id: u32) -> Option<u32> {
-        self.index.get(id as usize).copied().filter(|i| *i != REMOVED)
+        self.index.get(id as usize).map(|i| i.load(Ordering::Relaxed)).filter(|i| *i != REMOVED)
     }
 
     /// Block, and number in its list, of the pair of grain `i` with grain `j`.

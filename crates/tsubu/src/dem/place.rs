@@ -43,7 +43,13 @@ pub(super) fn grains(plan: &Plan, table: &Table, walls: &[Wall]) -> Result<(Grai
             }
             Start::Settled { time } => {
                 let room = placing.inside(None).ok_or_else(|| no_room(key("settled")))?;
-                placing.rows(group, number, &room, 1.1, 0.9, true).map_err(|text| (key("settled"), text))?;
+                let first = placing.grains.len();
+                let free = placing.rows(group, number, &room, 1.1, 0.9, true).map_err(|text| (key("settled"), text))?;
+                // In a box so full that rows touch all seeds would give one bed: there grains begin with some speed.
+                if free <= 0.0 {
+                    let fall = DVec3::from_array(plan.gravity).length() * group.largest_diameter();
+                    placing.stir(first, DVec3::ZERO, fall.sqrt());
+                }
                 if group.count > 0 {
                     settle = settle.max(*time);
                 }
@@ -165,7 +171,7 @@ impl Placing<'_> {
     }
 
     /// Fills rows from the floor up (in the box: from where the last group ended), round whatever other walls are there.
-    /// Narrows the spacing if the group would not fit otherwise.
+    /// Narrows the spacing if the group would not fit otherwise. Returns how far grains are shaken from their places at most [m].
     fn rows(
         &mut self,
         group: &Particles,
@@ -174,7 +180,7 @@ impl Placing<'_> {
         spacing: f64,
         jitter: f64,
         stack: bool,
-    ) -> Result<(), String> {
+    ) -> Result<f64, String> {
         let (centre, size) = (room.centre, room.size);
         let space = self.plan.dimension == 3;
         let floor = if stack { self.floor } else { 0.0 };
@@ -237,7 +243,7 @@ impl Placing<'_> {
         if stack {
             self.floor = top;
         }
-        Ok(())
+        Ok(free)
     }
 
     /// Anywhere in the room without overlap, the largest first: they find room while there is most.

@@ -12,9 +12,11 @@ use crate::neighbours::lists::BLOCK;
 use crate::partner::Hosts;
 use crate::ranks::Reader;
 use crate::state::Grains;
+use crate::threads::piece;
 use crate::view::Contact;
 use crate::wall::{Mover, Wall};
 use glam::DVec3;
+use rayon::prelude::*;
 use std::ops::Range;
 
 impl DemEngine {
@@ -279,7 +281,8 @@ impl DemEngine {
     }
 
     fn check_finite(&self) -> Result<(), Fault> {
-        let bad = |column: &[DVec3]| column.iter().position(|p| !p.is_finite());
+        let piece = piece(self.grains.len());
+        let bad = |column: &[DVec3]| column.par_iter().with_min_len(piece).position_first(|p| !p.is_finite());
         for (what, column) in [("position", &self.grains.position), ("velocity", &self.grains.velocity)] {
             if let Some(i) = bad(column) {
                 return Err(Fault::NotFinite {

@@ -1,8 +1,12 @@
 //! The neighbour list of one block of grains.
 
 use super::grid::{Image, Nearby, PRIMARY_IMAGE};
+use super::lists::BLOCK;
+use crate::threads;
 use crate::wall::Wall;
 use glam::DVec3;
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// Two grains that may touch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,6 +60,52 @@ pub struct BlockList {
     pub incoming: Vec<Incoming>,
     /// How much work a step is, in contacts: threads share by it.
     pub work: usize,
+}
+
+/// Grains that follow one another in the halo of a block and are all in one other block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct HaloRun {
+    /// Where the grains are.
+    home: u32,
+    /// In whose halo.
+    block: u32,
+    /// From and to in the halo.
+    halo: [u32; 2],
+}
+
+/// Tells the blocks `own` what others of them hold for their grains; on as many threads as there are `shares`.
+pub(super) fn find_incoming(lists: &mut [BlockList], own: Range<usize>, shares: usize) {
+    let mut runs: Vec<(Vec<HaloRun>, usize)> = own.clone().map(|block| (Vec::new(), block)).collect();
+    threads::each(&mut runs, shares, |(runs, block)| {
+        let homes = lists[*block].halo.chunk_by(|a, b| a.grain as usize / BLOCK == b.grain as usize / BLOCK);
+        let mut end = 0;
+        runs.extend(homes.map(|grains| {
+            let first = end;
+            end += grains.len() as u32;
+            HaloRun { home: grains[0].grain / BLOCK as u32, block: *block as u32, halo: [first, end] }
+        }));
+    });
+    let mut runs: Vec<HaloRun> = runs.into_iter().flat_map(|(runs, _)| runs).collect();
+    runs.par_sort_unstable();
+    let taken = |list: &mut BlockList| (std::mem::take(&mut list.incoming), list.first / BLOCK);
+    let mut all: Vec<(Vec<Incoming>, usize)> = lists[own.clone()].iter_mut().map(taken).collect();
+    threads::each(&mut all, shares, |(incoming, home)| {
+        let here = runs.partition_point(|run| (run.home as usize) < *home);
+        for run in runs[here..].iter().take_while(|run| run.home as usize == *home) {
+            let BlockList { own, halo, .. } = &lists[run.block as usize];
+            let grains = (run.halo[0]..run.halo[1]).map(|h| (h, halo[h as usize].grain));
+            incoming.extend(grains.map(|(h, grain)| Incoming {
+                own: grain % BLOCK as u32,
+                block: run.block,
+                local: *own as u32 + h,
+            }));
+        }
+        // Stable: what several blocks hold for a grain stays in the order of the blocks.
+        incoming.sort_by_key(|i| i.own);
+    });
+    for (list, (incoming, _)) in lists[own].iter_mut().zip(all) {
+        list.incoming = incoming;
+    }
 }
 
 /// Memory of one thread that makes lists.

@@ -11,10 +11,12 @@
 //! times less often than those that count from where each grain was.
 
 use super::grid::PeriodicBounds;
-use super::lists::BlockList;
+use super::lists::{BLOCK, BlockList};
 use crate::state::Grains;
+use crate::threads::piece;
 use crate::wall::{Pose, Wall};
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// Distance, in skins, from which on blocks are not compared one by one.
 const MARGIN: f64 = 8.0;
@@ -60,7 +62,8 @@ impl Drifts {
         ends: &PeriodicBounds,
     ) {
         let margin = MARGIN * skin;
-        let bounds: Vec<Bounds> = lists.iter().map(|list| bounds(list, reference, &grains.radius)).collect();
+        let blocks = lists.par_iter().with_min_len(piece(grains.len()).div_ceil(BLOCK));
+        let bounds: Vec<Bounds> = blocks.clone().map(|list| bounds(list, reference, &grains.radius)).collect();
         self.find_near(&bounds, margin, ends);
         let mut found = Vec::new();
         self.near_walls.clear();
@@ -76,11 +79,11 @@ impl Drifts {
             let origin = wall.pose.origin();
             bounds.iter().map(|b| b.centre.distance(origin) + b.half.length()).fold(0.0, f64::max)
         }));
-        self.of.clear();
-        self.of.extend(lists.iter().map(|list| {
+        let drift = |list: &BlockList| {
             let velocity = grains.velocity[list.first..list.first + list.own].iter().sum::<DVec3>() / list.own as f64;
             Drift { offset: DVec3::ZERO, velocity, farthest: 0.0 }
-        }));
+        };
+        blocks.map(drift).collect_into_vec(&mut self.of);
     }
 
     /// Which blocks are nearer to each other than `margin` [m]: swept along the longest axis that has no periodic ends.
@@ -98,13 +101,15 @@ impl Drifts {
         if let Some(axis) = axis {
             order.sort_by(|a, b| low(*a, axis).total_cmp(&low(*b, axis)));
         }
-        self.near.clear();
-        for (k, &b) in order.iter().enumerate() {
+        let near = |(k, &b): (usize, &u32)| {
             let reach = axis.map_or(f64::INFINITY, |axis| high(b, axis) + margin);
-            let others = order[k + 1..].iter().take_while(|c| axis.is_none_or(|axis| low(**c, axis) <= reach));
-            let near = others.filter(|c| gap(&bounds[b as usize], &bounds[**c as usize], ends) <= margin);
-            self.near.extend(near.map(|&c| [b, c]));
-        }
+            let others = order[k + 1..].iter().take_while(move |c| axis.is_none_or(|axis| low(**c, axis) <= reach));
+            let near = others.filter(move |c| gap(&bounds[b as usize], &bounds[**c as usize], ends) <= margin);
+            near.map(move |&c| [b, c])
+        };
+        self.near.clear();
+        let blocks = order.par_iter().enumerate().with_min_len(piece(order.len() * BLOCK).div_ceil(BLOCK));
+        self.near.par_extend(blocks.flat_map_iter(near));
     }
 
     /// How far any wall has moved since the search, at most, seen from the grains [m]. An endless wall that turns into itself has
@@ -128,10 +133,11 @@ impl Drifts {
                 && (d.offset - mean).length() + d.farthest <= far
                 && away <= if *near_wall { skin } else { far }
         });
-        let between = self.near.iter().all(|&[b, c]| {
+        let allowed = |&[b, c]: &[u32; 2]| {
             let (b, c) = (&self.of[b as usize], &self.of[c as usize]);
             b.farthest + c.farthest + (b.offset - c.offset).length() <= skin
-        });
+        };
+        let between = self.near.par_chunks(piece(self.near.len())).all(|pairs| pairs.iter().all(allowed));
         !(within && between)
     }
 }

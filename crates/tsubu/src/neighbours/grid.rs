@@ -1,6 +1,9 @@
 //! A uniform grid of cells, filled by counting sort.
 
+use super::cell_sort::CellSort;
+use crate::threads::{fill, piece, shares};
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// PeriodicBounds of the periodic axes: `None` where the world goes on.
 pub type PeriodicBounds = [Option<[f64; 2]>; 3];
@@ -117,26 +120,28 @@ pub struct Grid {
     members: Vec<u32>,
     /// Centre and radius of every member, side by side [m].
     spheres: Vec<[f64; 4]>,
-    cell_of: Vec<u32>,
+    memory: CellSort,
 }
 
 impl Grid {
-    /// Sorts the spheres of `members` into cells of at least `size` [m], to be searched. Where cells lie hangs on `all` of which these are some.
+    /// Sorts the spheres that are `members` into cells of at least `size` [m], to be searched. Where cells lie hangs on `all` of
+    /// which these are some.
     pub fn fill(
         &mut self,
         (positions, radii): (&[DVec3], &[f64]),
-        all: impl Iterator<Item = u32>,
-        members: impl Iterator<Item = u32> + Clone,
+        all: impl Fn(u32) -> bool + Sync,
+        members: impl Fn(u32) -> bool + Sync,
         size: f64,
         periodic: &PeriodicBounds,
     ) {
         self.lay(Numbering::Rows, positions, all, size, periodic);
         self.sort(positions, members);
-        self.spheres.clear();
-        self.spheres.extend(self.members.iter().map(|&i| {
-            let p = positions[i as usize];
-            [p.x, p.y, p.z, radii[i as usize]]
-        }));
+        self.spheres.resize(self.members.len(), [0.0; 4]);
+        fill(&mut self.spheres, |k| {
+            let i = self.members[k] as usize;
+            let p = positions[i];
+            [p.x, p.y, p.z, radii[i]]
+        });
     }
 
     /// Lays cells of at least `size` [m] over `all`; no more cells than about four a grain, however far they fly.
@@ -144,16 +149,19 @@ impl Grid {
         &mut self,
         numbering: Numbering,
         positions: &[DVec3],
-        all: impl Iterator<Item = u32>,
+        all: impl Fn(u32) -> bool + Sync,
         size: f64,
         periodic: &PeriodicBounds,
     ) {
         self.numbering = numbering;
-        let (mut low, mut high, mut count) = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0usize);
-        for i in all {
-            let p = positions[i as usize];
-            (low, high, count) = (low.min(p), high.max(p), count + 1);
-        }
+        let piece = piece(positions.len());
+        let nothing = || (DVec3::INFINITY, DVec3::NEG_INFINITY, 0usize);
+        let ends = |(k, positions): (usize, &[DVec3])| {
+            let own = ((k * piece) as u32..).zip(positions).filter(|(i, _)| all(*i));
+            own.fold(nothing(), |(low, high, count), (_, p)| (low.min(*p), high.max(*p), count + 1))
+        };
+        let pieces = positions.par_chunks(piece).enumerate().map(ends);
+        let (low, high, count) = pieces.reduce(nothing, |a, b| (a.0.min(b.0), a.1.max(b.1), a.2 + b.2));
         self.shape(low.to_array(), high.to_array(), count, size, periodic);
         let [nx, ny, nz] = match self.numbering {
             Numbering::Rows => self.extent,
@@ -164,27 +172,13 @@ impl Grid {
     }
 
     /// Sorts `members` into the cells. They keep their order within a cell.
-    pub fn sort(&mut self, positions: &[DVec3], members: impl Iterator<Item = u32> + Clone) {
-        let cells = self.cells;
-        // One entry more, so that a cell's next free place can stand behind its own until all are filled.
-        self.start.clear();
-        self.start.resize(cells + 2, 0);
-        self.cell_of.clear();
-        for i in members.clone() {
-            let cell = self.cell_index(self.cell_at(positions[i as usize]));
-            self.cell_of.push(cell as u32);
-            self.start[cell + 2] += 1;
-        }
-        for i in 2..cells + 2 {
-            self.start[i] += self.start[i - 1];
-        }
-        self.members.resize(self.cell_of.len(), 0);
-        for (i, &cell) in members.zip(&self.cell_of) {
-            let next = &mut self.start[cell as usize + 1];
-            self.members[*next as usize] = i;
-            *next += 1;
-        }
-        self.start.pop();
+    pub fn sort(&mut self, positions: &[DVec3], members: impl Fn(u32) -> bool + Sync) {
+        let (mut memory, mut start, mut sorted) =
+            (std::mem::take(&mut self.memory), std::mem::take(&mut self.start), std::mem::take(&mut self.members));
+        let cell_of = |i: u32| members(i).then(|| self.cell_index(self.cell_at(positions[i as usize])) as u32);
+        let n = positions.len();
+        memory.sort((n, self.cells), shares(n), &cell_of, &mut start, &mut sorted);
+        (self.memory, self.start, self.members) = (memory, start, sorted);
     }
 
     fn shape(&mut self, low: [f64; 3], high: [f64; 3], count: usize, size: f64, periodic: &PeriodicBounds) {
@@ -294,12 +288,13 @@ impl Grid {
         }
     }
 
+    #[inline]
     fn cell_at(&self, p: DVec3) -> [usize; 3] {
-        let p = p.to_array();
-        std::array::from_fn(|axis| {
-            let k = ((p[axis] - self.origin[axis]) * self.density[axis]).max(0.0) as usize;
+        let along = |axis: usize, p: f64| {
+            let k = ((p - self.origin[axis]) * self.density[axis]).max(0.0) as usize;
             k.min(self.extent[axis] - 1)
-        })
+        };
+        [along(0, p.x), along(1, p.y), along(2, p.z)]
     }
 
     #[inline]

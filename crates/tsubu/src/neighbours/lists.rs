@@ -9,27 +9,20 @@
 //! ones near it and for large ones farther away, never the other way round.
 
 pub use super::block::{BlockList, Incoming, Pair};
-use super::block::{Finder, NOT_IN_HALO};
+use super::block::{Finder, NOT_IN_HALO, find_incoming};
 use super::drift::Drifts;
 use super::grid::{Grid, Image, Numbering, PRIMARY_IMAGE, PeriodicBounds, shift};
 use super::joined::Joined;
 use crate::state::Grains;
-use crate::threads;
+use crate::threads::{self, fill, piece, shares};
 use crate::wall::{Pose, Wall};
 use glam::DVec3;
+use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
 /// Grains of a block.
 pub const BLOCK: usize = 512;
-
-/// Fewer grains than this are not worth waking threads for.
-pub const WORTH_THREADS: usize = 2000;
-
-/// On how many threads so many grains are worth it.
-pub fn shares(grains: usize) -> usize {
-    if grains >= WORTH_THREADS { rayon::current_num_threads() } else { 1 }
-}
 
 /// Below this many grains all pairs are looked at: a grid would cost more than it saves, and nothing needs sorting.
 const SMALL: usize = 96;
@@ -108,14 +101,16 @@ impl NeighbourLists {
         let search = self.search;
         for (axis, end) in search.periodic.iter().enumerate() {
             let Some([low, high]) = *end else { continue };
-            for i in 0..grains.len() {
-                let x = grains.position[i][axis];
+            let piece = piece(grains.len());
+            let places = grains.position.par_iter_mut().zip(&mut grains.unwrap_offset).with_min_len(piece);
+            places.for_each(|(position, offset)| {
+                let x = position[axis];
                 let periods = ((x - low) / (high - low)).floor();
                 if periods != 0.0 {
-                    grains.position[i][axis] = x - periods * (high - low);
-                    grains.unwrap_offset[i][axis] += periods * (high - low);
+                    position[axis] = x - periods * (high - low);
+                    offset[axis] += periods * (high - low);
                 }
-            }
+            });
         }
         if grains.len() <= SMALL {
             return;
@@ -125,15 +120,15 @@ impl NeighbourLists {
         // The memory of a level, which is filled anew afterwards.
         self.levels.resize_with(self.levels.len().max(1), Grid::default);
         let order = &mut self.levels[0];
-        let all = 0..grains.len() as u32;
-        order.lay(Numbering::Lumps, &grains.position, all.clone(), size, &search.periodic);
-        order.sort(&grains.position, all);
+        order.lay(Numbering::Lumps, &grains.position, |_| true, size, &search.periodic);
+        order.sort(&grains.position, |_| true);
         grains.permute(order.order());
     }
 
     /// Makes the lists for the present positions.
     pub fn rebuild(&mut self, grains: &Grains, walls: &[Wall]) {
-        self.reference.clone_from(&grains.position);
+        self.reference.resize(grains.len(), DVec3::ZERO);
+        fill(&mut self.reference, |i| grains.position[i]);
         self.wall_reference.clear();
         self.wall_reference.extend(walls.iter().map(|w| w.pose));
         self.build(grains, walls);
@@ -184,20 +179,7 @@ impl NeighbourLists {
             }
             list.number_locally(finder);
         });
-        for block in own.clone() {
-            for h in 0..lists[block].halo.len() {
-                let grain = lists[block].halo[h].grain as usize;
-                let local = (lists[block].own + h) as u32;
-                let incoming = Incoming { own: (grain % BLOCK) as u32, block: block as u32, local };
-                if own.contains(&(grain / BLOCK)) {
-                    lists[grain / BLOCK].incoming.push(incoming);
-                }
-            }
-        }
-        for list in &mut lists {
-            // Stable: what several blocks hold for a grain stays in the order of the blocks.
-            list.incoming.sort_by_key(|i| i.own);
-        }
+        find_incoming(&mut lists, own, shares(n));
         self.lists = lists;
         self.drifts.reset(&self.lists, &self.reference, grains, walls, search.skin, &search.periodic);
     }
@@ -205,7 +187,10 @@ impl NeighbourLists {
     /// Sorts grains into one grid for each factor of two in size.
     fn fill_levels(&mut self, grains: &Grains) {
         let search = self.search;
-        let ends = grains.radius.iter().fold((f64::INFINITY, 0.0f64), |(l, h), &r| (l.min(r), h.max(r)));
+        let nothing = || (f64::INFINITY, 0.0f64);
+        let ends = |radii: &[f64]| radii.iter().fold(nothing(), |(l, h), &r| (l.min(r), h.max(r)));
+        let pieces = grains.radius.par_chunks(piece(grains.len())).map(ends);
+        let ends = pieces.reduce(nothing, |a, b| (a.0.min(b.0), a.1.max(b.1)));
         self.level_of.clear();
         if ends.1 < ONE_LEVEL * ends.0 {
             self.level_of.resize(grains.len(), 0);
@@ -217,22 +202,26 @@ impl NeighbourLists {
         self.levels.resize_with(count, Grid::default);
         self.largest.clear();
         self.largest.resize(count, 0.0);
-        for (r, level) in grains.radius.iter().zip(&self.level_of) {
-            let largest = &mut self.largest[usize::from(*level)];
-            *largest = largest.max(*r);
+        if let [largest] = &mut self.largest[..] {
+            *largest = ends.1;
+        } else {
+            for (r, level) in grains.radius.iter().zip(&self.level_of) {
+                let largest = &mut self.largest[usize::from(*level)];
+                *largest = largest.max(*r);
+            }
         }
         let part = self.part_and_around(grains);
-        let seen = |i: &u32| {
+        let seen = |i: u32| {
             part.is_none_or(|[low, high]| {
-                let p = self.reference[*i as usize];
+                let p = self.reference[i as usize];
                 p.cmpge(low).all() && p.cmple(high).all()
             })
         };
         for (level, grid) in self.levels.iter_mut().enumerate() {
-            let all = (0..grains.len() as u32).filter(|&i| usize::from(self.level_of[i as usize]) == level);
+            let all = |i: u32| usize::from(self.level_of[i as usize]) == level;
             let size = 2.0 * self.largest[level] + search.skin + search.reach;
             let spheres = (&self.reference[..], &grains.radius[..]);
-            grid.fill(spheres, all.clone(), all.filter(seen), size, &search.periodic);
+            grid.fill(spheres, all, |i| all(i) && seen(i), size, &search.periodic);
         }
     }
 

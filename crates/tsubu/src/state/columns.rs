@@ -1,11 +1,31 @@
 //! Columns that belong together, listed once: sorting, saving and loading cannot forget one.
 
+use crate::threads::piece;
 use glam::DVec3;
+use rayon::prelude::*;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 
+/// Room for one column of each type.
+#[derive(Debug, Default)]
+pub struct Spares {
+    real: Vec<f64>,
+    integer: Vec<u32>,
+    vector: Vec<DVec3>,
+}
+
+/// Puts value `order[i]` of a column at place i.
+pub fn permute<T: Value>(column: &mut Vec<T>, order: &[u32], spares: &mut Spares) {
+    let spare = T::spare(spares);
+    let rows = order.par_iter().with_min_len(piece(order.len()));
+    rows.map(|&i| column[i as usize]).collect_into_vec(spare);
+    std::mem::swap(column, spare);
+}
+
 /// A number type that can be a column.
-pub trait Value: Copy {
+pub trait Value: Copy + Send + Sync {
+    /// Room for another column of this type.
+    fn spare(spares: &mut Spares) -> &mut Vec<Self>;
     /// Stores a column.
     fn put(state: &mut State, name: &str, values: &[Self]);
     /// Takes a column back.
@@ -13,6 +33,9 @@ pub trait Value: Copy {
 }
 
 impl Value for f64 {
+    fn spare(spares: &mut Spares) -> &mut Vec<Self> {
+        &mut spares.real
+    }
     fn put(state: &mut State, name: &str, values: &[Self]) {
         state.put_real(name, values);
     }
@@ -22,6 +45,9 @@ impl Value for f64 {
 }
 
 impl Value for u32 {
+    fn spare(spares: &mut Spares) -> &mut Vec<Self> {
+        &mut spares.integer
+    }
     fn put(state: &mut State, name: &str, values: &[Self]) {
         state.put_integer(name, values.iter().map(|&v| i64::from(v)).collect::<Vec<_>>());
     }
@@ -31,6 +57,9 @@ impl Value for u32 {
 }
 
 impl Value for DVec3 {
+    fn spare(spares: &mut Spares) -> &mut Vec<Self> {
+        &mut spares.vector
+    }
     fn put(state: &mut State, name: &str, values: &[Self]) {
         state.put_real(name, values.iter().flat_map(DVec3::to_array).collect::<Vec<_>>());
     }
@@ -57,15 +86,10 @@ macro_rules! columns {
             /// A row.
             pub fn row(&self, i: usize) -> $row { $row { $($column: self.$column[i],)+ } }
 
-            /// Puts row `order[i]` at place i; rows that are not in the order are dropped. Columns side by side on many
-            /// threads.
+            /// Puts row `order[i]` at place i; rows that are not in the order are dropped. On many threads.
             pub fn permute(&mut self, order: &[u32]) {
-                rayon::scope(|scope| {
-                    $({
-                        let column = &mut self.$column;
-                        scope.spawn(move |_| *column = order.iter().map(|&i| column[i as usize]).collect());
-                    })+
-                });
+                let mut spares = $crate::state::columns::Spares::default();
+                $($crate::state::columns::permute(&mut self.$column, order, &mut spares);)+
             }
 
             /// Puts a copy in the place of the column of that name, and gives away the memory that it had.
