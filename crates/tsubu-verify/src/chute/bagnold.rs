@@ -6,9 +6,14 @@ use crate::control::refused;
 use crate::origin::own;
 use tsubu_frame::Claim;
 
+/// Length and width of the periodic world.
+pub(super) const SIZE: [f64; 2] = [8.0, 6.0];
+/// Stiffness of the springs, in m g/d.
+pub(super) const STIFFNESS: f64 = 5e3;
+
 /// V-36: at rest below, steady flow of constant density with Bagnold's profile above the angle of repose.
 pub fn bagnold(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let world = World::new([8.0, 6.0], 5e3, perturbation)?;
+    let world = World::new(SIZE, STIFFNESS, perturbation)?;
     let slope = |degrees: f64, layers: f64, start: f64| Slope::new(&world, degrees, layers, start);
     let still = slope(17.0, 12.0, 1.0).flow([200.0, 220.0], perturbation)?;
     let mut claims = vec![still.rests()];

@@ -3,7 +3,7 @@
 //! Pouliquen (1999): a layer that has come to rest on a slope has the height h_stop of that slope, and the mean speed of a flow is
 //! u / sqrt(g cos h) = b h / h_stop - c for every height and slope.
 
-use super::{Flow, Slope, World, grows};
+use super::{Flow, Slope, World, bagnold, grows};
 use crate::beds::line;
 use crate::bench::{Rig, within};
 use crate::control::refused;
@@ -116,16 +116,42 @@ fn froude(flow: &Flow) -> f64 {
 }
 
 /// The gates of the law of all flows: it is one straight line over the height in units of `unit`, which tells one for each slope.
-fn one_law(flows: &[Flow], unit: impl Fn(f64) -> f64) -> [Claim; 2] {
+fn one_law(by: &str, flows: &[Flow], unit: impl Fn(f64) -> f64) -> [Claim; 2] {
     let points: Vec<(f64, f64)> = flows.iter().map(|f| (f.thickness / unit(f.degrees), froude(f))).collect();
     let (rise, begin) = line(&points);
     let off = points.iter().map(|(high, froude)| (froude - begin - rise * high).abs()).fold(0.0, f64::max);
     let fastest = points.iter().map(|p| p.1).fold(0.0, f64::max);
     let same = own("Pouliquen 1999: one line for all heights and slopes");
+    let name = |what: &str| format!("all flows, {by}: {what}");
     [
-        Claim::judge("all flows: farthest from one line, over the fastest", off / fastest, None, Some(0.1), same),
-        within("all flows: rise of the line", rise, RISE, 0.15 * RISE, remembered(SOURCE)),
+        Claim::judge(name("farthest from one line, over the fastest"), off / fastest, None, Some(0.1), same),
+        within(name("rise of the line"), rise, RISE, 0.15 * RISE, remembered(SOURCE)),
     ]
+}
+
+/// What the gates of flows refuse, in a small world: a layer at rest, a flow on a plane, and what slides on it without friction, as
+/// fast in a high layer as in a low one.
+fn wrong_flows() -> Result<[Claim; 3], String> {
+    let world = World::new(bagnold::SIZE, bagnold::STIFFNESS, 1.0)?;
+    const WRONG: [[f64; 2]; 4] = [[17.0, 12.0], [22.0, 12.0], [25.0, 12.0], [25.0, 24.0]];
+    let flows = keep::members("flows of wrong models", &[0, 1, 2, 3], |number| {
+        let [degrees, layers] = WRONG[number as usize];
+        let slope = Slope::new(&world, degrees, layers, 5.0);
+        let flow = match number {
+            0 => Slope::new(&world, degrees, layers, 1.0).flow([200.0, 220.0], 1.0),
+            1 => Slope { rough: false, ..slope }.flow([50.0, 150.0], 1.0),
+            _ => Slope { friction: 0.0, rough: false, ..slope }.flow([20.0, 60.0], 1.0),
+        };
+        Ok(flow?.numbers())
+    })?;
+    let mut flows = flows.into_iter().zip(WRONG).map(|(n, [degrees, layers])| Flow::from(degrees, layers, n));
+    let mut next = || flows.next().ok_or("a flow is missing");
+    let [still, smooth, low, high] = [next()?, next()?, next()?, next()?];
+    Ok([
+        refused("chute, a slope below the angle of repose", &still.gates()[..1], 1),
+        refused("chute, a base that is a plane", &smooth.gates(), 1),
+        refused("chute, grains without friction on a plane", &[grows(&high, &low)], 1),
+    ])
 }
 
 /// V-36 at full size: where layers come to rest, and how flows go by it.
@@ -161,7 +187,13 @@ pub fn stopping(perturbation: f64) -> Result<Vec<Claim>, String> {
     claims.push(refused("chute, a layer of grains without friction", &[gate(6.0, *slippery)], 1));
     claims.extend(flows[..3].iter().flat_map(Flow::gates));
     claims.extend([grows(&flows[0], &flows[3]), grows(&flows[1], &flows[4]), grows(&flows[2], &flows[5])]);
-    claims.extend(one_law(&flows, |degrees| found.height(degrees)));
-    claims.push(refused("chute, heights in diameters in the law of flows", &one_law(&flows, |_| 1.0), 2));
+    claims.extend(wrong_flows()?);
+    claims.extend(one_law("by heights found here", &flows, |degrees| found.height(degrees)));
+    claims.extend(one_law("by published heights", &flows, |degrees| PUBLISHED.height(degrees)));
+    claims.push(refused(
+        "chute, heights in diameters in the law of flows",
+        &one_law("by diameters", &flows, |_| 1.0),
+        2,
+    ));
     Ok(claims)
 }
