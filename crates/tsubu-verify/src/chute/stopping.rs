@@ -37,6 +37,9 @@ const FLOWS: [[f64; 3]; 8] = [
 /// When flows have become steady, and until when they are looked at.
 const LOOKED: [f64; 2] = [200.0, 350.0];
 
+/// Slope and layers of flows of wrong models.
+const WRONG: [[f64; 2]; 4] = [[17.0, 12.0], [22.0, 12.0], [25.0, 12.0], [25.0, 24.0]];
+
 /// What is said of these grains: slopes that no layer stops above and below [degrees], a height [d], and the rise of the law of flows.
 const SOURCE: &str = "Weinhart et al. 2012, Granular Matter 14: 17.56 and 32.26 degrees, 3.84 d, 0.191";
 const PUBLISHED: Stopping = Stopping { gentlest: 0.316_46, steepest: 0.631_06, height: 3.836 };
@@ -133,7 +136,6 @@ fn one_law(by: &str, flows: &[Flow], unit: impl Fn(f64) -> f64) -> [Claim; 2] {
 /// fast in a high layer as in a low one.
 fn wrong_flows() -> Result<[Claim; 3], String> {
     let world = World::new(bagnold::SIZE, bagnold::STIFFNESS, 1.0)?;
-    const WRONG: [[f64; 2]; 4] = [[17.0, 12.0], [22.0, 12.0], [25.0, 12.0], [25.0, 24.0]];
     let flows = keep::members("flows of wrong models", &[0, 1, 2, 3], |number| {
         let [degrees, layers] = WRONG[number as usize];
         let slope = Slope::new(&world, degrees, layers, 5.0);
