@@ -1,6 +1,6 @@
 //! Flows of several heights down several slopes, in a small world with soft springs.
 
-use super::{Slope, World, grows, quicker};
+use super::{Flow, Slope, World, grows, quicker};
 use crate::bench::within;
 use crate::control::refused;
 use crate::origin::own;
@@ -28,8 +28,7 @@ pub fn bagnold(perturbation: f64) -> Result<Vec<Claim>, String> {
     let name = "chute at 25 degrees, 40 layers: speed in the first half of the time over that of all";
     claims.push(within(name, thick.early, 1.0, 0.1, own("steady").after()));
     claims.push(refused("chute, a slope below the angle of repose", &still.gates()[..1], 1));
-    let smooth = Slope { rough: false, ..slope(22.0, 12.0, 5.0) }.flow([50.0, 150.0], 1.0)?;
-    claims.push(refused("chute, a base that is a plane", &smooth.gates(), 1));
+    claims.push(refused("chute, a base that is a plane", &on_a_plane(&world, 22.0, 12.0)?.gates(), 1));
     let slippery = Slope { friction: 0.0, ..slope(22.0, 12.0, 5.0) }.flow([50.0, 150.0], 1.0)?;
     claims.push(refused("chute, grains without friction", &slippery.gates(), 1));
     claims.push(refused("chute, grains without friction on a plane", &slides(&world)?, 3));
@@ -38,10 +37,17 @@ pub fn bagnold(perturbation: f64) -> Result<Vec<Claim>, String> {
 
 /// What nothing holds back: it slides at 17 degrees, at 25 hardly faster than at 22, and in a high layer as in a low one.
 fn slides(world: &World) -> Result<[Claim; 3], String> {
-    let slide = |degrees: f64, layers: f64| {
-        let rough = Slope::new(world, degrees, layers, 5.0);
-        Slope { friction: 0.0, rough: false, ..rough }.flow([20.0, 60.0], 1.0)
-    };
+    let slide = |degrees: f64, layers: f64| slide(world, degrees, layers);
     let [below, gentle, steep] = [slide(17.0, 12.0)?, slide(22.0, 12.0)?, slide(25.0, 12.0)?];
     Ok([below.rests(), quicker(&steep, &gentle), grows(&slide(25.0, 24.0)?, &steep)])
+}
+
+/// A layer on a base without grains.
+pub(super) fn on_a_plane(world: &World, degrees: f64, layers: f64) -> Result<Flow, String> {
+    Slope { rough: false, ..Slope::new(world, degrees, layers, 5.0) }.flow([50.0, 150.0], 1.0)
+}
+
+/// The same without friction.
+pub(super) fn slide(world: &World, degrees: f64, layers: f64) -> Result<Flow, String> {
+    Slope { friction: 0.0, rough: false, ..Slope::new(world, degrees, layers, 5.0) }.flow([20.0, 60.0], 1.0)
 }
