@@ -29,6 +29,7 @@ pub mod ranks;
 pub mod run;
 pub(crate) mod scene_files;
 pub mod sections;
+mod shape_mesh;
 pub(crate) mod sizes;
 pub mod state;
 pub mod student;

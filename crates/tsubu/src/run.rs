@@ -5,6 +5,7 @@ mod leader;
 mod lost;
 mod measured;
 mod onlooker;
+mod outputs;
 mod resume;
 mod simulation;
 mod stages;
@@ -16,6 +17,7 @@ mod ways;
 pub use error::RunError;
 pub use leader::follow;
 pub use onlooker::{Onlooker, Wish};
+pub(crate) use outputs::formats;
 pub(crate) use resume::what_differs;
 pub use simulation::Simulation;
 pub(crate) use told::judge;
@@ -26,17 +28,18 @@ use crate::engine::{self, Engine};
 use crate::interrupt::Watcher;
 use crate::ledger::{Account, Energies, Ledger};
 use crate::partner::Hosts;
-use crate::scene_files;
 use crate::watch::{Trigger, Watches};
+use crate::{scene_files, shape_mesh};
 use leader::Leader;
 use lost::Lost;
 use measured::Measured;
+use outputs::Outputs;
 use stages::Stages;
 use start::Start;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use tsubu_frame::{
-    Advise, Existing, FileError, Formats, Frame, FrameWriter, Header, History, Mark, RunFolder, State, Status, Summary,
+    Advise, Existing, FileError, Frame, FrameWriter, Header, History, Mark, RunFolder, State, Status, Summary,
     checkpoint,
 };
 use tsubu_scene::{Plan, Scene};
@@ -84,6 +87,7 @@ fn work(
     let describe = |verdicts: &str| {
         folder.claim(&names)?;
         scene_files::write(&folder, scene)?;
+        shape_mesh::write(&folder, scene)?;
         folder.write("check.txt", verdicts.as_bytes())
     };
     let outputs = if resumed {
@@ -111,11 +115,6 @@ pub(crate) fn steps(plan: &Plan, engine: &dyn Engine) -> Result<u64, RunError> {
         0 => Err(RunError::NoStep { duration, dt }),
         steps => Ok(steps),
     }
-}
-
-/// What is written in frames beside grains and walls.
-pub(crate) const fn formats(plan: &Plan) -> Formats {
-    Formats { contacts: plan.output.contacts, xyz: plan.output.xyz, lammps: plan.output.lammps }
 }
 
 /// Hash of a scene as text: what a checkpoint or a journal belongs to.
@@ -151,19 +150,13 @@ struct Run<'a> {
     idle: Duration,
 }
 
-/// What grows as the run goes.
-struct Outputs {
-    history: History,
-    frames: FrameWriter,
-}
-
 /// Checkpoints that come faster than this would take longer than what they save.
 const BETWEEN_CHECKPOINTS: Duration = Duration::from_millis(100);
 
 impl Run<'_> {
     /// The files that it writes.
     fn names(&self, scene: &Scene) -> Vec<String> {
-        let mut names = scene_files::names(scene);
+        let mut names = [scene_files::names(scene), shape_mesh::names(scene)].concat();
         names.extend(["check.txt", "summary.json", "history.csv", "checkpoint/state.tsubu"].map(str::to_owned));
         let pictures = self.stages.plans.iter().any(|plan| plan.output.frame_interval.is_some());
         names.extend(pictures.then(|| "frames/".to_owned()));

@@ -1,5 +1,7 @@
 use crate::support::{Desk, shortened};
 use std::path::Path;
+use std::process::Command;
+use tsubu_scene::Scene;
 
 /// Runs a scene for a moment and looks at its books. What a scene claims is true at its end only.
 fn runs(desk: &Desk, scene: &str, options: &str, method: &str) {
@@ -24,14 +26,32 @@ mod patient {
                 let (desk, path) = (Desk::empty(), entry.path());
                 let name = path.file_stem().unwrap().to_str().unwrap();
                 desk.done(&format!("check {}", path.display()));
+                let scene = Scene::read(&path, &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+                // None longer than it is: some break in milliseconds.
+                let seconds = scene.plans().iter().map(|plan| plan.duration).fold(0.05, f64::min);
                 let path = path.to_str().unwrap();
-                runs(&desk, path, &format!("{} --set claim=[]", shortened(path, "0.05 s")), "dem");
+                runs(&desk, path, &format!("{} --set claim=[]", shortened(path, &format!("{seconds} s"))), "dem");
                 desk.done(&format!("report {name}-dem"));
                 count += 1;
             }
         }
         assert!(count >= 5);
     }
+}
+
+/// VTK draws ellipsoids and cubes where they touch. Read with VTK, which `cargo xtask test` brings.
+#[test]
+#[ignore = "needs Python with the package vtk: cargo xtask test"]
+fn vtk_reads_every_snapshot_and_shape() {
+    let desk = Desk::empty();
+    desk.done("new mixed");
+    desk.done("run mixed.toml -q --set 'duration=0.12 s'");
+    let python = std::env::var_os("TSUBU_VTK_PYTHON").unwrap_or_else(|| "python3".into());
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/shapes_with_vtk.py");
+    let out = Command::new(python).arg(script).arg(desk.path("out/mixed")).arg("700").output().unwrap();
+    let said = String::from_utf8_lossy(&out.stdout);
+    assert!(out.status.success(), "{said}{}", String::from_utf8_lossy(&out.stderr));
+    assert!(said.contains("2 meshes"), "{said}");
 }
 
 /// So that what is written by `new` is tested with the scenes; one that names a file is written with it.

@@ -76,7 +76,7 @@ fn is_huge(extent: Vector, diameter: f64) -> bool {
 }
 
 /// In the unit that people would take.
-pub(super) fn length(metres: f64) -> String {
+pub(crate) fn length(metres: f64) -> String {
     let (number, unit) = match metres {
         x if x >= 1.0 || x == 0.0 => (x, "m"),
         x if x >= 1e-3 => (x * 1e3, "mm"),

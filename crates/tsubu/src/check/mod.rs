@@ -12,6 +12,7 @@ mod verdict;
 mod water;
 
 pub(crate) use drive::{fastest, peak};
+pub(crate) use mesh::length;
 pub use verdict::{Line, Verdict, human_time, verdict};
 pub use water::blows_up;
 

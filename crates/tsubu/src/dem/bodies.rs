@@ -9,11 +9,13 @@ mod assemble;
 mod body;
 mod in_water;
 mod refused;
+mod rims;
 mod saved;
 mod seen;
 mod told;
 
 pub(super) use refused::refused;
+pub(super) use rims::facet;
 
 use super::contact_batch::ContactBatch;
 use crate::contact::chunk::Chunk;

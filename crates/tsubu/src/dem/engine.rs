@@ -148,7 +148,7 @@ impl DemEngine {
             return Err(refuse(("dem.time-step".to_owned(), text)).into());
         }
         let gravity = DVec3::from_array(*gravity);
-        let walls = walls(plan, &table, hosts, *dimension, gravity);
+        let mut walls = walls(plan, &table, hosts, *dimension, gravity);
         let (mut grains, settle) = place::grains(plan, &table, &walls).map_err(refuse)?;
         let first = (0..grains.len()).find(|&i| grains.inverse_mass[i] != 0.0);
         if let Some(i) = first.filter(|_| left_out(Mutation::LastBit)) {
@@ -165,6 +165,7 @@ impl DemEngine {
             || immersion.as_ref().is_some_and(|immersion| immersion.water.has_surface());
         let limits = Limits::new(plan, &grains, &sources);
         let smallest = limits.smallest_diameter;
+        let notes = bodies::facet(plan, &mut walls, smallest);
         let skin = if smallest.is_finite() { dem.skin * smallest } else { 0.0 };
         let laws = ContactLaws::new(plan, table, hosts);
         let search = Search { skin, reach: laws.reach(), periodic: room::periodic_bounds(plan) };
@@ -183,7 +184,7 @@ impl DemEngine {
             reactions,
             books: Books { moved_mass: grains.moved_mass(), ..Books::default() },
             limits,
-            notes: Vec::new(),
+            notes,
             grains,
         };
         engine.start();

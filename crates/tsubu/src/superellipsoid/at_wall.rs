@@ -16,6 +16,8 @@ use glam::DVec3;
 
 /// Rounds of a search around an axis; half of 2^-60 of an arc is rounding.
 const ROUNDS: usize = 60;
+/// Widest part of an arc in which one place is looked for [rad].
+const PART: f64 = std::f64::consts::FRAC_PI_6;
 /// Directions around an axis from which greatest ones are looked for.
 const DIRECTIONS: usize = 48;
 
@@ -118,13 +120,25 @@ impl Outline {
 
     /// At an edge through a point from the centre [m], with normals between two angles.
     pub fn at_edge(&self, at: DVec3, ring: &Ring, arc: [f64; 2]) -> Option<AtWall> {
-        let [low, high] = arc.map(|angle| self.slope(ring, -at, angle));
         // Where it meets a face rounding must not lose it between both.
         let none = 1e-12 * self.flattest;
-        (low <= none && high >= -none).then(|| {
-            let angle = self.turning_point(ring, -at, arc, false);
-            self.at_angle(ring, -at, 0.0, angle)
-        })
+        // Over a wide arc the slope of an elongated body turns more than once: of several places the nearest.
+        let parts = ((arc[1] - arc[0]) / PART).ceil().max(1.0);
+        let end = |k: f64| if k < parts { arc[0] + (arc[1] - arc[0]) * k / parts } else { arc[1] };
+        let mut found: Option<AtWall> = None;
+        let (mut k, mut low) = (0.0, self.slope(ring, -at, arc[0]));
+        while k < parts {
+            let high = self.slope(ring, -at, end(k + 1.0));
+            if low <= none && high >= -none {
+                let angle = self.turning_point(ring, -at, [end(k), end(k + 1.0)], false);
+                let contact = self.at_angle(ring, -at, 0.0, angle);
+                if found.is_none_or(|found| contact.overlap < found.overlap) {
+                    found = Some(contact);
+                }
+            }
+            (k, low) = (k + 1.0, high);
+        }
+        found
     }
 
     /// Around an axis, the centre at `from` [m]: inside of it at all places that are nearer than `reach` [m], otherwise at the nearest one.

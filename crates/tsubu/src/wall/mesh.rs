@@ -59,7 +59,11 @@ impl Mesh {
 
     /// The section with the plane y = 0, for 2-D scenes.
     pub fn in_plane(corners: &[[DVec3; 3]], centre: DVec3) -> Self {
-        let lines = section(corners);
+        Self::of_lines(section(corners), centre)
+    }
+
+    /// Of pieces of line in the plane y = 0, for 2-D scenes.
+    pub(super) fn of_lines(lines: Vec<[DVec3; 2]>, centre: DVec3) -> Self {
         let longest = lines.iter().map(|[a, b]| a.distance(*b)).fold(0.0, f64::max);
         let mut mesh = Self::new(&strips(&lines, longest), centre);
         mesh.radius = lines.iter().flatten().map(|p| p.distance(centre)).fold(0.0, f64::max);

@@ -25,12 +25,12 @@ impl Outline {
     pub(super) fn new(shape: &Shape, surface: &Surface, dimension: u8) -> Self {
         match (surface, dimension) {
             (Surface::HalfSpaces { .. }, _) => Self { lines: edges(shape, dimension), triangles: Vec::new() },
-            (Surface::Frustum(frustum), 2) => Self { lines: section(frustum), triangles: Vec::new() },
-            (Surface::Frustum(frustum), _) => Self { lines: Vec::new(), triangles: skin(frustum) },
+            (Surface::Frustum(frustum), 2) => Self { lines: section(frustum, PIECES), triangles: Vec::new() },
+            (Surface::Frustum(frustum), _) => Self { lines: Vec::new(), triangles: skin(frustum, PIECES) },
             (Surface::Shell(shell), 2) => {
-                Self { lines: vec![circle(shell.centre, shell.radius)], triangles: Vec::new() }
+                Self { lines: vec![circle(shell.centre, shell.radius, PIECES)], triangles: Vec::new() }
             }
-            (Surface::Shell(shell), _) => Self { lines: Vec::new(), triangles: globe(shell) },
+            (Surface::Shell(shell), _) => Self { lines: Vec::new(), triangles: globe(shell, PIECES) },
             (Surface::Mesh(mesh), 2) => Self { lines: mesh.lines(), triangles: Vec::new() },
             (Surface::Mesh(mesh), _) => {
                 Self { lines: Vec::new(), triangles: mesh.triangles().iter().map(|t| t.corners).collect() }
@@ -86,9 +86,9 @@ fn edges(shape: &Shape, dimension: u8) -> Vec<Vec<DVec3>> {
 }
 
 /// A circle in the plane (x, z).
-fn circle(centre: DVec3, radius: f64) -> Vec<DVec3> {
-    let at = |k: usize| TAU * k as f64 / PIECES as f64;
-    (0..PIECES).map(|k| centre + radius * DVec3::new(at(k).cos(), 0.0, at(k).sin())).collect()
+pub(super) fn circle(centre: DVec3, radius: f64, pieces: usize) -> Vec<DVec3> {
+    let at = |k: usize| TAU * k as f64 / pieces as f64;
+    (0..pieces).map(|k| centre + radius * DVec3::new(at(k).cos(), 0.0, at(k).sin())).collect()
 }
 
 /// Centres of both ends of a frustum.
@@ -100,10 +100,10 @@ fn ends(frustum: &Frustum) -> [DVec3; 2] {
 }
 
 /// Where the plane (x, z) cuts a frustum: a circle, or two straight lines.
-fn section(frustum: &Frustum) -> Vec<Vec<DVec3>> {
+pub(super) fn section(frustum: &Frustum, pieces: usize) -> Vec<Vec<DVec3>> {
     let across = frustum.axis.cross(DVec3::Y);
     if across.length_squared() < 1e-12 {
-        return vec![circle(frustum.point, frustum.radius[0])];
+        return vec![circle(frustum.point, frustum.radius[0], pieces)];
     }
     let across = across.normalize();
     let [start, end] = ends(frustum);
@@ -112,34 +112,34 @@ fn section(frustum: &Frustum) -> Vec<Vec<DVec3>> {
 }
 
 /// The curved surface in strips from end to end.
-fn skin(frustum: &Frustum) -> Vec<[DVec3; 3]> {
+pub(super) fn skin(frustum: &Frustum, pieces: usize) -> Vec<[DVec3; 3]> {
     let u = frustum.across_axis();
     let v = frustum.axis.cross(u);
     let [start, end] = ends(frustum);
     let [r0, r1] = frustum.radius;
     let around = |k: usize| {
         // The last piece ends where the first begins, to the last bit.
-        let (sin, cos) = (TAU * (k % PIECES) as f64 / PIECES as f64).sin_cos();
+        let (sin, cos) = (TAU * (k % pieces) as f64 / pieces as f64).sin_cos();
         u * cos + v * sin
     };
     let mut triangles = Vec::new();
-    for k in 0..PIECES {
+    for k in 0..pieces {
         let (a, b) = (around(k), around(k + 1));
         quad(&mut triangles, [start + a * r0, start + b * r0, end + b * r1, end + a * r1]);
     }
     triangles
 }
 
-/// A sphere by longitude and latitude.
-fn globe(shell: &SphericalShell) -> Vec<[DVec3; 3]> {
+/// A sphere by longitude and latitude, of an even number of pieces.
+pub(super) fn globe(shell: &SphericalShell, pieces: usize) -> Vec<[DVec3; 3]> {
     let at = |i: usize, j: usize| {
-        let (sin, cos) = (TAU * (i % PIECES) as f64 / PIECES as f64).sin_cos();
-        let (sin_height, cos_height) = (TAU * j as f64 / PIECES as f64 - 0.5 * PI).sin_cos();
+        let (sin, cos) = (TAU * (i % pieces) as f64 / pieces as f64).sin_cos();
+        let (sin_height, cos_height) = (TAU * j as f64 / pieces as f64 - 0.5 * PI).sin_cos();
         shell.centre + shell.radius * DVec3::new(cos * cos_height, sin * cos_height, sin_height)
     };
     let mut triangles = Vec::new();
-    for j in 0..PIECES / 2 {
-        for i in 0..PIECES {
+    for j in 0..pieces / 2 {
+        for i in 0..pieces {
             quad(&mut triangles, [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
         }
     }

@@ -352,8 +352,6 @@ fn what_polyhedra_cannot_have_is_refused() {
         let told = tsubu::methods::open(scene.plan(), &Hosts::default()).err().map(|error| error.to_string());
         assert!(told.as_ref().is_some_and(|told| told.contains(&format!("  {key}: "))), "{told:?}");
     };
-    let drum = "shape.cylinder = { point = [0, 0, 0], axis = [0, 0, 1], radius = 1, length = 1 }";
-    refused(drum, &[], "walls.floor.shape");
     refused(FLOOR, &["dem.integrator=forward-euler"], "dem.integrator");
     refused(FLOOR, &["method=lattice"], "particles.dice.shape");
 }

@@ -122,3 +122,23 @@ fn contacts_are_counted_by_body_too() {
     // Where all grains are spheres it says nothing of bodies.
     assert!(!watch(3, "contacts = {}").scalars().iter().any(|name| name.contains("bodies")));
 }
+
+/// Two clumps of two balls and a ball by itself, of mass 1 each, where a bond holds one clump and the ball together: two fragments, not four.
+#[test]
+fn the_spheres_of_a_clump_are_one_fragment() {
+    let balls: Vec<_> = (0..5).map(|k| ball(f64::from(k), 0.0, 0.0, 0.5)).collect();
+    let body = |grain: usize| Body { grain, centre: balls[grain].at, long: DVec3::X, short: DVec3::Z };
+    let look = View {
+        bodies: vec![body(0), body(2)],
+        body_of: vec![Some(0), Some(0), Some(1), Some(1), None],
+        bonds: vec![[3, 4]],
+        ..view(&balls, Vec::new(), [None; 3])
+    };
+    let mut fragments = super::watch_of(3, SCENE, "fragments = {}");
+    let sample = once(&mut *fragments, &look);
+    assert_eq!(["bonds", "fragments", "largest"].map(|name| scalar(&*fragments, &sample, name)), [1.0, 2.0, 0.6]);
+    // The control: who does not ask for bodies counts every sphere.
+    let spheres = View { bodies: Vec::new(), body_of: Vec::new(), ..look };
+    let sample = once(&mut *fragments, &spheres);
+    assert_eq!(scalar(&*fragments, &sample, "fragments"), 4.0);
+}
