@@ -6,6 +6,7 @@
 //! are the slopes of an energy; and each distance has slopes without jumps, so that no force jumps as a contact wanders from one feature to another.
 
 pub mod at_wall;
+pub mod awake;
 mod crossing;
 mod cut;
 pub mod near;
@@ -18,7 +19,7 @@ use multiversion::multiversion;
 use std::ops::Range;
 use tsubu_scene::plan;
 
-/// Corners and normals of a body are kept in lots of so many.
+/// Corners are kept in lots of so many, too.
 const LANES: usize = 4;
 
 /// What is lower by this is so however it is rounded, over the diameter.
@@ -29,10 +30,8 @@ const SURE: f64 = 1e-6;
 pub struct Polyhedron {
     corners: Vec<DVec3>,
     normals: Vec<DVec3>,
-    /// Corners and normals as columns, the first once more up to whole lots.
-    columns: [[Vec<f64>; 3]; 2],
-    /// Length of these columns.
-    lots: [usize; 2],
+    /// Corners as columns, the first once more up to whole lots.
+    columns: [Vec<f64>; 3],
     /// How many corners there are.
     count: usize,
     /// Distances of the faces from the centre.
@@ -46,6 +45,8 @@ pub struct Polyhedron {
     edges: Vec<[usize; 2]>,
     /// The faces on both sides of each edge.
     sides: Vec<[usize; 2]>,
+    /// The ends of each edge as those faces go round it.
+    ways: Vec<[[usize; 2]; 2]>,
     rounding: f64,
 }
 
@@ -62,8 +63,7 @@ impl Polyhedron {
         let normals: Vec<DVec3> = plan.faces.iter().map(|face| DVec3::from_array(face.normal)).collect();
         Self {
             faces: faces.collect(),
-            columns: [columns(&corners), columns(&normals)],
-            lots: [corners.len(), normals.len()].map(|count| count.next_multiple_of(LANES)),
+            columns: columns(&corners),
             count: corners.len(),
             corners,
             normals,
@@ -72,6 +72,7 @@ impl Polyhedron {
             round,
             edges: plan.edges.clone(),
             sides: plan.edges.iter().map(|edge| sides(plan, edge)).collect(),
+            ways: plan.edges.iter().map(|edge| sides(plan, edge).map(|face| way(plan, edge, face))).collect(),
             rounding: plan.rounding,
         }
     }
@@ -121,12 +122,18 @@ fn sides(plan: &plan::Polyhedron, edge: &[usize; 2]) -> [usize; 2] {
     [first, of.next().unwrap_or(first)]
 }
 
+/// The ends of an edge as one of its faces goes round it.
+fn way(plan: &plan::Polyhedron, [a, b]: &[usize; 2], face: usize) -> [usize; 2] {
+    let round = &plan.faces[face].corners;
+    let goes = round.iter().zip(round.iter().cycle().skip(1)).any(|ends| ends == (a, b));
+    if goes { [*a, *b] } else { [*b, *a] }
+}
+
 /// The core of a sphere: a point.
 static POINT: Polyhedron = Polyhedron {
     corners: Vec::new(),
     normals: Vec::new(),
-    columns: [const { [const { Vec::new() }; 3] }; 2],
-    lots: [LANES, 0],
+    columns: [const { Vec::new() }; 3],
     count: 1,
     offsets: Vec::new(),
     discs: Vec::new(),
@@ -134,10 +141,11 @@ static POINT: Polyhedron = Polyhedron {
     faces: Vec::new(),
     edges: Vec::new(),
     sides: Vec::new(),
+    ways: Vec::new(),
     rounding: 0.5,
 };
 
-/// A body as it is turned, about its centre.
+/// A body as it is turned, about its centre. Its corners and normals are turned when they are asked for: that is less work than to fetch them from memory.
 #[derive(Clone, Copy, Debug)]
 pub struct Turned<'a> {
     shape: &'a Polyhedron,
@@ -145,25 +153,27 @@ pub struct Turned<'a> {
     size: f64,
     /// Rounding radius [m].
     pub rounding: f64,
-    /// Corners [m] and normals as columns, see [`Polyhedron::lots`].
-    columns: &'a [f64],
+    /// Its principal axes.
+    axes: DMat3,
 }
 
 impl<'a> Turned<'a> {
     /// A sphere of a radius [m].
     pub fn sphere(radius: f64) -> Self {
-        Self { shape: &POINT, size: 2.0 * radius, rounding: radius, columns: &[0.0; 3 * LANES] }
+        Self { shape: &POINT, size: 2.0 * radius, rounding: radius, axes: DMat3::IDENTITY }
     }
 
     #[inline]
     fn corner(&self, i: usize) -> DVec3 {
-        self.vector(i, self.shape.lots[0])
+        // Of a sphere its centre.
+        self.turned(self.shape.corners.get(i).map_or(DVec3::ZERO, |corner| *corner * self.size))
     }
 
-    /// A vector that begins in one column of some length, and goes on in the next two.
+    /// A vector along the principal axes as it is turned.
     #[inline]
-    fn vector(&self, i: usize, length: usize) -> DVec3 {
-        DVec3::new(self.columns[i], self.columns[i + length], self.columns[i + 2 * length])
+    fn turned(&self, v: DVec3) -> DVec3 {
+        let DMat3 { x_axis, y_axis, z_axis } = self.axes;
+        x_axis * v.x + y_axis * v.y + z_axis * v.z
     }
 
     /// Corners of the core, each with its number [m].
@@ -177,10 +187,15 @@ impl<'a> Turned<'a> {
         self.shape.offsets.len()
     }
 
+    /// Whether it is no sphere.
+    #[inline]
+    pub fn is_faceted(&self) -> bool {
+        self.faces() > 0
+    }
+
     #[inline]
     fn normal(&self, face: usize) -> DVec3 {
-        let [corners, normals] = self.shape.lots;
-        self.vector(3 * corners + face, normals)
+        self.turned(self.shape.normals[face])
     }
 
     /// How far a point is above a face [m].
@@ -199,41 +214,43 @@ impl<'a> Turned<'a> {
     /// How far the corner that reaches farthest against a direction does, below 0 [m].
     #[inline]
     fn lowest(&self, n: DVec3) -> f64 {
-        let (x, others) = self.columns.split_at(self.shape.lots[0]);
-        let (y, others) = others.split_at(x.len());
-        let [x, y, z] = [x, y, &others[..x.len()]];
-        let [x, y, z] = [x.as_chunks::<LANES>().0, y.as_chunks::<LANES>().0, z.as_chunks::<LANES>().0];
-        let mut low = [f64::INFINITY; LANES];
-        for ((x, y), z) in x.iter().zip(y).zip(z) {
-            for l in 0..LANES {
-                let height = n.x * x[l] + n.y * y[l] + n.z * z[l];
-                low[l] = if height < low[l] { height } else { low[l] };
-            }
-        }
-        low.into_iter().fold(f64::INFINITY, f64::min)
+        if self.shape.corners.is_empty() { 0.0 } else { lowest(&self.shape.columns, self.size, &self.axes, n) }
     }
 }
 
-/// The memory of a body as it is turned.
-#[derive(Clone, Debug)]
-pub struct TurnedBody {
+/// The least height along a direction of corners of diameter 1, of a body of some size as it is turned.
+#[multiversion(targets = "simd")]
+fn lowest(columns: &[Vec<f64>; 3], size: f64, axes: &DMat3, n: DVec3) -> f64 {
+    // Plain loops: here the compiler leaves iterators as calls.
+    let [x, y, z] = columns;
+    let (x, y, z) = (x.as_chunks::<LANES>().0, y.as_chunks::<LANES>().0, z.as_chunks::<LANES>().0);
+    let DMat3 { x_axis: a, y_axis: b, z_axis: c } = *axes;
+    let mut low = [f64::INFINITY; LANES];
+    for k in 0..x.len().min(y.len()).min(z.len()) {
+        for l in 0..LANES {
+            let (x, y, z) = (x[k][l] * size, y[k][l] * size, z[k][l] * size);
+            let corner = a * x + b * y + c * z;
+            let height = n.x * corner.x + n.y * corner.y + n.z * corner.z;
+            low[l] = if height < low[l] { height } else { low[l] };
+        }
+    }
+    low.into_iter().fold(f64::INFINITY, f64::min)
+}
+
+/// Which polyhedron a body is.
+#[derive(Clone, Copy, Debug)]
+pub struct Faceted {
     /// The number of its shape.
     pub shape: u32,
     /// Diameter [m].
     pub size: f64,
     rounding: f64,
-    /// The columns of its corners and of its normals, one after the other; room for those of any shape.
-    columns: Box<[f64]>,
 }
 
-impl TurnedBody {
-    /// A body of one of these shapes, with a diameter [m], along its principal axes.
+impl Faceted {
+    /// A body of one of these shapes, with a diameter [m].
     pub fn new(shape: u32, size: f64, shapes: &[Polyhedron]) -> Self {
-        let room = shapes.iter().map(|shape| 3 * (shape.lots[0] + shape.lots[1])).max().unwrap_or_default();
-        let rounding = shapes[shape as usize].rounding * size;
-        let mut body = Self { shape, size, rounding, columns: vec![0.0; room].into() };
-        body.turn(shapes, &DMat3::IDENTITY);
-        body
+        Self { shape, size, rounding: shapes[shape as usize].rounding * size }
     }
 
     /// Rounding radius [m].
@@ -241,38 +258,10 @@ impl TurnedBody {
         self.rounding
     }
 
-    /// Each gets the memory of the other; what that holds is to be found anew.
-    pub fn swap_memory(&mut self, other: &mut Self) {
-        std::mem::swap(&mut self.columns, &mut other.columns);
-    }
-
-    /// Turns it so that its principal axes have these directions.
-    pub fn turn(&mut self, shapes: &[Polyhedron], axes: &DMat3) {
-        let Polyhedron { columns: [corners, normals], lots, .. } = &shapes[self.shape as usize];
-        let (of_corners, others) = self.columns.split_at_mut(3 * lots[0]);
-        turn(corners, self.size, axes, of_corners);
-        turn(normals, 1.0, axes, &mut others[..3 * lots[1]]);
-    }
-
-    /// As it is turned.
+    /// As it is turned, so that its principal axes have these directions.
     #[inline]
-    pub fn at<'a>(&'a self, shapes: &'a [Polyhedron]) -> Turned<'a> {
-        let Self { shape, size, rounding, ref columns } = *self;
-        Turned { shape: &shapes[shape as usize], size, rounding, columns }
-    }
-}
-
-/// Vectors of a body of some size from those of diameter 1.
-#[multiversion(targets = "simd")]
-fn turn([x, y, z]: &[Vec<f64>; 3], size: f64, axes: &DMat3, vectors: &mut [f64]) {
-    let [x, y, z] = [x, y, z].map(|column| column.as_chunks::<LANES>().0);
-    let columns = axes.to_cols_array_2d();
-    for (row, turned) in vectors.chunks_exact_mut(vectors.len() / 3).enumerate() {
-        let [a, b, c] = [columns[0][row], columns[1][row], columns[2][row]];
-        for (turned, ((x, y), z)) in turned.as_chunks_mut::<LANES>().0.iter_mut().zip(x.iter().zip(y).zip(z)) {
-            for l in 0..LANES {
-                turned[l] = a * (x[l] * size) + b * (y[l] * size) + c * (z[l] * size);
-            }
-        }
+    pub fn at<'a>(&self, shapes: &'a [Polyhedron], axes: &DMat3) -> Turned<'a> {
+        let Self { shape, size, rounding } = *self;
+        Turned { shape: &shapes[shape as usize], size, rounding, axes: *axes }
     }
 }

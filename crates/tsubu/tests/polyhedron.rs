@@ -2,9 +2,10 @@
 
 use glam::{DMat3, DQuat, DVec3};
 use std::f64::consts::TAU;
+use tsubu::polyhedron::awake::{Awake, Couple};
 use tsubu::polyhedron::near::Near;
 use tsubu::polyhedron::touch::{Contact, Search, touch};
-use tsubu::polyhedron::{Polyhedron, TurnedBody, with_round};
+use tsubu::polyhedron::{Faceted, Polyhedron, Turned, with_round};
 use tsubu::random::{Purpose, unit, words};
 use tsubu::superellipsoid::Superellipsoid;
 use tsubu_scene::plan::{ClumpOrientation, GrainShape};
@@ -60,17 +61,14 @@ fn body(corners: &[[f64; 3]], rounding: f64) -> Polyhedron {
 }
 
 /// A body of one of some shapes, of diameter 1, as it is turned.
-fn body_turned(shape: usize, shapes: &[Polyhedron], turned: DQuat) -> TurnedBody {
-    let mut body = TurnedBody::new(shape as u32, 1.0, shapes);
-    body.turn(shapes, &DMat3::from_quat(turned));
-    body
+fn body_turned(shape: usize, shapes: &[Polyhedron], turned: DQuat) -> Turned<'_> {
+    Faceted::new(shape as u32, 1.0, shapes).at(shapes, &DMat3::from_quat(turned))
 }
 
 /// Contacts of two bodies of diameter 1 as they are turned.
 fn contacts(shapes: [&Polyhedron; 2], turned: [DQuat; 2], apart: DVec3, reach: f64) -> Vec<Contact> {
     let shapes = shapes.map(Clone::clone);
-    let bodies = [0, 1].map(|k| body_turned(k, &shapes, turned[k]));
-    let [a, b] = [0, 1].map(|k| bodies[k].at(&shapes));
+    let [a, b] = [0, 1].map(|k| body_turned(k, &shapes, turned[k]));
     let mut found = Vec::new();
     touch([&a, &b], apart, reach, &mut Search::default(), &mut found);
     found
@@ -90,15 +88,16 @@ fn what_sleeps_does_not_touch() {
             let (mut turned, mut apart) = pair(&mut draw, kinds.map(|kind| &shapes[kind]));
             let turning = [draw.vector(), draw.vector()].map(|spin| spin * 1e-3);
             let (way, mut path) = (draw.vector() * 1e-3, 0.0);
-            let mut near = Near::default();
+            let (mut near, mut awake) = (Near::default(), Awake::default());
             near.forget(1);
             for step in 0..400 {
-                let bodies = [0, 1].map(|k| body_turned(kinds[k], &shapes, turned[k]));
-                let [a, b] = [0, 1].map(|k| bodies[k].at(&shapes));
+                let [a, b] = [0, 1].map(|k| body_turned(kinds[k], &shapes, turned[k]));
                 let (mut all, mut found) = (Vec::new(), Vec::new());
                 touch([&a, &b], apart, 0.0, &mut search, &mut all);
-                if !near.is_apart(0, share * path) {
-                    near.touch(0, share * path, ([&a, &b], apart, 0.0), &mut search, &mut found);
+                let couple = Couple { pair: 0, bodies: [0, 1], apart, path: share * path };
+                if !near.is_apart(0, couple.path) {
+                    near.wake(couple, [&a, &b], 0.0, &mut search, &mut awake);
+                    awake.touch(&mut near, (&[a, b], 0.0), &mut found, |_| ());
                 }
                 some += usize::from(!all.is_empty());
                 differ += usize::from(format!("{all:?}") != format!("{found:?}"));
@@ -299,8 +298,7 @@ fn a_superellipsoid_overlaps_by_the_least() {
             let semi_axes = DVec3::new(0.2 + 0.3 * draw.next(), 0.2 + 0.3 * draw.next(), 0.1 + 0.4 * draw.next());
             let round = Superellipsoid { semi_axes, exponents, reach: 0.5 }.turned(&DMat3::from_quat(draw.turned()));
             let axes = draw.turned();
-            let turned = body_turned(0, &shapes, axes);
-            let cube = turned.at(&shapes);
+            let cube = body_turned(0, &shapes, axes);
             let apart = (draw.turned() * DVec3::Z) * (0.6 + 0.2 * draw.next());
             let least = |n: DVec3| {
                 let core = cube.corners().map(|(_, corner)| n.dot(corner)).fold(f64::INFINITY, f64::min);
@@ -347,18 +345,18 @@ fn a_plane_cuts_a_tetrahedron_as_it_should() {
         let tip = DVec3::from_array(TETRAHEDRON[0]).normalize();
         let n = turned * tip;
         // From the centre 1/2 up to the tip and 1/6 down to the face.
-        let [low, high] = tetrahedron.at(&shapes).ends(n);
+        let [low, high] = tetrahedron.ends(n);
         assert!((low + 1.0 / 6.0).abs() < 1e-8 && (high - 0.5).abs() < 1e-8, "{low} {high}");
         for k in 1..10 {
             let way = f64::from(k) / 10.0;
-            let above = 1.0 - tetrahedron.at(&shapes).below(n, 0.5 - way * 2.0 / 3.0);
+            let above = 1.0 - tetrahedron.below(n, 0.5 - way * 2.0 / 3.0);
             assert!((above - way.powi(3)).abs() < 1e-7, "{above} {way}");
             assert!((above - way * way * (3.0 - 2.0 * way)).abs() > 1e-2);
         }
         // Any cut of a cube leaves two halves that are alike.
         let cube = body_turned(1, &shapes, turned);
         let (along, height) = (draw.vector().normalize(), 0.5 * draw.next());
-        let cut = |height: f64| cube.at(&shapes).below(along, height);
+        let cut = |height: f64| cube.below(along, height);
         assert!((cut(height) + cut(-height) - 1.0).abs() < 1e-12);
         assert!((cut(0.0) - 0.5).abs() < 1e-12 && cut(0.51) == 1.0 && cut(-0.51) == 0.0);
     }

@@ -7,6 +7,7 @@
 
 mod assemble;
 mod body;
+mod felt;
 mod in_water;
 mod refused;
 mod rims;
@@ -28,7 +29,8 @@ use crate::superellipsoid::{Outline, Superellipsoid};
 use crate::threads::{each_in_parts, shares};
 use crate::view;
 pub(super) use body::Body;
-use body::{Felt, TOGETHER};
+use body::TOGETHER;
+use felt::Pieces;
 use glam::{DQuat, DVec3};
 use multiversion::multiversion;
 
@@ -116,7 +118,8 @@ impl Bodies {
     /// The polyhedron that a grain is, as it is turned.
     #[inline]
     pub fn polyhedron(&self, i: usize) -> Option<Turned<'_>> {
-        Some(self.body(i)?.polyhedron.as_ref()?.at(&self.polyhedra))
+        let body = self.body(i)?;
+        Some(body.polyhedron.as_ref()?.at(&self.polyhedra, &body.axes))
     }
 
     /// Rounding radius of the polyhedron that a grain is [m].
@@ -190,11 +193,8 @@ impl Bodies {
             if to == k {
                 k += 1;
             } else {
-                Body::swap(list, k, to);
+                list.swap(k, to);
             }
-        }
-        for body in list {
-            body.turn_polyhedron(&self.polyhedra);
         }
     }
 
@@ -215,42 +215,32 @@ impl Bodies {
 
     /// Before the forces: bodies go to the end of the step. Their pieces follow block by block, see [`place`].
     pub fn first_half(&mut self, dt: f64) {
-        let Self { list, places, polyhedra, plane, .. } = self;
-        let (plane, shapes) = (*plane, &**polyhedra);
+        let Self { list, places, plane, .. } = self;
+        let plane = *plane;
         let (many, others) = list.as_chunks_mut::<TOGETHER>();
         each_in_parts(many, shares(places.len()), &|bodies: &mut [Body; TOGETHER]| {
-            body::first_half(bodies, dt, plane, shapes);
+            body::first_half(bodies, dt, plane);
         });
-        body::first_half(others, dt, plane, shapes);
+        body::first_half(others, dt, plane);
     }
 
     /// After the forces: sums what the pieces feel, which their columns carry ([`super::integrate`]), finds the new accelerations and completes
-    /// the velocities, which the old ones have brought `share` [s] of the way. Returns the correction of the losses, as for spheres.
-    pub fn second_half(&mut self, grains: &Grains, gravity: DVec3, share: f64) -> f64 {
+    /// the velocities, which the old ones have brought `share` [s] of the way. Then bodies may do the first half of a step at once. Returns the correction of the losses, as for spheres.
+    pub fn second_half(&mut self, grains: &Grains, gravity: DVec3, share: f64, next: Option<f64>) -> f64 {
         let Self { list, sorted, places, plane, locked, .. } = self;
-        let (plane, locked) = (*plane, *locked);
-        each_in_parts(list, shares(places.len()), &|body: &mut Body| {
-            let mut felt = Felt::default();
-            for &place in &places[body.pieces.clone()] {
-                let i = place as usize;
-                let (force, torque, dissipative) =
-                    (grains.acceleration[i], grains.angular_acceleration[i], grains.velocity[i]);
-                let arm = body.arm(&sorted[i], plane);
-                felt.force += force;
-                felt.torque += torque + arm.cross(force);
-                felt.loss[0] += dissipative;
-                felt.loss[1] += torque + arm.cross(dissipative);
+        let plane = *plane;
+        let pieces = Pieces { grains, sorted, places, plane, locked: *locked };
+        let work = |bodies: &mut [Body]| {
+            for body in bodies.iter_mut().filter(|body| body.is_there()) {
+                body.second_half(&pieces.felt(body), gravity, share, plane);
             }
-            if locked {
-                (felt.torque, felt.loss[1]) = (DVec3::ZERO, DVec3::ZERO);
+            if let Some(dt) = next {
+                body::first_half(bodies, dt, plane);
             }
-            if plane {
-                felt.stay_in_plane();
-            }
-            if body.is_there() {
-                body.second_half(&felt, gravity, share, plane);
-            }
-        });
+        };
+        let (many, others) = list.as_chunks_mut::<TOGETHER>();
+        each_in_parts(many, shares(places.len()), &|bodies: &mut [Body; TOGETHER]| work(bodies));
+        work(others);
         -2.0 / 3.0 * self.there().map(|body| body.correction).sum::<f64>()
     }
 

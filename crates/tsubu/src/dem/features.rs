@@ -10,6 +10,7 @@ use super::narrow_phase::{Spheres, TouchingPair, TouchingPairs};
 use crate::contact::chunk::Chunk;
 use crate::neighbours::lists::BlockList;
 use crate::polyhedron::Turned;
+use crate::polyhedron::awake::{Awake, Couple};
 use crate::polyhedron::near::Near;
 use crate::polyhedron::touch::{Contact, Search, touch};
 use glam::{DMat3, DVec3};
@@ -25,6 +26,7 @@ pub(super) struct PairFeatures {
     gives: Vec<Option<Gives>>,
     /// How far these have gone [m].
     paths: Vec<f64>,
+    awake: Awake,
     search: Search,
     /// Pairs of the block, the pair once more for each of its contacts.
     pairs: Vec<TouchingPair>,
@@ -32,6 +34,9 @@ pub(super) struct PairFeatures {
     /// The same under one law.
     of_law: Vec<TouchingPair>,
     rows: Vec<u32>,
+    /// Of each row of the batch, see [`Contact`].
+    overlap: Vec<f64>,
+    share: Vec<f64>,
 }
 
 /// What rows ask of a polyhedron, side by side.
@@ -46,7 +51,7 @@ struct Gives {
 impl PairFeatures {
     /// Takes the pairs with a polyhedron from those whose spheres touch.
     pub fn take(&mut self, touching: &mut TouchingPairs, input: &ForceInput, list: &BlockList, spheres: &Spheres) {
-        let Self { near, gives, paths, search, pairs, contacts, .. } = self;
+        let Self { near, gives, paths, awake, search, pairs, contacts, .. } = self;
         if !input.bodies.faceted() {
             return;
         }
@@ -54,47 +59,55 @@ impl PairFeatures {
         contacts.clear();
         gives.clear();
         paths.clear();
-        let mut seen = Vec::with_capacity(list.grain_at.len());
-        for grain in &list.grain_at {
-            let body = input.bodies.body(*grain as usize);
-            let turned = input.bodies.polyhedron(*grain as usize);
-            seen.push(turned);
-            paths.push(body.map_or(0.0, |body| body.path));
-            gives.push(turned.zip(body).map(|(turned, body)| {
-                // Without rotation no body gives way by turning.
-                let inverse_inertia = if input.laws.rotation { body.inverse_inertia } else { DMat3::ZERO };
-                Gives { rounding: turned.rounding, inverse_inertia }
-            }));
-        }
+        // One after the other: so many bodies are on their way from memory at once, and none waits for another.
+        let body = |grain: &u32| input.bodies.body(*grain as usize);
+        paths.extend(list.grain_at.iter().map(|grain| body(grain).map_or(0.0, |body| body.path)));
+        let turned = |(local, grain): (u32, &u32)| {
+            input.bodies.polyhedron(*grain as usize).unwrap_or_else(|| Turned::sphere(spheres.at(local)[3]))
+        };
+        let seen: Vec<Turned> = (0..).zip(&list.grain_at).map(turned).collect();
+        gives.extend(list.grain_at.iter().map(|grain| {
+            let body = body(grain)?;
+            // Without rotation no body gives way by turning.
+            let inverse_inertia = if input.laws.rotation { body.inverse_inertia } else { DMat3::ZERO };
+            Some(Gives { rounding: body.polyhedron.as_ref()?.rounding(), inverse_inertia })
+        }));
         let reach = input.laws.reach();
         let shaped = input.bodies.shaped();
         let path =
             |pair: &TouchingPair| paths[pair.first as usize] + paths[list.pairs[pair.pair as usize].second as usize];
+        let mut tell = |couple: &Couple| pairs.push(TouchingPair { first: couple.bodies[0], pair: couple.pair });
         // By itself, for a processor cannot guess who sleeps.
         touching.keep(|pair| !near.is_apart(pair.pair as usize, path(pair)));
         touching.keep(|pair| {
-            let (first, second) = (pair.first, list.pairs[pair.pair as usize].second);
-            let [a, b] = [first, second].map(|local| &seen[local as usize]);
-            if a.is_none() && b.is_none() {
+            let bodies = [pair.first, list.pairs[pair.pair as usize].second];
+            let [a, b] = bodies.map(|local| &seen[local as usize]);
+            if !a.is_faceted() && !b.is_faceted() {
                 return true;
             }
             // Superellipsoids touch polyhedra as they touch all: once, see [`super::shapes`].
             let round = |local: u32| input.bodies.superellipsoid(list.grain_at[local as usize] as usize).is_some();
-            if shaped && (round(first) || round(second)) {
+            if shaped && bodies.into_iter().any(round) {
                 return true;
             }
-            let (p, q) = (spheres.at(first), spheres.at(second));
+            let [p, q] = bodies.map(|local| spheres.at(local));
             let apart = DVec3::new(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
-            if let (Some(a), Some(b)) = (a, b) {
-                near.touch(pair.pair as usize, path(pair), ([a, b], apart, reach), search, contacts);
+            let couple = Couple { pair: pair.pair, bodies, apart, path: path(pair) };
+            if a.is_faceted() && b.is_faceted() {
+                near.wake(couple, [a, b], reach, search, awake);
+                if awake.is_full() {
+                    awake.touch(near, (&seen, reach), contacts, &mut tell);
+                }
             } else {
-                let a = a.unwrap_or_else(|| Turned::sphere(p[3]));
-                let b = b.unwrap_or_else(|| Turned::sphere(q[3]));
-                touch([&a, &b], apart, reach, search, contacts);
+                // Those before come first.
+                awake.touch(near, (&seen, reach), contacts, &mut tell);
+                let before = contacts.len();
+                touch([a, b], apart, reach, search, contacts);
+                (before..contacts.len()).for_each(|_| tell(&couple));
             }
-            pairs.resize(contacts.len(), *pair);
             false
         });
+        awake.touch(near, (&seen, reach), contacts, tell);
     }
 
     /// All contacts with their pairs.
@@ -139,14 +152,24 @@ impl PairFeatures {
     }
 
     /// Puts the spheres that stand for features into the rows of a batch.
-    pub fn gather(&self, batch: &mut ContactBatch, range: Range<usize>, input: &ForceInput, list: &BlockList) {
+    pub fn gather(&mut self, batch: &mut ContactBatch, range: Range<usize>, input: &ForceInput, list: &BlockList) {
         let rotation = input.laws.rotation;
         batch.shifted = true;
-        for (r, contact) in self.rows(range).enumerate() {
+        self.overlap.clear();
+        self.share.clear();
+        for (r, row) in self.rows[range].iter().enumerate() {
+            let contact = &self.contacts[*row as usize];
+            self.overlap.push(contact.overlap);
+            self.share.push(contact.share);
             let branch = Chunk::vector(&batch.branch, r) + contact.points[1] - contact.points[0];
-            // Cores that touch have no distance, but a normal all the same.
-            let least = 1e-6 * branch.length().max(contact.points[0].length());
             let along = branch.dot(contact.normal);
+            // Cores that touch have no distance, but a normal all the same. Few are near enough to ask for roots.
+            let near = 1e-11 * branch.length_squared().max(contact.points[0].length_squared());
+            let least = if along > 0.0 && along * along > near {
+                0.0
+            } else {
+                1e-6 * branch.length().max(contact.points[0].length())
+            };
             let branch = if along < least { contact.normal * least } else { branch };
             Chunk::set(&mut batch.branch, r, branch);
             for (body, local) in [batch.first[r], batch.second[r]].into_iter().enumerate() {
@@ -176,21 +199,36 @@ impl PairFeatures {
     }
 
     /// After the geometry of spheres: edges that lie back overlap by less, and nearer points close them less fast.
-    pub fn lie_back(&self, batch: &mut ContactBatch, range: Range<usize>) {
-        for (r, contact) in self.rows(range).enumerate() {
-            batch.chunk.overlap[r] = contact.overlap;
-            batch.chunk.closing[r] *= contact.share;
-        }
+    pub fn lie_back(&self, batch: &mut ContactBatch) {
+        lie_back(batch, &self.overlap, &self.share);
     }
 
     /// After the law: the normal force that belongs to such an overlap.
-    pub fn push_less(&self, batch: &mut ContactBatch, range: Range<usize>) {
-        for (r, contact) in self.rows(range).enumerate().filter(|(_, contact)| contact.share < 1.0) {
-            let lacks = Chunk::vector(&batch.chunk.normal, r) * (1.0 - contact.share);
-            let force = Chunk::vector(&batch.force, r) + lacks * batch.chunk.normal_force[r];
-            let dissipative = Chunk::vector(&batch.dissipative, r) + lacks * batch.chunk.damping_force[r];
-            Chunk::set(&mut batch.force, r, force);
-            Chunk::set(&mut batch.dissipative, r, dissipative);
+    pub fn push_less(&self, batch: &mut ContactBatch) {
+        push_less(batch, &self.share);
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn lie_back(batch: &mut ContactBatch, overlap: &[f64], share: &[f64]) {
+    for r in 0..batch.chunk.rows().min(overlap.len()).min(share.len()) {
+        batch.chunk.overlap[r] = overlap[r];
+        batch.chunk.closing[r] *= share[r];
+    }
+}
+
+#[multiversion(targets = "simd")]
+fn push_less(batch: &mut ContactBatch, share: &[f64]) {
+    let chunk = &batch.chunk;
+    let rows = chunk.rows().min(share.len());
+    for k in 0..3 {
+        let (normal, force, dissipative) = (&chunk.normal[k], &mut batch.force[k], &mut batch.dissipative[k]);
+        for r in 0..rows {
+            let lacks = normal[r] * (1.0 - share[r]);
+            let (less, damped) =
+                (force[r] + lacks * chunk.normal_force[r], dissipative[r] + lacks * chunk.damping_force[r]);
+            force[r] = if share[r] < 1.0 { less } else { force[r] };
+            dissipative[r] = if share[r] < 1.0 { damped } else { dissipative[r] };
         }
     }
 }

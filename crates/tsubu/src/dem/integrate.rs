@@ -154,6 +154,17 @@ impl TimeIntegration {
     /// acceleration, so that forces that depend on velocity see positions and velocities of one time level.
     pub fn first_half(&mut self, grains: &mut Grains, neighbours: &mut NeighbourLists, dt: f64, ranks: &mut Ranks) {
         self.bodies.first_half(dt);
+        self.first_half_of_blocks(grains, neighbours, dt, ranks);
+    }
+
+    /// The same once the bodies have gone.
+    fn first_half_of_blocks(
+        &mut self,
+        grains: &mut Grains,
+        neighbours: &mut NeighbourLists,
+        dt: f64,
+        ranks: &mut Ranks,
+    ) {
         let (bodies, motion, shares) = (&self.bodies, self.motion(dt), shares(grains.len()));
         let blocks = Slice::new(grains, neighbours, &mut self.reports);
         sweep(blocks, Direction::Forward, shares, &|mut s: Slice| first_half(&mut s, bodies, &motion));
@@ -162,7 +173,7 @@ impl TimeIntegration {
 
     /// After the forces: sums what blocks hold for every grain, finds the new accelerations and completes the velocities of
     /// a step `dt` (0: leaves them). With `go_on` every block does the first half of the next step at once: its columns are in
-    /// the cache.
+    /// the cache. Where there are bodies these do, and the blocks follow.
     pub fn second_half(
         &mut self,
         grains: &mut Grains,
@@ -172,19 +183,24 @@ impl TimeIntegration {
         ranks: &mut Ranks,
     ) -> Report {
         let (bodies, motion, shares) = (&self.bodies, self.motion(dt), shares(grains.len()));
+        let at_once = go_on && bodies.is_empty();
         let blocks = Slice::new(grains, neighbours, &mut self.reports);
         sweep(blocks, Direction::Backward, shares, &|mut s: Slice| {
             s.reports[0] = second_half(&mut s, contacts, &motion);
-            if go_on {
+            if at_once {
                 first_half(&mut s, bodies, &motion);
             }
         });
-        ranks.share_motion(Halves { first: go_on, second: true }, grains, neighbours, &mut self.reports);
+        ranks.share_motion(Halves { first: at_once, second: true }, grains, neighbours, &mut self.reports);
         let mut total = Report::default();
         for report in &self.reports {
             total.add(report);
         }
-        total.correction += self.bodies.second_half(grains, self.gravity, motion.predicted_for);
+        let go_on = go_on && !at_once;
+        total.correction += self.bodies.second_half(grains, self.gravity, motion.predicted_for, go_on.then_some(dt));
+        if go_on {
+            self.first_half_of_blocks(grains, neighbours, dt, ranks);
+        }
         total
     }
 

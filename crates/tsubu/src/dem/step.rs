@@ -29,8 +29,6 @@ impl DemEngine {
             (self.insertion_due(next), self.gate_due(next), self.bonds_due(next));
         let go_on = go_on && !insertion_due && !gate_due && !bonds_due;
         let go_on = go_on && !self.contacts.outside.acts() && self.contacts.bonds.is_empty();
-        let looked_at = !go_on;
-        let go_on = go_on && self.integration.bodies.is_empty();
         if !std::mem::replace(&mut self.clock.half_step_done, go_on) {
             let dt = self.clock.dt;
             self.integration.first_half(&mut self.grains, &mut self.neighbours, dt, &mut self.ranks);
@@ -53,7 +51,7 @@ impl DemEngine {
         // Before positions may go on to the next step: the stream looks where the grains are now.
         self.advance_stream(ledger);
         self.second_half_step(dt, go_on);
-        if looked_at {
+        if !go_on {
             self.integration.bodies.show(&mut self.grains);
         }
         self.apply_reactions(hosts, ledger);

@@ -1,7 +1,8 @@
 //! Where a body touches surfaces with sharp edges, and surfaces that bulge towards it. What of a wall is flat or hollow is touched by corners, as spheres of the rounding radius.
 
 use super::Turned;
-use super::crossing::{CROWN, Edge, nearest};
+use super::crossing::{CROWN, Crossing, Edge};
+use super::touch::Contact;
 use glam::DVec3;
 
 /// Rounds of a search along an edge.
@@ -36,8 +37,9 @@ pub struct Bulge {
 }
 
 impl Turned<'_> {
-    fn edges(&self) -> impl Iterator<Item = Edge> {
-        (0..self.shape.edges.len()).map(|number| self.edge(number))
+    /// Its edges with their numbers.
+    fn edges(&self) -> impl Iterator<Item = (usize, Edge)> {
+        (0..self.shape.edges.len()).map(|number| (number, self.edge(number)))
     }
 
     /// Tells where edges of the body cross a sharp edge with these ends, from the centre of the body [m], nearer than `reach` [m] to its rounded edge.
@@ -47,21 +49,13 @@ impl Turned<'_> {
         if (0..self.faces()).any(beside) {
             return;
         }
-        let way = b - a;
-        let ridge = Edge { number: 0, middle: (a + b) * 0.5, way, squared: way.length_squared() };
-        let back = 8.0 * CROWN * radius * radius;
-        for edge in self.edges() {
-            let (points, squared) = nearest(&edge, &ridge, back);
-            if squared < cut * cut {
-                let (way, distance) = (points[1] - points[0], squared.sqrt());
-                let between = way.length();
-                found(AtWall {
-                    edge: edge.number,
-                    point: points[0],
-                    overlap: radius - distance,
-                    normal: way / (between + f64::MIN_POSITIVE),
-                    share: between / distance,
-                });
+        let ridge = Edge::between([a, b]);
+        for (edge, own) in self.edges() {
+            let crossing = Crossing::of(&own, &ridge, radius);
+            if crossing.squared < cut * cut {
+                let Contact { points: [point, _], overlap, normal, share, .. } =
+                    crossing.contact(0, DVec3::ZERO, radius);
+                found(AtWall { edge, point, overlap, normal, share });
             }
         }
     }
@@ -78,7 +72,7 @@ impl Turned<'_> {
         let radius = self.rounding;
         let back = 4.0 * CROWN * radius;
         let across = |v: DVec3| v - bulge.axis * bulge.axis.dot(v);
-        for edge in self.edges() {
+        for (number, edge) in self.edges() {
             let middle = bulge.from + edge.middle;
             let (start, way) = (across(middle), across(edge.way));
             let height = |t: f64| {
@@ -105,7 +99,7 @@ impl Turned<'_> {
             let (height, radial) = height(t);
             if height < radius + reach {
                 found(AtWall {
-                    edge: edge.number,
+                    edge: number,
                     point: edge.middle + edge.way * t,
                     overlap: radius - height,
                     normal: bulge.axis * sin - radial * cos,

@@ -5,7 +5,8 @@
 //! last look. What is left out cannot touch: contacts are, to the bit, those of a look at everything. So nothing of this is state, and it may be forgotten at any time.
 
 use super::Turned;
-use super::touch::{Contact, Cut, Search, touch};
+use super::awake::{Awake, Couple};
+use super::touch::{Contact, Search, touch};
 use glam::DVec3;
 
 /// Gaps are slept through but for this share, for rounding.
@@ -19,7 +20,7 @@ pub struct Near {
     /// The path of both bodies of each pair up to which nothing of them can touch [m].
     apart: Vec<f64>,
     pairs: Vec<Pair>,
-    features: Vec<Sleeper>,
+    pub(super) features: Vec<Sleeper>,
 }
 
 /// Two bodies.
@@ -33,25 +34,67 @@ struct Pair {
     room: u32,
 }
 
-/// A pair of features.
+/// A pair of features: few bytes, for a step walks along all of them.
 #[derive(Clone, Copy, Debug)]
-struct Sleeper {
-    /// The path of both bodies up to which it cannot touch [m].
+pub(super) struct Sleeper {
+    /// The path of both bodies up to which it cannot touch, or, of a corner that is [`OVER`] or [`BESIDE`], up to which it stays there [m].
     until: f64,
-    feature: u32,
-    /// The face that a corner was nearest to.
-    face: u32,
+    /// See [`Contact::feature`].
+    pub feature: u32,
+    /// The face that a corner was nearest to, or the edge; with one of these marks.
+    place: u32,
 }
+
+/// A corner is straight above a face, or below, and no other is nearer.
+const OVER: u32 = 1 << 31;
+/// A corner is nearest to an edge.
+const BESIDE: u32 = 1 << 30;
 
 /// Nothing is known.
 const UNKNOWN: Pair = Pair { until: f64::NEG_INFINITY, first: 0, count: 0, room: 0 };
 
 /// What is looked at.
-const AWAKE: Sleeper = Sleeper { until: f64::NEG_INFINITY, feature: 0, face: 0 };
+const AWAKE: Sleeper = Sleeper { until: f64::NEG_INFINITY, feature: 0, place: 0 };
 
-/// The path up to which a gap [m] can be slept through, from a path on [m].
-fn sleep(path: f64, gap: f64, radii: f64) -> f64 {
-    if gap > LEAST * radii { path + SHARE * gap } else { f64::NEG_INFINITY }
+impl Sleeper {
+    /// Whether it may touch after a path.
+    #[expect(clippy::needless_bitwise_bool, reason = "a processor cannot guess which")]
+    #[inline]
+    pub fn is_awake(&self, path: f64) -> bool {
+        (path > self.until) | (self.place >= BESIDE)
+    }
+
+    /// It is not nearer than a gap [m], over the rounding radii not too small to sleep.
+    #[inline]
+    pub fn sleep(&mut self, path: f64, gap: f64, radii: f64) {
+        self.until = if gap > LEAST * radii { path + SHARE * gap } else { f64::NEG_INFINITY };
+        self.place = 0;
+    }
+
+    /// The distance of a corner from a core, as [`Turned::distance`] tells it.
+    #[inline]
+    pub fn distance(&mut self, path: f64, core: &Turned, point: DVec3, cut: f64) -> Result<(f64, DVec3), f64> {
+        let (mark, number) = (self.place & (OVER | BESIDE), self.place & !(OVER | BESIDE));
+        if mark > 0 && path <= self.until {
+            return if mark == OVER {
+                core.distance_over(number as usize, point, cut)
+            } else {
+                core.distance_beside(number as usize, point, cut)
+            };
+        }
+        let mut face = if mark == OVER { number } else { 0 };
+        let found = core.distance_from(&mut face, point, cut)?;
+        let over = core.slack(face as usize, point);
+        let (edge, beside) = if over > 0.0 { (0, 0.0) } else { core.beside(point) };
+        (self.until, self.place) = if over > 0.0 {
+            (path + over, OVER | face)
+        } else if beside > 0.0 {
+            (path + beside, BESIDE | edge as u32)
+        } else {
+            (f64::NEG_INFINITY, 0)
+        };
+        Ok(found)
+    }
 }
 
 impl Near {
@@ -75,55 +118,38 @@ impl Near {
         path <= self.apart[pair]
     }
 
-    /// Appends where the two bodies of a pair touch, or are nearer than `reach` [m], as [`touch`] does; `path` is how far both have gone [m].
-    pub fn touch(
-        &mut self,
-        pair: usize,
-        path: f64,
-        (bodies, apart, reach): ([&Turned; 2], DVec3, f64),
-        search: &mut Search,
-        found: &mut Vec<Contact>,
-    ) {
-        if path > self.pairs[pair].until {
-            self.look(pair, path, (bodies, apart, reach), search, found);
+    /// Adds the features of two bodies that may touch, or may be nearer than `reach` [m].
+    pub fn wake(&mut self, couple: Couple, bodies: [&Turned; 2], reach: f64, search: &mut Search, awake: &mut Awake) {
+        if couple.path > self.pairs[couple.pair as usize].until {
+            self.look(&couple, bodies, reach, search, &mut awake.found);
         }
-        let Pair { first, count, .. } = self.pairs[pair];
-        let radii = bodies[0].rounding + bodies[1].rounding;
-        let cut = Cut { radii, reach };
-        for sleeper in &mut self.features[first as usize..(first + count) as usize] {
-            if path <= sleeper.until {
-                continue;
-            }
-            match cut.at(bodies, apart, sleeper.feature, &mut sleeper.face) {
-                Ok(contact) => found.push(contact),
-                Err(gap) => sleeper.until = sleep(path, gap, radii),
-            }
-        }
+        let Pair { first, count, .. } = self.pairs[couple.pair as usize];
+        awake.add(couple, first, &self.features[first as usize..(first + count) as usize]);
     }
 
     /// Looks which features of a pair are near.
     fn look(
         &mut self,
-        pair: usize,
-        path: f64,
-        (bodies, apart, reach): ([&Turned; 2], DVec3, f64),
+        &Couple { pair, path, apart, .. }: &Couple,
+        bodies: [&Turned; 2],
+        reach: f64,
         search: &mut Search,
         found: &mut Vec<Contact>,
     ) {
         let margin = bodies[0].rounding + bodies[1].rounding;
-        let before = found.len();
+        found.clear();
         let beyond = touch(bodies, apart, reach + margin, search, found);
         let Self { apart: asleep, pairs, features } = self;
-        let known = &mut pairs[pair];
+        let known = &mut pairs[pair as usize];
         known.until = path + SHARE * (margin + beyond);
-        known.count = (found.len() - before) as u32;
-        asleep[pair] = if known.count == 0 { known.until } else { f64::NEG_INFINITY };
+        known.count = found.len() as u32;
+        asleep[pair as usize] = if known.count == 0 { known.until } else { f64::NEG_INFINITY };
         if known.count > known.room {
             // What it had stays behind; rooms double, so it is less than what is there.
             (known.first, known.room) = (features.len() as u32, known.count.next_power_of_two());
             features.resize(features.len() + known.room as usize, AWAKE);
         }
-        for (sleeper, contact) in features[known.first as usize..].iter_mut().zip(found.drain(before..)) {
+        for (sleeper, contact) in features[known.first as usize..].iter_mut().zip(found) {
             *sleeper = Sleeper { feature: contact.feature, ..AWAKE };
         }
     }

@@ -1,11 +1,11 @@
 //! Where two bodies touch.
 
 use super::Turned;
-use super::crossing::{CROWN, Edge, nearest};
+use super::crossing::{CROWN, Crossing, Edge};
 use glam::DVec3;
 
 /// A contact of two features.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Contact {
     /// Which features, see [`turned_feature`].
     pub feature: u32,
@@ -36,7 +36,8 @@ pub fn turned_feature(feature: u32) -> u32 {
 #[derive(Clone, Debug, Default)]
 pub struct Search {
     heights: Vec<f64>,
-    edges: Vec<Edge>,
+    /// Edges with their numbers.
+    edges: Vec<(u32, Edge)>,
 }
 
 /// The face from which the other body is farthest, and how far.
@@ -45,9 +46,15 @@ struct Axis {
     height: f64,
 }
 
+/// The numbers of two edges that are a pair of features; `None`: it is a corner and a core.
+#[inline]
+pub(super) fn edges_of(feature: u32) -> Option<[usize; 2]> {
+    (feature & EDGE > 0).then(|| [feature >> 16, feature & 0xffff].map(|edge| (edge ^ EDGE) as usize))
+}
+
 /// How near features count.
 #[derive(Clone, Copy, Debug)]
-pub struct Cut {
+pub(super) struct Cut {
     /// Sum of the rounding radii [m].
     pub radii: f64,
     /// Gap up to which bodies may hold each other [m].
@@ -55,74 +62,44 @@ pub struct Cut {
 }
 
 impl Cut {
-    fn distance(self) -> f64 {
+    /// Of two bodies.
+    #[inline]
+    pub fn of([a, b]: [&Turned; 2], reach: f64) -> Self {
+        Self { radii: a.rounding + b.rounding, reach }
+    }
+
+    /// How far cores may be apart [m].
+    #[inline]
+    pub fn distance(self) -> f64 {
         self.radii + self.reach
     }
 
-    /// The contact of two features by their number, see [`Contact::feature`], or how far they are from being one at least [m].
-    /// `face` is the nearest of a corner the last time, and now.
+    /// A corner of one body at the core of the other, as the feature tells, or how far it is from being a contact at least [m]. `find` tells the distance of a point from the core, and the direction from that.
     #[inline]
-    pub fn at(self, [a, b]: [&Turned; 2], apart: DVec3, feature: u32, face: &mut u32) -> Result<Contact, f64> {
-        match [feature >> 16, feature & 0xffff] {
-            [0, second] => self.second_at((a, face), apart, second - 1, b.corner(second as usize - 1)),
-            [first, 0] => self.first_at((b, face), apart, first - 1, a.corner(first as usize - 1)),
-            [first, second] => {
-                let (p, mut q) = (a.edge((first ^ EDGE) as usize), b.edge((second ^ EDGE) as usize));
-                q.middle += apart;
-                self.crossing(&p, &q, apart)
-            }
-        }
-    }
-
-    /// A corner of the first body at the core of the second.
-    #[inline]
-    fn first_at(
+    pub fn corner(
         self,
-        (core, face): (&Turned, &mut u32),
+        bodies: [&Turned; 2],
         apart: DVec3,
-        number: u32,
-        corner: DVec3,
+        feature: u32,
+        find: impl FnOnce(&Turned, DVec3) -> Result<(f64, DVec3), f64>,
     ) -> Result<Contact, f64> {
-        let point = corner - apart;
-        let (distance, away) = core.distance_from(face, point, self.distance())?;
-        let points = [corner, point - away * distance];
-        let feature = feature(number + 1, 0);
-        Ok(Contact { feature, points, overlap: self.radii - distance, normal: -away, share: 1.0 })
-    }
-
-    /// A corner of the second body at the core of the first.
-    #[inline]
-    fn second_at(
-        self,
-        (core, face): (&Turned, &mut u32),
-        apart: DVec3,
-        number: u32,
-        corner: DVec3,
-    ) -> Result<Contact, f64> {
-        let point = apart + corner;
-        let (distance, away) = core.distance_from(face, point, self.distance())?;
-        let points = [point - away * distance, corner];
-        let feature = feature(0, number + 1);
-        Ok(Contact { feature, points, overlap: self.radii - distance, normal: away, share: 1.0 })
+        let [first, second] = [feature >> 16, feature & 0xffff];
+        // Of the second at the core of the first, or the other way round.
+        let core = usize::from(first > 0);
+        let sign = [1.0, -1.0][core];
+        let corner = bodies[1 - core].corner((first | second) as usize - 1);
+        let point = corner + apart * sign;
+        let (distance, away) = find(bodies[core], point)?;
+        let mut points = [point - away * distance; 2];
+        points[1 - core] = corner;
+        Ok(Contact { feature, points, overlap: self.radii - distance, normal: away * sign, share: 1.0 })
     }
 
     /// Two edges; that of the second from the centre of the first.
-    #[inline]
-    fn crossing(self, p: &Edge, q: &Edge, apart: DVec3) -> Result<Contact, f64> {
-        let (points, squared) = nearest(p, q, 8.0 * CROWN * self.radii * self.radii);
+    fn crossing(self, (i, p): &(u32, Edge), (j, q): &(u32, Edge), apart: DVec3) -> Option<Contact> {
+        let crossing = Crossing::of(p, q, self.radii);
         let cut = self.distance();
-        if squared >= cut * cut {
-            return Err(squared.sqrt() - cut);
-        }
-        let (way, distance) = (points[1] - points[0], squared.sqrt());
-        let between = way.length();
-        Ok(Contact {
-            feature: feature(EDGE | p.number as u32, EDGE | q.number as u32),
-            points: [points[0], points[1] - apart],
-            overlap: self.radii - distance,
-            normal: way / (between + f64::MIN_POSITIVE),
-            share: between / distance,
-        })
+        (crossing.squared < cut * cut).then(|| crossing.contact(feature(EDGE | i, EDGE | j), apart, self.radii))
     }
 }
 
@@ -146,24 +123,28 @@ impl Turned<'_> {
         Ok(axis)
     }
 
+    /// The ends of one of its edges [m].
+    #[inline]
+    pub(super) fn ends_of_edge(&self, number: usize) -> [DVec3; 2] {
+        let [a, b] = self.shape.edges[number];
+        [self.corner(a), self.corner(b)]
+    }
+
     /// One of its edges.
     #[inline]
     pub(super) fn edge(&self, number: usize) -> Edge {
-        let [a, b] = self.shape.edges[number];
-        let (a, b) = (self.corner(a), self.corner(b));
-        let way = b - a;
-        Edge { number, middle: (a + b) * 0.5, way, squared: way.length_squared() }
+        Edge::between(self.ends_of_edge(number))
     }
 
     /// Appends the edges of which a part within `within` of their middle, over their length, is nearer than `margin` [m] to the end of the body along a direction.
-    fn edges_towards(&self, n: DVec3, margin: f64, within: f64, heights: &mut Vec<f64>, edges: &mut Vec<Edge>) {
+    fn edges_towards(&self, n: DVec3, margin: f64, within: f64, heights: &mut Vec<f64>, edges: &mut Vec<(u32, Edge)>) {
         heights.clear();
         heights.extend(self.corners().map(|(_, corner)| n.dot(corner)));
         let least = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max) - margin;
         for (number, [a, b]) in self.shape.edges.iter().enumerate() {
             let (p, q) = (heights[*a], heights[*b]);
             if 0.5 * (p + q) + within * (p - q).abs() >= least {
-                edges.push(self.edge(number));
+                edges.push((number as u32, self.edge(number)));
             }
         }
     }
@@ -173,17 +154,20 @@ impl Turned<'_> {
 /// being so near at least [m].
 pub fn touch(bodies: [&Turned; 2], apart: DVec3, reach: f64, search: &mut Search, found: &mut Vec<Contact>) -> f64 {
     let [a, b] = bodies;
-    let limit = Cut { radii: a.rounding + b.rounding, reach };
+    let limit = Cut::of(bodies, reach);
     let cut = limit.distance();
     let axes = a.separating(b, apart, cut).and_then(|first| Ok([first, b.separating(a, -apart, cut)?]));
     let [first, second] = match axes {
         Ok(axes) => axes,
         Err(height) => return height - cut,
     };
+    let at = |face: usize, feature: u32| {
+        limit.corner(bodies, apart, feature, |core, point| core.distance_from(&mut (face as u32), point, cut))
+    };
     if a.faces() > 0 {
         for (i, corner) in b.corners() {
             if a.above(first.face, apart + corner) < cut {
-                found.extend(limit.second_at((a, &mut (first.face as u32)), apart, i as u32, corner));
+                found.extend(at(first.face, feature(0, i as u32 + 1)));
             }
         }
     }
@@ -192,7 +176,7 @@ pub fn touch(bodies: [&Turned; 2], apart: DVec3, reach: f64, search: &mut Search
     }
     for (i, corner) in a.corners() {
         if b.above(second.face, corner - apart) < cut {
-            found.extend(limit.first_at((b, &mut (second.face as u32)), apart, i as u32, corner));
+            found.extend(at(second.face, feature(i as u32 + 1, 0)));
         }
     }
     if a.shape.edges.is_empty() || b.shape.edges.is_empty() {
@@ -227,10 +211,10 @@ fn crossings(
     let count = edges.len();
     b.edges_towards(-n, cut - height, within, heights, edges);
     let (of_a, of_b) = edges.split_at_mut(count);
-    for edge in of_b.iter_mut() {
+    for (_, edge) in of_b.iter_mut() {
         edge.middle += apart;
     }
     for p in of_a.iter() {
-        found.extend(of_b.iter().filter_map(|q| limit.crossing(p, q, apart).ok()));
+        found.extend(of_b.iter().filter_map(|q| limit.crossing(p, q, apart)));
     }
 }

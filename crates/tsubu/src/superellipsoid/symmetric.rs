@@ -6,9 +6,9 @@ use glam::{DMat3, DVec3};
 pub const ROWS: usize = 32;
 
 /// A number of every row.
-pub(super) type Column = [f64; ROWS];
-pub(super) const ZERO: Column = [0.0; ROWS];
-pub(super) type Columns<const N: usize> = [Column; N];
+pub(crate) type Column = [f64; ROWS];
+pub(crate) const ZERO: Column = [0.0; ROWS];
+pub(crate) type Columns<const N: usize> = [Column; N];
 
 /// A symmetric matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -87,13 +87,13 @@ impl Symmetric {
 }
 
 #[inline(always)]
-pub(super) fn vector(columns: &Columns<3>, i: usize) -> DVec3 {
+pub(crate) fn vector(columns: &Columns<3>, i: usize) -> DVec3 {
     let [x, y, z] = columns;
     DVec3::new(x[i], y[i], z[i])
 }
 
 #[inline(always)]
-pub(super) fn set(columns: &mut Columns<3>, i: usize, v: DVec3) {
+pub(crate) fn set(columns: &mut Columns<3>, i: usize, v: DVec3) {
     let [x, y, z] = columns;
     (x[i], y[i], z[i]) = (v.x, v.y, v.z);
 }

@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::{Bodies, Piece};
 use crate::neighbours::joined::NO_BODY;
-use crate::polyhedron::{Polyhedron, TurnedBody};
+use crate::polyhedron::{Faceted, Polyhedron};
 use crate::random::{Purpose, unit, words};
 use crate::sizes;
 use crate::state::{Grain, Grains};
@@ -54,7 +54,7 @@ impl Bodies {
         }
         let shapes = || bodies.list.iter().filter_map(|body| body.superellipsoid.as_ref());
         (bodies.shaped, bodies.powers) = (shapes().next().is_some(), shapes().any(|shape| !shape.is_ellipsoid()));
-        let rounding = |body: &Body| body.polyhedron.as_ref().map(TurnedBody::rounding);
+        let rounding = |body: &Body| body.polyhedron.as_ref().map(Faceted::rounding);
         bodies.finest = bodies.list.iter().filter_map(rounding).reduce(f64::min).map(|radius| 2.0 * radius);
         bodies.find(grains);
         bodies.show(grains);
@@ -81,7 +81,7 @@ impl Bodies {
             moments: DVec3::from_array(clump.moments) * (mass * diameter * diameter),
             ellipsoid: superellipsoid.map(|shape| shape.ellipsoid(&DMat3::IDENTITY)).unwrap_or_default(),
             superellipsoid,
-            polyhedron: polyhedron.map(|shape| TurnedBody::new(shape, diameter, &self.polyhedra)),
+            polyhedron: polyhedron.map(|shape| Faceted::new(shape, diameter, &self.polyhedra)),
             pieces: 0..0,
             centre: DVec3::ZERO,
             velocity: DVec3::ZERO,
@@ -114,7 +114,7 @@ impl Bodies {
         (body.centre, body.velocity, body.acceleration) = (grain.position, grain.velocity, grain.acceleration);
         let spin = if self.locked { DVec3::ZERO } else { grain.spin };
         (body.angular_momentum, body.torque, body.correction) = (inertia * spin, DVec3::ZERO, 0.0);
-        body.follow(plane, &self.polyhedra);
+        body.follow(plane);
         let volume: f64 = clump.pieces.iter().map(|(_, radius)| radius.powi(3)).sum();
         let piece = |(k, (piece, (_, radius))): (usize, (&Piece, &([f64; 3], f64)))| {
             let arm = body.arm(piece, plane);

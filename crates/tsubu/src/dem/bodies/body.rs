@@ -3,7 +3,8 @@
 #![allow(clippy::inline_always, reason = "a call inside a row would end the vector code of its loop")]
 
 use super::Piece;
-use crate::polyhedron::{Polyhedron, TurnedBody};
+use super::felt::Felt;
+use crate::polyhedron::Faceted;
 use crate::superellipsoid::Superellipsoid;
 use crate::superellipsoid::ellipsoids::Ellipsoid;
 use crate::superellipsoid::symmetric::Symmetric;
@@ -15,67 +16,49 @@ use std::ops::Range;
 /// Rounds of the midpoint rule; at usual steps it takes five to eight.
 const ROUNDS: usize = 60;
 
-/// A rigid body. What every block asks of those that it sees stands first, in few lines of the cache.
+/// A rigid body. What every block asks of those that it sees stands first, in few lines of the cache, what a step asks of each next.
 #[derive(Clone, Debug)]
-#[repr(C)]
+#[repr(C, align(64))]
 pub struct Body {
     /// Of a polyhedron a path that no point of it has exceeded since the lists were made [m].
     pub path: f64,
     /// The polyhedron that is there.
-    pub polyhedron: Option<TurnedBody>,
+    pub polyhedron: Option<Faceted>,
+    pub axes: DMat3,
     /// Inverse inertia in space [1/(kg.m^2)].
     pub inverse_inertia: DMat3,
-    pub axes: DMat3,
     /// Centre of mass, never wrapped [m].
     pub centre: DVec3,
     /// Velocity of the centre [m/s].
     pub velocity: DVec3,
     pub spin: DVec3,
-    /// See [`super::Bodies`].
-    pub number: u32,
-    pub mass: f64,
-    /// Radius of the sphere of its volume, in the plane of the disc of its area, where it is one piece [m].
-    pub equivalent_radius: Option<f64>,
-    /// What water sees of it.
-    pub submerged: Submerged,
-    /// Mass of the water that moves along with it [kg].
-    pub added_mass: f64,
-    /// Moments of inertia about the principal axes [kg.m^2].
-    pub moments: DVec3,
-    /// What is in the place of its one sphere.
-    pub superellipsoid: Option<Superellipsoid>,
-    /// Where its pieces are in the list of places; none where it is not there.
-    pub pieces: Range<usize>,
     /// Acceleration of the centre at the last time level [m/s^2].
     pub acceleration: DVec3,
-    /// Turns the principal axes from x, y, z to where they are.
-    pub orientation: DQuat,
     /// Angular momentum about the centre, in space [kg.m^2/s].
     pub angular_momentum: DVec3,
     /// Torque about the centre at the last time level [N.m].
     pub torque: DVec3,
-    /// The ellipsoid with the semi-axes of the superellipsoid.
-    pub ellipsoid: Ellipsoid,
+    /// Turns the principal axes from x, y, z to where they are.
+    pub orientation: DQuat,
+    /// Moments of inertia about the principal axes [kg.m^2].
+    pub moments: DVec3,
+    pub mass: f64,
+    /// Mass of the water that moves along with it [kg].
+    pub added_mass: f64,
     /// What the losses of its contacts must be corrected by [W].
     pub correction: f64,
-}
-
-/// What the pieces of a body feel, summed.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Felt {
-    pub force: DVec3,
-    /// About the centre of mass [N.m].
-    pub torque: DVec3,
-    /// The part of both that takes energy away.
-    pub loss: [DVec3; 2],
-}
-
-impl Felt {
-    /// Leaves out what rounding would bring out of the plane, where round bodies are looked for as in space.
-    pub fn stay_in_plane(&mut self) {
-        self.force.y = 0.0;
-        self.torque = DVec3::new(0.0, self.torque.y, 0.0);
-    }
+    /// Where its pieces are in the list of places; none where it is not there.
+    pub pieces: Range<usize>,
+    /// See [`super::Bodies`].
+    pub number: u32,
+    /// What is in the place of its one sphere.
+    pub superellipsoid: Option<Superellipsoid>,
+    /// The ellipsoid with the semi-axes of the superellipsoid.
+    pub ellipsoid: Ellipsoid,
+    /// Radius of the sphere of its volume, in the plane of the disc of its area, where it is one piece [m].
+    pub equivalent_radius: Option<f64>,
+    /// What water sees of it.
+    pub submerged: Submerged,
 }
 
 impl Body {
@@ -84,28 +67,10 @@ impl Body {
         !self.pieces.is_empty()
     }
 
-    /// Two of a list change places. What polyhedra have in memory apart stays there, in the order of the list, and is to be found anew.
-    pub fn swap(list: &mut [Self], first: usize, second: usize) {
-        list.swap(first, second);
-        if let Ok([a, b]) = list.get_disjoint_mut([first, second])
-            && let (Some(a), Some(b)) = (&mut a.polyhedron, &mut b.polyhedron)
-        {
-            a.swap_memory(b);
-        }
-    }
-
-    /// Turns the polyhedron as the body is turned.
-    pub fn turn_polyhedron(&mut self, shapes: &[Polyhedron]) {
-        if let Some(body) = &mut self.polyhedron {
-            body.turn(shapes, &self.axes);
-        }
-    }
-
     /// Finds what follows from attitude and angular momentum.
     #[inline(always)]
-    pub fn follow(&mut self, plane: bool, shapes: &[Polyhedron]) {
+    pub fn follow(&mut self, plane: bool) {
         self.axes = DMat3::from_quat(self.orientation);
-        self.turn_polyhedron(shapes);
         if let Some(shape) = &self.superellipsoid {
             self.ellipsoid.squared = Symmetric::along(shape.semi_axes * shape.semi_axes, &self.axes);
             self.ellipsoid.inverse_inertia = Symmetric::along(self.moments.recip(), &self.axes);
@@ -169,7 +134,7 @@ impl Body {
 
 /// Up to [`TOGETHER`] bodies go to the end of a step, velocities predicted with the old acceleration as those of spheres are.
 #[multiversion(targets = "simd")]
-pub fn first_half(bodies: &mut [Body], dt: f64, plane: bool, shapes: &[Polyhedron]) {
+pub fn first_half(bodies: &mut [Body], dt: f64, plane: bool) {
     let mut turns = Turns::default();
     for (k, body) in bodies.iter_mut().enumerate().filter(|(_, body)| body.is_there()) {
         let kick = body.acceleration * (0.5 * dt);
@@ -186,7 +151,7 @@ pub fn first_half(bodies: &mut [Body], dt: f64, plane: bool, shapes: &[Polyhedro
         // It turns by twice the arc tangent of this, about its centre.
         body.go(body.polyhedron.as_ref().map_or(0.0, |body| at(&turns.a, k).length() * body.size));
         body.angular_momentum += body.torque * (0.5 * dt);
-        body.follow(plane, shapes);
+        body.follow(plane);
     }
 }
 

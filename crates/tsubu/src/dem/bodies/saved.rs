@@ -57,7 +57,7 @@ impl Bodies {
         for (rank, turned) in self.rank.iter().zip(turned) {
             let body = &mut self.list[*rank as usize];
             body.orientation = DQuat::from_array(*turned);
-            body.follow(self.plane, &self.polyhedra);
+            body.follow(self.plane);
         }
         Ok(())
     }

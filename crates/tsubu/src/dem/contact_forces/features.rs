@@ -31,14 +31,14 @@ pub(super) fn evaluate(
             batch.gather(features.pairs(range.clone()), grains, list, spheres, &laws.table, laws.rotation);
             features.gather(batch, range.clone(), input, list);
             batch.sphere_geometry(laws.rotation, laws.lever_share);
-            features.lie_back(batch, range.clone());
+            features.lie_back(batch);
             features.show_mass(batch, input, list);
             if remembers {
                 history.follow(features.keys(range.clone()), old, &mut walk, law);
                 history.gather(&old[..range.len()], &mut batch.chunk.history);
             }
             apply_law(input, number, batch, sums);
-            features.push_less(batch, range.clone());
+            features.push_less(batch);
             if remembers {
                 next.keys.extend(features.keys(range.clone()));
                 next.append(range.len(), &batch.chunk.history);
