@@ -1,6 +1,6 @@
 //! Features that may touch now, of many pairs of bodies in a row.
 //!
-//! Corners are looked at one by one. Edges that cross are many of a kind, and go side by side, see [`super::crossing`].
+//! Corners are looked at one by one. Edges that cross are many of a kind, and go side by side, see `crossing.rs`.
 
 use super::Turned;
 use super::crossing::Crossings;
