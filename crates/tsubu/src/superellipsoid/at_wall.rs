@@ -132,7 +132,9 @@ impl Outline {
             if low <= none && high >= -none {
                 let angle = self.turning_point(ring, -at, [end(k), end(k + 1.0)], false);
                 let contact = self.at_angle(ring, -at, 0.0, angle);
-                if found.is_none_or(|found| contact.overlap < found.overlap) {
+                // In a bent hollow the edge lies a little within the body, whose centre is on the other side: it is blunt towards there.
+                let before = contact.normal.dot(at) > 0.0;
+                if before && found.is_none_or(|found| contact.overlap < found.overlap) {
                     found = Some(contact);
                 }
             }

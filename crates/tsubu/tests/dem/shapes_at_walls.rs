@@ -135,6 +135,7 @@ fn bodies_that_lose_nothing_keep_their_energy() {
     let in_drum = "{ low = [-0.015, -0.015, 0.018], high = [0.015, 0.015, 0.042] }";
     let in_funnel = "{ low = [-0.014, -0.014, 0.035], high = [0.014, 0.014, 0.055] }";
     let pipe = "shape.cylinder = { point = [0, 0, 0.004], axis = [0.2, 0, 0.8], radius = 0.009, length = 0.01 }";
+    let open = "shape.cylinder = { point = [0, 0, -0.01], axis = [0, 0, 1], radius = 0.02, length = 0.08 }";
     let mut cases = vec![(CUBE, region, vec![outer, globe], 14), (EGG, region, vec![outer, globe], 14)];
     for shape in [CUBE, EGG, TIN] {
         cases.extend([
@@ -142,6 +143,7 @@ fn bodies_that_lose_nothing_keep_their_energy() {
             (shape, in_drum, drum.to_vec(), 10),
             (shape, region, vec![outer, roller], 14),
             (shape, region, vec![outer, pipe], 14),
+            (shape, "{ low = [-0.012, -0.012, 0.01], high = [0.012, 0.012, 0.055] }", vec![outer, open], 10),
             (shape, in_funnel, funnel.to_vec(), 8),
         ]);
     }
