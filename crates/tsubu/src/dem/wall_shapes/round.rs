@@ -48,6 +48,7 @@ impl WallShapes {
                 around(outline, wall, frustum, centre, reach, &mut found);
                 self.places.extend(found.into_iter().map(|contact| Place { contact, patch: 0, face: true, number: 0 }));
             }
+            // No shell comes here: where there are superellipsoids it is a mesh, see `bodies/rims.rs`.
             Surface::HalfSpaces { .. } | Surface::Shell(_) => {
                 wall.touching(elements, centre, holds + reach, &mut self.touching);
                 for touch in &self.touching {
