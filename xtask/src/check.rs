@@ -1,7 +1,7 @@
 //! What must pass before a change goes in, with Rust and a C compiler alone.
 
 use crate::shell::{cargo, cargo_path, command, run};
-use crate::{format, generate, guard, spelling, test, variants};
+use crate::{format, generate, guard, spelling, test};
 
 /// Everything, the quick things first; the tests only if `tests`.
 pub fn check(tests: bool) -> Result<(), String> {
@@ -15,12 +15,11 @@ pub fn check(tests: bool) -> Result<(), String> {
     if tests {
         test::test()?;
     }
-    variants::smoke()
+    guard::smoke()
 }
 
 /// What takes longer.
 pub fn patient() -> Result<(), String> {
     test::patient()?;
-    variants::quick()?;
     guard::quick()
 }

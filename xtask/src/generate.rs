@@ -1,19 +1,22 @@
 //! Pages that are made from the code.
 
 use crate::blocks;
-use crate::shell::{program, root};
+use crate::shell::{output, program, root};
 use std::fs;
 
 /// Pages of the book that the program prints.
 const PRINTED: [&str; 8] = ["contact", "water", "watches", "walls", "methods", "claims", "held-against", "origins"];
 
+/// The scene file for editors.
+pub const SCHEMA: &str = "docs/scene.schema.json";
+
 /// Every generated file with its content.
 fn pages() -> Result<Vec<(String, String)>, String> {
-    let mut pages = vec![
-        ("docs/src/scene-reference.md".to_owned(), tsubu_scene::reference()),
-        ("docs/scene.schema.json".to_owned(), format!("{:#}\n", tsubu_scene::schema())),
-    ];
     let tsubu = program("tsubu")?;
+    let mut pages = vec![
+        ("docs/src/scene-reference.md".to_owned(), blocks::printed(&tsubu, "scene-reference")?),
+        (SCHEMA.to_owned(), output(&tsubu, &["schema"])?),
+    ];
     for name in PRINTED {
         pages.push((format!("docs/src/explained/{name}.md"), blocks::printed(&tsubu, name)?));
     }

@@ -24,7 +24,6 @@ mod race;
 mod shell;
 mod spelling;
 mod test;
-mod variants;
 
 use std::process::ExitCode;
 
@@ -96,8 +95,9 @@ fn main() -> ExitCode {
         ["mutants", names @ ..] => mutants::mutants(names),
         ["chaotic"] => mutants::chaotic(),
         ["fuzz", rest @ ..] => guard::guard("fuzz", rest),
-        ["variants", rest @ ..] => variants::chore(rest),
-        ["same", rest @ ..] => variants::same(rest),
+        ["variants", rest @ ..] if rest.contains(&"--quick") => guard::guard("variants", rest),
+        ["variants", rest @ ..] => guard::of_released("variants", rest),
+        ["same", rest @ ..] => guard::of_released("same", rest),
         ["kills", rest @ ..] => guard::guard("kills", rest),
         ["bench", rest @ ..] => bench::bench(rest),
         ["race", rest @ ..] => race::race(rest),

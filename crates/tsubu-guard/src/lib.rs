@@ -8,7 +8,7 @@
 //! after case ([`work`]), and whoever started it ([`fuzz`]) notices panics, hangs, aborts and dying for want of memory.
 //! What was found is kept in `corpus/`, and a test judges it again each time ([`corpus`]).
 //!
-//! [`kills`] is the other guard: runs that are killed at random moments and resumed.
+//! Two other guards: [`kills`], runs that are killed at random moments and resumed; [`variants`], scenes computed in all ways that must not matter.
 
 pub mod bundle;
 pub mod corpus;
@@ -18,6 +18,7 @@ pub mod kills;
 pub mod kind;
 pub mod limits;
 pub mod outcome;
+pub mod variants;
 pub mod work;
 
 mod checkpoints;

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 use tsubu_guard::bundle::Bundle;
 use tsubu_guard::kind::Kind;
-use tsubu_guard::{corpus, fuzz, kills, limits, work};
+use tsubu_guard::{corpus, fuzz, kills, limits, variants, work};
 
 /// Standing guards of tsubu.
 #[derive(Parser)]
@@ -31,6 +31,15 @@ enum Command {
         /// Runs of this scene alone
         #[arg(long)]
         only: Option<String>,
+    },
+    /// One answer for every way to compute it: scenes by methods, in ten ways that must not matter
+    Variants(variants::Options),
+    /// Scenes by this program and by an earlier build of it: does a change that must not change a number change one
+    Same {
+        /// The earlier program
+        earlier: PathBuf,
+        #[command(flatten)]
+        options: variants::Options,
     },
     /// Judge kept cases again: folders with a case each
     Replay {
@@ -73,6 +82,8 @@ fn main() -> ExitCode {
     let held = match Arguments::parse().command {
         Command::Fuzz(options) => options.fuzz(),
         Command::Kills { seed, kills, only } => kill(seed, kills, only),
+        Command::Variants(options) => variants::variants(&options).map_err(io::Error::other),
+        Command::Same { earlier, options } => variants::same(&options, &earlier).map_err(io::Error::other),
         Command::Replay { kind, folders } => replay(kind, &folders),
         Command::Work { kind, folder, seed, from, to } => work::work(kind, &folder, seed, from..to).map(|()| true),
         Command::Judge { kind, folder, case } => {

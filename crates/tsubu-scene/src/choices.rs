@@ -113,16 +113,6 @@ pub fn choices() -> Vec<Choice> {
     choices
 }
 
-/// The paths of all keys and choices; names of one's own are `NAME`.
-pub fn paths() -> Vec<String> {
-    let mut paths: Vec<String> = choices().into_iter().map(|choice| choice.path).collect();
-    keys::walk(&mut |path, keys| {
-        paths.push(path.to_owned());
-        paths.extend(keys.iter().map(|key| format!("{path}.{}", key.name).trim_start_matches('.').to_owned()));
-    });
-    paths
-}
-
 #[cfg(test)]
 mod tests {
     use super::choices;

@@ -72,7 +72,7 @@ pub mod mesh {
 }
 
 pub use cells::Cells;
-pub use choices::{Choice, KeyText, choices, paths};
+pub use choices::{Choice, KeyText, choices};
 pub use complaint::Complaints;
 pub use going_on::Difference;
 pub use plan::Plan;

@@ -160,6 +160,7 @@ fn unknown(name: &str, entries: &[Entry]) -> Failure {
 /// A generated page of the book.
 fn page(name: &str) -> Result<String, Failure> {
     Ok(match name {
+        "scene-reference" => tsubu_scene::reference(),
         "contact" => explain::page(Kind::Contact),
         "water" => explain::page(Kind::Water),
         "watches" => explain::page(Kind::Watch),

@@ -3,7 +3,9 @@
 //! Threads, the times at which rows and frames are written, a machine that is busy, and runs that are cut and resumed decide how
 //! steps are shared out among calls. None of that may change a bit of the final state, the books, or a row of a table.
 
-use crate::shell::{program, released, root};
+use crate::limits;
+use crate::seeds::root;
+use clap::Args;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -21,15 +23,35 @@ const HISTORY: &str = "history.csv";
 const FEWEST_STEPS: f64 = 60.0;
 
 /// What is tried.
-struct Wanted {
-    /// Seconds of computing for a run, about.
-    seconds: f64,
-    /// Each scene by all methods that take it, in a release build; or by its own alone, in the build that tests use.
-    whole: bool,
-    /// In all ways; or in the last alone, which has frames, threads, and cuts where there can be some.
-    all_ways: bool,
-    /// Seed of the times at which runs are cut.
-    seed: u64,
+#[derive(Args)]
+pub struct Options {
+    /// Seed of the times at which runs are cut
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Computing time of a run, about [s]
+    #[arg(long, default_value_t = 0.7)]
+    pub seconds: f64,
+    /// Each scene by its own method alone, for a moment
+    #[arg(long)]
+    pub quick: bool,
+    /// In the last way alone, which has frames, threads, and cuts where there can be some
+    #[arg(long)]
+    pub last_way: bool,
+    /// The program [default: that of the same build]
+    #[arg(long)]
+    pub tsubu: Option<PathBuf>,
+}
+
+impl Options {
+    /// Computing time of a run, about [s].
+    fn seconds(&self) -> f64 {
+        if self.quick { 0.1 } else { self.seconds }
+    }
+
+    fn tsubu(&self) -> Result<PathBuf, String> {
+        let beside = || limits::beside("tsubu").map_err(|error| error.to_string());
+        self.tsubu.clone().map_or_else(beside, Ok)
+    }
 }
 
 /// A scene by a method, for a time in which something happens [s].
@@ -63,47 +85,11 @@ struct Answer {
     tables: BTreeMap<String, Vec<String>>,
 }
 
-/// Each scene by its own method, for a moment.
-const QUICK: Wanted = Wanted { seconds: 0.1, whole: false, all_ways: true, seed: 1 };
-
-/// That every scene runs, and gives on other threads, cut and with frames what it gives without.
-pub fn smoke() -> Result<(), String> {
-    variants(&Wanted { all_ways: false, ..QUICK })
-}
-
-/// The same in all ways.
-pub fn quick() -> Result<(), String> {
-    variants(&QUICK)
-}
-
-/// The chore with its options.
-pub fn chore(options: &[&str]) -> Result<(), String> {
-    let mut wanted = Wanted { seconds: 0.7, whole: true, ..QUICK };
-    let mut rest = options.iter();
-    while let Some(option) = rest.next() {
-        match *option {
-            "--quick" => wanted = Wanted { seed: wanted.seed, ..QUICK },
-            "--seed" => {
-                let seed = rest.next().and_then(|text| text.parse().ok());
-                wanted.seed = seed.ok_or("--seed needs a whole number")?;
-            }
-            other => return Err(format!("`{other}` is no option of variants: --quick, --seed N")),
-        }
-    }
-    variants(&wanted)
-}
-
 /// Each scene by its own method, by this program and by an earlier one: for changes that must not change a number. A hash that
 /// differs alone is told apart: it covers the names under which the state is kept.
-pub fn same(options: &[&str]) -> Result<(), String> {
-    let (earlier, seconds) = match options {
-        [earlier] => (*earlier, Ok(2.0)),
-        [earlier, "--seconds", seconds] => (*earlier, seconds.parse::<f64>()),
-        _ => return Err("same needs the path of an earlier program; --seconds S".to_owned()),
-    };
-    let seconds = seconds.map_err(|_| "--seconds needs a number")?;
+pub fn same(options: &Options, earlier: &Path) -> Result<bool, String> {
     let (mut wrong, mut names) = (0, 0);
-    let cases = cases(&Wanted { seconds, ..QUICK }, released()?.as_ref())?;
+    let cases = cases(options, false)?;
     for case in &cases {
         let way = Variant { threads: 1, rows: 40, frames: true, ..Variant::default() };
         let now = case.run(&way)?;
@@ -124,21 +110,20 @@ pub fn same(options: &[&str]) -> Result<(), String> {
         println!("{:<18} t = {:<8.3e} s  {told}", case.name(), case.duration);
     }
     println!("\n{} scenes: {wrong} differ, {names} in the hash alone", cases.len());
-    if wrong == 0 { Ok(()) } else { Err(format!("{wrong} scenes gave another answer")) }
+    Ok(wrong == 0)
 }
 
-/// Runs all; says what differs.
-fn variants(wanted: &Wanted) -> Result<(), String> {
+/// Runs all; says what differs, and whether nothing does.
+pub fn variants(options: &Options) -> Result<bool, String> {
     let begun = Instant::now();
-    let tsubu = if wanted.whole { released()? } else { program("tsubu")? };
-    let cases = cases(wanted, tsubu.as_ref())?;
+    let cases = cases(options, !options.quick)?;
     let (next, runs) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let found = Mutex::new(Vec::new());
     std::thread::scope(|scope| {
         for _ in 0..2 {
             scope.spawn(|| {
                 while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let (done, wrong) = hold(case, wanted);
+                    let (done, wrong) = hold(case, options);
                     runs.fetch_add(done, Ordering::Relaxed);
                     let told = if wrong.is_empty() { "the same" } else { "DIFFERS" };
                     println!("{:<18} {:<28} t = {:<8.3e} s  {told}", case.name(), case.method, case.duration);
@@ -152,8 +137,8 @@ fn variants(wanted: &Wanted) -> Result<(), String> {
     });
     let wrong = found.into_inner().unwrap_or_else(PoisonError::into_inner).len();
     let (cases, runs, seconds) = (cases.len(), runs.into_inner(), begun.elapsed().as_secs_f64());
-    println!("\n{cases} scenes and methods, {runs} runs, seed {}, {seconds:.0} s: {wrong} differ", wanted.seed);
-    if wrong == 0 { Ok(()) } else { Err(format!("{wrong} runs gave another answer")) }
+    println!("\n{cases} scenes and methods, {runs} runs, seed {}, {seconds:.0} s: {wrong} differ", options.seed);
+    Ok(wrong == 0)
 }
 
 /// All ways but the first, which they are held against.
@@ -187,14 +172,14 @@ fn ways(case: &Case, seed: u64) -> Vec<Variant> {
 }
 
 /// Holds all ways against the first; how many runs, and what differed.
-fn hold(case: &Case, how: &Wanted) -> (usize, Vec<String>) {
+fn hold(case: &Case, options: &Options) -> (usize, Vec<String>) {
     let first = Variant { name: "one thread", threads: 1, rows: 40, ..Variant::default() };
     let wanted = match case.run(&first) {
         Ok(answer) => answer,
         Err(text) => return (1, vec![format!("{}: {text}", first.name)]),
     };
-    let mut ways = ways(case, how.seed);
-    if !how.all_ways {
+    let mut ways = ways(case, options.seed);
+    if options.last_way {
         ways.drain(..ways.len() - 1);
     }
     let wrong = ways.iter().filter_map(|way| {
@@ -208,8 +193,9 @@ fn hold(case: &Case, how: &Wanted) -> (usize, Vec<String>) {
     (1 + ways.len(), wrong)
 }
 
-/// Every scene by its methods, each for as long as the computing takes that is wanted.
-fn cases(wanted: &Wanted, tsubu: &Path) -> Result<Vec<Case>, String> {
+/// Every scene by its own method, or by all that take it if `by_all`, each for as long as the computing takes that is wanted.
+fn cases(options: &Options, by_all: bool) -> Result<Vec<Case>, String> {
+    let (tsubu, seconds) = (options.tsubu()?, options.seconds());
     let mut cases = Vec::new();
     for name in scenes()? {
         let scene = root().join(format!("scenes/{name}.toml"));
@@ -220,9 +206,9 @@ fn cases(wanted: &Wanted, tsubu: &Path) -> Result<Vec<Case>, String> {
             continue;
         }
         let (own, whole) = (plan.plan().method.name(), plan.plan().duration);
-        let others = Method::ALL.iter().map(|method| method.name()).filter(|other| wanted.whole && *other != own);
+        let others = Method::ALL.iter().map(|method| method.name()).filter(|other| by_all && *other != own);
         for method in std::iter::once(own).chain(others) {
-            let mut case = Case { tsubu: tsubu.to_owned(), scene: scene.clone(), method, duration: whole };
+            let mut case = Case { tsubu: tsubu.clone(), scene: scene.clone(), method, duration: whole };
             // Grains settle before time 0, and most scenes change as they go: longer and longer until it is enough.
             for share in [0.003, 0.03, 0.3] {
                 case.duration = share * whole;
@@ -233,9 +219,9 @@ fn cases(wanted: &Wanted, tsubu: &Path) -> Result<Vec<Case>, String> {
                     Err(text) => return Err(format!("{name}: {text}")),
                 };
                 let speed = begun.elapsed().as_secs_f64() / case.duration;
-                if speed * case.duration > 0.1 * wanted.seconds || share == 0.3 {
+                if speed * case.duration > 0.1 * seconds || share == 0.3 {
                     let least = case.duration * FEWEST_STEPS / steps.max(1.0);
-                    case.duration = whole.min((wanted.seconds / speed).max(least));
+                    case.duration = whole.min((seconds / speed).max(least));
                     cases.push(case);
                     break;
                 }
