@@ -93,6 +93,7 @@ pub struct Source<'a> {
     text: &'a str,
     origin: Origin,
     after: bool,
+    timed: bool,
 }
 
 impl<'a> Source<'a> {
@@ -103,13 +104,19 @@ impl<'a> Source<'a> {
 
     /// Of an origin, in a few words; the range was set before the value was seen.
     pub const fn new(origin: Origin, text: &'a str) -> Self {
-        Self { text, origin, after: false }
+        Self { text, origin, after: false, timed: false }
     }
 
     /// The same for a range that was set after the value had been seen.
     #[must_use]
     pub const fn after(self) -> Self {
         Self { after: true, ..self }
+    }
+
+    /// The same for a value that hangs on how fast the machine is and on what else it does.
+    #[must_use]
+    pub const fn timed(self) -> Self {
+        Self { timed: true, ..self }
     }
 }
 
@@ -160,6 +167,9 @@ pub struct Claim {
     /// Whether the range was set after the value had been seen.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub after: bool,
+    /// Whether the value hangs on how fast the machine is and on what else it does.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub timed: bool,
     /// Of a control: the claims that the wrong model does not pass.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub refuses: Vec<String>,
@@ -181,8 +191,8 @@ impl Claim {
     /// Holds a value against its range. Not-a-number never passes.
     pub fn judge(name: impl Into<String>, value: f64, low: Option<f64>, high: Option<f64>, source: Source<'_>) -> Self {
         let pass = !value.is_nan() && low.is_none_or(|l| value >= l) && high.is_none_or(|h| value <= h);
-        let Source { text, origin, after } = source;
-        Self { name: name.into(), value, low, high, pass, source: text.into(), origin, after, ..Self::default() }
+        let Source { text, origin, after, timed } = source;
+        Self { name: name.into(), value, low, high, pass, source: text.into(), origin, after, timed, ..Self::default() }
     }
 
     /// Holds the mean of an ensemble against its range: it passes only where the whole interval lies in it.

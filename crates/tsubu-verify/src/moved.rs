@@ -26,8 +26,11 @@ pub fn moved<'a>(stored: &'a [Claim], now: &'a [Claim]) -> Vec<Moved<'a>> {
     moved
 }
 
-/// In what way a claim is not what was stored.
+/// In what way a claim is not what was stored. Measured times are never the same: they have moved where they hold no longer.
 fn how(stored: &Claim, now: &Claim) -> Option<&'static str> {
+    if now.timed && now.verdict() != Verdict::Fail {
+        return None;
+    }
     if stored.verdict() != now.verdict() {
         return Some(match now.verdict() {
             Verdict::Pass => "it passes now",
@@ -109,6 +112,14 @@ mod tests {
         let conversely = how_of(&mean([4.0, 6.0], 2.0), &mean([4.5, 6.5], 0.3));
         assert_eq!(conversely, Some("the stored mean lies outside its interval"));
         assert_eq!(how_of(&mean([4.0, 6.0], 1.0), &mean([4.0, 6.0], 9.0)), Some("it is undecided now"));
+    }
+
+    #[test]
+    fn a_measured_time_moves_where_it_fails() {
+        let timed = |value| Claim { timed: true, ..single(value, Some(50.0), None) };
+        assert_eq!(how_of(&timed(90.0), &timed(300.0)), None);
+        assert_eq!(how_of(&timed(90.0), &timed(40.0)), Some("it fails now"));
+        assert!(how_of(&single(90.0, Some(50.0), None), &single(300.0, Some(50.0), None)).is_some());
     }
 
     #[test]

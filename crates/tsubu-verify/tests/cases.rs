@@ -6,7 +6,7 @@
 use libtest_mimic::{Arguments, Failed, Trial, run};
 use std::fmt::Write;
 use tsubu_frame::Claim;
-use tsubu_verify::{CASES, Case, recorded};
+use tsubu_verify::{CASES, Case, Moved, moved, recorded};
 
 /// Quick cases above this budget [s] wait for whoever has patience: they would take most of the time of all tests. Those up to it run a
 /// second time, with a law that is wrong, unless they try something wrong of their own; the others do so when they are asked to.
@@ -71,11 +71,18 @@ fn main() {
     run(&arguments, trials).exit();
 }
 
-/// All its claims hold.
+/// All its claims hold, and are what was kept of them.
 fn passes(case: &Case) -> Result<(), Failed> {
+    let (claims, kept) = (case.claims(None)?, recorded(case.name));
     let mut wrong = String::new();
-    for claim in case.claims(None)?.iter().filter(|claim| !claim.pass) {
+    for claim in claims.iter().filter(|claim| !claim.pass) {
         let _ = writeln!(wrong, "{} = {} not in {:?}..{:?}", claim.name, claim.value, claim.low, claim.high);
+    }
+    for Moved { stored, now, how } in moved(&kept, &claims).iter().filter(|_| !kept.is_empty()) {
+        let value = |claim: &Option<&Claim>| claim.map(|claim| claim.value);
+        let name = now.or(*stored).map_or("", |claim| &claim.name);
+        let [kept, now] = [stored, now].map(value);
+        let _ = writeln!(wrong, "{name}: kept {kept:?}, now {now:?}: {how}; `cargo xtask claims {}`", case.name);
     }
     if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
 }

@@ -114,7 +114,7 @@ pub(in super::super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
         let (locked, slow_too) = run("dem", &["contact.rotation=false"])?;
         let (rough, _) = run("dem", &["contact.rotation=false", "materials.aluminium.friction=0.5"])?;
         let (rolling, _) = run("dem", &["contact.rolling.epsd={}", "materials.aluminium.rolling-friction=0.2"])?;
-        let source = own("a hundredth of the time of its DEM twin, measured in one run").after();
+        let source = own("a hundredth of the time of its DEM twin, measured in one run").after().timed();
         let fair = own("the fair twin: DEM of discs of the same areas that do not turn; a quarter either way").after();
         let near = own("the fair twin: DEM of discs of the same areas that do not turn; 10 degrees either way").after();
         let gates = |name: &str, of: (f64, f64, f64), twin: (f64, f64, f64)| {

@@ -57,8 +57,9 @@ fn exponents(text: &str, changes: &[&str]) -> Result<(Ensemble, f64), String> {
 /// the number of contacts, which a deeper bed has more of per ball: between 1 and 1.6 as measured, and always short of 2. The
 /// automaton is said to stay flat, and its literal rules are the paper's.
 pub(crate) fn figure_12(_spoiler: f64) -> Result<Vec<Claim>, String> {
-    let source =
-        own("figure 12: DEM at 2e-5 s grows with N, the automaton stays flat; times are of this machine").after();
+    let source = own("figure 12: DEM at 2e-5 s grows with N, the automaton stays flat; times are of this machine")
+        .after()
+        .timed();
     let gate = |method: &str, exponent: Ensemble, low: f64, high: f64| {
         Claim::judge_ensemble(
             format!("cost, {method}: exponent of N from 5 to 50"),

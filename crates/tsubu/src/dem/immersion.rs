@@ -298,7 +298,7 @@ impl DemEngine {
         let Some(immersion) = &mut self.immersion else { return };
         let looks = self.clock.step.is_multiple_of(EVERY);
         if looks {
-            self.ranks.gather_grains(&mut self.grains);
+            self.ranks.gather_positions(&mut self.grains);
         }
         match &mut immersion.water.stream {
             Stream::Coupled(coupled) if !self.clock.settling => {

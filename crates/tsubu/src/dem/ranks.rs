@@ -2,7 +2,8 @@
 //!
 //! A rank makes lists, forces and steps for its own blocks alone. What these see of other grains, and what they do to them, goes over in two
 //! exchanges a step: motion when positions have gone on, loads when forces are there. What blocks have summed goes along, and is added up in the
-//! order of the blocks: the same bits on any number of ranks. Before grains are sorted anew, all ranks get all grains.
+//! order of the blocks: the same bits on any number of ranks. Before grains are sorted anew, all ranks get the positions of all; what else grains
+//! have goes to the rank that has them from then on.
 
 mod estimate;
 mod share;
@@ -24,6 +25,10 @@ pub(super) struct Ranks {
     whole: bool,
     /// The first block of every rank, and the number of blocks.
     cuts: Vec<usize>,
+    /// The same before the last cut.
+    cuts_before: Vec<usize>,
+    /// Whether ranks know of the grains of others no more than the positions.
+    apart: bool,
     seams: Vec<Seam>,
     messages: Vec<Vec<f64>>,
     work: Work,
@@ -63,6 +68,8 @@ impl Ranks {
             communicator,
             whole,
             cuts: Vec::new(),
+            cuts_before: Vec::new(),
+            apart: false,
             seams: vec![Seam::default(); size],
             messages: vec![Vec::new(); size],
             work: Work { all: vec![0.0; size], before_cut: vec![0.0; size], ..Work::default() },
@@ -90,7 +97,8 @@ impl Ranks {
     /// Cuts so many blocks by what they cost, of which `contacts` tells the contacts in the last step. Gives the own ones, where there are several ranks.
     pub fn cut(&mut self, blocks: usize, contacts: impl Fn(usize) -> usize) -> Option<Range<usize>> {
         let size = self.communicator.as_ref()?.size();
-        self.cuts = cuts(&self.costs(blocks, contacts), size);
+        let cuts = cuts(&self.costs(blocks, contacts), size);
+        self.cuts_before = std::mem::replace(&mut self.cuts, cuts);
         self.work.before_cut.clone_from(&self.work.all);
         Some(self.blocks(self.rank()))
     }
@@ -213,8 +221,7 @@ impl Ranks {
 
     /// The grains of a rank, of so many.
     fn grains(&self, rank: usize, grains: usize) -> Range<usize> {
-        let blocks = self.blocks(rank);
-        (blocks.start * BLOCK).min(grains)..(blocks.end * BLOCK).min(grains)
+        of_blocks(&self.cuts, rank, grains)
     }
 
     /// Whether this is the first rank.
@@ -262,6 +269,11 @@ impl Ranks {
     pub fn letters(&self) -> Vec<Vec<f64>> {
         vec![Vec::new(); self.seams.len()]
     }
+}
+
+/// The grains of a rank with these cuts, of so many.
+fn of_blocks(cuts: &[usize], rank: usize, grains: usize) -> Range<usize> {
+    (cuts[rank] * BLOCK).min(grains)..(cuts[rank + 1] * BLOCK).min(grains)
 }
 
 /// What a block with so many contacts costs, in a unit of its own.

@@ -113,6 +113,7 @@ impl NeighbourLists {
             });
         }
         if grains.len() <= SMALL {
+            self.levels.clear();
             return;
         }
         let mean = grains.radius.iter().sum::<f64>() / grains.len() as f64;
@@ -123,6 +124,11 @@ impl NeighbourLists {
         order.lay(Numbering::Lumps, &grains.position, |_| true, size, &search.periodic);
         order.sort(&grains.position, |_| true);
         grains.permute(order.order());
+    }
+
+    /// Where every grain was before it was sorted, until the lists are made; empty where it is where it was.
+    pub fn order(&self) -> &[u32] {
+        self.levels.first().map_or(&[], Grid::order)
     }
 
     /// Makes the lists for the present positions.

@@ -257,29 +257,40 @@ fn a_damper_has_the_bits_of_one_rank() {
     Job { resume: true, ..job(DAMPER) }.same(&[3]);
 }
 
-/// One step, and the gathering of all grains at its end, send what is estimated on one rank; and the number that tells each time how long a rank has worked.
+/// One step, and the gathering of all grains at its end, send what is estimated on one rank, and the numbers that tell each time how long a rank has worked;
+/// so does a step that makes lists anew, but for the few grains and contacts that come to another rank.
 #[test]
 fn what_goes_over_is_what_is_estimated() {
-    let job = job(DAMPER);
-    let (engine, ..) = job.opened(None);
     let ranks = 3;
-    let share = engine.on_ranks(ranks).unwrap();
-    let team = Thread::team(ranks);
-    let sent: Vec<_> = team.iter().map(|one| one.numbers.clone()).collect();
-    std::thread::scope(|scope| {
-        for one in team {
-            scope.spawn(|| {
-                let (count, all) = (one.numbers.clone(), Arc::new(one) as Arc<dyn Communicator>);
-                let (mut engine, mut hosts, mut ledger) = job.opened(Some(&all));
-                count.store(0, Ordering::Relaxed);
-                engine.advance(1, &mut hosts, &mut ledger).unwrap();
-            });
-        }
-    });
-    let most = sent.iter().map(|count| 8.0 * count.load(Ordering::Relaxed) as f64).fold(0.0, f64::max);
-    let told = share.bytes + share.bytes_anew + f64::from(8 * 8 * (ranks as u32 - 1));
+    let others = ranks as f64 - 1.0;
+    let step = |scene: &str| {
+        let job = job(scene);
+        let (engine, ..) = job.opened(None);
+        let share = engine.on_ranks(ranks).unwrap();
+        let team = Thread::team(ranks);
+        let sent: Vec<_> = team.iter().map(|one| one.numbers.clone()).collect();
+        std::thread::scope(|scope| {
+            for one in team {
+                scope.spawn(|| {
+                    let (count, all) = (one.numbers.clone(), Arc::new(one) as Arc<dyn Communicator>);
+                    let (mut engine, mut hosts, mut ledger) = job.opened(Some(&all));
+                    count.store(0, Ordering::Relaxed);
+                    engine.advance(1, &mut hosts, &mut ledger).unwrap();
+                });
+            }
+        });
+        (share, sent.iter().map(|count| 8.0 * count.load(Ordering::Relaxed) as f64).fold(0.0, f64::max))
+    };
+    let (share, most) = step(DAMPER);
+    let told = share.bytes + (8.0 * 15.0 * share.grains as f64 + 8.0 * 8.0) * others;
     assert!(most <= told && most > 0.95 * told, "{most} of {told} bytes");
     assert_eq!(share.messages, 2 * (ranks - 1));
+    let anew = step(&DAMPER.replace("[dem]", "[dem]\nskin = 1e-9")).1 - most;
+    assert!(
+        (anew / share.bytes_anew - 1.0).abs() < 0.1,
+        "{anew} of {} bytes where lists are made anew",
+        share.bytes_anew
+    );
 }
 
 /// Of some thousand exchanges some are wrong by the last bit: the bits are others. Few alone may be those of new lists, in which nothing goes over, or of grains that fly.

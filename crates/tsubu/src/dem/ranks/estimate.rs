@@ -39,12 +39,17 @@ impl Ranks {
             let gives = seen.partition_point(|one| one.0 <= rank) - seen.partition_point(|one| one.0 < rank);
             // Where something looks at all grains they go over after each half of a step.
             let grains = if self.whole { 27 * own[rank] * others } else { 9 * gives };
-            let blocks = (cuts[rank + 1] - cuts[rank]) * (18 + 6 * walls) * others;
+            let own_blocks = (cuts[rank + 1] - cuts[rank]) * others;
+            let blocks = own_blocks * (18 + 6 * walls);
+            // Where lists are made anew few grains and contacts come to another rank.
+            let columns =
+                if self.whole { 15 * own[rank] * others } else { 3 * own[rank] * others + 6 * gives + 3 * own_blocks };
+            let anew = columns + 2 * loads[rank] + own_blocks;
             RankShare {
                 grains: own[rank],
                 messages: 2 * others,
                 bytes: (NUMBER * (grains + blocks + 9 * loads[rank])) as f64,
-                bytes_anew: (NUMBER * 15 * own[rank] * others) as f64,
+                bytes_anew: (NUMBER * anew) as f64,
             }
         };
         let larger = |a: RankShare, b: RankShare| RankShare {

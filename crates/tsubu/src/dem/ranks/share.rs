@@ -1,9 +1,10 @@
 //! What goes over in a step: motion, loads, all grains.
 
-use super::Ranks;
+use super::{Ranks, of_blocks};
 use crate::dem::contact_forces::{BlockContacts, Load};
 use crate::dem::integrate::Report;
 use crate::neighbours::NeighbourLists;
+use crate::neighbours::drift::Drift;
 use crate::ranks::Reader;
 use crate::state::Grains;
 use glam::DVec3;
@@ -96,17 +97,70 @@ impl Ranks {
 
     /// Gives all ranks all grains as their owners have them.
     pub fn gather_grains(&mut self, grains: &mut Grains) {
+        let Grains { position, velocity, acceleration, spin, angular_acceleration, .. } = grains;
+        self.gather_columns([position, velocity, acceleration, spin, angular_acceleration]);
+        self.apart = false;
+    }
+
+    /// Gives all ranks the positions of all grains; all else too where something looks at all of them in every step.
+    pub fn gather_positions(&mut self, grains: &mut Grains) {
+        if self.whole {
+            return self.gather_grains(grains);
+        }
+        self.gather_columns([&mut grains.position]);
+        self.apart = !self.cuts.is_empty();
+    }
+
+    /// One column after the other: messages of all grains are large.
+    fn gather_columns<const N: usize>(&mut self, columns: [&mut Vec<DVec3>; N]) {
         if self.cuts.is_empty() {
             return;
         }
-        let all = grains.len();
-        let Grains { position, velocity, acceleration, spin, angular_acceleration, .. } = grains;
-        // One after the other: messages of all grains are large.
-        for column in [position, velocity, acceleration, spin, angular_acceleration] {
-            let mut column = [column];
+        for column in columns {
+            let (all, mut column) = (column.len(), [column]);
             self.write(|ranks, _, message| put_rows(message, &column, ranks.grains(ranks.rank(), all)));
             self.send_and_read(|ranks, rank, message| take_rows(message, &mut column, ranks.grains(rank, all)));
         }
+    }
+
+    /// After grains have been sorted and cut anew, gives every rank what its grains have beside positions, from those that had them. `order` has
+    /// where each was before; empty where it is.
+    pub fn move_grains(&mut self, grains: &mut Grains, order: &[u32]) {
+        if !self.apart {
+            return;
+        }
+        let all = grains.len();
+        let came_from = |ranks: &Self, from: usize, to: usize| {
+            let had = of_blocks(&ranks.cuts_before, from, all);
+            let before = |i: usize| order.get(i).map_or(i, |before| *before as usize);
+            ranks.grains(to, all).filter(move |i| had.contains(&before(*i)))
+        };
+        let Grains { velocity, acceleration, spin, angular_acceleration, .. } = grains;
+        let mut columns = [velocity, acceleration, spin, angular_acceleration];
+        self.write(|ranks, rank, message| put_rows(message, &columns, came_from(ranks, ranks.rank(), rank)));
+        self.send_and_read(|ranks, rank, message| {
+            take_rows(message, &mut columns, came_from(ranks, rank, ranks.rank()));
+        });
+    }
+
+    /// After lists have been made, how the grains move that others see, and what blocks do: as after a first half.
+    pub fn share_start(&mut self, grains: &mut Grains, drifts: &mut [Drift]) {
+        if !self.apart {
+            return;
+        }
+        let mut columns = [&mut grains.velocity, &mut grains.spin];
+        self.write(|ranks, rank, message| {
+            for drift in &drifts[ranks.blocks(ranks.rank())] {
+                put(message, [drift.velocity]);
+            }
+            put_rows(message, &columns, ranks.seams[rank].gives.iter().map(|i| *i as usize));
+        });
+        self.send_and_read(|ranks, rank, message| {
+            for drift in &mut drifts[ranks.blocks(rank)] {
+                drift.velocity = message.vector();
+            }
+            take_rows(message, &mut columns, ranks.seams[rank].takes.iter().map(|i| *i as usize));
+        });
     }
 }
 
