@@ -78,10 +78,9 @@ fn passes(case: &Case) -> Result<(), Failed> {
     for claim in claims.iter().filter(|claim| !claim.pass) {
         let _ = writeln!(wrong, "{} = {} not in {:?}..{:?}", claim.name, claim.value, claim.low, claim.high);
     }
-    for Moved { stored, now, how } in moved(&kept, &claims).iter().filter(|_| !kept.is_empty()) {
-        let value = |claim: &Option<&Claim>| claim.map(|claim| claim.value);
-        let name = now.or(*stored).map_or("", |claim| &claim.name);
-        let [kept, now] = [stored, now].map(value);
+    for Moved { stored, now, how } in moved(&kept, &claims).into_iter().filter(|_| !kept.is_empty()) {
+        let name = now.or(stored).map_or("", |claim| &claim.name);
+        let [kept, now] = [stored, now].map(|claim| claim.map(|claim| claim.value));
         let _ = writeln!(wrong, "{name}: kept {kept:?}, now {now:?}: {how}; `cargo xtask claims {}`", case.name);
     }
     if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
