@@ -235,14 +235,18 @@ fn costs() -> String {
         };
         let _ = writeln!(table, "| `{}` | `{}` | {measured}{seconds:.0} | {members} |", case.name, case.study);
     }
-    let sum = |told: bool| rows.iter().filter(|(.., run)| run.is_some() == told).map(|row| row.0).sum::<f64>() / 3600.0;
+    let sum = |rows: &[(f64, &Case, Option<CaseRun>)]| rows.iter().map(|row| row.0).sum::<f64>() / 3600.0;
     let short = rows.iter().filter(|(seconds, ..)| *seconds < 1.0).count();
-    let _ = writeln!(
+    let (measured, others): (Vec<_>, Vec<_>) = rows.into_iter().partition(|(.., run)| run.is_some());
+    let _ = write!(
         table,
-        "\n{short} more take less than a second each. In all {:.1} hours were measured; the budgets of the others are {:.1} hours, on one core.",
-        sum(true),
-        sum(false)
+        "\n{short} more take less than a second each. In all {:.1} hours were measured, on one core",
+        sum(&measured)
     );
+    if !others.is_empty() {
+        let _ = write!(table, "; the budgets of the others are {:.1} hours", sum(&others));
+    }
+    table.push_str(".\n");
     table
 }
 
