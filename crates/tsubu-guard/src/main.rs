@@ -35,12 +35,7 @@ enum Command {
     /// One answer for every way to compute it: scenes by methods, in ten ways that must not matter
     Variants(variants::Options),
     /// Scenes by this program and by an earlier build of it: does a change that must not change a number change one
-    Same {
-        /// The earlier program
-        earlier: PathBuf,
-        #[command(flatten)]
-        options: variants::Options,
-    },
+    Same(variants::Earlier),
     /// Judge kept cases again: folders with a case each
     Replay {
         /// The kind of the cases
@@ -83,7 +78,7 @@ fn main() -> ExitCode {
         Command::Fuzz(options) => options.fuzz(),
         Command::Kills { seed, kills, only } => kill(seed, kills, only),
         Command::Variants(options) => variants::variants(&options).map_err(io::Error::other),
-        Command::Same { earlier, options } => variants::same(&options, &earlier).map_err(io::Error::other),
+        Command::Same(options) => variants::same(&options).map_err(io::Error::other),
         Command::Replay { kind, folders } => replay(kind, &folders),
         Command::Work { kind, folder, seed, from, to } => work::work(kind, &folder, seed, from..to).map(|()| true),
         Command::Judge { kind, folder, case } => {

@@ -29,7 +29,7 @@ pub struct Options {
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
     /// Computing time of a run, about [s]
-    #[arg(long, default_value_t = 0.7)]
+    #[arg(long, default_value_t = 0.7, conflicts_with = "quick")]
     pub seconds: f64,
     /// Each scene by its own method alone, for a moment
     #[arg(long)]
@@ -42,16 +42,17 @@ pub struct Options {
     pub tsubu: Option<PathBuf>,
 }
 
-impl Options {
-    /// Computing time of a run, about [s].
-    fn seconds(&self) -> f64 {
-        if self.quick { 0.1 } else { self.seconds }
-    }
-
-    fn tsubu(&self) -> Result<PathBuf, String> {
-        let beside = || limits::beside("tsubu").map_err(|error| error.to_string());
-        self.tsubu.clone().map_or_else(beside, Ok)
-    }
+/// What an earlier program is held against.
+#[derive(Args)]
+pub struct Earlier {
+    /// The earlier program
+    pub earlier: PathBuf,
+    /// Computing time of a run, about [s]
+    #[arg(long, default_value_t = 2.0)]
+    pub seconds: f64,
+    /// The program [default: that of the same build]
+    #[arg(long)]
+    pub tsubu: Option<PathBuf>,
 }
 
 /// A scene by a method, for a time in which something happens [s].
@@ -87,13 +88,13 @@ struct Answer {
 
 /// Each scene by its own method, by this program and by an earlier one: for changes that must not change a number. A hash that
 /// differs alone is told apart: it covers the names under which the state is kept.
-pub fn same(options: &Options, earlier: &Path) -> Result<bool, String> {
+pub fn same(options: &Earlier) -> Result<bool, String> {
     let (mut wrong, mut names) = (0, 0);
-    let cases = cases(options, false)?;
+    let cases = cases(options.tsubu.as_deref(), options.seconds, false)?;
     for case in &cases {
         let way = Variant { threads: 1, rows: 40, frames: true, ..Variant::default() };
         let now = case.run(&way)?;
-        let mut before = Case { tsubu: earlier.into(), scene: case.scene.clone(), ..*case }.run(&way)?;
+        let mut before = Case { tsubu: options.earlier.clone(), scene: case.scene.clone(), ..*case }.run(&way)?;
         let named = before.hash != now.hash;
         before.hash.clone_from(&now.hash);
         let told = match now.differs(&before) {
@@ -116,7 +117,8 @@ pub fn same(options: &Options, earlier: &Path) -> Result<bool, String> {
 /// Runs all; says what differs, and whether nothing does.
 pub fn variants(options: &Options) -> Result<bool, String> {
     let begun = Instant::now();
-    let cases = cases(options, !options.quick)?;
+    let seconds = if options.quick { 0.1 } else { options.seconds };
+    let cases = cases(options.tsubu.as_deref(), seconds, !options.quick)?;
     let (next, runs) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let found = Mutex::new(Vec::new());
     std::thread::scope(|scope| {
@@ -194,8 +196,9 @@ fn hold(case: &Case, options: &Options) -> (usize, Vec<String>) {
 }
 
 /// Every scene by its own method, or by all that take it if `by_all`, each for as long as the computing takes that is wanted.
-fn cases(options: &Options, by_all: bool) -> Result<Vec<Case>, String> {
-    let (tsubu, seconds) = (options.tsubu()?, options.seconds());
+fn cases(tsubu: Option<&Path>, seconds: f64, by_all: bool) -> Result<Vec<Case>, String> {
+    let beside = || limits::beside("tsubu").map_err(|error| error.to_string());
+    let tsubu = tsubu.map_or_else(beside, |tsubu| Ok(tsubu.to_owned()))?;
     let mut cases = Vec::new();
     for name in scenes()? {
         let scene = root().join(format!("scenes/{name}.toml"));

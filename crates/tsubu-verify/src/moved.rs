@@ -28,7 +28,7 @@ pub fn moved<'a>(stored: &'a [Claim], now: &'a [Claim]) -> Vec<Moved<'a>> {
 
 /// In what way a claim is not what was stored. Measured times are never the same: they have moved where they hold no longer.
 fn how(stored: &Claim, now: &Claim) -> Option<&'static str> {
-    if now.timed && now.verdict() != Verdict::Fail {
+    if now.timed && (now.verdict() != Verdict::Fail || stored.verdict() == Verdict::Fail) {
         return None;
     }
     if stored.verdict() != now.verdict() {
@@ -119,6 +119,7 @@ mod tests {
         let timed = |value| Claim { timed: true, ..single(value, Some(50.0), None) };
         assert_eq!(how_of(&timed(90.0), &timed(300.0)), None);
         assert_eq!(how_of(&timed(90.0), &timed(40.0)), Some("it fails now"));
+        assert_eq!(how_of(&timed(40.0), &timed(10.0)), None);
         assert!(how_of(&single(90.0, Some(50.0), None), &single(300.0, Some(50.0), None)).is_some());
     }
 
