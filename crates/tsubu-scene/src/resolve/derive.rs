@@ -1,5 +1,6 @@
 //! Values that follow from others: masses from densities, counts from positions, tables from files.
 
+mod columns;
 mod curve;
 mod films;
 mod grains;

@@ -102,6 +102,10 @@ impl Axis {
         Complaint::new(format!("{} does not rise: {x} {unit} after {last} {unit}", self.name))
     }
 
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
     /// What each must be.
     pub fn more(&self) -> &'static str {
         if self.name == "time" { "later" } else { "higher" }

@@ -1,8 +1,8 @@
 //! The measured response curve of a calibration: read from a file, or typed.
 
 use super::table::{self, OF_RESPONSE};
-use super::{Derive, list, numbers};
-use crate::complaint::{Complaint, Source};
+use super::{Derive, list};
+use crate::complaint::Complaint;
 use crate::header::{self, Header};
 use crate::lines::lines;
 use crate::plan::Responded;
@@ -33,55 +33,21 @@ impl Derive<'_> {
     }
 
     fn filed_curve(&mut self, file: &str) -> Option<(Responded, Vec<Vec<f64>>)> {
-        let path = [PATH[0], PATH[1], "file"];
-        let text = match self.files.text(file, self.sources) {
-            Ok(text) => text,
-            Err(wrong) => {
-                self.file_is_wrong(wrong, &path);
-                return None;
-            }
-        };
-        let source = self.sources.len();
-        let read = quantity(&text, source).map_err(|wrong| vec![wrong]).and_then(|quantity| {
+        self.filed(file, &PATH, |text, source| {
+            let quantity = quantity(text, source).map_err(|wrong| vec![wrong])?;
             let dimension = quantity.dimension();
-            Ok((quantity, table::read(&text, source, &OF_RESPONSE, &[dimension, dimension])?))
-        });
-        read.map_err(|wrong| {
-            self.sources.push(Source { name: file.to_owned(), text, numbered: true });
-            self.file_is_wrong(wrong, &path);
+            Ok((quantity, table::read(text, source, &OF_RESPONSE, &[dimension, dimension])?))
         })
-        .ok()
     }
 
     fn typed_curve(&mut self, curve: &toml::Table) {
-        let typed = |key: &str| self.typed(&[&PATH[..], &[key]].concat());
-        if !typed("quantity") || !COLUMNS.iter().all(|key| typed(key)) {
-            if !typed("file") {
-                self.complain(
-                    Complaint::new("[calibrate.curve] has no curve")
-                        .at(&self.root.locate(&PATH), "needs `file`, or `quantity`, `frequency`, `value` and `uncertainty`")
-                        .hint("file = \"measured.csv\", with a header such as: frequency [Hz], transmissibility, uncertainty"),
-                );
-            }
-            return;
-        }
-        let [Some(frequency), Some(value), Some(uncertainty)] = COLUMNS.map(|key| numbers(curve, key)) else { return };
-        for (key, column) in [("value", value), ("uncertainty", uncertainty)] {
-            if column.len() != frequency.len() {
-                self.complain(Complaint::new(format!("`calibrate.curve.{key}` needs one for each frequency")).at(
-                    &self.root.locate(&[&PATH[..], &[key]].concat()),
-                    format!("{} for {} frequencies", column.len(), frequency.len()),
-                ));
-            }
-        }
-        if let Some(index) = frequency.windows(2).position(|pair| pair[0] >= pair[1]) {
-            let item = (index + 1).to_string();
-            let place = self.root.locate(&[&PATH[..], &["frequency", &item]].concat());
-            self.complain(
-                OF_RESPONSE
-                    .falls(frequency[index + 1], frequency[index])
-                    .at(&place, "must be higher than the one before"),
-            );
+        let nothing = Complaint::new("[calibrate.curve] has no curve")
+            .at(&self.root.locate(&PATH), "needs `file`, or `quantity`, `frequency`, `value` and `uncertainty`")
+            .hint("file = \"measured.csv\", with a header such as: frequency [Hz], transmissibility, uncertainty");
+        if self.typed(&[&PATH[..], &["quantity"]].concat()) {
+            self.typed_columns(curve, (&PATH, COLUMNS), &OF_RESPONSE, nothing);
+        } else if !self.typed(&[&PATH[..], &["file"]].concat()) {
+            self.complain(nothing);
         }
     }
 }

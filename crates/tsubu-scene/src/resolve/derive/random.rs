@@ -1,8 +1,8 @@
 //! Signals that are sums of sines: typed, or realised from a power spectral density.
 
 use super::table::{self, OF_FREQUENCY};
-use super::{Derive, join, list, numbers};
-use crate::complaint::{Complaint, Source};
+use super::{Derive, join, list};
+use crate::complaint::Complaint;
 use crate::resolve::spectrum::{Sines, Spectrum};
 use crate::units::{ACCELERATION_DENSITY, Dimension, FORCE, FORCE_DENSITY};
 use std::f64::consts::TAU;
@@ -49,66 +49,22 @@ impl Derive<'_> {
     }
 
     fn filed_spectrum(&mut self, file: &str, dimension: &Dimension, path: &[&str]) -> Option<Columns> {
-        let path: Vec<&str> = path.iter().copied().chain(["file"]).collect();
-        let text = match self.files.text(file, self.sources) {
-            Ok(text) => text,
-            Err(wrong) => {
-                self.file_is_wrong(wrong, &path);
-                return None;
-            }
-        };
-        let wrong = match table::read(&text, self.sources.len(), &OF_FREQUENCY, &[dimension]) {
-            Ok(columns) => {
-                let [frequency, density] = columns.try_into().ok()?;
-                let columns = Columns { frequency, density };
-                match unfit(&columns) {
-                    None => return Some(columns),
-                    Some(what) => vec![Complaint::new(what)],
-                }
-            }
-            Err(wrong) => {
-                self.sources.push(Source { name: file.to_string(), text, numbered: true });
-                wrong
-            }
-        };
-        self.file_is_wrong(wrong, &path);
-        None
+        self.filed(file, path, |text, source| {
+            let columns = table::read(text, source, &OF_FREQUENCY, &[dimension])?;
+            let [frequency, density] = columns.try_into().unwrap_or_default();
+            let columns = Columns { frequency, density };
+            unfit(&columns).map_or(Ok(columns), |what| Err(vec![Complaint::new(what)]))
+        })
     }
 
     fn typed_spectrum(&mut self, random: &Table, path: &[&str]) -> Option<Columns> {
-        let typed = |key: &str| self.typed(&[path, &[key]].concat());
-        if !typed("frequency") || !typed("psd") {
-            if !typed("file") {
-                self.complain(
-                    Complaint::new(format!("[{}] has no spectral density", path.join(".")))
-                        .at(&self.root.locate(path), "needs `file`, or `frequency` and `psd`")
-                        .hint("frequency = [\"20 Hz\", \"200 Hz\"] and psd = [\"0.04 g^2/Hz\", \"0.04 g^2/Hz\"]")
-                        .hint("or file = \"spectrum.csv\""),
-                );
-            }
-            return None;
-        }
-        let columns = Columns { frequency: numbers(random, "frequency")?, density: numbers(random, "psd")? };
-        if columns.frequency.len() != columns.density.len() {
-            let place = self.root.locate(&[path, &["psd"]].concat());
-            self.complain(
-                Complaint::new(format!("`{}` needs as many densities as frequencies", join(&path.join("."), "psd")))
-                    .at(
-                        &place,
-                        format!("{} densities for {} frequencies", columns.density.len(), columns.frequency.len()),
-                    ),
-            );
-            return None;
-        }
-        if let Some(index) = columns.frequency.windows(2).position(|pair| pair[0] >= pair[1]) {
-            let place = self.root.locate(&[path, &["frequency", &(index + 1).to_string()]].concat());
-            self.complain(
-                OF_FREQUENCY
-                    .falls(columns.frequency[index + 1], columns.frequency[index])
-                    .at(&place, "must be higher than the one before"),
-            );
-            return None;
-        }
+        let nothing = Complaint::new(format!("[{}] has no spectral density", path.join(".")))
+            .at(&self.root.locate(path), "needs `file`, or `frequency` and `psd`")
+            .hint("frequency = [\"20 Hz\", \"200 Hz\"] and psd = [\"0.04 g^2/Hz\", \"0.04 g^2/Hz\"]")
+            .hint("or file = \"spectrum.csv\"");
+        let columns = self.typed_columns(random, (path, ["frequency", "psd"]), &OF_FREQUENCY, nothing)?;
+        let [frequency, density] = columns;
+        let columns = Columns { frequency, density };
         if let Some(what) = unfit(&columns) {
             self.complain(
                 Complaint::new(what).at(&self.root.locate(&[path, &["frequency"]].concat()), "a band has two ends"),

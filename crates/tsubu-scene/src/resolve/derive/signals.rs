@@ -1,8 +1,8 @@
 //! Signals given as tables: read from files, or typed.
 
 use super::table::OF_TIME;
-use super::{Derive, join, list, table, tables_in};
-use crate::complaint::{Complaint, Source};
+use super::{Derive, list, table, tables_in};
+use crate::complaint::Complaint;
 use crate::units::{ANGLE, Dimension, FORCE, LENGTH};
 use std::f64::consts::TAU;
 use toml::Value;
@@ -15,6 +15,9 @@ static PLACES: &[(&str, &[&str], &Dimension)] = &[
     ("hosts", &["base"], &LENGTH),
     ("hosts", &["force"], &FORCE),
 ];
+
+/// What a table signal has.
+const COLUMNS: [&str; 2] = ["time", "value"];
 
 impl Derive<'_> {
     /// Reads the files of all table signals and checks the tables that were typed.
@@ -74,54 +77,17 @@ impl Derive<'_> {
     }
 
     fn filed_table(&mut self, table: &mut toml::Table, file: &str, dimension: &Dimension, path: &[&str]) {
-        let path: Vec<&str> = path.iter().copied().chain(["file"]).collect();
-        let text = match self.files.text(file, self.sources) {
-            Ok(text) => text,
-            Err(wrong) => return self.file_is_wrong(wrong, &path),
-        };
-        match table::read(&text, self.sources.len(), &OF_TIME, &[dimension]) {
-            Ok(columns) => {
-                for (key, column) in ["time", "value"].into_iter().zip(columns) {
-                    table.insert(key.into(), list(column));
-                }
-            }
-            Err(wrong) => {
-                self.sources.push(Source { name: file.to_string(), text, numbered: true });
-                self.file_is_wrong(wrong, &path);
-            }
+        let columns = self.filed(file, path, |text, source| table::read(text, source, &OF_TIME, &[dimension]));
+        for (key, column) in COLUMNS.into_iter().zip(columns.into_iter().flatten()) {
+            table.insert(key.into(), list(column));
         }
     }
 
     fn typed_table(&mut self, table: &toml::Table, path: &[&str]) {
-        let root = self.root;
-        let typed = |key: &str| root.find(&[path, &[key]].concat()).is_some();
-        if !typed("time") || !typed("value") {
-            if !typed("file") {
-                self.complain(
-                    Complaint::new(format!("[{}] has no table", path.join(".")))
-                        .at(&root.locate(path), "needs `file`, or `time` and `value`")
-                        .hint("file = \"motion.csv\"")
-                        .hint("or time = [0, 0.1, 0.2] and value = [0, 0.001, 0]"),
-                );
-            }
-            return;
-        }
-        let numbers = |key: &str| -> Option<Vec<f64>> {
-            table.get(key)?.as_array().map(|list| list.iter().filter_map(Value::as_float).collect())
-        };
-        let (Some(time), Some(value)) = (numbers("time"), numbers("value")) else { return };
-        if time.is_empty() || time.len() != value.len() {
-            self.complain(
-                Complaint::new(format!("`{}` needs as many values as times", join(&path.join("."), "value"))).at(
-                    &root.locate(&[path, &["value"]].concat()),
-                    format!("{} values for {} times", value.len(), time.len()),
-                ),
-            );
-        }
-        if let Some(index) = time.windows(2).position(|pair| pair[0] >= pair[1]) {
-            let item = (index + 1).to_string();
-            let place = root.locate(&[path, &["time", &item]].concat());
-            self.complain(OF_TIME.falls(time[index + 1], time[index]).at(&place, "must be later than the one before"));
-        }
+        let nothing = Complaint::new(format!("[{}] has no table", path.join(".")))
+            .at(&self.root.locate(path), "needs `file`, or `time` and `value`")
+            .hint("file = \"motion.csv\"")
+            .hint("or time = [0, 0.1, 0.2] and value = [0, 0.001, 0]");
+        self.typed_columns(table, (path, COLUMNS), &OF_TIME, nothing);
     }
 }
