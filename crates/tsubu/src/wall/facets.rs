@@ -25,40 +25,43 @@ impl Wall {
     /// Puts a mesh in the place of a cylinder, cone or sphere, off by no more than `off` [m] where 24 to 720 facets allow: of radius R with n
     /// facets by R (1 - cos(pi/n)) / 2, edges outside and middles inside. Pictures keep the curved one. `None`: it is not curved.
     pub fn facet(&mut self, off: f64) -> Option<Faceted> {
-        let (radius, straight) = match &self.surface {
-            Surface::Frustum(Frustum { radius, axis, .. }) => {
-                (radius[0].max(radius[1]), self.in_plane && axis.y.abs() < 0.5)
-            }
-            Surface::Shell(shell) => (shell.radius, false),
-            Surface::HalfSpaces { .. } | Surface::Mesh(_) => return None,
-        };
-        // Half as many go from pole to pole: an even number.
-        let half = 0.5 * PI / (1.0 - 2.0 * off / radius).clamp(-1.0, 1.0).acos();
-        let facets = (2.0 * half.ceil()).clamp(FACETS[0], FACETS[1]);
-        let share = if straight { 0.0 } else { 0.5 * (1.0 - (PI / facets).cos()) };
-        let (facets, centre) = (facets as usize, self.pose.centre);
-        let mesh = match &self.surface {
+        let centre = self.pose.centre;
+        let (mesh, facets, off) = match &self.surface {
             Surface::Frustum(frustum) => {
+                let radius = frustum.radius[0].max(frustum.radius[1]);
+                let straight = self.in_plane && frustum.axis.y.abs() < 0.5;
+                let (facets, share) = if straight { (facets(radius, off).0, 0.0) } else { facets(radius, off) };
                 let grown = Frustum { radius: frustum.radius.map(|r| r * (1.0 + share)), ..*frustum };
-                if self.in_plane {
+                let mesh = if self.in_plane {
                     of_outlines(&section(&grown, facets), centre)
                 } else {
                     Mesh::new(&skin(&grown, facets), centre)
-                }
+                };
+                (mesh, facets, share * radius)
             }
             Surface::Shell(shell) => {
-                let grown = SphericalShell { radius: radius * (1.0 + share), ..*shell };
-                if self.in_plane {
+                let (facets, share) = facets(shell.radius, off);
+                let grown = SphericalShell { radius: shell.radius * (1.0 + share), ..*shell };
+                let mesh = if self.in_plane {
                     of_outlines(&[circle(grown.centre, grown.radius, facets)], centre)
                 } else {
                     Mesh::new(&globe(&grown, facets), centre)
-                }
+                };
+                (mesh, facets, share * shell.radius)
             }
             Surface::HalfSpaces { .. } | Surface::Mesh(_) => return None,
         };
         self.surface = Surface::Mesh(mesh);
-        Some(Faceted { facets, off: share * radius })
+        Some(Faceted { facets, off })
     }
+}
+
+/// How many facets go round a circle of a `radius` [m] to be off by no more than `off` [m], and the share of the radius by which they are.
+fn facets(radius: f64, off: f64) -> (usize, f64) {
+    // Half as many go from pole to pole: an even number.
+    let half = 0.5 * PI / (1.0 - 2.0 * off / radius).clamp(-1.0, 1.0).acos();
+    let facets = (2.0 * half.ceil()).clamp(FACETS[0], FACETS[1]);
+    (facets as usize, 0.5 * (1.0 - (PI / facets).cos()))
 }
 
 /// Of closed lines in the plane; two corners are one piece of line.

@@ -18,7 +18,7 @@ pub(in crate::dem) fn facet(plan: &Plan, walls: &mut [Wall], smallest: f64) -> V
     let superellipsoids = round(first) || groups.any(round);
     let mut notes = Vec::new();
     for ((name, of), wall) in plan.walls.iter().zip(walls) {
-        let as_mesh = open_ends(plan, of) || superellipsoids && matches!(of.shape, Shape::Sphere { .. });
+        let as_mesh = open_ends(plan, name, of) || superellipsoids && matches!(of.shape, Shape::Sphere { .. });
         if as_mesh
             && let Some(Faceted { facets, off }) = wall.facet(0.5 * OFF * smallest)
             && off > 0.0
@@ -32,7 +32,7 @@ pub(in crate::dem) fn facet(plan: &Plan, walls: &mut [Wall], smallest: f64) -> V
 }
 
 /// Whether a cylinder or cone has rims that grains may touch: ends without a plane that holds grains back from them for good.
-fn open_ends(plan: &Plan, wall: &plan::Wall) -> bool {
+fn open_ends(plan: &Plan, name: &str, wall: &plan::Wall) -> bool {
     let (point, axis, length) = match &wall.shape {
         Shape::Cylinder { point, axis, length: Some(length), .. } if plan.dimension == 3 || axis[1].abs() < 0.5 => {
             (point, axis, *length)
@@ -42,13 +42,15 @@ fn open_ends(plan: &Plan, wall: &plan::Wall) -> bool {
     };
     let (point, axis) = (DVec3::from_array(*point), DVec3::from_array(*axis));
     let along = |direction: &[f64; 3]| DVec3::from_array(*direction).dot(axis);
-    let still = |wall: &plan::Wall| {
+    let still = |name: &str, wall: &plan::Wall| {
         let plan::Wall { host, motion, rotation, servo, body, until, .. } = wall;
         let moved = host.is_some() || motion.is_some() || servo.is_some() || body.is_some() || until.is_some();
-        !moved && rotation.as_ref().is_none_or(|rotation| along(&rotation.axis).abs() > 1.0 - 1e-9)
+        !moved
+            && !moves_later(plan, name)
+            && rotation.as_ref().is_none_or(|rotation| along(&rotation.axis).abs() > 1.0 - 1e-9)
     };
     let closed = |end: DVec3, inwards: f64| {
-        plan.walls.values().filter(|wall| still(wall)).any(|wall| match &wall.shape {
+        plan.walls.iter().filter(|(name, wall)| still(name, wall)).any(|(_, wall)| match &wall.shape {
             Shape::Plane { point, normal } => {
                 inwards * along(normal) > 1.0 - 1e-9
                     && inwards * (DVec3::from_array(*point) - end).dot(axis) >= -1e-9 * length
@@ -56,5 +58,14 @@ fn open_ends(plan: &Plan, wall: &plan::Wall) -> bool {
             _ => false,
         })
     };
-    !(still(wall) && closed(point, 1.0) && closed(point + axis * length, -1.0))
+    !(still(name, wall) && closed(point, 1.0) && closed(point + axis * length, -1.0))
+}
+
+/// Whether a stage sets a wall in motion that may stand still before.
+fn moves_later(plan: &Plan, name: &str) -> bool {
+    let told = |set: &toml::Table| {
+        let wall = set.get("walls").and_then(|walls| walls.get(name));
+        wall.is_some_and(|wall| ["motion", "rotation", "servo", "until"].iter().any(|key| wall.get(key).is_some()))
+    };
+    plan.stage.iter().any(|stage| told(&stage.set))
 }
