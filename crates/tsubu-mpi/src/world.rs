@@ -60,19 +60,23 @@ impl Communicator for World {
         self.size
     }
 
-    fn exchange(&self, messages: &mut [Vec<f64>]) {
+    fn exchange_while(&self, messages: &mut [Vec<f64>], partners: &[usize], work: &mut dyn FnMut() -> bool) {
         let world = SimpleCommunicator::world();
-        let others = || (0..self.size).filter(|rank| *rank != self.rank);
         let mut spare = self.spare.lock().unwrap_or_else(PoisonError::into_inner);
         spare.resize_with(self.size, Vec::new);
         mpi::request::scope(|scope| {
-            let sent: Vec<_> = others()
-                .map(|rank| {
+            let sent: Vec<_> = partners
+                .iter()
+                .map(|&rank| {
                     let to = world.process_at_rank(rank as i32);
                     WaitGuard::from(to.immediate_send(scope, &messages[rank][..]))
                 })
                 .collect();
-            for rank in others() {
+            // A look at what has come lets the library go on with what is sent, too.
+            while work() {
+                let _ = world.any_process().immediate_probe();
+            }
+            for &rank in partners {
                 let (message, status) = world.process_at_rank(rank as i32).matched_probe();
                 let room = &mut spare[rank];
                 room.resize(status.count(f64::equivalent_datatype()) as usize, 0.0);
@@ -80,7 +84,7 @@ impl Communicator for World {
             }
             drop(sent);
         });
-        for rank in others() {
+        for &rank in partners {
             std::mem::swap(&mut messages[rank], &mut spare[rank]);
         }
     }

@@ -270,6 +270,12 @@ pub trait Engine: Send {
     /// Moves the system by `steps` steps, together with its hosts; posts every flow to the ledger.
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault>;
 
+    /// The same where nobody looks at the system before it has advanced once more: what it is about to do next may be done already, and ranks need
+    /// not tell each other what they have.
+    fn advance_unseen(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
+        self.advance(steps, hosts, ledger)
+    }
+
     /// Gives all grains that forces move this velocity [m/s] on top of their own, before the first step. Says whether it can.
     fn set_in_motion(&mut self, _velocity: [f64; 3]) -> bool {
         false

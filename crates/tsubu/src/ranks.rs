@@ -14,7 +14,14 @@ pub trait Communicator: Debug + Send + Sync {
     fn size(&self) -> usize;
 
     /// Sends the message in place `r` to rank `r`, and puts in its place what that rank has sent here. A message to oneself stays.
-    fn exchange(&self, messages: &mut [Vec<f64>]);
+    fn exchange(&self, messages: &mut [Vec<f64>]) {
+        let others: Vec<usize> = (0..self.size()).filter(|rank| *rank != self.rank()).collect();
+        self.exchange_while(messages, &others, &mut || false);
+    }
+
+    /// The same with some `partners` alone, each of which has this rank among its own; at work while messages are under way: `work` does a part, and
+    /// tells whether there is more.
+    fn exchange_while(&self, messages: &mut [Vec<f64>], partners: &[usize], work: &mut dyn FnMut() -> bool);
 
     /// Puts the message of rank 0 in the place of everybody's.
     fn broadcast(&self, message: &mut Vec<f64>);

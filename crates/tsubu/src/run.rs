@@ -7,6 +7,7 @@ mod measured;
 mod onlooker;
 mod outputs;
 mod resume;
+mod rows;
 mod simulation;
 mod stages;
 mod start;
@@ -24,9 +25,9 @@ pub(crate) use told::judge;
 pub(crate) use ways::one_of_many;
 pub use ways::{run, run_on_ranks, run_seen};
 
-use crate::engine::{self, Engine};
+use crate::engine::Engine;
 use crate::interrupt::Watcher;
-use crate::ledger::{Account, Energies, Ledger};
+use crate::ledger::Ledger;
 use crate::partner::Hosts;
 use crate::watch::{Trigger, Watches};
 use crate::{scene_files, shape_mesh};
@@ -228,9 +229,19 @@ impl Run<'_> {
             let (now, last) = (self.engine.steps(), self.last);
             let next_picture = pictures.map_or(u64::MAX, |p| p.after(now));
             let (next_row, next_save, next_look) = (rows.after(now), saves.after(now), self.watches.next(now));
-            let target = next_row.min(next_picture).min(next_save).min(next_look).min(last).min(now + block);
+            let event = next_row.min(next_picture).min(next_save).min(next_look).min(last);
+            // Who asks the run to stop is answered after another step, which is done to its end.
+            let stop = watcher.interrupt.asked();
+            let target = event.min(now + if stop { 1 } else { block });
+            let seen = target == event || stop || self.onlooker.is_some();
             let begun = Instant::now();
-            if let Err(fault) = self.engine.advance(target - now, &mut self.hosts, &mut self.ledger) {
+            let (steps, hosts, ledger) = (target - now, &mut self.hosts, &mut self.ledger);
+            let moved = if seen {
+                self.engine.advance(steps, hosts, ledger)
+            } else {
+                self.engine.advance_unseen(steps, hosts, ledger)
+            };
+            if let Err(fault) = moved {
                 self.sync(folder, out)?;
                 let mut summary = self.summary(Status::Failed);
                 summary.warnings.push(fault.told());
@@ -256,7 +267,6 @@ impl Run<'_> {
             let share = (target - begin) as f64 / (last - begin).max(1) as f64;
             let share = self.stages.share_done(share);
             self.be_seen(share, target == last, watcher.interrupt);
-            let stop = watcher.interrupt.asked();
             let due = target == next_save && saved.elapsed() >= BETWEEN_CHECKPOINTS;
             let end = target == last && self.stages.is_last();
             if due || (end && self.alone) || (stop && !end) {
@@ -302,58 +312,6 @@ impl Run<'_> {
     fn end(folder: &RunFolder, summary: &Summary) -> Result<(), FileError> {
         folder.write_json("summary.json", summary)?;
         folder.sync()
-    }
-
-    fn header(&self) -> Vec<String> {
-        let mut header = vec!["time [s]".to_owned()];
-        header
-            .extend(engine::energies(&*self.engine, &self.hosts).terms().map(|(name, _)| format!("{name} energy [J]")));
-        header.extend(Account::ALL.map(|a| format!("{} [J]", a.name())));
-        header.extend(
-            ["residual [J]", "momentum residual [N.s]", "contacts [-]", "centre of mass height [m]"].map(String::from),
-        );
-        for name in self.hosts.names() {
-            header.push(format!("host {name} displacement [m]"));
-            header.push(format!("host {name} velocity [m/s]"));
-            header.push(format!("force on host {name} [N]"));
-        }
-        header.extend(self.watches.header());
-        header
-    }
-
-    fn row(&mut self) -> Vec<f64> {
-        let energies = engine::energies(&*self.engine, &self.hosts);
-        let mut row = vec![self.engine.time()];
-        row.extend(energies.terms().map(|(_, value)| value));
-        row.extend(Account::ALL.map(|a| self.ledger.flow(a)));
-        row.push(self.ledger.residual(&energies));
-        let momentum = self.ledger.momentum_residual(self.engine.momentum());
-        row.push(momentum.iter().map(|p| p * p).sum::<f64>().sqrt());
-        row.push(self.engine.contacts() as f64);
-        row.push(self.height());
-        for host in &self.hosts.list {
-            row.extend([host.displacement(), host.velocity(), host.grain_force()]);
-        }
-        row.extend(self.watches.row(&*self.engine));
-        let seen = self.seen(&energies);
-        self.measured.take(&self.hosts, self.engine.contacts(), seen);
-        self.lost.look(self.plan, &*self.engine);
-        self.stages.steady.take(self.engine.time() - self.engine.stage_begin().1, &self.hosts);
-        let row = self.in_columns(row);
-        if let Some(onlooker) = self.onlooker {
-            onlooker.row(&self.stages.columns, &row);
-        }
-        row
-    }
-
-    /// What every scene has to tell of itself, in the order of [`SEEN`].
-    fn seen(&self, energies: &Energies) -> [f64; 3] {
-        [energies.kinetic + energies.rotational, self.height(), self.engine.contacts() as f64]
-    }
-
-    /// Height of the centre of mass [m]; not a number without grains.
-    fn height(&self) -> f64 {
-        if self.engine.grains() == 0 { f64::NAN } else { self.engine.centre_of_mass()[2] }
     }
 
     fn save(&mut self, folder: &RunFolder, out: &mut Outputs) -> Result<(), FileError> {

@@ -30,16 +30,18 @@ use crate::check;
 use crate::contact::chunk::ROWS;
 use crate::contact::{Law, Table};
 use crate::neighbours::NeighbourLists;
-use crate::neighbours::lists::{BLOCK, BlockList};
+use crate::neighbours::lists::{BLOCK, BlockList, blocks_at_once};
 use crate::partner::Hosts;
 use crate::polyhedron::near::Near;
+use crate::ranks::Reader;
 use crate::state::Grains;
-use crate::threads::{piece, shares};
+use crate::threads::shares;
 use crate::view::WallLoad;
 use crate::wall::Wall;
 use crate::water::Parcel;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use tsubu_scene::plan::{Plan, SlipLever};
 
@@ -224,7 +226,7 @@ impl ContactForces {
         // steps, so that memory is not asked for each time.
         let contacts = self.blocks.iter().map(|block| block.sums.contacts).max().unwrap_or_default();
         let contacts = (contacts + contacts / 8).next_multiple_of(128);
-        let blocks = self.blocks.par_iter_mut().zip(lists).with_min_len(piece(input.grains.len()).div_ceil(BLOCK));
+        let blocks = self.blocks.par_iter_mut().zip(lists).with_min_len(blocks_at_once(input.grains.len()));
         blocks.for_each(|(block, list)| {
             block.walls.resize(input.walls.len(), WallLoad::default());
             // Of a block of another rank its loads on own grains alone are here, as they come.
@@ -251,23 +253,30 @@ impl ContactForces {
         self.blocks.iter_mut().for_each(|block| block.near.forget_all());
     }
 
-    /// Evaluates all contacts, and the forces of the water.
+    /// Evaluates all contacts, and the forces of the water. What other ranks have summed is not here yet.
     pub fn evaluate(&mut self, input: &ForceInput, ranks: &mut Ranks) {
         // An engine may be moved to a pool with more threads than the one it was built in.
         while self.scratch.len() < rayon::current_num_threads() {
             self.scratch.push(Mutex::new(Scratch::new(input.laws.all())));
         }
-        let scratch = &self.scratch;
-        let work = |(blocks, lists): (&mut [BlockContacts], &[BlockList])| {
-            let mine = rayon::current_thread_index().unwrap_or(0);
-            // Nobody else has this thread's scratch, so the lock is free.
-            let mut scratch = scratch[mine].lock().unwrap_or_else(PoisonError::into_inner);
-            blocks[0].evaluate(input, &lists[0], &mut scratch);
+        let (scratch, shares, lists) = (&self.scratch, shares(input.grains.len()), &input.neighbours.lists);
+        let evaluate = |blocks: &mut [BlockContacts], range: Range<usize>, asked: &(dyn Fn(usize) -> bool + Sync)| {
+            let range = (&mut blocks[range.clone()], &lists[range]);
+            sweep(range, Direction::Forward, shares, &|(blocks, lists): (&mut [BlockContacts], &[BlockList])| {
+                if !asked(lists[0].first / BLOCK) {
+                    return;
+                }
+                let mine = rayon::current_thread_index().unwrap_or(0);
+                // Nobody else has this thread's scratch, so the lock is free.
+                let mut scratch = scratch[mine].lock().unwrap_or_else(PoisonError::into_inner);
+                blocks[0].evaluate(input, &lists[0], &mut scratch);
+            });
         };
-        let own = input.neighbours.own();
-        let range = (&mut self.blocks[own.clone()], &input.neighbours.lists[own]);
-        sweep(range, Direction::Forward, shares(input.grains.len()), &work);
-        ranks.share_forces(&mut self.blocks);
+        ranks.share_loads(&mut self.blocks, input.neighbours.own(), evaluate);
+    }
+
+    /// Adds up what all blocks have summed.
+    pub fn add_up(&mut self) {
         self.sums = ContactSums::default();
         for block in &self.blocks {
             self.sums.add(&block.sums);
@@ -285,6 +294,22 @@ impl ContactForces {
 }
 
 impl BlockContacts {
+    /// Writes what it has summed into a message: contacts, and loads on walls.
+    pub fn put_sums(&self, message: &mut Vec<f64>) {
+        self.sums.put(message);
+        for load in &self.walls {
+            message.extend([load.force, load.torque].iter().flat_map(DVec3::to_array));
+        }
+    }
+
+    /// Takes it from a message.
+    pub fn take_sums(&mut self, message: &mut Reader) {
+        self.sums.take(message);
+        for load in &mut self.walls {
+            (load.force, load.torque) = (message.vector(), message.vector());
+        }
+    }
+
     fn evaluate(&mut self, input: &ForceInput, list: &BlockList, scratch: &mut Scratch) {
         let Self { history, loads, walls, sums, immersion, near } = self;
         let rotation = input.laws.rotation;
@@ -356,6 +381,7 @@ mod tests {
         engine.grains.position[1].x += 1e-3;
         let (mut contacts, input) = (std::mem::take(&mut engine.contacts), engine.force_input());
         contacts.evaluate(&ForceInput { dt: 0.0, ..input }, &mut Ranks::default());
+        contacts.add_up();
         assert_eq!(contacts.sums.contacts, 0);
         assert_eq!(contacts.sums.lost, ContactLosses::default());
     }

@@ -18,13 +18,12 @@ use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
 use crate::ledger::{Energies, Ledger};
 use crate::mutation::{Mutation, left_out};
 use crate::neighbours::joined::Joined;
-use crate::neighbours::lists::BLOCK;
 use crate::neighbours::{NeighbourLists, Search};
 use crate::outside::Action;
 use crate::partner::Hosts;
 use crate::ranks::{Communicator, RankShare};
 use crate::state::Grains;
-use crate::threads::{awake, shares};
+
 use crate::view::{View, WallLoad, Wants};
 use crate::wall::{Faces, Mover, Velocity, Wall};
 use crate::water::Water;
@@ -273,7 +272,8 @@ impl Engine for DemEngine {
 
     fn on_ranks(&self, ranks: usize) -> Option<RankShare> {
         let contacts = |block: usize| self.contacts.blocks[block].sums.contacts;
-        Some(self.ranks.share_of_busiest(ranks, &self.neighbours, contacts, self.walls.len()))
+        let water = self.immersion.as_ref().map_or(0, Immersion::numbers_of_block);
+        Some(self.ranks.share_of_busiest(ranks, &self.neighbours, contacts, (self.walls.len(), water)))
     }
 
     fn worked(&self) -> &[f64] {
@@ -281,19 +281,11 @@ impl Engine for DemEngine {
     }
 
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
-        let grains = self.grains.len();
-        self.ranks.begin_to_work();
-        let mut go = || {
-            for step in 0..steps {
-                self.step(hosts, ledger, step + 1 < steps)?;
-                if self.contacts.outside.wants_stop() {
-                    break;
-                }
-            }
-            self.ranks.gather_grains(&mut self.grains);
-            Ok(())
-        };
-        if shares(grains) > 1 { awake(grains.div_ceil(BLOCK), go) } else { go() }
+        self.go(steps, hosts, ledger, true)
+    }
+
+    fn advance_unseen(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
+        self.go(steps, hosts, ledger, false)
     }
 
     fn grain_energies(&self) -> Energies {

@@ -9,7 +9,7 @@ use super::sweep::{Direction, sweep};
 use crate::contact::Law;
 use crate::mutation::{Mutation, left_out};
 use crate::neighbours::NeighbourLists;
-use crate::neighbours::lists::{BLOCK, BlockList};
+use crate::neighbours::lists::{BLOCK, BlockList, blocks_at_once};
 use crate::polyhedron::touch::turned_feature;
 use crate::ranks::Reader;
 use crate::threads::{self, piece, shares};
@@ -149,7 +149,7 @@ impl ContactForces {
             pass_on(parts, &lookup, ranks);
         }
         runs.clear();
-        let from = parts.par_iter().enumerate().with_min_len(piece.div_ceil(BLOCK));
+        let from = parts.par_iter().enumerate().with_min_len(blocks_at_once(ids.len()));
         runs.par_extend(from.flat_map_iter(|(from, part)| part.runs(from)));
         runs.par_sort_by_key(|run| run.block);
         let own = input.neighbours.own();

@@ -67,6 +67,11 @@ impl Immersion {
         Self { water, powers: WaterPowers::default(), reaction: vec![0.0; layers], entrained: vec![0.0; layers] }
     }
 
+    /// How many numbers a block tells other ranks.
+    pub fn numbers_of_block(&self) -> usize {
+        self.powers.numbers().len() + 1 + 4 * self.reaction.len()
+    }
+
     /// The water at a time; `held`: it is held still.
     pub fn at(&self, time: f64, gravity: DVec3, held: bool) -> WaterAtTime<'_> {
         WaterAtTime { water: &self.water, gravity, time, held }

@@ -168,7 +168,8 @@ impl TimeIntegration {
         let (bodies, motion, shares) = (&self.bodies, self.motion(dt), shares(grains.len()));
         let blocks = Slice::new(grains, neighbours, &mut self.reports);
         sweep(blocks, Direction::Forward, shares, &|mut s: Slice| first_half(&mut s, bodies, &motion));
-        ranks.share_motion(Halves { first: true, second: false }, grains, neighbours, &mut self.reports);
+        let done = Halves { first: true, second: false };
+        ranks.share_motion(done, grains, neighbours, (&mut self.reports, &mut []));
     }
 
     /// After the forces: sums what blocks hold for every grain, finds the new accelerations and completes the velocities of
@@ -177,7 +178,7 @@ impl TimeIntegration {
     pub fn second_half(
         &mut self,
         grains: &mut Grains,
-        contacts: &[BlockContacts],
+        contacts: &mut [BlockContacts],
         neighbours: &mut NeighbourLists,
         (dt, go_on): (f64, bool),
         ranks: &mut Ranks,
@@ -191,7 +192,8 @@ impl TimeIntegration {
                 first_half(&mut s, bodies, &motion);
             }
         });
-        ranks.share_motion(Halves { first: at_once, second: true }, grains, neighbours, &mut self.reports);
+        let done = Halves { first: at_once, second: true };
+        ranks.share_motion(done, grains, neighbours, (&mut self.reports, contacts));
         let mut total = Report::default();
         for report in &self.reports {
             total.add(report);

@@ -1,9 +1,9 @@
 //! One run on several ranks: all have the grains, and each has the blocks of a stretch of their order in space.
 //!
 //! A rank makes lists, forces and steps for its own blocks alone. What these see of other grains, and what they do to them, goes over in two
-//! exchanges a step: motion when positions have gone on, loads when forces are there. What blocks have summed goes along, and is added up in the
-//! order of the blocks: the same bits on any number of ranks. Before grains are sorted anew, all ranks get the positions of all; what else grains
-//! have goes to the rank that has them from then on.
+//! exchanges a step: motion when positions have gone on, with what blocks have summed, which is added up in the order of the blocks: the same
+//! bits on any number of ranks; and loads, while the blocks that touch no grain of other ranks are evaluated. Before grains are sorted anew, all
+//! ranks get the positions of all; what else grains have goes to the rank that has them from then on.
 
 mod estimate;
 mod share;
@@ -30,6 +30,8 @@ pub(super) struct Ranks {
     /// Whether ranks know of the grains of others no more than the positions.
     apart: bool,
     seams: Vec<Seam>,
+    /// Of every block: whether it is an own one with loads on grains of others.
+    outer: Vec<bool>,
     messages: Vec<Vec<f64>>,
     work: Work,
 }
@@ -71,6 +73,7 @@ impl Ranks {
             cuts_before: Vec::new(),
             apart: false,
             seams: vec![Seam::default(); size],
+            outer: Vec::new(),
             messages: vec![Vec::new(); size],
             work: Work { all: vec![0.0; size], before_cut: vec![0.0; size], ..Work::default() },
         }
@@ -138,6 +141,8 @@ impl Ranks {
             *seam = Seam::default();
         }
         self.messages.iter_mut().for_each(Vec::clear);
+        self.outer.clear();
+        self.outer.resize(neighbours.lists.len(), false);
         let own = neighbours.own();
         for (block, list) in own.clone().zip(&neighbours.lists[own.clone()]) {
             for (local, halo) in
@@ -146,6 +151,7 @@ impl Ranks {
                 let owner = self.owner(halo.grain);
                 self.seams[owner].takes.push(halo.grain);
                 self.seams[owner].back.push([block as u32, local as u32]);
+                self.outer[block] = true;
                 self.messages[owner].extend([f64::from(halo.grain), block as f64]);
             }
         }
@@ -216,6 +222,19 @@ impl Ranks {
         let Some(all) = self.communicator.clone() else { return };
         self.note_work();
         all.exchange(messages);
+        self.work.since = self.work.since.map(|_| Instant::now());
+    }
+
+    /// The same with ranks that share a seam with this one, at work while messages are under way: `work` does a part, and tells whether there is more.
+    fn pass_across_seams(&mut self, messages: &mut [Vec<f64>], mut work: impl FnMut() -> bool) {
+        let Some(all) = self.communicator.clone() else { return };
+        let across = |(_, seam): &(usize, &Seam)| !(seam.back.is_empty() && seam.owed.is_empty());
+        let partners: Vec<usize> = self.seams.iter().enumerate().filter(across).map(|(rank, _)| rank).collect();
+        all.exchange_while(messages, &partners, &mut || {
+            let more = work();
+            self.note_work();
+            more
+        });
         self.work.since = self.work.since.map(|_| Instant::now());
     }
 
@@ -328,7 +347,7 @@ mod tests {
             2
         }
 
-        fn exchange(&self, messages: &mut [Vec<f64>]) {
+        fn exchange_while(&self, messages: &mut [Vec<f64>], _: &[usize], _: &mut dyn FnMut() -> bool) {
             messages[1] = vec![1.0];
         }
 

@@ -12,7 +12,7 @@ use crate::neighbours::lists::BLOCK;
 use crate::partner::Hosts;
 use crate::ranks::Reader;
 use crate::state::Grains;
-use crate::threads::piece;
+use crate::threads::{awake, piece, shares};
 use crate::view::Contact;
 use crate::wall::{Mover, Wall};
 use glam::DVec3;
@@ -20,6 +20,25 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 impl DemEngine {
+    /// Moves everything by so many time steps, whether it is `seen` then or not.
+    pub(super) fn go(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger, seen: bool) -> Result<(), Fault> {
+        let grains = self.grains.len();
+        self.ranks.begin_to_work();
+        let mut go = || {
+            for step in 0..steps {
+                self.step(hosts, ledger, !seen || step + 1 < steps)?;
+                if self.contacts.outside.wants_stop() {
+                    break;
+                }
+            }
+            if seen {
+                self.ranks.gather_grains(&mut self.grains);
+            }
+            Ok(())
+        };
+        if shares(grains) > 1 { awake(grains.div_ceil(BLOCK), go) } else { go() }
+    }
+
     /// Moves everything by one time step. With `go_on` the grains have done the first half of the next step when it ends: it is
     /// done together with the second half of this one.
     pub(super) fn step(&mut self, hosts: &mut Hosts, ledger: &mut Ledger, go_on: bool) -> Result<(), Fault> {
@@ -47,10 +66,11 @@ impl DemEngine {
         }
         self.ask_outside();
         self.evaluate_forces(self.integration.predicted_for(dt));
-        self.check_overlap()?;
+        let deepest = self.deepest_beyond_limit();
         // Before positions may go on to the next step: the stream looks where the grains are now.
         self.advance_stream(ledger);
         self.second_half_step(dt, go_on);
+        self.check_overlap(deepest)?;
         if !go_on {
             self.integration.bodies.show(&mut self.grains);
         }
@@ -100,7 +120,7 @@ impl DemEngine {
         self.ranks.move_grains(&mut self.grains, self.neighbours.order());
         self.neighbours.rebuild(&self.grains, &self.walls);
         self.resize_contacts();
-        self.ranks.share_start(&mut self.grains, &mut self.neighbours.drifts.of);
+        self.ranks.share_start(&mut self.grains, &mut self.neighbours);
         let released = self.restore_history(history);
         self.contacts.released += released;
     }
@@ -147,10 +167,10 @@ impl DemEngine {
     /// Forces of contacts and of the water at this time level; `completion` as in [`ForceInput`].
     fn evaluate_forces(&mut self, completion: f64) {
         let (contacts, ranks, input) = self.contacts_and_input();
-        let dt = input.dt;
         contacts.evaluate(&ForceInput { completion, ..input }, ranks);
-        contacts.sums.lost.sliding += std::mem::take(&mut contacts.released) / dt;
         if let Some(immersion) = &mut self.immersion {
+            // A stream looks at it before the step goes on.
+            self.ranks.share_water(&mut self.contacts.blocks);
             immersion.sum_powers(&self.contacts.blocks);
         }
         self.contacts.add_outside(&self.grains);
@@ -172,6 +192,8 @@ impl DemEngine {
         // what snapping together sets free has gone before the ledger opens.
         let (contacts, ranks, input) = self.contacts_and_input();
         contacts.evaluate(&ForceInput { dt: 0.0, water: None, ..input }, ranks);
+        ranks.share_sums(&mut contacts.blocks);
+        contacts.add_up();
         let stored = contacts.sums.stored;
         let history = self.snapshot_history();
         self.evaluate_forces(0.0);
@@ -223,17 +245,12 @@ impl DemEngine {
         }
     }
 
-    /// The contacts of this moment.
-    pub(super) fn contact_list(&self) -> Vec<Contact> {
-        self.of_all_ranks(contact_list(&self.contacts, &self.force_input()), true)
-    }
-
-    /// The same on the first rank.
+    /// The contacts of this moment, on the first rank.
     pub(super) fn contacts_to_show(&self) -> Vec<Contact> {
         self.of_all_ranks(contact_list(&self.contacts, &self.force_input()), false)
     }
 
-    /// The same without forces, for those who look at every step.
+    /// The same without forces, on all ranks, for those who look at every step.
     pub(super) fn overlaps(&self) -> Vec<Contact> {
         self.of_all_ranks(overlaps(&self.force_input()), true)
     }
@@ -245,12 +262,14 @@ impl DemEngine {
 
     /// Accelerations from forces and gravity; completes the velocities of a step `dt` (0: leaves them).
     fn second_half_step(&mut self, dt: f64, go_on: bool) {
-        let Self { grains, neighbours, contacts, integration, ranks, .. } = self;
+        let Self { grains, neighbours, contacts, integration, ranks, clock, .. } = self;
         let power = |contacts: &ContactForces, grains: &Grains| {
             contacts.outside.torque_power(grains) + contacts.bonds.torque_power(grains)
         };
         let predicted = power(contacts, grains);
-        let report = integration.second_half(grains, &contacts.blocks, neighbours, (dt, go_on), ranks);
+        let report = integration.second_half(grains, &mut contacts.blocks, neighbours, (dt, go_on), ranks);
+        contacts.add_up();
+        contacts.sums.lost.sliding += std::mem::take(&mut contacts.released) / clock.dt;
         if contacts.outside.acts() || !contacts.bonds.is_empty() {
             integration.bodies.show(grains);
         }
@@ -298,13 +317,36 @@ impl DemEngine {
         Ok(())
     }
 
-    fn check_overlap(&self) -> Result<(), Fault> {
-        let limit = self.limits.largest_overlap;
-        if self.contacts.sums.deepest <= limit * self.limits.smallest_diameter.min(self.integration.bodies.finest()) {
+    /// Whether an overlap may be beyond the limit.
+    fn is_deep(&self, overlap: f64) -> bool {
+        overlap > self.limits.largest_overlap * self.limits.smallest_diameter.min(self.integration.bodies.finest())
+    }
+
+    /// The deepest contact of the blocks of this rank and its overlap over the diameter, where that may be beyond the limit.
+    fn deepest_beyond_limit(&self) -> Option<(f64, Contact)> {
+        let blocks = &self.contacts.blocks[self.neighbours.own()];
+        if !blocks.iter().any(|block| self.is_deep(block.sums.deepest)) {
+            return None;
+        }
+        let contacts = contact_list(&self.contacts, &self.force_input()).into_iter();
+        contacts.map(|contact| (self.overlap_ratio(&contact), contact)).max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// Ends the run where the deepest contact of any rank is beyond the limit; each brings its own.
+    fn check_overlap(&self, deepest: Option<(f64, Contact)>) -> Result<(), Fault> {
+        if !self.is_deep(self.contacts.sums.deepest) {
             return Ok(());
         }
-        let ratios = self.contact_list().into_iter().map(|contact| (self.overlap_ratio(&contact), contact));
-        let Some((ratio, contact)) = ratios.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Ok(()) };
+        let mut message = Vec::new();
+        if let Some((ratio, contact)) = deepest {
+            message.push(ratio);
+            contact.put(&mut message);
+        }
+        let all = self.ranks.gather(message);
+        let mut all = Reader::new(&all);
+        let all = std::iter::from_fn(|| (!all.is_at_end()).then(|| (all.number(), Contact::take(&mut all))));
+        let Some((ratio, contact)) = all.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Ok(()) };
+        let limit = self.limits.largest_overlap;
         if ratio <= limit {
             return Ok(());
         }

@@ -11,7 +11,7 @@
 //! times less often than those that count from where each grain was.
 
 use super::grid::PeriodicBounds;
-use super::lists::{BLOCK, BlockList};
+use super::lists::{BLOCK, BlockList, blocks_at_once};
 use crate::state::Grains;
 use crate::threads::piece;
 use crate::wall::{Pose, Wall};
@@ -62,7 +62,7 @@ impl Drifts {
         ends: &PeriodicBounds,
     ) {
         let margin = MARGIN * skin;
-        let blocks = lists.par_iter().with_min_len(piece(grains.len()).div_ceil(BLOCK));
+        let blocks = lists.par_iter().with_min_len(blocks_at_once(grains.len()));
         let bounds: Vec<Bounds> = blocks.clone().map(|list| bounds(list, reference, &grains.radius)).collect();
         self.find_near(&bounds, margin, ends);
         let mut found = Vec::new();
@@ -108,7 +108,7 @@ impl Drifts {
             near.map(move |&c| [b, c])
         };
         self.near.clear();
-        let blocks = order.par_iter().enumerate().with_min_len(piece(order.len() * BLOCK).div_ceil(BLOCK));
+        let blocks = order.par_iter().enumerate().with_min_len(blocks_at_once(order.len() * BLOCK));
         self.near.par_extend(blocks.flat_map_iter(near));
     }
 

@@ -24,6 +24,11 @@ use std::sync::{Mutex, PoisonError};
 /// Grains of a block.
 pub const BLOCK: usize = 512;
 
+/// How many blocks of so many grains a thread takes at once, at least.
+pub fn blocks_at_once(grains: usize) -> usize {
+    piece(grains).div_ceil(BLOCK)
+}
+
 /// Below this many grains all pairs are looked at: a grid would cost more than it saves, and nothing needs sorting.
 const SMALL: usize = 96;
 

@@ -27,7 +27,7 @@ macro_rules! orders {
         const ORDERS: &[Order] = &[$(Order::$order),*];
     };
 }
-orders! { Advance Change Frame Glimpse Places Forces Save Load End }
+orders! { Advance AdvanceUnseen Change Frame Glimpse Places Forces Save Load End }
 
 /// The engine of rank 0.
 pub(super) struct Leader {
@@ -72,6 +72,7 @@ pub fn follow(scene: &Scene, communicator: &Arc<dyn Communicator>, interrupt: &I
         match ORDERS.get(message.number() as usize).copied().unwrap_or(Order::End) {
             // What went wrong went wrong on all ranks: the first tells it, and ends the run.
             Order::Advance => _ = engine.advance(message.number() as u64, &mut hosts, &mut ledger),
+            Order::AdvanceUnseen => _ = engine.advance_unseen(message.number() as u64, &mut hosts, &mut ledger),
             Order::Change => {
                 let plans = scene.plans();
                 _ = stages::change(&mut *engine, &mut hosts, [&plans[stage], &plans[stage + 1]]);
@@ -137,6 +138,11 @@ impl Engine for Leader {
     fn advance(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
         self.tell(Order::Advance, [steps as f64]);
         self.engine.advance(steps, hosts, ledger)
+    }
+
+    fn advance_unseen(&mut self, steps: u64, hosts: &mut Hosts, ledger: &mut Ledger) -> Result<(), Fault> {
+        self.tell(Order::AdvanceUnseen, [steps as f64]);
+        self.engine.advance_unseen(steps, hosts, ledger)
     }
 
     fn grain_energies(&self) -> Energies {

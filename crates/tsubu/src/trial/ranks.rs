@@ -68,9 +68,8 @@ mod tests {
     #[test]
     fn more_ranks_gain_until_they_do_not() {
         let (grains, cost) = (100_000, 0.02);
-        let share = |ranks: usize| {
-            Some(RankShare { grains: grains / ranks, messages: 2 * (ranks - 1), bytes: 1e5, bytes_anew: 1e6 })
-        };
+        let share =
+            |ranks: usize| Some(RankShare { grains: grains / ranks, messages: ranks, bytes: 1e5, bytes_anew: 1e6 });
         let time = |ranks| of_a_step(cost, grains, ranks, share(ranks));
         assert!((time(1) - cost).abs() < 1e-12);
         assert!(time(2) < 0.6 * cost && time(8) < time(2));

@@ -66,3 +66,47 @@ impl ContactSums {
         (self.contacts, self.deepest) = (next() as usize, next());
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dem::DemEngine;
+    use crate::engine::Engine as _;
+    use crate::ledger::Ledger;
+    use crate::partner::Hosts;
+    use std::path::Path;
+    use tsubu_scene::Scene;
+
+    /// Were each rank to sum its own blocks, and these sums be added, the bits would hang on the cuts.
+    #[test]
+    fn sums_in_the_order_of_ranks_have_other_bits() {
+        let text = "duration = '1 s'\ngravity = 10\n[materials.glass]\nyoung-modulus = '10 MPa'\nrestitution = 0.6\nfriction = 0.5\n\
+                    [particles.balls]\nmaterial = 'glass'\ncount = 2500\ndiameter = '2 mm'\nmass = '10 mg'\n\
+                    start.rows = { spacing = 1, jitter = 0.8, speed = 0.3 }\n[walls.box]\nmaterial = 'glass'\n\
+                    shape.box = { width = '110 mm', height = '200 mm' }\n";
+        let scene = Scene::parse("scene.toml", text, Path::new(""), &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+        let mut engine = DemEngine::new(scene.plan(), &Hosts::default()).unwrap_or_else(|error| panic!("{error}"));
+        let differs = |engine: &DemEngine| {
+            let blocks = &engine.contacts.blocks;
+            let sum = |ranks: usize| {
+                let mut all = ContactSums::default();
+                for rank in blocks.chunks(blocks.len().div_ceil(ranks)) {
+                    let mut own = ContactSums::default();
+                    for block in rank {
+                        own.add(&block.sums);
+                    }
+                    all.add(&own);
+                }
+                all.stored
+            };
+            assert_eq!(sum(1), engine.contacts.sums.stored);
+            sum(2) != sum(1)
+        };
+        let moments = (0..20).filter(|_| {
+            let moved = engine.advance(50, &mut Hosts::default(), &mut Ledger::default());
+            moved.unwrap_or_else(|fault| panic!("{fault}"));
+            differs(&engine)
+        });
+        assert!(moments.count() > 0);
+    }
+}

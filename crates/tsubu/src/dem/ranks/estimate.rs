@@ -9,13 +9,14 @@ use crate::ranks::RankShare;
 const NUMBER: usize = 8;
 
 impl Ranks {
-    /// The share of the busiest of so many ranks, from lists of all blocks, the contacts of each, and the number of walls.
+    /// The share of the busiest of so many ranks, from lists of all blocks, the contacts of each, the number of walls, and how many numbers a block tells of
+    /// the water.
     pub fn share_of_busiest(
         &self,
         ranks: usize,
         neighbours: &NeighbourLists,
         contacts: impl Fn(usize) -> usize,
-        walls: usize,
+        (walls, water): (usize, usize),
     ) -> RankShare {
         let lists = &neighbours.lists;
         let costs: Vec<f64> = (0..lists.len()).map(|block| cost(contacts(block))).collect();
@@ -24,12 +25,15 @@ impl Ranks {
         let mut loads = vec![0; ranks];
         let mut seen = Vec::new();
         let mut own = vec![0; ranks];
+        let mut seams = vec![false; ranks * ranks];
         for (block, list) in lists.iter().enumerate() {
             let rank = owner((block * BLOCK) as u32);
             own[rank] += list.own;
             for halo in list.halo.iter().filter(|halo| owner(halo.grain) != rank) {
                 loads[rank] += 1;
-                seen.push((owner(halo.grain), rank, halo.grain));
+                let other = owner(halo.grain);
+                (seams[rank * ranks + other], seams[other * ranks + rank]) = (true, true);
+                seen.push((other, rank, halo.grain));
             }
         }
         seen.sort_unstable();
@@ -40,21 +44,22 @@ impl Ranks {
             // Where something looks at all grains they go over after each half of a step.
             let grains = if self.whole { 27 * own[rank] * others } else { 9 * gives };
             let own_blocks = (cuts[rank + 1] - cuts[rank]) * others;
-            let blocks = own_blocks * (18 + 6 * walls);
+            let blocks = own_blocks * (18 + 6 * walls + water);
+            let partners = seams[rank * ranks..(rank + 1) * ranks].iter().filter(|seam| **seam).count();
             // Where lists are made anew few grains and contacts come to another rank.
             let columns =
-                if self.whole { 15 * own[rank] * others } else { 3 * own[rank] * others + 6 * gives + 3 * own_blocks };
+                if self.whole { 15 * own[rank] * others } else { 3 * own[rank] * others + 9 * gives + 7 * own_blocks };
             let anew = columns + 2 * loads[rank] + own_blocks;
             RankShare {
                 grains: own[rank],
-                messages: 2 * others,
+                messages: others * if water > 0 { 2 } else { 1 } + partners,
                 bytes: (NUMBER * (grains + blocks + 9 * loads[rank])) as f64,
                 bytes_anew: (NUMBER * anew) as f64,
             }
         };
         let larger = |a: RankShare, b: RankShare| RankShare {
             grains: a.grains.max(b.grains),
-            messages: a.messages,
+            messages: a.messages.max(b.messages),
             bytes: a.bytes.max(b.bytes),
             bytes_anew: a.bytes_anew.max(b.bytes_anew),
         };

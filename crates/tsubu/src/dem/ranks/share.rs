@@ -4,19 +4,22 @@ use super::{Ranks, of_blocks};
 use crate::dem::contact_forces::{BlockContacts, Load};
 use crate::dem::integrate::Report;
 use crate::neighbours::NeighbourLists;
-use crate::neighbours::drift::Drift;
 use crate::ranks::Reader;
 use crate::state::Grains;
 use glam::DVec3;
+use std::ops::Range;
+
+/// In how many parts blocks are evaluated while messages are under way: between them messages move on.
+const PARTS: usize = 8;
 
 impl Ranks {
-    /// What moving has done: drifts or reports of all blocks, and the grains that others see.
+    /// What a step has done to all blocks: drifts, reports and the sums of its `contacts`; and the grains that others see.
     pub fn share_motion(
         &mut self,
         done: Halves,
         grains: &mut Grains,
         neighbours: &mut NeighbourLists,
-        reports: &mut [Report],
+        (reports, contacts): (&mut [Report], &mut [BlockContacts]),
     ) {
         if self.cuts.is_empty() {
             return;
@@ -25,14 +28,17 @@ impl Ranks {
         let mut columns = done.columns(grains, self.whole);
         let (own, drifts) = (neighbours.own(), &mut neighbours.drifts.of);
         self.write(|ranks, rank, message| {
-            for (drift, report) in drifts[own.clone()].iter().zip(&reports[own.clone()]) {
-                if done.first {
+            if done.first {
+                for drift in &drifts[own.clone()] {
                     put(message, [drift.offset, drift.velocity]);
                     message.push(drift.farthest);
                 }
-                if done.second {
+            }
+            if done.second {
+                for (report, block) in reports[own.clone()].iter().zip(&contacts[own.clone()]) {
                     put(message, [report.fixed_force]);
                     message.extend([report.correction, report.driven_power]);
+                    block.put_sums(message);
                 }
             }
             if ranks.whole {
@@ -43,14 +49,17 @@ impl Ranks {
         });
         self.send_and_read(|ranks, rank, message| {
             let from = ranks.blocks(rank);
-            for (drift, report) in drifts[from.clone()].iter_mut().zip(&mut reports[from]) {
-                if done.first {
+            if done.first {
+                for drift in &mut drifts[from.clone()] {
                     (drift.offset, drift.velocity) = (message.vector(), message.vector());
                     drift.farthest = message.number();
                 }
-                if done.second {
+            }
+            if done.second {
+                for (report, block) in reports[from.clone()].iter_mut().zip(&mut contacts[from]) {
                     report.fixed_force = message.vector();
                     (report.correction, report.driven_power) = (message.number(), message.number());
+                    block.take_sums(message);
                 }
             }
             if ranks.whole {
@@ -61,37 +70,72 @@ impl Ranks {
         });
     }
 
-    /// What forces have done: sums of all blocks, and loads on grains of others.
-    pub fn share_forces(&mut self, blocks: &mut [BlockContacts]) {
+    /// Evaluates the `own` blocks, those of a range that are asked for, and brings over loads on grains of others: outer blocks come first, the
+    /// others while messages are under way.
+    pub fn share_loads(
+        &mut self,
+        blocks: &mut [BlockContacts],
+        own: Range<usize>,
+        evaluate: impl Fn(&mut [BlockContacts], Range<usize>, &(dyn Fn(usize) -> bool + Sync)),
+    ) {
         if self.cuts.is_empty() {
-            return;
+            return evaluate(blocks, own, &|_| true);
         }
+        let outer = std::mem::take(&mut self.outer);
+        evaluate(blocks, own.clone(), &|block| outer[block]);
         self.write(|ranks, rank, message| {
-            for block in &blocks[ranks.blocks(ranks.rank())] {
-                block.sums.put(message);
-                for load in &block.walls {
-                    put(message, [load.force, load.torque]);
-                }
-                block.immersion.put(message);
-            }
             for &[block, local] in &ranks.seams[rank].back {
                 let load = &blocks[block as usize].loads[local as usize];
                 put(message, [load.force, load.torque, load.dissipative.as_dvec3()]);
             }
         });
-        self.send_and_read(|ranks, rank, message| {
-            for block in &mut blocks[ranks.blocks(rank)] {
-                block.sums.take(message);
-                for load in &mut block.walls {
-                    (load.force, load.torque) = (message.vector(), message.vector());
-                }
-                block.immersion.take(message);
-                block.loads.clear();
+        let (mut messages, mut rest) = (std::mem::take(&mut self.messages), own.clone());
+        self.pass_across_seams(&mut messages, || {
+            let part = rest.start..(rest.start + own.len().div_ceil(PARTS)).min(rest.end);
+            rest.start = part.end;
+            evaluate(blocks, part, &|block| !outer[block]);
+            !rest.is_empty()
+        });
+        self.outer = outer;
+        for (rank, message) in messages.iter().enumerate().filter(|(rank, _)| *rank != self.rank()) {
+            for block in &self.seams[rank].owed {
+                blocks[*block as usize].loads.clear();
             }
-            for &block in &ranks.seams[rank].owed {
+            let mut message = Reader::new(message);
+            for &block in &self.seams[rank].owed {
                 let (force, torque, dissipative) = (message.vector(), message.vector(), message.vector().as_vec3());
                 blocks[block as usize].loads.push(Load { force, torque, dissipative });
             }
+        }
+        self.messages = messages;
+    }
+
+    /// What the water has done to all blocks.
+    pub fn share_water(&mut self, blocks: &mut [BlockContacts]) {
+        self.share_of_blocks(
+            blocks,
+            |block, message| block.immersion.put(message),
+            |block, message| block.immersion.take(message),
+        );
+    }
+
+    /// The sums of all blocks.
+    pub fn share_sums(&mut self, blocks: &mut [BlockContacts]) {
+        self.share_of_blocks(blocks, BlockContacts::put_sums, BlockContacts::take_sums);
+    }
+
+    fn share_of_blocks(
+        &mut self,
+        blocks: &mut [BlockContacts],
+        put: impl Fn(&BlockContacts, &mut Vec<f64>),
+        take: impl Fn(&mut BlockContacts, &mut Reader),
+    ) {
+        if self.cuts.is_empty() {
+            return;
+        }
+        self.write(|ranks, _, message| blocks[ranks.blocks(ranks.rank())].iter().for_each(|block| put(block, message)));
+        self.send_and_read(|ranks, rank, message| {
+            blocks[ranks.blocks(rank)].iter_mut().for_each(|block| take(block, message));
         });
     }
 
@@ -143,24 +187,11 @@ impl Ranks {
         });
     }
 
-    /// After lists have been made, how the grains move that others see, and what blocks do: as after a first half.
-    pub fn share_start(&mut self, grains: &mut Grains, drifts: &mut [Drift]) {
-        if !self.apart {
-            return;
+    /// After lists have been made, what goes over after a first half: how the grains move that others see, and what blocks do.
+    pub fn share_start(&mut self, grains: &mut Grains, neighbours: &mut NeighbourLists) {
+        if self.apart {
+            self.share_motion(Halves { first: true, second: false }, grains, neighbours, (&mut [], &mut []));
         }
-        let mut columns = [&mut grains.velocity, &mut grains.spin];
-        self.write(|ranks, rank, message| {
-            for drift in &drifts[ranks.blocks(ranks.rank())] {
-                put(message, [drift.velocity]);
-            }
-            put_rows(message, &columns, ranks.seams[rank].gives.iter().map(|i| *i as usize));
-        });
-        self.send_and_read(|ranks, rank, message| {
-            for drift in &mut drifts[ranks.blocks(rank)] {
-                drift.velocity = message.vector();
-            }
-            take_rows(message, &mut columns, ranks.seams[rank].takes.iter().map(|i| *i as usize));
-        });
     }
 }
 
