@@ -23,7 +23,6 @@ use crate::outside::Action;
 use crate::partner::Hosts;
 use crate::ranks::{Communicator, RankShare};
 use crate::state::Grains;
-
 use crate::view::{View, WallLoad, Wants};
 use crate::wall::{Faces, Mover, Velocity, Wall};
 use crate::water::Water;

@@ -198,9 +198,9 @@ impl DemEngine {
         let history = self.snapshot_history();
         self.evaluate_forces(0.0);
         self.restore_history(history);
-        self.contacts.sums.stored = stored;
         self.evaluate_stream_at_rest();
         self.second_half_step(0.0, false);
+        self.contacts.sums.stored = stored;
         self.integration.bodies.show(&mut self.grains);
         self.reactions.sum_wall_loads(&self.contacts);
         self.faces.measure(&mut self.walls);
