@@ -255,7 +255,7 @@ fn springs_hold_nothing_before_the_first_step() {
     let elastic = |speed: f64| {
         let text = format!(
             "{GLASS}[contact.tangential.mindlin]\n[particles.pair]\nmaterial = \"glass\"\ndiameter = \"6 mm\"\n\
-             start.at = {{ position = [[0, 0, 0], [0.00598, 0, 0]], velocity = [[0, 0, {speed}], [0, 0, 0]] }}\n"
+             start.at = {{ position = [[0, 0, 0], [0.005995, 0, 0]], velocity = [[0, 0, {speed}], [0, 0, 0]] }}\n"
         );
         opened(&text, Path::new("")).unwrap().grain_energies().elastic
     };
