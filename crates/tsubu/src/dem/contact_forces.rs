@@ -229,6 +229,7 @@ impl ContactForces {
         let blocks = self.blocks.par_iter_mut().zip(lists).with_min_len(blocks_at_once(input.grains.len()));
         blocks.for_each(|(block, list)| {
             block.walls.resize(input.walls.len(), WallLoad::default());
+            block.immersion.prepare(input.water.as_ref());
             // Of a block of another rank its loads on own grains alone are here, as they come.
             if !own.contains(&(list.first / BLOCK)) {
                 (block.history, block.loads) = Default::default();
@@ -294,12 +295,13 @@ impl ContactForces {
 }
 
 impl BlockContacts {
-    /// Writes what it has summed into a message: contacts, and loads on walls.
+    /// Writes what it has summed into a message: contacts, loads on walls, what the water does.
     pub fn put_sums(&self, message: &mut Vec<f64>) {
         self.sums.put(message);
         for load in &self.walls {
             message.extend([load.force, load.torque].iter().flat_map(DVec3::to_array));
         }
+        self.immersion.put_powers(message);
     }
 
     /// Takes it from a message.
@@ -308,6 +310,7 @@ impl BlockContacts {
         for load in &mut self.walls {
             (load.force, load.torque) = (message.vector(), message.vector());
         }
+        self.immersion.take_powers(message);
     }
 
     fn evaluate(&mut self, input: &ForceInput, list: &BlockList, scratch: &mut Scratch) {

@@ -271,8 +271,9 @@ impl Engine for DemEngine {
 
     fn on_ranks(&self, ranks: usize) -> Option<RankShare> {
         let contacts = |block: usize| self.contacts.blocks[block].sums.contacts;
-        let water = self.immersion.as_ref().map_or(0, Immersion::numbers_of_block);
-        Some(self.ranks.share_of_busiest(ranks, &self.neighbours, contacts, (self.walls.len(), water)))
+        let [water, stream] = self.immersion.as_ref().map_or([0; 2], Immersion::numbers_of_block);
+        let numbers = [6 * self.walls.len() + water, stream];
+        Some(self.ranks.share_of_busiest(ranks, &self.neighbours, contacts, numbers))
     }
 
     fn worked(&self) -> &[f64] {

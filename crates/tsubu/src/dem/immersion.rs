@@ -26,7 +26,8 @@ pub(super) struct Immersion {
 /// What passes between the water and one block.
 #[derive(Clone, Debug, Default)]
 pub(super) struct BlockImmersion {
-    powers: WaterPowers,
+    /// What the water does to its grains, where there is any.
+    powers: Option<WaterPowers>,
     /// What the layers of a stream give to its grains along x.
     reaction: Vec<LayerReaction>,
     /// What was drawn for the water around each of the own grains, where it fluctuates.
@@ -44,32 +45,47 @@ pub(super) struct WaterAtTime<'a> {
 }
 
 impl BlockImmersion {
-    /// Writes what others must know into a message.
-    pub fn put(&self, message: &mut Vec<f64>) {
-        message.extend(self.powers.numbers());
-        message.push(self.reaction.len() as f64);
+    /// Makes room for what this water does.
+    pub fn prepare(&mut self, water: Option<&WaterAtTime>) {
+        self.powers = water.map(|_| WaterPowers::default());
+        let layers = water.map_or(0, |water| water.water.coupled_layers());
+        self.reaction.resize(layers, LayerReaction::default());
+    }
+
+    /// Writes what the water does into a message.
+    pub fn put_powers(&self, message: &mut Vec<f64>) {
+        message.extend(self.powers.iter().flat_map(WaterPowers::numbers));
+    }
+
+    /// Takes it from a message.
+    pub fn take_powers(&mut self, message: &mut Reader) {
+        if let Some(powers) = &mut self.powers {
+            *powers = WaterPowers::of_numbers(std::array::from_fn(|_| message.number()));
+        }
+    }
+
+    /// Writes what the layers of a stream give into a message.
+    pub fn put_reaction(&self, message: &mut Vec<f64>) {
         message.extend(self.reaction.iter().flatten().flatten());
     }
 
     /// Takes it from a message.
-    pub fn take(&mut self, message: &mut Reader) {
-        self.powers = WaterPowers::of_numbers(std::array::from_fn(|_| message.number()));
-        let layers = message.number() as usize;
-        self.reaction.clear();
-        self.reaction
-            .extend((0..layers).map(|_| [[message.number(), message.number()], [message.number(), message.number()]]));
+    pub fn take_reaction(&mut self, message: &mut Reader) {
+        for number in self.reaction.iter_mut().flatten().flatten() {
+            *number = message.number();
+        }
     }
 }
 
 impl Immersion {
     pub fn new(water: Water) -> Self {
-        let layers = if let Stream::Coupled(coupled) = &water.stream { coupled.layers.len() } else { 0 };
+        let layers = water.coupled_layers();
         Self { water, powers: WaterPowers::default(), reaction: vec![0.0; layers], entrained: vec![0.0; layers] }
     }
 
-    /// How many numbers a block tells other ranks.
-    pub fn numbers_of_block(&self) -> usize {
-        self.powers.numbers().len() + 1 + 4 * self.reaction.len()
+    /// How many numbers a block tells other ranks: of what the water does, and before that of what the layers of a stream give.
+    pub fn numbers_of_block(&self) -> [usize; 2] {
+        [self.powers.numbers().len(), size_of::<LayerReaction>() / size_of::<f64>() * self.reaction.len()]
     }
 
     /// The water at a time; `held`: it is held still.
@@ -79,7 +95,7 @@ impl Immersion {
 
     /// Whether there is a stream that gives to the grains and takes from them.
     pub fn has_stream(&self) -> bool {
-        matches!(self.water.stream, Stream::Coupled(_))
+        self.water.coupled_layers() > 0
     }
 
     /// Its kinetic energy [J].
@@ -87,14 +103,20 @@ impl Immersion {
         if let Stream::Coupled(coupled) = &self.water.stream { coupled.energy() } else { 0.0 }
     }
 
-    /// Sums what the water has done to all blocks, and what they have taken from its layers.
+    /// Sums what the water has done to all blocks.
     pub fn sum_powers(&mut self, blocks: &[BlockContacts]) {
-        self.reaction.fill(0.0);
         self.powers = WaterPowers::default();
-        for BlockImmersion { powers, reaction, .. } in blocks.iter().map(|block| &block.immersion) {
+        for powers in blocks.iter().filter_map(|block| block.immersion.powers.as_ref()) {
             self.powers.add(powers);
+        }
+    }
+
+    /// Sums what the grains of all blocks have taken from the layers of a stream.
+    pub fn sum_reaction(&mut self, blocks: &[BlockContacts]) {
+        self.reaction.fill(0.0);
+        for block in blocks {
             let mut from_below = 0.0;
-            for (taken, [even, odd]) in self.reaction.iter_mut().zip(reaction) {
+            for (taken, [even, odd]) in self.reaction.iter_mut().zip(&block.immersion.reaction) {
                 let above = even[1] + odd[1];
                 *taken += from_below + (even[0] + odd[0] - above);
                 from_below = above;
@@ -117,11 +139,8 @@ impl WaterAtTime<'_> {
     ) {
         let own = &grains.inverse_mass[first..(first + BLOCK).min(grains.len())];
         let BlockImmersion { powers, reaction, gusts } = immersion;
-        *powers = WaterPowers::default();
-        reaction.clear();
-        if let Stream::Coupled(coupled) = &self.water.stream {
-            reaction.resize(coupled.layers.len(), LayerReaction::default());
-        }
+        let powers = powers.insert(WaterPowers::default());
+        reaction.fill(LayerReaction::default());
         if self.water.fluctuation.is_some() {
             gusts.resize(BLOCK, Gust::default());
         }

@@ -29,6 +29,10 @@ pub(super) struct Ranks {
     cuts_before: Vec<usize>,
     /// Whether ranks know of the grains of others no more than the positions.
     apart: bool,
+    /// All other ranks.
+    others: Vec<usize>,
+    /// Those that see grains of this one, or have grains that it sees.
+    partners: Vec<usize>,
     seams: Vec<Seam>,
     /// Of every block: whether it is an own one with loads on grains of others.
     outer: Vec<bool>,
@@ -62,16 +66,25 @@ struct Seam {
     owed: Vec<u32>,
 }
 
+impl Seam {
+    /// Whether nothing goes over.
+    fn is_empty(&self) -> bool {
+        self.back.is_empty() && self.owed.is_empty()
+    }
+}
+
 impl Ranks {
     /// With `whole` all grains go over in every step.
     pub fn new(communicator: Option<Arc<dyn Communicator>>, whole: bool) -> Self {
-        let size = communicator.as_ref().map_or(0, |all| all.size());
+        let (rank, size) = communicator.as_ref().map_or((0, 0), |all| (all.rank(), all.size()));
         Self {
             communicator,
             whole,
             cuts: Vec::new(),
             cuts_before: Vec::new(),
             apart: false,
+            others: (0..size).filter(|other| *other != rank).collect(),
+            partners: Vec::new(),
             seams: vec![Seam::default(); size],
             outer: Vec::new(),
             messages: vec![Vec::new(); size],
@@ -175,6 +188,8 @@ impl Ranks {
                 grains.dedup();
             }
         }
+        self.partners.clear();
+        self.partners.extend(self.others.iter().filter(|rank| !self.seams[**rank].is_empty()));
         for list in &mut neighbours.lists[own] {
             list.incoming.sort_unstable_by_key(|incoming| (incoming.own, incoming.block, incoming.local));
         }
@@ -217,20 +232,26 @@ impl Ranks {
         }
     }
 
-    /// Sends a message to every rank, and puts what each sends in its place; nothing comes where there is but one. To wait is no work.
+    /// Sends a message to every rank, and puts what each sends in its place; nothing comes where there is but one.
     pub fn pass(&mut self, messages: &mut [Vec<f64>]) {
-        let Some(all) = self.communicator.clone() else { return };
-        self.note_work();
-        all.exchange(messages);
-        self.work.since = self.work.since.map(|_| Instant::now());
+        let others = std::mem::take(&mut self.others);
+        self.pass_to(&others, messages, || false);
+        self.others = others;
     }
 
-    /// The same with ranks that share a seam with this one, at work while messages are under way: `work` does a part, and tells whether there is more.
-    fn pass_across_seams(&mut self, messages: &mut [Vec<f64>], mut work: impl FnMut() -> bool) {
+    /// The same with ranks that share a seam with this one, at work while messages are under way.
+    fn pass_across_seams(&mut self, messages: &mut [Vec<f64>], work: impl FnMut() -> bool) {
+        let partners = std::mem::take(&mut self.partners);
+        self.pass_to(&partners, messages, work);
+        self.partners = partners;
+    }
+
+    /// Sends messages to these ranks, and puts what they send in their place; `work` meanwhile does a part, and tells whether there is more. To wait is
+    /// no work.
+    fn pass_to(&mut self, partners: &[usize], messages: &mut [Vec<f64>], mut work: impl FnMut() -> bool) {
         let Some(all) = self.communicator.clone() else { return };
-        let across = |(_, seam): &(usize, &Seam)| !(seam.back.is_empty() && seam.owed.is_empty());
-        let partners: Vec<usize> = self.seams.iter().enumerate().filter(across).map(|(rank, _)| rank).collect();
-        all.exchange_while(messages, &partners, &mut || {
+        self.note_work();
+        all.exchange_while(messages, partners, &mut || {
             let more = work();
             self.note_work();
             more

@@ -168,10 +168,10 @@ impl DemEngine {
     fn evaluate_forces(&mut self, completion: f64) {
         let (contacts, ranks, input) = self.contacts_and_input();
         contacts.evaluate(&ForceInput { completion, ..input }, ranks);
-        if let Some(immersion) = &mut self.immersion {
-            // A stream looks at it before the step goes on.
-            self.ranks.share_water(&mut self.contacts.blocks);
-            immersion.sum_powers(&self.contacts.blocks);
+        if let Some(immersion) = self.immersion.as_mut().filter(|immersion| immersion.has_stream()) {
+            // The stream looks at it before the step goes on.
+            self.ranks.share_reaction(&mut self.contacts.blocks);
+            immersion.sum_reaction(&self.contacts.blocks);
         }
         self.contacts.add_outside(&self.grains);
         self.add_bonds();
@@ -262,13 +262,16 @@ impl DemEngine {
 
     /// Accelerations from forces and gravity; completes the velocities of a step `dt` (0: leaves them).
     fn second_half_step(&mut self, dt: f64, go_on: bool) {
-        let Self { grains, neighbours, contacts, integration, ranks, clock, .. } = self;
+        let Self { grains, neighbours, contacts, integration, immersion, ranks, clock, .. } = self;
         let power = |contacts: &ContactForces, grains: &Grains| {
             contacts.outside.torque_power(grains) + contacts.bonds.torque_power(grains)
         };
         let predicted = power(contacts, grains);
         let report = integration.second_half(grains, &mut contacts.blocks, neighbours, (dt, go_on), ranks);
         contacts.add_up();
+        if let Some(immersion) = immersion {
+            immersion.sum_powers(&contacts.blocks);
+        }
         contacts.sums.lost.sliding += std::mem::take(&mut contacts.released) / clock.dt;
         if contacts.outside.acts() || !contacts.bonds.is_empty() {
             integration.bodies.show(grains);
@@ -322,30 +325,29 @@ impl DemEngine {
         overlap > self.limits.largest_overlap * self.limits.smallest_diameter.min(self.integration.bodies.finest())
     }
 
-    /// The deepest contact of the blocks of this rank and its overlap over the diameter, where that may be beyond the limit.
-    fn deepest_beyond_limit(&self) -> Option<(f64, Contact)> {
+    /// The deepest contact of the blocks of this rank, where it may be beyond the limit.
+    fn deepest_beyond_limit(&self) -> Option<Contact> {
         let blocks = &self.contacts.blocks[self.neighbours.own()];
         if !blocks.iter().any(|block| self.is_deep(block.sums.deepest)) {
             return None;
         }
-        let contacts = contact_list(&self.contacts, &self.force_input()).into_iter();
-        contacts.map(|contact| (self.overlap_ratio(&contact), contact)).max_by(|a, b| a.0.total_cmp(&b.0))
+        self.deepest(contact_list(&self.contacts, &self.force_input()))
+    }
+
+    /// The deepest of these contacts, by overlap over diameter.
+    fn deepest(&self, contacts: Vec<Contact>) -> Option<Contact> {
+        let ratio = |contact: &Contact| self.overlap_ratio(contact);
+        contacts.into_iter().max_by(|a, b| ratio(a).total_cmp(&ratio(b)))
     }
 
     /// Ends the run where the deepest contact of any rank is beyond the limit; each brings its own.
-    fn check_overlap(&self, deepest: Option<(f64, Contact)>) -> Result<(), Fault> {
+    fn check_overlap(&self, deepest: Option<Contact>) -> Result<(), Fault> {
         if !self.is_deep(self.contacts.sums.deepest) {
             return Ok(());
         }
-        let mut message = Vec::new();
-        if let Some((ratio, contact)) = deepest {
-            message.push(ratio);
-            contact.put(&mut message);
-        }
-        let all = self.ranks.gather(message);
-        let mut all = Reader::new(&all);
-        let all = std::iter::from_fn(|| (!all.is_at_end()).then(|| (all.number(), Contact::take(&mut all))));
-        let Some((ratio, contact)) = all.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Ok(()) };
+        let all = self.of_all_ranks(deepest.into_iter().collect(), true);
+        let Some(contact) = self.deepest(all) else { return Ok(()) };
+        let ratio = self.overlap_ratio(&contact);
         let limit = self.limits.largest_overlap;
         if ratio <= limit {
             return Ok(());

@@ -240,6 +240,11 @@ impl Water {
         self.stream.fastest(self.surface(), diameter) + 2.0 * fluctuation
     }
 
+    /// How many layers a stream has that gives to the grains and takes from them; without one, none.
+    pub fn coupled_layers(&self) -> usize {
+        if let Stream::Coupled(coupled) = &self.stream { coupled.layers.len() } else { 0 }
+    }
+
     /// Whether what moves along with a grain depends on where the grain is.
     pub fn has_surface(&self) -> bool {
         self.surface().is_finite()

@@ -9,14 +9,14 @@ use crate::ranks::RankShare;
 const NUMBER: usize = 8;
 
 impl Ranks {
-    /// The share of the busiest of so many ranks, from lists of all blocks, the contacts of each, the number of walls, and how many numbers a block tells of
-    /// the water.
+    /// The share of the busiest of so many ranks, from lists of all blocks, the contacts of each, and how many numbers a block tells of walls and
+    /// water with the motion, and of a stream before.
     pub fn share_of_busiest(
         &self,
         ranks: usize,
         neighbours: &NeighbourLists,
         contacts: impl Fn(usize) -> usize,
-        (walls, water): (usize, usize),
+        [beside, ahead]: [usize; 2],
     ) -> RankShare {
         let lists = &neighbours.lists;
         let costs: Vec<f64> = (0..lists.len()).map(|block| cost(contacts(block))).collect();
@@ -44,7 +44,7 @@ impl Ranks {
             // Where something looks at all grains they go over after each half of a step.
             let grains = if self.whole { 27 * own[rank] * others } else { 9 * gives };
             let own_blocks = (cuts[rank + 1] - cuts[rank]) * others;
-            let blocks = own_blocks * (18 + 6 * walls + water);
+            let blocks = own_blocks * (18 + beside + ahead);
             let partners = seams[rank * ranks..(rank + 1) * ranks].iter().filter(|seam| **seam).count();
             // Where lists are made anew few grains and contacts come to another rank.
             let columns =
@@ -52,7 +52,7 @@ impl Ranks {
             let anew = columns + 2 * loads[rank] + own_blocks;
             RankShare {
                 grains: own[rank],
-                messages: others * if water > 0 { 2 } else { 1 } + partners,
+                messages: others * if ahead > 0 { 2 } else { 1 } + partners,
                 bytes: (NUMBER * (grains + blocks + 9 * loads[rank])) as f64,
                 bytes_anew: (NUMBER * anew) as f64,
             }

@@ -110,12 +110,12 @@ impl Ranks {
         self.messages = messages;
     }
 
-    /// What the water has done to all blocks.
-    pub fn share_water(&mut self, blocks: &mut [BlockContacts]) {
+    /// What the grains of all blocks have taken from the layers of a stream.
+    pub fn share_reaction(&mut self, blocks: &mut [BlockContacts]) {
         self.share_of_blocks(
             blocks,
-            |block, message| block.immersion.put(message),
-            |block, message| block.immersion.take(message),
+            |block, message| block.immersion.put_reaction(message),
+            |block, message| block.immersion.take_reaction(message),
         );
     }
 
