@@ -128,11 +128,12 @@ fn judge_in(bundle: &Bundle, folder: &Path) -> Result<Outcome, String> {
     let words: Vec<String> =
         bundle.bytes("arguments.json").and_then(|bytes| serde_json::from_slice(bytes).ok()).unwrap_or_default();
     let before = Bundle::read(folder).map_err(|error| error.to_string())?;
-    let error = |error: std::io::Error| format!("cannot start: {error}");
+    let program = beside("tsubu").map_err(|error| error.to_string())?;
+    let error = |error: std::io::Error| format!("cannot start {}: {error}", program.display());
     let log = tempfile::NamedTempFile::new().map_err(error)?;
     // A word with a null byte is no word for any program.
     let words = words.iter().filter(|word| !word.contains('\0'));
-    let mut child = limited(beside("tsubu").map_err(error)?)
+    let mut child = limited(&program)
         .args(words)
         .current_dir(folder)
         .stdin(Stdio::null())

@@ -290,7 +290,10 @@ impl Case {
         if resume {
             command.arg("--resume");
         }
-        let output = command.output().map_err(|error| format!("cannot start tsubu: {error}"))?;
+        let output = command.output().map_err(|error| {
+            let program = command.get_program().display();
+            format!("cannot start {program}: {error}")
+        })?;
         if output.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&output.stderr).trim().to_owned()) }
     }
 }

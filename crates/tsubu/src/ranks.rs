@@ -69,7 +69,11 @@ impl<'a> Reader<'a> {
 
     /// The next vector.
     pub fn vector(&mut self) -> glam::DVec3 {
-        glam::DVec3::new(self.number(), self.number(), self.number())
+        let Some((vector, rest)) = self.0.as_slice().split_first_chunk() else {
+            return glam::DVec3::new(self.number(), self.number(), self.number());
+        };
+        self.0 = rest.iter();
+        glam::DVec3::from_array(*vector)
     }
 }
 

@@ -17,15 +17,34 @@ const ROWS: u32 = 32;
 /// A point of a surface, and the normal there.
 type Vertex = (DVec3, DVec3);
 
-/// The groups of a scene with frames that have a mesh, and what is drawn of each: what is neither a sphere nor made of spheres.
-fn drawn(scene: &Scene) -> impl Iterator<Item = (String, Clump)> {
-    let shaped = |clump: &Clump| clump.superellipsoid.is_some() || clump.polyhedron.is_some();
+/// A body that is neither a sphere nor made of spheres.
+enum Body {
+    Superellipsoid(Superellipsoid),
+    Polyhedron(Polyhedron),
+}
+
+impl Body {
+    fn of(clump: Clump) -> Option<Self> {
+        clump.superellipsoid.map(Self::Superellipsoid).or(clump.polyhedron.map(Self::Polyhedron))
+    }
+
+    fn facets(&self) -> Vec<Vec<Vertex>> {
+        match self {
+            Self::Superellipsoid(body) => of_superellipsoid(body),
+            Self::Polyhedron(body) if body.edges.is_empty() => vec![of_polygon(body)],
+            Self::Polyhedron(body) => of_polyhedron(body),
+        }
+    }
+}
+
+/// The groups of a scene with frames that have a mesh, and what is drawn of each.
+fn drawn(scene: &Scene) -> impl Iterator<Item = (String, Body)> {
     let frames = scene.plans().iter().any(|plan| plan.output.frame_interval.is_some());
     let groups = scene.plan().particles.iter().enumerate().filter(move |_| frames);
     groups.filter_map(move |(number, (name, group))| {
         let safe = |c: char| if c.is_alphanumeric() || c == '-' { c } else { '_' };
         let name = format!("shapes/{number}-{}.vtp", name.chars().map(safe).collect::<String>());
-        Some((name, group.shape.clump().filter(shaped)?))
+        Some((name, Body::of(group.shape.clump()?)?))
     })
 }
 
@@ -36,14 +55,8 @@ pub(crate) fn names(scene: &Scene) -> Vec<String> {
 
 /// Writes the meshes of a scene into a folder that knows their names.
 pub(crate) fn write(folder: &RunFolder, scene: &Scene) -> Result<(), FileError> {
-    for (name, clump) in drawn(scene) {
-        let facets = match (&clump.superellipsoid, &clump.polyhedron) {
-            (Some(body), _) => of_superellipsoid(body),
-            (None, Some(body)) if body.edges.is_empty() => vec![of_polygon(body)],
-            (None, Some(body)) => of_polyhedron(body),
-            (None, None) => continue,
-        };
-        vtp::write(&folder.file(&name), &frame(&facets), Kind::Surface)?;
+    for (name, body) in drawn(scene) {
+        vtp::write(&folder.file(&name), &frame(&body.facets()), Kind::Surface)?;
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! The verdict on the meshes of walls: what is wrong with one, or at least worth knowing.
 
-use super::{Verdict, opening};
+use super::{Verdict, length, opening};
 use tsubu_scene::mesh::{Diagnosis, diagnose};
 use tsubu_scene::plan::{Plan, Shape, Vector};
 
@@ -75,16 +75,6 @@ fn is_huge(extent: Vector, diameter: f64) -> bool {
     size > HUGE.0 * diameter && size > HUGE.1
 }
 
-/// In the unit that people would take.
-pub(crate) fn length(metres: f64) -> String {
-    let (number, unit) = match metres {
-        x if x >= 1.0 || x == 0.0 => (x, "m"),
-        x if x >= 1e-3 => (x * 1e3, "mm"),
-        x => (x * 1e6, "um"),
-    };
-    format!("{} {unit}", format!("{number:.3e}").parse::<f64>().unwrap_or(number))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -98,10 +88,5 @@ mod tests {
         // Stones on a hillside, and fine sand in a tank.
         assert!(!is_huge([300.0, 100.0, 80.0], 0.5));
         assert!(!is_huge([8.0, 1.0, 2.0], 0.000_2));
-    }
-
-    #[test]
-    fn lengths_read_well() {
-        assert_eq!([80.0, 0.25, 0.0035, 2e-5, 0.0].map(length), ["80 m", "250 mm", "3.5 mm", "20 um", "0 m"]);
     }
 }

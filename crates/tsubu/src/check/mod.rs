@@ -5,6 +5,7 @@ mod clump;
 mod drive;
 mod fall;
 mod idle;
+mod length;
 mod mesh;
 mod opening;
 mod rest;
@@ -12,7 +13,7 @@ mod verdict;
 mod water;
 
 pub(crate) use drive::{fastest, peak};
-pub(crate) use mesh::length;
+pub(crate) use length::length;
 pub use verdict::{Line, Verdict, human_time, verdict};
 pub use water::blows_up;
 

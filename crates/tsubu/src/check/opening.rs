@@ -1,7 +1,6 @@
 //! The verdict on openings of walls that are narrower than grains are long.
 
-use super::Verdict;
-use super::mesh::length;
+use super::{Verdict, length};
 use tsubu_scene::plan::{Plan, Shape};
 
 /// An opening of a cone that is smaller than this share of a grain is rather a tip that nothing is to pass.

@@ -239,7 +239,7 @@ impl DemEngine {
         }
         let history = self.snapshot_history();
         let before = self.energy_and_momentum();
-        self.grains.permute(&order);
+        self.grains.permute(&order, &[]);
         for grain in arrivals {
             self.grains.push(grain);
         }

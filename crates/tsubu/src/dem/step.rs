@@ -113,7 +113,7 @@ impl DemEngine {
 
     /// The same with the contact history from before grains came or went.
     pub(super) fn rebuild_neighbours_with(&mut self, history: HistorySnapshot) {
-        self.neighbours.sort_grains(&mut self.grains);
+        self.neighbours.sort_grains(&mut self.grains, self.ranks.columns_apart());
         self.integration.bodies.find(&self.grains);
         self.contacts.bonds.find(&self.grains);
         self.neighbours.part = self.cut();

@@ -71,6 +71,23 @@ pub struct Search {
     pub periodic: PeriodicBounds,
 }
 
+/// A box, and what of it comes round periodic ends.
+struct Surroundings {
+    low: DVec3,
+    high: DVec3,
+    periodic: PeriodicBounds,
+}
+
+impl Surroundings {
+    fn holds(&self, p: DVec3) -> bool {
+        (0..3).all(|axis| {
+            let holds = |x: f64| x >= self.low[axis] && x <= self.high[axis];
+            let round = |[low, high]: [f64; 2]| holds(p[axis] + (high - low)) || holds(p[axis] - (high - low));
+            holds(p[axis]) || self.periodic[axis].is_some_and(round)
+        })
+    }
+}
+
 impl NeighbourLists {
     /// Empty lists.
     pub fn new(search: Search) -> Self {
@@ -101,8 +118,8 @@ impl NeighbourLists {
         }
     }
 
-    /// Puts grains back between the periodic ends and sorts them by cell. Without effect on a small run.
-    pub fn sort_grains(&mut self, grains: &mut Grains) {
+    /// Puts grains back between the periodic ends and sorts them by cell, but for the columns of these names. Without effect on a small run.
+    pub fn sort_grains(&mut self, grains: &mut Grains, but: &[&str]) {
         let search = self.search;
         for (axis, end) in search.periodic.iter().enumerate() {
             let Some([low, high]) = *end else { continue };
@@ -128,7 +145,7 @@ impl NeighbourLists {
         let order = &mut self.levels[0];
         order.lay(Numbering::Lumps, &grains.position, |_| true, size, &search.periodic);
         order.sort(&grains.position, |_| true);
-        grains.permute(order.order());
+        grains.permute(order.order(), but);
     }
 
     /// Where every grain was before it was sorted, until the lists are made; empty where it is where it was.
@@ -222,12 +239,7 @@ impl NeighbourLists {
             }
         }
         let part = self.part_and_around(grains);
-        let seen = |i: u32| {
-            part.is_none_or(|[low, high]| {
-                let p = self.reference[i as usize];
-                p.cmpge(low).all() && p.cmple(high).all()
-            })
-        };
+        let seen = |i: u32| part.as_ref().is_none_or(|part| part.holds(self.reference[i as usize]));
         for (level, grid) in self.levels.iter_mut().enumerate() {
             let all = |i: u32| usize::from(self.level_of[i as usize]) == level;
             let size = 2.0 * self.largest[level] + search.skin + search.reach;
@@ -236,20 +248,15 @@ impl NeighbourLists {
         }
     }
 
-    /// The box that holds all that may be near the blocks whose lists are made here; `None`: it is everywhere.
-    fn part_and_around(&self, grains: &Grains) -> Option<[DVec3; 2]> {
+    /// What may be near the blocks whose lists are made here; `None`: all.
+    fn part_and_around(&self, grains: &Grains) -> Option<Surroundings> {
         let part = self.part.clone()?;
         let own = (part.start * BLOCK).min(grains.len())..(part.end * BLOCK).min(grains.len());
         let (low, high) = self.reference[own]
             .iter()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
         let reach = 2.0 * self.largest.iter().fold(0.0f64, |a, b| a.max(*b)) + self.search.skin + self.search.reach;
-        let mut ends = [low - reach, high + reach];
-        // What comes round a periodic end may be anywhere along that axis.
-        for (axis, _) in self.search.periodic.iter().enumerate().filter(|(_, end)| end.is_some()) {
-            (ends[0][axis], ends[1][axis]) = (f64::NEG_INFINITY, f64::INFINITY);
-        }
-        Some(ends)
+        Some(Surroundings { low: low - reach, high: high + reach, periodic: self.search.periodic })
     }
 
     /// Finds the grains that are paired with grain `i` in its list: those of its size in half of the directions, since the

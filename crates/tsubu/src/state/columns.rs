@@ -86,10 +86,13 @@ macro_rules! columns {
             /// A row.
             pub fn row(&self, i: usize) -> $row { $row { $($column: self.$column[i],)+ } }
 
-            /// Puts row `order[i]` at place i; rows that are not in the order are dropped. On many threads.
-            pub fn permute(&mut self, order: &[u32]) {
+            /// Puts row `order[i]` at place i, but for the columns of these names; rows that are not in the order are dropped. On many
+            /// threads.
+            pub fn permute(&mut self, order: &[u32], but: &[&str]) {
                 let mut spares = $crate::state::columns::Spares::default();
-                $($crate::state::columns::permute(&mut self.$column, order, &mut spares);)+
+                $(if !but.contains(&stringify!($column)) {
+                    $crate::state::columns::permute(&mut self.$column, order, &mut spares);
+                })+
             }
 
             /// Puts a copy in the place of the column of that name, and gives away the memory that it had.

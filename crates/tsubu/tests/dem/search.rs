@@ -123,11 +123,19 @@ proptest! {
         let search = Search { skin, periodic: periodic.map(|p| p.then_some([0.0, 1.0])), ..Search::default() };
         let mut grains = strewn(count, small, large, frozen, seed);
         let mut lists = NeighbourLists::new(search);
-        lists.sort_grains(&mut grains);
+        lists.sort_grains(&mut grains, &[]);
         lists.rebuild(&grains, &[]);
         let listed = listed(&lists, &grains);
         prop_assert!(listed.values().all(|&times| times == 1), "a pair is listed twice");
         let all = all(&grains, &search);
         prop_assert!(listed.keys().eq(&all), "{} pairs listed, {} near", listed.len(), all.len());
+        // A rank that has one block finds what it found among all.
+        for (block, among) in lists.lists.iter().enumerate() {
+            let mut part = NeighbourLists::new(search);
+            part.part = Some(block..block + 1);
+            part.rebuild(&grains, &[]);
+            let alone = &part.lists[block];
+            prop_assert_eq!((&alone.pairs, &alone.halo), (&among.pairs, &among.halo));
+        }
     }
 }

@@ -167,24 +167,39 @@ impl Ranks {
         }
     }
 
-    /// After grains have been sorted and cut anew, gives every rank what its grains have beside positions, from those that had them. `order` has
+    /// The columns that ranks know of their own grains alone, and that are not sorted with the others: they go by [`Self::move_grains`].
+    pub fn columns_apart(&self) -> &'static [&'static str] {
+        if self.apart { &["velocity", "acceleration", "spin", "angular_acceleration"] } else { &[] }
+    }
+
+    /// After grains have been sorted and cut anew, gives every rank what its grains have in the columns apart, from those that had them. `order` has
     /// where each was before; empty where it is.
     pub fn move_grains(&mut self, grains: &mut Grains, order: &[u32]) {
         if !self.apart {
             return;
         }
         let all = grains.len();
+        let before = |i: usize| order.get(i).map_or(i, |before| *before as usize);
         let came_from = |ranks: &Self, from: usize, to: usize| {
             let had = of_blocks(&ranks.cuts_before, from, all);
-            let before = |i: usize| order.get(i).map_or(i, |before| *before as usize);
             ranks.grains(to, all).filter(move |i| had.contains(&before(*i)))
         };
+        let rank = self.rank();
         let Grains { velocity, acceleration, spin, angular_acceleration, .. } = grains;
         let mut columns = [velocity, acceleration, spin, angular_acceleration];
-        self.write(|ranks, rank, message| put_rows(message, &columns, came_from(ranks, ranks.rank(), rank)));
-        self.send_and_read(|ranks, rank, message| {
-            take_rows(message, &mut columns, came_from(ranks, rank, ranks.rank()));
+        let had = of_blocks(&self.cuts_before, rank, all);
+        let old = columns.each_ref().map(|column| column[had.clone()].to_vec());
+        self.write(|ranks, other, message| {
+            for i in came_from(ranks, rank, other) {
+                put(message, old.each_ref().map(|column| column[before(i) - had.start]));
+            }
         });
+        for i in came_from(self, rank, rank) {
+            for (column, old) in columns.iter_mut().zip(&old) {
+                column[i] = old[before(i) - had.start];
+            }
+        }
+        self.send_and_read(|ranks, other, message| take_rows(message, &mut columns, came_from(ranks, other, rank)));
     }
 
     /// After lists have been made, what goes over after a first half: how the grains move that others see, and what blocks do.
@@ -220,7 +235,7 @@ impl Halves {
 }
 
 fn put<const N: usize>(message: &mut Vec<f64>, vectors: [DVec3; N]) {
-    message.extend(vectors.iter().flat_map(DVec3::to_array));
+    message.extend_from_slice(vectors.map(|vector| vector.to_array()).as_flattened());
 }
 
 fn put_rows(message: &mut Vec<f64>, columns: &[&mut Vec<DVec3>], rows: impl Iterator<Item = usize>) {
