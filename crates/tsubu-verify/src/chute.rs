@@ -24,16 +24,19 @@ struct World {
     size: [f64; 2],
     /// Stiffness of the springs, in m g/d.
     stiffness: f64,
+    /// What its beds are drawn by.
+    seed: u64,
     /// Places of the frozen grains: cut out of a bed at rest, so dense that no grain gets in between. The highest are below 0.
     base: Vec<DVec3>,
 }
 
 impl World {
-    fn new(size: [f64; 2], stiffness: f64, perturbation: f64) -> Result<Self, String> {
+    fn new(size: [f64; 2], stiffness: f64, seed: u64, perturbation: f64) -> Result<Self, String> {
         let [length, wide] = size;
         let text = format!(
             r#"
             title = "the bed that a base is cut from"
+            seed = {seed}
             dimension = 3
             gravity = 1
             duration = 100
@@ -58,7 +61,7 @@ impl World {
         let inside = |p: &DVec3| (CUT[0]..CUT[1]).contains(&p.z);
         let around = |p: DVec3| DVec3::new(p.x.rem_euclid(length), p.y.rem_euclid(wide), p.z - CUT[1]);
         let base = rig.vectors("position").into_iter().filter(inside).map(around).collect();
-        Ok(Self { size, stiffness, base })
+        Ok(Self { size, stiffness, seed, base })
     }
 
     fn area(&self) -> f64 {
@@ -133,6 +136,7 @@ impl<'a> Slope<'a> {
         let text = format!(
             r#"
             title = "a layer of grains on a rough slope"
+            seed = {seed}
             dimension = 3
             gravity = [{sin}, 0, {down}]
             duration = 1000
@@ -144,6 +148,7 @@ impl<'a> Slope<'a> {
             material = "grain"
             shape.plane.point = [0, 0, {bottom}]
             "#,
+            seed = self.world.seed,
             down = -cos,
             bottom = if self.rough { -2 } else { 0 },
             law = law(self.world.stiffness, self.friction, 0.88),

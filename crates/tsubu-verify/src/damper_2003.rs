@@ -10,7 +10,9 @@ pub(super) use shaken::figure_9;
 
 use super::control::refused;
 use super::{bench, ensemble};
+use crate::case::Judged;
 use crate::origin::{closed_form, own, printed};
+use std::ops::RangeInclusive;
 use tsubu::study::response::{CaseResult, curves};
 use tsubu_frame::{Claim, Ensemble, Points, Source};
 use tsubu_scene::Scene;
@@ -85,28 +87,41 @@ fn heavy(text: &str) -> Result<Claim, String> {
     Ok(refused("balls three times as heavy that never leave the floor", &gates, 5))
 }
 
-/// A-F3a: literal DEM, wall friction 0.5.
-pub(super) fn figure_3a(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let cases = respond(FIGURE_3, &["response.vary.\"materials.casing.friction\"=[0.5]".to_owned()], perturbation)?;
-    let mut claims = dem_claims("DEM, wall friction 0.5", &cases, &LUMP, printed("figure 3a: more balls, lower peak"));
-    claims.push(heavy(FIGURE_3)?);
+/// Fillings of the box that a response is drawn from.
+const FILLINGS: RangeInclusive<u64> = 1..=5;
+
+/// What every DEM response must show, of all fillings, and that heavy balls do not show it.
+fn of_fillings(name: &str, text: &str, changes: &[&str], source: Source<'_>, perturbation: f64) -> Judged {
+    let mut claims = ensemble::drawn("fillings", FILLINGS, |seed| {
+        let drawn = format!("seed={seed}");
+        let changes: Vec<String> = changes.iter().chain(&[drawn.as_str()]).map(|&change| change.to_owned()).collect();
+        Ok(dem_claims(name, &respond(text, &changes, perturbation)?, &LUMP, source))
+    })?;
+    claims.push(heavy(text)?);
     Ok(claims)
 }
 
+/// A-F3a: literal DEM, wall friction 0.5.
+pub(super) fn figure_3a(perturbation: f64) -> Judged {
+    let source = printed("figure 3a: more balls, lower peak");
+    let changes = ["response.vary.\"materials.casing.friction\"=[0.5]"];
+    of_fillings("DEM, wall friction 0.5", FIGURE_3, &changes, source, perturbation)
+}
+
 /// A-F3b: literal DEM, wall friction 0.6, of which the paper says that it is nearer to the experiment than 0.5.
-pub(super) fn figure_3b(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let cases = respond(FIGURE_3, &["response.vary.\"materials.casing.friction\"=[0.72]".to_owned()], perturbation)?;
-    let mut claims = dem_claims("DEM, wall friction 0.6", &cases, &LUMP, printed("figure 3b: more balls, lower peak"));
-    claims.push(heavy(FIGURE_3)?);
+pub(super) fn figure_3b(perturbation: f64) -> Judged {
+    let source = printed("figure 3b: more balls, lower peak");
+    let changes = ["response.vary.\"materials.casing.friction\"=[0.72]"];
+    let mut claims = of_fillings("DEM, wall friction 0.6", FIGURE_3, &changes, source, perturbation)?;
     claims.extend(told_apart(perturbation)?);
     Ok(claims)
 }
 
 /// Of two curves that cannot be told apart none is nearer to a third. The peaks of five fillings, with 0.6 over with 0.5; a figure shows
 /// 1 %.
-fn told_apart(perturbation: f64) -> Result<Vec<Claim>, String> {
+fn told_apart(perturbation: f64) -> Judged {
     const COUNTS: [usize; 3] = [10, 30, 50];
-    let ratios: [Ensemble; 3] = ensemble::members("peaks with wall friction 0.6 over 0.5", 1..=5, |seed| {
+    let ratios: [Ensemble; 3] = ensemble::members("peaks with wall friction 0.6 over 0.5", FILLINGS, |seed| {
         let peaks = |friction: f64| {
             let changes = [
                 format!("response.vary.\"materials.casing.friction\"=[{friction}]"),
@@ -138,10 +153,7 @@ fn told_apart(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// A-F3 with rotation, tangential spring and constant restitution.
-pub(super) fn figure_3_extended(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let cases = respond(FIGURE_3_EXTENDED, &[], perturbation)?;
+pub(super) fn figure_3_extended(perturbation: f64) -> Judged {
     let source = printed("figure 2 (experiment): more balls, lower peak");
-    let mut claims = dem_claims("DEM, extended law", &cases, &LUMP, source);
-    claims.push(heavy(FIGURE_3_EXTENDED)?);
-    Ok(claims)
+    of_fillings("DEM, extended law", FIGURE_3_EXTENDED, &[], source, perturbation)
 }

@@ -44,6 +44,8 @@ pub enum Mutation {
     ThirdLaw,
     /// Losses of energy, as the books have them.
     Losses,
+    /// Energy of rotation, as the books have it.
+    Rotation,
     /// A tangential spring that gets softer holds less.
     UnloadingRescale,
     /// Springs are kept when neighbour lists are rebuilt.
@@ -63,8 +65,8 @@ pub enum Mutation {
 
 use Mutation::{
     AddedMass, BallCollision, Buoyancy, Cohesion, Damping, Drag, FilmViscosity, Friction, Gravity, HistoryTransfer,
-    Inertia, LinearStiffness, Losses, Poisson, RollingArm, RollingFriction, SecondOrder, Sliding, TangentialStiffness,
-    ThirdLaw, TripleCollision, TwistingFriction, UnloadingRescale, Young,
+    Inertia, LinearStiffness, Losses, Poisson, RollingArm, RollingFriction, Rotation, SecondOrder, Sliding,
+    TangentialStiffness, ThirdLaw, TripleCollision, TwistingFriction, UnloadingRescale, Young,
 };
 
 /// How much larger a mutated constant is.
@@ -72,7 +74,7 @@ const FACTOR: f64 = 1.05;
 
 impl Mutation {
     /// All, in the order of tables, each with what it does in words.
-    pub const ALL: [(Self, &str); 24] = [
+    pub const ALL: [(Self, &str); 25] = [
         (Young, "Young's modulus 5 % too large"),
         (Poisson, "Poisson's ratio 5 % too large"),
         (LinearStiffness, "stiffness of linear springs 5 % too large"),
@@ -91,6 +93,7 @@ impl Mutation {
         (Gravity, "gravity 5 % too large"),
         (ThirdLaw, "the second grain of a contact is pushed 5 % too hard"),
         (Losses, "losses of energy are booked 5 % too large"),
+        (Rotation, "energy of rotation is booked 5 % too large"),
         (UnloadingRescale, "a tangential spring that gets softer holds what it held"),
         (HistoryTransfer, "springs are forgotten when neighbour lists are rebuilt"),
         (Sliding, "what slides is not resisted"),

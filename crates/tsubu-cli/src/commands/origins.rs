@@ -69,9 +69,10 @@ pub fn verdicts() -> String {
     let kept: Vec<&Claim> =
         all.iter().filter(|claim| !matches!(claim.origin, Origin::Regression | Origin::Control)).collect();
     let count = |verdict| kept.iter().filter(|claim| claim.verdict() == verdict).count();
+    let after = kept.iter().filter(|claim| claim.verdict() == Verdict::Pass && claim.after).count();
     format!(
-        "{} claims when they were last stored: {} pass, {} FAIL, {} undecided. Kept apart: {} regression check(s); {} controls, each a\n\
-         wrong model or number that the same gates must refuse.\n",
+        "{} claims when they were last stored: {} pass, {after} of them in a range that was set after the value was first seen;\n\
+         {} FAIL, {} undecided. Kept apart: {} regression check(s); {} controls, each a wrong model or number that the same gates must refuse.\n",
         kept.len(),
         count(Verdict::Pass),
         count(Verdict::Fail),

@@ -135,7 +135,7 @@ fn one_law(by: &str, flows: &[Flow], unit: impl Fn(f64) -> f64) -> [Claim; 2] {
 /// What the gates of flows refuse, in a small world: a layer at rest, a flow on a plane, and what slides on it without friction, as
 /// fast in a high layer as in a low one.
 fn wrong_flows() -> Result<[Claim; 3], String> {
-    let world = World::new(bagnold::SIZE, bagnold::STIFFNESS, 1.0)?;
+    let world = World::new(bagnold::SIZE, bagnold::STIFFNESS, 1, 1.0)?;
     let flows = keep::members("flows of wrong models", &[0, 1, 2, 3], |number| {
         let [degrees, layers] = WRONG[number as usize];
         let flow = match number {
@@ -157,7 +157,7 @@ fn wrong_flows() -> Result<[Claim; 3], String> {
 
 /// V-36 at full size: where layers come to rest, and how flows go by it.
 pub fn stopping(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let world = World::new(SIZE, STIFFNESS, perturbation)?;
+    let world = World::new(SIZE, STIFFNESS, 1, perturbation)?;
     let numbers: Vec<u64> = (0..FLOWS.len() as u64).collect();
     let flows = keep::members("flows", &numbers, |number| {
         let [degrees, layers, start] = FLOWS[number as usize];

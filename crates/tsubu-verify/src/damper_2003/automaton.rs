@@ -133,6 +133,12 @@ pub(crate) fn figure_11_literal(perturbation: f64) -> Result<Vec<Claim>, String>
 
 /// A-F11, extended: with resting impulses the shift has the sign of nature.
 pub(crate) fn figure_11_extended(perturbation: f64) -> Result<Vec<Claim>, String> {
+    ensemble::drawn("responses", 1..=5, |seed| extended_of(seed, perturbation))
+}
+
+/// The same of one draw.
+fn extended_of(seed: u64, perturbation: f64) -> Result<Vec<Claim>, String> {
+    let drawn = format!("seed={seed}");
     let down = |mode: &str, cases: &[CaseResult]| -> Vec<Claim> {
         let source = own("resting impulses bring the shift down").after();
         let claim = |pair: &[usize]| {
@@ -142,16 +148,17 @@ pub(crate) fn figure_11_extended(perturbation: f64) -> Result<Vec<Claim>, String
         };
         COUNTS.windows(2).map(claim).collect()
     };
-    let found = cases("extended", &[], perturbation)?;
+    let found = cases("extended", &[&drawn], perturbation)?;
     let mut claims = lower("extended", &found);
     claims.extend(down("extended", &found));
-    let literal = cases("literal", &[], perturbation)?;
+    let literal = cases("literal", &[&drawn], perturbation)?;
     claims.push(refused("the automaton without resting impulses", &down("literal", &literal), 1));
     let small = |mode: &str| -> Result<Vec<Claim>, String> {
         let changes = [
             "hosts.leaf-spring.base.sine.amplitude=0.05 mm",
             "response.seeds=1",
             "response.frequency-ratio={ from = 0.9, to = 1.04, step = 0.005 }",
+            &drawn,
         ];
         let found = cases(mode, &changes, perturbation)?;
         let claim = |&count: &usize| {

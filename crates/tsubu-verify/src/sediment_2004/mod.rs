@@ -18,9 +18,10 @@ pub(super) use dam_break::{dam_break, dam_break_rolling};
 pub(super) use dense_flow::dense_flow;
 pub(super) use mobile_bed::mobile_bed;
 pub(super) use rod::rod;
-pub(super) use saltation::{saltation, softest, spinning};
+pub(super) use saltation::{saltation, softest};
 pub(super) use settling::settling;
 pub(super) use space::{dam_break_space, saltation_space};
+pub(super) use spin_up::spinning;
 
 use super::bench::Rig;
 use std::f64::consts::PI;

@@ -2,10 +2,11 @@
 
 use super::super::bench::{Rig, near};
 use super::super::control::refused;
-use super::spin_up;
+use super::super::ensemble;
 use crate::origin::{closed_form, own, printed, remembered};
 use glam::DVec3;
 use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 use std::path::Path;
 use tsubu::view::Wants;
 use tsubu_frame::Claim;
@@ -17,6 +18,9 @@ const MASS: f64 = 2650.0 * PI / 6.0 * D * D * D;
 /// Left out at the begin [s], and hops that are recorded, as in the paper.
 const DISCARD: f64 = 1.0;
 const HOPS: usize = 30;
+/// Hops of one draw, and the draws: 30 hops are too few to tell two stiffnesses apart.
+const MANY: usize = 50;
+pub(super) const DRAWS: RangeInclusive<u64> = 1..=10;
 /// Steps in a contact.
 const STEPS: f64 = 20.0;
 
@@ -120,8 +124,11 @@ const LOCKED: &[&str] = &["contact.rotation=false"];
 const DEEP: &[&str] = &["water.flow.log-law.depth=0.18"];
 pub(super) const FREE: &[&str] = &["contact.rotation=true"];
 pub(super) const IN_WATER: &[&str] = &["contact.rotation=true", "water.torque={finite-reynolds={}}"];
-/// Hops that means of hops are taken over: 30 are too few to tell two stiffnesses apart.
-const MANY: usize = 300;
+
+/// Where the grain begins in a draw: a few collisions on, paths that begin a hundredth of a diameter apart have nothing in common.
+fn begins(draw: u64) -> String {
+    format!("particles.grain.start.at.position=[['{} mm', '4 mm']]", 1.0 + 0.02 * (draw - 1) as f64)
+}
 
 /// Contact time of a stiffness [N/m], over that of the paper's equation.
 fn contact_claim(stiffness: f64, found: &Leaps) -> Claim {
@@ -137,62 +144,69 @@ fn contact_claim(stiffness: f64, found: &Leaps) -> Claim {
 
 /// B-F6, B-F7: contact times follow the stiffness, hops do not while grains overlap little; published hops.
 pub(in super::super) fn saltation(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let mut claims = Vec::new();
-    for stiffness in [1e3, 1e5] {
-        claims.push(contact_claim(stiffness, &leaps(stiffness, LOCKED, HOPS, perturbation)?));
-    }
-    let soft = leaps(1e2, LOCKED, MANY, perturbation)?;
-    let (paper, stiff) = (leaps(1e4, LOCKED, MANY, perturbation)?, leaps(1e5, LOCKED, MANY, perturbation)?);
-    claims.push(contact_claim(1e4, &paper));
-    let source = printed("Osada et al. 2004: what counts is the impulse").after();
-    let same = |what: &str, a: f64, b: f64| {
-        near(format!("leaping grain, {what}, k = 1000 over 100 N/cm"), b / a, 1.0, 0.2, source)
-    };
-    claims.push(same("mean hop height", paper.height, stiff.height));
-    claims.push(same("mean hop length", paper.length, stiff.length));
-    let gates =
-        [same("mean hop height", soft.height, stiff.height), same("mean hop length", soft.length, stiff.length)];
-    claims.push(refused("contacts of 1 N/cm, in which the grain sinks between those of the bed", &gates, 2));
-    let source = remembered("Sklar and Dietrich 2004, of measured hops, a factor of 2");
-    let twice = |name: &str, value: f64, wanted: f64| {
-        Claim::judge(
-            format!("leaping grain, Shields number 0.3: {name}"),
-            value,
-            Some(0.5 * wanted),
-            Some(2.0 * wanted),
-            source,
-        )
-    };
-    let hops = |found: &Leaps| {
-        [
-            twice("mean hop height over d", found.height / D, 3.4),
-            twice("mean hop length over d", found.length / D, 36.8),
-            twice("mean speed [m/s]", found.speed, 0.741),
-        ]
-    };
-    claims.extend(hops(&paper));
-    let torrent = leaps(1e4, &[LOCKED, DEEP].concat(), HOPS, perturbation)?;
-    claims.push(refused("a stream of three times the shear velocity", &hops(&torrent), 2));
-    Ok(claims)
+    ensemble::drawn("leaping grains", DRAWS, |draw| {
+        let begins = begins(draw);
+        let run = |stiffness: f64, hops: usize, changes: &[&str]| {
+            leaps(stiffness, &[LOCKED, changes, &[&begins]].concat(), hops, perturbation)
+        };
+        let mut claims = Vec::new();
+        let [soft, paper, stiff] = [run(1e2, MANY, &[])?, run(1e4, MANY, &[])?, run(1e5, MANY, &[])?];
+        claims.push(contact_claim(1e3, &run(1e3, HOPS, &[])?));
+        claims.push(contact_claim(1e5, &stiff));
+        claims.push(contact_claim(1e4, &paper));
+        let source = printed("Osada et al. 2004: what counts is the impulse").after();
+        let same = |what: &str, a: f64, b: f64| {
+            near(format!("leaping grain, {what}, k = 1000 over 100 N/cm"), b / a, 1.0, 0.2, source)
+        };
+        claims.push(same("mean hop height", paper.height, stiff.height));
+        claims.push(same("mean hop length", paper.length, stiff.length));
+        let gates =
+            [same("mean hop height", soft.height, stiff.height), same("mean hop length", soft.length, stiff.length)];
+        claims.push(refused("contacts of 1 N/cm, in which the grain sinks between those of the bed", &gates, 2));
+        claims.extend(measured(&paper));
+        let torrent = run(1e4, HOPS, DEEP)?;
+        claims.push(refused("a stream of three times the shear velocity", &measured(&torrent), 2));
+        Ok(claims)
+    })
+}
+
+/// Hops as high, long and fast as measured ones.
+fn measured(found: &Leaps) -> [Claim; 3] {
+    let wanted = [
+        ("mean hop height over d", found.height / D, 3.4),
+        ("mean hop length over d", found.length / D, 36.8),
+        ("mean speed [m/s]", found.speed, 0.741),
+    ];
+    wanted.map(|(what, value, wanted)| {
+        let name = format!("leaping grain, Shields number 0.3: {what}");
+        let source = remembered("Sklar and Dietrich 2004, of measured hops, a factor of 2");
+        Claim::judge(name, value, Some(0.5 * wanted), Some(2.0 * wanted), source)
+    })
 }
 
 /// B-F6 at its softest: in a contact of 1 ms the grain goes on by half a diameter, so that the bed's grain lets it go early.
 pub(in super::super) fn softest(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let found = leaps(100.0, LOCKED, MANY, perturbation)?;
-    let source = own("why the contact ends early").after();
-    let goes_on = |found: &Leaps| {
-        let name = "leaping grain, k = 1 N/cm: way along the bed in a contact, over d";
-        Claim::judge(name, found.contact * found.speed / D, Some(0.3), None, source)
-    };
-    let harder = leaps(1e4, LOCKED, HOPS, perturbation)?;
-    Ok(vec![contact_claim(100.0, &found), goes_on(&found), refused("contacts of 100 N/cm", &[goes_on(&harder)], 1)])
+    ensemble::drawn("leaping grains", DRAWS, |draw| {
+        let begins = begins(draw);
+        let run = |stiffness: f64| leaps(stiffness, &[LOCKED, &[&begins]].concat(), MANY, perturbation);
+        let found = run(100.0)?;
+        let source = own("why the contact ends early").after();
+        let goes_on = |found: &Leaps| {
+            let name = "leaping grain, k = 1 N/cm: way along the bed in a contact, over d";
+            Claim::judge(name, found.contact * found.speed / D, Some(0.3), None, source)
+        };
+        let harder = refused("contacts of 100 N/cm", &[goes_on(&run(1e4)?)], 1);
+        Ok(vec![contact_claim(100.0, &found), goes_on(&found), harder])
+    })
 }
 
-/// B-F20, B-F21: free to spin, grains leap higher and farther, friction holds them half as much, and they spin up to what rolling
-/// would have; the torque of the water, which the paper leaves out, takes most of the spin away.
-pub(in super::super) fn spinning(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let run = |changes: &[&str]| leaps(1e4, changes, MANY, perturbation);
-    let (locked, free, wet) = (run(LOCKED)?, run(FREE)?, run(IN_WATER)?);
+/// What the spin does to the hops of one draw.
+pub(super) fn spinning_of(draw: u64, perturbation: f64) -> Result<Vec<Claim>, String> {
+    let begins = begins(draw);
+    let run = |hops: usize, changes: &[&[&str]]| {
+        leaps(1e4, &[&changes.concat()[..], &[&begins]].concat(), hops, perturbation)
+    };
+    let [locked, free, wet] = [run(MANY, &[LOCKED])?, run(MANY, &[FREE])?, run(MANY, &[IN_WATER])?];
     let source = own("Osada et al. 2004, figures 20 and 21").after();
     let more = |what: &str, a: f64, b: f64| {
         Claim::judge(format!("leaping grain, {what}, free over locked"), b / a, Some(1.05), None, source)
@@ -231,12 +245,11 @@ pub(in super::super) fn spinning(perturbation: f64) -> Result<Vec<Claim>, String
     };
     let mut claims = frees(&locked, &free).to_vec();
     claims.extend([spins(&free), bounded(&free), torque(&wet)]);
-    let still_locked = leaps(1e4, LOCKED, HOPS, perturbation)?;
+    let still_locked = run(HOPS, &[LOCKED])?;
     claims.push(refused("locked grains for free ones", &frees(&locked, &still_locked), 3));
-    let torrent = leaps(1e4, &[FREE, DEEP].concat(), HOPS, perturbation)?;
+    let torrent = run(HOPS, &[FREE, DEEP])?;
     claims.push(refused("a stream of three times the shear velocity", &[bounded(&torrent)], 1));
-    claims.push(refused("water without a torque", &[torque(&leaps(1e4, FREE, HOPS, perturbation)?)], 1));
-    claims.extend(spin_up::claims(perturbation)?);
+    claims.push(refused("water without a torque", &[torque(&run(HOPS, &[FREE])?)], 1));
     claims.push(refused("grains in water that does not resist their spin, as spins of real ones", &[spins(&wet)], 1));
     Ok(claims)
 }

@@ -16,7 +16,7 @@ use crate::check;
 use crate::contact::Table;
 use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
 use crate::ledger::{Energies, Ledger};
-use crate::mutation::{Mutation, left_out};
+use crate::mutation::{Mutation, left_out, mutated};
 use crate::neighbours::joined::Joined;
 use crate::neighbours::{NeighbourLists, Search};
 use crate::outside::Action;
@@ -298,7 +298,7 @@ impl Engine for DemEngine {
         Energies {
             kinetic: spheres.kinetic + bodies.kinetic,
             added_mass: spheres.added_mass + bodies.added_mass,
-            rotational: spheres.rotational + bodies.rotational,
+            rotational: mutated(Mutation::Rotation, spheres.rotational + bodies.rotational),
             potential: spheres.potential + bodies.potential,
             elastic: self.contacts.sums.stored,
             bonds: self.contacts.bonds.stored,
