@@ -49,7 +49,7 @@ pub struct Moving {
 /// What a scene in motion was at a moment.
 #[derive(Clone)]
 pub struct Moment {
-    state: State,
+    state: State<'static>,
     forces: [Vec<f64>; 2],
 }
 
@@ -100,7 +100,7 @@ impl Moving {
         self.engine.save(&mut state);
         self.hosts.save(&mut state);
         self.ledger.save(&mut state);
-        Moment { state, forces: [self.force.clone(), self.mean_force.clone()] }
+        Moment { state: state.into_owned(), forces: [self.force.clone(), self.mean_force.clone()] }
     }
 
     /// Its clock [s].

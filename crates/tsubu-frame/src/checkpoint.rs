@@ -101,7 +101,7 @@ pub fn write(run_folder: &Path, state: &State, header: &Header) -> Result<(), Fi
 }
 
 /// Reads a checkpoint file.
-pub fn read(path: &Path) -> Result<(Header, State), CheckpointError> {
+pub fn read(path: &Path) -> Result<(Header, State<'static>), CheckpointError> {
     let bytes = std::fs::read(path).map_err(|source| CheckpointError::Unreadable { path: path.to_owned(), source })?;
     decode(&bytes).map_err(|damage| damage.at(path))
 }
@@ -222,7 +222,7 @@ impl<'a> Cursor<'a> {
     }
 }
 
-fn decode(bytes: &[u8]) -> Result<(Header, State), Damage> {
+fn decode(bytes: &[u8]) -> Result<(Header, State<'static>), Damage> {
     let mut cursor = Cursor { bytes, at: 0 };
     let magic = &bytes[..bytes.len().min(MAGIC.len())];
     if magic != &MAGIC[..magic.len()] || bytes.is_empty() {
@@ -255,7 +255,7 @@ fn is_whole(bytes: &[u8]) -> bool {
     ends_with_marker(bytes) && crc32fast::hash(&bytes[..bytes.len() - 4]).to_le_bytes() == bytes[bytes.len() - 4..]
 }
 
-fn decode_rest(cursor: &mut Cursor<'_>) -> Result<(Header, State), Damage> {
+fn decode_rest(cursor: &mut Cursor<'_>) -> Result<(Header, State<'static>), Damage> {
     let header = Header {
         tsubu_version: cursor.text()?,
         scene_hash: cursor.text()?,
@@ -287,7 +287,7 @@ fn decode_rest(cursor: &mut Cursor<'_>) -> Result<(Header, State), Damage> {
 }
 
 /// Memory grows with what really comes out of the packed bytes, never with what `count` claims.
-fn unpack(kind: u8, count: u64, packed: &[u8]) -> Option<Section> {
+fn unpack(kind: u8, count: u64, packed: &[u8]) -> Option<Section<'static>> {
     let width = if kind == 2 { 1 } else { 8 };
     let expected = count.checked_mul(width)?;
     let mut plain = Vec::new();

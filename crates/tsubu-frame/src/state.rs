@@ -4,13 +4,14 @@
 //! (`state_hash`) is taken over the same sections, so a checkpoint that is complete and a hash that means something are
 //! one and the same promise.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// The numbers of one section.
+/// The numbers of one section. Floats are most of a state: they may lie where they are saved from.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Section {
+pub enum Section<'a> {
     /// 64-bit floats, kept bit by bit.
-    Real(Vec<f64>),
+    Real(Cow<'a, [f64]>),
     /// 64-bit integers.
     Integer(Vec<i64>),
     /// Text.
@@ -19,8 +20,8 @@ pub enum Section {
 
 /// Named sections, in the order of their names.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct State {
-    sections: BTreeMap<String, Section>,
+pub struct State<'a> {
+    sections: BTreeMap<String, Section<'a>>,
 }
 
 /// A section that is not there or not of the kind that was asked for.
@@ -33,9 +34,9 @@ pub struct MissingSection {
     pub kind: &'static str,
 }
 
-impl State {
+impl<'a> State<'a> {
     /// Stores floats.
-    pub fn put_real(&mut self, name: &str, values: impl Into<Vec<f64>>) {
+    pub fn put_real(&mut self, name: &str, values: impl Into<Cow<'a, [f64]>>) {
         self.sections.insert(name.to_owned(), Section::Real(values.into()));
     }
 
@@ -74,13 +75,23 @@ impl State {
     }
 
     /// The sections in the order of their names.
-    pub fn sections(&self) -> impl Iterator<Item = (&str, &Section)> {
+    pub fn sections(&self) -> impl Iterator<Item = (&str, &Section<'a>)> {
         self.sections.iter().map(|(n, s)| (n.as_str(), s))
     }
 
     /// Adds or replaces a section.
-    pub fn insert(&mut self, name: String, section: Section) {
+    pub fn insert(&mut self, name: String, section: Section<'a>) {
         self.sections.insert(name, section);
+    }
+
+    /// The same with copies of what lies elsewhere.
+    pub fn into_owned(self) -> State<'static> {
+        let owned = |section| match section {
+            Section::Real(v) => Section::Real(Cow::Owned(v.into_owned())),
+            Section::Integer(v) => Section::Integer(v),
+            Section::Text(t) => Section::Text(t),
+        };
+        State { sections: self.sections.into_iter().map(|(name, section)| (name, owned(section))).collect() }
     }
 
     /// Hash of names, kinds and bits of every section, in hex.
@@ -92,7 +103,7 @@ impl State {
                 Section::Real(v) => {
                     hasher.update(b"\0r");
                     hasher.update(&(v.len() as u64).to_le_bytes());
-                    for x in v {
+                    for x in v.iter() {
                         hasher.update(&x.to_bits().to_le_bytes());
                     }
                 }

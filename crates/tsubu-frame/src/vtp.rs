@@ -6,6 +6,7 @@
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
+use std::ops::Range;
 use std::path::Path;
 
 use crate::FileError;
@@ -23,12 +24,8 @@ pub fn write(path: &Path, frame: &Frame, kind: Kind) -> Result<bool, FileError> 
     };
     let time = [frame.time];
     let step = [frame.step as i64];
-    let cells = if kind == Kind::Surface {
-        surfaces(frame, points.len())
-    } else {
-        let rows = points.len() as i64;
-        vec![("Verts", Cells { connectivity: (0..rows).collect(), offsets: (1..=rows).collect() })]
-    };
+    let surface = kind == Kind::Surface;
+    let cells = if surface { surfaces(frame, points.len()) } else { Vec::new() };
     let count = |name: &str| cells.iter().find(|c| c.0 == name).map_or(0, |c| c.1.offsets.len());
     let mut blocks = Blocks::default();
     let mut head = String::from(
@@ -47,7 +44,7 @@ pub fn write(path: &Path, frame: &Frame, kind: Kind) -> Result<bool, FileError> 
         head,
         "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">",
         points.len(),
-        count("Verts"),
+        if surface { 0 } else { points.len() },
         count("Lines"),
         count("Polys"),
     );
@@ -60,6 +57,13 @@ pub fn write(path: &Path, frame: &Frame, kind: Kind) -> Result<bool, FileError> 
     head.push_str("</PointData>\n<Points>\n");
     blocks.vectors(&mut head, "position", "m", points, "");
     head.push_str("</Points>\n");
+    if !surface {
+        let rows = points.len() as i64;
+        head.push_str("<Verts>\n");
+        blocks.counted(&mut head, "connectivity", 0..rows);
+        blocks.counted(&mut head, "offsets", 1..rows + 1);
+        head.push_str("</Verts>\n");
+    }
     for (name, cells) in &cells {
         let _ = writeln!(head, "<{name}>");
         blocks.integers(&mut head, "connectivity", "-", &cells.connectivity, "");
@@ -117,6 +121,7 @@ enum Data<'a> {
     Vectors(&'a [[f64; 3]]),
     Quaternions(&'a [[f64; 4]]),
     Integers(&'a [i64]),
+    Counted(Range<i64>),
 }
 
 impl Data<'_> {
@@ -126,6 +131,7 @@ impl Data<'_> {
             Self::Vectors(v) => 3 * v.len() as u64,
             Self::Quaternions(v) => 4 * v.len() as u64,
             Self::Integers(v) => v.len() as u64,
+            Self::Counted(range) => range.end.abs_diff(range.start),
         }
     }
 }
@@ -154,6 +160,10 @@ impl<'a> Blocks<'a> {
 
     fn integers(&mut self, head: &mut String, name: &str, unit: &str, v: &'a [i64], more: &str) {
         self.declare(head, name, unit, &format!("type=\"Int64\" {more}"), Data::Integers(v));
+    }
+
+    fn counted(&mut self, head: &mut String, name: &str, numbers: Range<i64>) {
+        self.declare(head, name, "-", "type=\"Int64\"", Data::Counted(numbers));
     }
 
     fn declare(&mut self, head: &mut String, name: &str, unit: &str, about: &str, data: Data<'a>) {
@@ -189,6 +199,7 @@ impl<'a> Blocks<'a> {
                     v.iter().flatten().try_for_each(|x| out.write_all(&x.to_le_bytes()))?;
                 }
                 Data::Integers(v) => v.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))?,
+                Data::Counted(range) => range.clone().try_for_each(|x| out.write_all(&x.to_le_bytes()))?,
             }
         }
         Ok(())

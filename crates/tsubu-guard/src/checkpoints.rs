@@ -148,7 +148,7 @@ fn forge(draw: &mut Draw, section: &mut Section) {
     const REAL: &[f64] = &[0.0, -1.0, 1e300, -1e300, 1e-300, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
     const WHOLE: &[i64] = &[0, -1, 1, i64::MAX, i64::MIN, 1 << 31, 1 << 53, 1_000_000];
     match section {
-        Section::Real(numbers) => list(draw, numbers, REAL),
+        Section::Real(numbers) => list(draw, numbers.to_mut(), REAL),
         Section::Integer(numbers) => list(draw, numbers, WHOLE),
         Section::Text(text) => text.push('x'),
     }

@@ -18,6 +18,7 @@ use super::beds::line;
 use super::bench::{Rig, at_least, between};
 use super::control::refused;
 use super::ensemble;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use collapse::{collapsing, moved};
 use glam::DVec3;
@@ -74,7 +75,7 @@ fn surface_gates(grains: &[DVec3]) -> Vec<Claim> {
 }
 
 /// C-x3: grains are poured; slopes of the heap, and how often each angle is met along its surface.
-pub(super) fn pour(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn pour(perturbation: f64) -> Judged {
     ensemble::drawn("heap", 1..=8, |seed| {
         let text = include_str!("../../../studies/cl-ca-2001/pour.toml");
         let mut plan = super::bench::plan(text)?;
@@ -104,7 +105,7 @@ pub(super) fn pour(perturbation: f64) -> Result<Vec<Claim>, String> {
 
 /// C-6: what holds after every step, whatever the scene: the collapse under the active rule, the pushed plate under the passive
 /// one. The perturbation takes a point away from a grain.
-pub(super) fn invariants(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn invariants(perturbation: f64) -> Judged {
     const STEPS: u64 = 400;
     let plate = super::bench::plan(include_str!("../../../studies/cl-ca-2001/plate.toml"))?;
     let scenes = [("active rule", collapsing("cl-ca", true, &[])?.plan, 0.6), ("passive rule", plate, PUSHED)];
@@ -131,7 +132,8 @@ pub(super) fn invariants(perturbation: f64) -> Result<Vec<Claim>, String> {
                 }
                 let mut state = State::default();
                 engine.save(&mut state);
-                Ok((engine, broken, grains, state.hash()))
+                let hash = state.hash();
+                Ok((engine, broken, grains, hash))
             })
         };
         let (engine, broken, grains, hash) = run(1, plan.seed, hosts)?;

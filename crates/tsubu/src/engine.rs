@@ -337,7 +337,7 @@ pub trait Engine: Send {
     }
 
     /// Writes everything that the next step depends on.
-    fn save(&self, state: &mut State);
+    fn save<'a>(&'a self, state: &mut State<'a>);
 
     /// Takes the state back; the engine was built from the same plan.
     fn load(&mut self, state: &State) -> Result<(), MissingSection>;

@@ -332,7 +332,7 @@ impl Run<'_> {
         checkpoint::write(folder.path(), &state, &header)
     }
 
-    fn state(&self) -> State {
+    fn state(&self) -> State<'_> {
         let mut state = State::default();
         self.engine.save(&mut state);
         self.hosts.save(&mut state);

@@ -19,12 +19,12 @@ use tsubu_scene::TEMPLATES;
 
 type Opened = (Box<dyn Engine>, Hosts, Ledger);
 
-fn state((engine, hosts, ledger): &Opened) -> State {
+fn state((engine, hosts, ledger): &Opened) -> State<'static> {
     let mut state = State::default();
     engine.save(&mut state);
     hosts.save(&mut state);
     ledger.save(&mut state);
-    state
+    state.into_owned()
 }
 
 /// A way to do some steps: the lengths of the calls, after how many of them a fresh engine goes on from a checkpoint, and the
@@ -37,7 +37,7 @@ struct Grouping {
 }
 
 /// State after all steps, grouped in a way.
-fn run(open: &(dyn Fn() -> Opened + Sync), grouping: &Grouping) -> State {
+fn run(open: &(dyn Fn() -> Opened + Sync), grouping: &Grouping) -> State<'static> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(grouping.threads).build().unwrap();
     pool.install(|| {
         let mut opened = open();

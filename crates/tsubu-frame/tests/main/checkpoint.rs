@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use tsubu_frame::state::Section;
 use tsubu_frame::{CheckpointError, Header, State, checkpoint};
 
-fn sample() -> (Header, State) {
+fn sample() -> (Header, State<'static>) {
     let header = Header { tsubu_version: "0.1.0".into(), scene_hash: "c0ffee".into(), step: 12_345, time: 0.1 + 0.2 };
     let mut state = State::default();
     state.put_real("grain.position", vec![1.0, -0.0, f64::NAN, f64::MIN_POSITIVE / 2.0]);
@@ -23,7 +23,7 @@ fn bytes_of_sample() -> Vec<u8> {
     std::fs::read(checkpoint::path(folder.path())).unwrap()
 }
 
-fn read_bytes(bytes: &[u8]) -> Result<(Header, State), CheckpointError> {
+fn read_bytes(bytes: &[u8]) -> Result<(Header, State<'static>), CheckpointError> {
     let file = tempfile::NamedTempFile::new().unwrap();
     std::fs::write(file.path(), bytes).unwrap();
     checkpoint::read(file.path())
@@ -99,9 +99,9 @@ fn a_claimed_length_is_not_believed() {
     assert!(read_bytes(&altered).is_err());
 }
 
-fn section() -> impl Strategy<Value = Section> {
+fn section() -> impl Strategy<Value = Section<'static>> {
     prop_oneof![
-        prop::collection::vec(any::<f64>(), 0..50).prop_map(Section::Real),
+        prop::collection::vec(any::<f64>(), 0..50).prop_map(|reals| Section::Real(reals.into())),
         prop::collection::vec(any::<i64>(), 0..50).prop_map(Section::Integer),
         ".{0,40}".prop_map(Section::Text),
     ]

@@ -290,7 +290,7 @@ impl Engine for ClCaEngine {
         View { time: self.time(), periodic: [None; 3], grains, contacts, bodies, ..View::default() }
     }
 
-    fn save(&self, state: &mut State) {
+    fn save<'a>(&'a self, state: &mut State<'a>) {
         let grains = &self.bed.grains;
         let n = self.bed.len();
         let whole = |of: &dyn Fn(usize) -> i64| (0..n).map(of).collect::<Vec<_>>();

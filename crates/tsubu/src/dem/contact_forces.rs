@@ -10,7 +10,7 @@ mod pairs;
 mod sums;
 mod walls;
 
-pub(super) use list::contact_list;
+pub(super) use list::each_contact;
 pub(super) use sums::{ContactLosses, ContactSums};
 
 use super::bodies::Bodies;

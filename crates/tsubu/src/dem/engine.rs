@@ -363,7 +363,7 @@ impl Engine for DemEngine {
         self.grains.renew(column)
     }
 
-    fn save(&self, state: &mut State) {
+    fn save<'a>(&'a self, state: &mut State<'a>) {
         self.write_state(state);
     }
 

@@ -3,7 +3,7 @@
 //! Every block hands over its own contacts, and is filled from what belongs to it: both on many threads.
 
 use super::contact_forces::{BlockContacts, ContactForces, ForceInput};
-use super::contact_history::{FeatureKey, WallKey};
+use super::contact_history::{ContactHistory, FeatureKey, WallKey};
 use super::ranks::Ranks;
 use super::sweep::{Direction, sweep};
 use crate::contact::Law;
@@ -111,8 +111,28 @@ impl ContactForces {
         snapshot
     }
 
+    /// The contacts of all ranks by ids, in the order of blocks, on the first of them: of each the bodies, whether the second is a wall, and the
+    /// patch; and what they remember.
+    pub fn by_id(&self, input: &ForceInput, ranks: &Ranks) -> (Vec<i64>, Vec<f64>) {
+        let width = input.laws.history_width();
+        let own = if width == 0 { 0..0 } else { input.neighbours.own() };
+        let contacts = self.blocks[own.clone()].iter().flat_map(|block| &block.history).map(ContactHistory::len);
+        let contacts: usize = contacts.sum();
+        let (mut ids, mut histories) = (Vec::with_capacity(4 * contacts), Vec::with_capacity(width * contacts));
+        // Block by block: there may be hundreds of millions of numbers.
+        let mut block = BlockHistory::default();
+        for list in &input.neighbours.lists[own] {
+            block.record(&self.blocks[list.first / BLOCK], list, &input.grains.id, width);
+            let of = |k: &ContactId| [k.first, k.second, u32::from(k.wall), k.patch].map(f64::from);
+            ids.extend(block.contacts.iter().flat_map(of));
+            histories.extend_from_slice(&block.history);
+        }
+        let ids = ranks.gather_first(ids).into_iter().map(|id| id as i64).collect();
+        (ids, ranks.gather_first(histories))
+    }
+
     /// Writes every contact's history into a snapshot, in the order of blocks.
-    pub fn record_history(&self, input: &ForceInput, snapshot: &mut HistorySnapshot) {
+    fn record_history(&self, input: &ForceInput, snapshot: &mut HistorySnapshot) {
         let width = input.laws.history_width();
         let own = if width == 0 { 0..0 } else { input.neighbours.own() };
         let lists = &input.neighbours.lists[own.clone()];
@@ -175,22 +195,6 @@ impl HistorySnapshot {
     pub fn of(contacts: Vec<ContactId>, history: Vec<f64>) -> Self {
         let all = BlockHistory { contacts, history, ..BlockHistory::default() };
         Self { blocks: vec![all], whole: true, ..Self::default() }
-    }
-
-    /// The contacts of all ranks, in the order of blocks, on the first of them.
-    pub fn joined(self, ranks: &Ranks, width: usize) -> Self {
-        if ranks.is_alone() {
-            return self;
-        }
-        let mut message = Vec::new();
-        for block in &self.blocks {
-            for (contact, history) in block.contacts.iter().zip(block.history.chunks_exact(width)) {
-                contact.put(history, &mut message);
-            }
-        }
-        let mut all = BlockHistory::default();
-        all.receive(&ranks.gather_first(message), width);
-        Self::of(all.contacts, all.history)
     }
 }
 

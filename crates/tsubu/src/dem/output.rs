@@ -14,7 +14,19 @@ use tsubu_frame::{Frame, Kind, State};
 impl DemEngine {
     /// Grains in the order of their ids, and the walls; with `told` the contacts too. Of several ranks the first draws it; the others tell it their contacts.
     pub(super) fn picture(&self, told: bool) -> Frame {
-        let contacts = if told || !self.acceleration_tells() { self.contacts_to_show() } else { Vec::new() };
+        let summed = !self.acceleration_tells();
+        let mut force = vec![DVec3::ZERO; if summed { self.grains.len() } else { 0 }];
+        let mut contacts = ContactColumns::default();
+        if told || summed {
+            self.each_contact(|contact| {
+                if told {
+                    contacts.push(&contact, &self.grains.id);
+                }
+                if summed {
+                    add_force(&mut force, &contact);
+                }
+            });
+        }
         let mut frame = Frame { time: self.clock.time(), step: self.clock.step, columns: Vec::new() };
         if !self.ranks.is_first() {
             return frame;
@@ -34,7 +46,6 @@ impl DemEngine {
         frame.vector(Kind::Grain, "spin", "rad/s", vectors(&self.grains.spin));
         frame.scalar(Kind::Grain, "radius", "m", scalars(&self.grains.radius));
         frame.scalar(Kind::Grain, "mass", "kg", scalars(&self.grains.mass));
-        let force = self.contact_forces(&contacts);
         let shaped = self.integration.bodies.shaped();
         let turns = shaped || self.integration.bodies.faceted();
         let turned: Option<Vec<_>> = order
@@ -52,12 +63,17 @@ impl DemEngine {
             self.tell_shapes(&order, &mut frame);
         }
         self.integration.bodies.tell_polyhedra(&order, &mut frame);
-        frame.vector(Kind::Grain, "contact force", "N", vectors(&force));
+        if summed {
+            frame.vector(Kind::Grain, "contact force", "N", vectors(&force));
+        } else {
+            let told = order.iter().map(|&i| self.force_of_acceleration(i).to_array()).collect();
+            frame.vector(Kind::Grain, "contact force", "N", told);
+        }
         if self.immersion.is_some() {
             frame.vector(Kind::Grain, "water force", "N", vectors(&self.water_forces(&force)));
         }
         if told {
-            self.list_contacts(&contacts, &mut frame);
+            contacts.put(&mut frame);
         }
         self.draw_surroundings(&mut frame);
         frame
@@ -77,18 +93,6 @@ impl DemEngine {
         frame.scalar(Kind::Grain, "equator exponent", "-", shapes.iter().map(|(_, [_, r])| *r).collect());
     }
 
-    fn list_contacts(&self, contacts: &[Contact], frame: &mut Frame) {
-        let id = |i: usize| i64::from(self.grains.id[i]);
-        // A wall is told as -1 less its number.
-        let second = |c: &Contact| if c.wall { -1 - c.second as i64 } else { id(c.second) };
-        frame.integer(Kind::Contact, "first", "-", contacts.iter().map(|c| id(c.first)).collect());
-        frame.integer(Kind::Contact, "second", "-", contacts.iter().map(second).collect());
-        frame.vector(Kind::Contact, "position", "m", contacts.iter().map(|c| c.position.to_array()).collect());
-        frame.vector(Kind::Contact, "force", "N", contacts.iter().map(|c| c.force.to_array()).collect());
-        frame.vector(Kind::Contact, "normal", "-", contacts.iter().map(|c| c.normal.to_array()).collect());
-        frame.scalar(Kind::Contact, "overlap", "m", contacts.iter().map(|c| c.overlap).collect());
-    }
-
     /// Whether accelerations are those of contacts and gravity alone.
     fn acceleration_tells(&self) -> bool {
         self.immersion.is_none()
@@ -97,21 +101,11 @@ impl DemEngine {
             && self.contacts.bonds.is_empty()
     }
 
-    /// What contacts do to every grain [N]. Where the acceleration does not tell, the contacts are summed.
-    fn contact_forces(&self, contacts: &[Contact]) -> Vec<DVec3> {
+    /// What contacts do to a grain [N], where its acceleration tells.
+    fn force_of_acceleration(&self, i: usize) -> DVec3 {
         let g = &self.grains;
-        if self.acceleration_tells() {
-            let pull = |i: usize| if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { self.integration.gravity };
-            return (0..g.len()).map(|i| g.mass[i] * (g.acceleration[i] - pull(i))).collect();
-        }
-        let mut force = vec![DVec3::ZERO; g.len()];
-        for contact in contacts {
-            force[contact.first] += contact.force;
-            if !contact.wall {
-                force[contact.second] -= contact.force;
-            }
-        }
-        force
+        let pull = if g.inverse_mass[i] == 0.0 { DVec3::ZERO } else { self.integration.gravity };
+        g.mass[i] * (g.acceleration[i] - pull)
     }
 
     /// What the water does to every grain that forces move [N]: what gravity and contacts leave of its acceleration, that of
@@ -149,7 +143,11 @@ impl DemEngine {
         let mut contacts = match wants.contacts {
             Contacts::Nothing => Vec::new(),
             Contacts::Places => self.overlaps_to_show(),
-            Contacts::Forces => self.contacts_to_show(),
+            Contacts::Forces => {
+                let mut all = Vec::new();
+                self.each_contact(|contact| all.push(contact));
+                all
+            }
         };
         contacts.retain(|c| c.overlap > 0.0 || c.force != DVec3::ZERO);
         let walls = if wants.walls { self.reactions.wall_loads.clone() } else { Vec::new() };
@@ -173,10 +171,8 @@ impl DemEngine {
     }
 
     /// Everything that the next step depends on. Of several ranks the first writes it; the others tell it their contacts.
-    pub(super) fn write_state(&self, state: &mut State) {
-        let mut history = HistorySnapshot::default();
-        self.contacts.record_history(&self.force_input(), &mut history);
-        let history = history.joined(&self.ranks, self.laws.history_width());
+    pub(super) fn write_state<'a>(&'a self, state: &mut State<'a>) {
+        let (contacts, history) = self.contacts.by_id(&self.force_input(), &self.ranks);
         if !self.ranks.is_first() {
             return;
         }
@@ -199,8 +195,7 @@ impl DemEngine {
         }
         sections::save("dem.powers", self.books.last.clone().named(), state);
         state.put_real("dem.stored", vec![self.contacts.sums.stored]);
-        let flat = |v: &[DVec3]| v.iter().flat_map(DVec3::to_array).collect::<Vec<_>>();
-        state.put_real("dem.reference", flat(&self.neighbours.reference));
+        state.put_real("dem.reference", bytemuck::cast_slice(&self.neighbours.reference[..]));
         let places = self.neighbours.wall_reference.iter().flat_map(crate::wall::Pose::place);
         state.put_real("dem.wall-reference", places.collect::<Vec<_>>());
         let drifts = self.neighbours.drifts.of.iter();
@@ -212,10 +207,8 @@ impl DemEngine {
         for wall in &self.walls {
             wall.save(state);
         }
-        let contacts = history.blocks.iter().flat_map(|block| &block.contacts);
-        let contacts = contacts.flat_map(|k| [k.first, k.second, u32::from(k.wall), k.patch].map(i64::from));
-        state.put_integer("dem.contacts", contacts.collect::<Vec<_>>());
-        state.put_real("dem.history", history.blocks.into_iter().flat_map(|block| block.history).collect::<Vec<_>>());
+        state.put_integer("dem.contacts", contacts);
+        state.put_real("dem.history", history);
     }
 
     /// Takes back what [`DemEngine::write_state`] wrote.
@@ -294,5 +287,46 @@ impl DemEngine {
         };
         self.restore_history(HistorySnapshot::of(ids.iter().map(contact).collect(), history.to_vec()));
         Ok(())
+    }
+}
+
+/// Adds what a contact does to its grains [N].
+fn add_force(force: &mut [DVec3], contact: &Contact) {
+    force[contact.first] += contact.force;
+    if !contact.wall {
+        force[contact.second] -= contact.force;
+    }
+}
+
+/// The contacts of a frame.
+#[derive(Debug, Default)]
+struct ContactColumns {
+    first: Vec<i64>,
+    second: Vec<i64>,
+    position: Vec<[f64; 3]>,
+    force: Vec<[f64; 3]>,
+    normal: Vec<[f64; 3]>,
+    overlap: Vec<f64>,
+}
+
+impl ContactColumns {
+    fn push(&mut self, contact: &Contact, id: &[u32]) {
+        let id = |i: usize| i64::from(id[i]);
+        self.first.push(id(contact.first));
+        // A wall is told as -1 less its number.
+        self.second.push(if contact.wall { -1 - contact.second as i64 } else { id(contact.second) });
+        self.position.push(contact.position.to_array());
+        self.force.push(contact.force.to_array());
+        self.normal.push(contact.normal.to_array());
+        self.overlap.push(contact.overlap);
+    }
+
+    fn put(self, frame: &mut Frame) {
+        frame.integer(Kind::Contact, "first", "-", self.first);
+        frame.integer(Kind::Contact, "second", "-", self.second);
+        frame.vector(Kind::Contact, "position", "m", self.position);
+        frame.vector(Kind::Contact, "force", "N", self.force);
+        frame.vector(Kind::Contact, "normal", "-", self.normal);
+        frame.scalar(Kind::Contact, "overlap", "m", self.overlap);
     }
 }

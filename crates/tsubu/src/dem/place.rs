@@ -184,7 +184,7 @@ impl Placing<'_> {
         let (centre, size) = (room.centre, room.size);
         let space = self.plan.dimension == 3;
         let floor = if stack { self.floor } else { 0.0 };
-        // ContactBatch are as wide as the widest grain.
+        // Places are as wide as the widest grain.
         let d = group.largest_diameter();
         // How far a grain may be shaken from its place, and how many places fit when the outermost are shaken towards a
         // wall.

@@ -6,6 +6,7 @@
 //! ranks get the positions of all; what else grains have goes to the rank that has them from then on.
 
 mod estimate;
+mod gather;
 mod share;
 
 pub(super) use share::Halves;
@@ -267,31 +268,6 @@ impl Ranks {
     /// Whether this is the first rank.
     pub fn is_first(&self) -> bool {
         self.rank() == 0
-    }
-
-    /// What all ranks have, in the order of the ranks; `mine` alone where there is but one.
-    pub fn gather(&self, mine: Vec<f64>) -> Vec<f64> {
-        let Some(all) = &self.communicator else { return mine };
-        let mut messages = vec![mine; all.size()];
-        all.exchange(&mut messages);
-        messages.concat()
-    }
-
-    /// The same on the first rank; on others nothing.
-    pub fn gather_first(&self, mine: Vec<f64>) -> Vec<f64> {
-        let Some(all) = &self.communicator else { return mine };
-        let mut messages = self.letters();
-        messages[0] = mine;
-        all.exchange(&mut messages);
-        if !self.is_first() {
-            return Vec::new();
-        }
-        let mut messages = messages.into_iter();
-        let mut joined = messages.next().unwrap_or_default();
-        for mut message in messages {
-            joined.append(&mut message);
-        }
-        joined
     }
 
     /// The ranks other than this one that have one of these grains, each once.

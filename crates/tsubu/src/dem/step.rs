@@ -1,7 +1,7 @@
 //! The step.
 
 use super::bonds::Attitudes;
-use super::contact_forces::{ContactForces, ForceInput, contact_list};
+use super::contact_forces::{ContactForces, ForceInput, each_contact};
 use super::engine::DemEngine;
 use super::history_transfer::HistorySnapshot;
 use super::overlaps::overlaps;
@@ -245,12 +245,23 @@ impl DemEngine {
         }
     }
 
-    /// The contacts of this moment, on the first rank.
-    pub(super) fn contacts_to_show(&self) -> Vec<Contact> {
-        self.of_all_ranks(contact_list(&self.contacts, &self.force_input()), false)
+    /// Shows the contacts of this moment one by one, in the order of blocks, on the first rank; the others tell it theirs.
+    pub(super) fn each_contact(&self, mut show: impl FnMut(Contact)) {
+        let mut message = Vec::new();
+        if self.ranks.is_first() {
+            each_contact(&self.contacts, &self.force_input(), &mut show);
+        } else {
+            each_contact(&self.contacts, &self.force_input(), |contact| contact.put(&mut message));
+        }
+        for message in self.ranks.tell_first(message) {
+            let mut message = Reader::new(&message);
+            while !message.is_at_end() {
+                show(Contact::take(&mut message));
+            }
+        }
     }
 
-    /// The same without forces, on all ranks, for those who look at every step.
+    /// The contacts without forces, on all ranks, for those who look at every step.
     pub(super) fn overlaps(&self) -> Vec<Contact> {
         self.of_all_ranks(overlaps(&self.force_input()), true)
     }
@@ -331,7 +342,9 @@ impl DemEngine {
         if !blocks.iter().any(|block| self.is_deep(block.sums.deepest)) {
             return None;
         }
-        self.deepest(contact_list(&self.contacts, &self.force_input()))
+        let mut own = Vec::new();
+        each_contact(&self.contacts, &self.force_input(), |contact| own.push(contact));
+        self.deepest(own)
     }
 
     /// The deepest of these contacts, by overlap over diameter.

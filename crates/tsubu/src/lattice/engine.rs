@@ -260,7 +260,7 @@ impl Engine for LatticeEngine {
         View { time: self.time(), periodic: [None; 3], grains, ..View::default() }
     }
 
-    fn save(&self, state: &mut State) {
+    fn save<'a>(&'a self, state: &mut State<'a>) {
         let d = &self.damper;
         let whole = |values: &[i64]| values.to_vec();
         state.put_integer("lattice.cell", d.cell.iter().map(|&c| c as i64).collect::<Vec<_>>());

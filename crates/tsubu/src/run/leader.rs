@@ -192,7 +192,7 @@ impl Engine for Leader {
         self.engine.renew(column)
     }
 
-    fn save(&self, state: &mut State) {
+    fn save<'a>(&'a self, state: &mut State<'a>) {
         self.tell(Order::Save, None);
         self.engine.save(state);
     }
@@ -215,7 +215,7 @@ fn written(state: &State) -> Vec<f64> {
         match section {
             Section::Real(values) => {
                 message.extend([0.0, values.len() as f64]);
-                message.extend(values);
+                message.extend(values.iter());
             }
             Section::Integer(values) => {
                 message.extend([1.0, values.len() as f64]);
@@ -230,8 +230,8 @@ fn written(state: &State) -> Vec<f64> {
     message
 }
 
-/// The state that was written.
-fn read_state(message: &mut Reader) -> State {
+/// The state that was written, with its floats where they came.
+fn read_state<'a>(message: &mut Reader<'a>) -> State<'a> {
     let text = |message: &mut Reader| {
         let length = message.number() as usize;
         let bytes: Vec<u8> = message.numbers(length).iter().map(|byte| *byte as u8).collect();
@@ -243,7 +243,7 @@ fn read_state(message: &mut Reader) -> State {
         let section = match message.number() {
             0.0 => {
                 let length = message.number() as usize;
-                Section::Real(message.numbers(length).to_vec())
+                Section::Real(message.numbers(length).into())
             }
             1.0 => {
                 let length = message.number() as usize;

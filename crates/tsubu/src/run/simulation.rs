@@ -101,7 +101,7 @@ impl Simulation {
     }
 
     /// Everything that the next step depends on, as the summary of a run hashes it.
-    pub fn state(&self) -> State {
+    pub fn state(&self) -> State<'_> {
         let mut state = State::default();
         self.engine.save(&mut state);
         self.hosts.save(&mut state);

@@ -26,8 +26,8 @@ pub fn permute<T: Value>(column: &mut Vec<T>, order: &[u32], spares: &mut Spares
 pub trait Value: Copy + Send + Sync {
     /// Room for another column of this type.
     fn spare(spares: &mut Spares) -> &mut Vec<Self>;
-    /// Stores a column.
-    fn put(state: &mut State, name: &str, values: &[Self]);
+    /// Stores a column; floats where they lie.
+    fn put<'a>(state: &mut State<'a>, name: &str, values: &'a [Self]);
     /// Takes a column back.
     fn take(state: &State, name: &str) -> Result<Vec<Self>, MissingSection>;
 }
@@ -36,7 +36,7 @@ impl Value for f64 {
     fn spare(spares: &mut Spares) -> &mut Vec<Self> {
         &mut spares.real
     }
-    fn put(state: &mut State, name: &str, values: &[Self]) {
+    fn put<'a>(state: &mut State<'a>, name: &str, values: &'a [Self]) {
         state.put_real(name, values);
     }
     fn take(state: &State, name: &str) -> Result<Vec<Self>, MissingSection> {
@@ -48,7 +48,7 @@ impl Value for u32 {
     fn spare(spares: &mut Spares) -> &mut Vec<Self> {
         &mut spares.integer
     }
-    fn put(state: &mut State, name: &str, values: &[Self]) {
+    fn put<'a>(state: &mut State<'a>, name: &str, values: &'a [Self]) {
         state.put_integer(name, values.iter().map(|&v| i64::from(v)).collect::<Vec<_>>());
     }
     fn take(state: &State, name: &str) -> Result<Vec<Self>, MissingSection> {
@@ -60,8 +60,8 @@ impl Value for DVec3 {
     fn spare(spares: &mut Spares) -> &mut Vec<Self> {
         &mut spares.vector
     }
-    fn put(state: &mut State, name: &str, values: &[Self]) {
-        state.put_real(name, values.iter().flat_map(DVec3::to_array).collect::<Vec<_>>());
+    fn put<'a>(state: &mut State<'a>, name: &str, values: &'a [Self]) {
+        state.put_real(name, bytemuck::cast_slice(values));
     }
     fn take(state: &State, name: &str) -> Result<Vec<Self>, MissingSection> {
         Ok(state.real(name)?.chunks_exact(3).map(Self::from_slice).collect())
@@ -107,7 +107,7 @@ macro_rules! columns {
             }
 
             /// Writes every column under `prefix`.
-            pub fn save(&self, prefix: &str, state: &mut tsubu_frame::State) {
+            pub fn save<'a>(&'a self, prefix: &str, state: &mut tsubu_frame::State<'a>) {
                 $($crate::state::columns::Value::put(
                     state, &format!("{prefix}.{}", stringify!($column)), &self.$column);)+
             }

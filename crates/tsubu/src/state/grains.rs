@@ -37,6 +37,22 @@ columns! {
     }
 }
 
+/// Columns of motion that ranks may know of their own grains alone.
+macro_rules! apart {
+    ($($column:ident),+) => {
+        impl Grains {
+            /// Their names.
+            pub const APART: &[&str] = &[$(stringify!($column)),+];
+
+            /// They themselves.
+            pub fn apart(&mut self) -> [&mut Vec<DVec3>; Self::APART.len()] {
+                [$(&mut self.$column),+]
+            }
+        }
+    };
+}
+apart!(velocity, acceleration, spin, angular_acceleration);
+
 impl Grains {
     /// Number of grains.
     pub fn len(&self) -> usize {

@@ -148,7 +148,7 @@ impl Task {
     }
 
     /// The settled beds of all cases with grains and of all seeds.
-    fn beds(&self) -> Result<BTreeMap<(usize, u32), State>, CasesError> {
+    fn beds(&self) -> Result<BTreeMap<(usize, u32), State<'static>>, CasesError> {
         let full = (0..self.plans.len()).filter(|case| self.plans[*case].grain_mass() > 0.0);
         let all: Vec<(usize, u32)> = full.flat_map(|case| (0..self.wanted.seeds).map(move |s| (case, s))).collect();
         let settle = |(case, seed): (usize, u32)| {

@@ -96,7 +96,7 @@ type Done = BTreeMap<Key, Point>;
 type Record<'a> = &'a (dyn Fn(&Key, &Point) -> Result<(), CasesError> + Sync);
 
 /// Settled beds by case and seed; nothing where one did not settle.
-type Beds = BTreeMap<(usize, u32), Option<State>>;
+type Beds = BTreeMap<(usize, u32), Option<State<'static>>>;
 
 /// A run that broke off: the first of those of a bed where it did not settle. The others go on.
 struct Failed {

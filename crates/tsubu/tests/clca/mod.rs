@@ -63,7 +63,7 @@ impl Run {
         self.engine.advance(steps, &mut self.hosts, &mut self.ledger).unwrap();
     }
 
-    pub fn state(&self) -> State {
+    pub fn state(&self) -> State<'_> {
         let mut state = State::default();
         self.engine.save(&mut state);
         self.ledger.save(&mut state);

@@ -68,7 +68,7 @@ pub fn hash<R: Send>(
         let mut state = State::default();
         engine.save(&mut state);
         ledger.save(&mut state);
-        state
+        state.into_owned()
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     pool.install(|| {

@@ -42,10 +42,10 @@ impl Run {
         self.engine.advance(count, &mut self.hosts, &mut self.ledger).unwrap();
     }
 
-    pub fn state(&self) -> State {
+    pub fn state(&self) -> State<'static> {
         let mut state = State::default();
         self.engine.save(&mut state);
-        state
+        state.into_owned()
     }
 }
 

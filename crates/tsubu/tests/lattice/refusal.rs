@@ -68,6 +68,7 @@ fn states_that_no_run_comes_to_are_refused() {
     let mut run = super::plans::Run::new(&plan(20, LatticeMode::Extended));
     let mut whole = State::default();
     run.engine.save(&mut whole);
+    let whole = whole.into_owned();
     run.engine.load(&whole).expect("its own state");
     for (name, value) in
         [("lattice.speed", i64::MAX), ("lattice.stored", i64::MIN), ("lattice.cell", 0), ("lattice.resting", 1)]

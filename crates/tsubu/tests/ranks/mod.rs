@@ -122,7 +122,7 @@ impl Job<'_> {
             engine.save(&mut state);
             hosts.save(&mut state);
             ledger.save(&mut state);
-            state
+            state.into_owned()
         };
         let load = |saved: &State| {
             let (mut engine, mut hosts, _) = self.opened(communicator);

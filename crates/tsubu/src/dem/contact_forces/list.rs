@@ -1,16 +1,15 @@
-//! The list of contacts with their forces, for those who look on.
+//! Contacts with their forces, for those who look on.
 
 use super::{ContactForces, ContactSums, ForceInput, Scratch, features, pairs, walls};
 use crate::contact::chunk::Chunk;
 use crate::dem::contact_batch::ContactBatch;
 use crate::view::Contact;
 
-/// All contacts, evaluated anew at the present positions and velocities without changing what is remembered.
-pub(in crate::dem) fn contact_list(forces: &ContactForces, input: &ForceInput) -> Vec<Contact> {
+/// Shows all contacts one by one, evaluated anew at the present positions and velocities without changing what is remembered.
+pub(in crate::dem) fn each_contact(forces: &ContactForces, input: &ForceInput, mut show: impl FnMut(Contact)) {
     // A step of length zero leaves the tangential springs as they are.
     let input = ForceInput { dt: 0.0, ..*input };
     let mut scratch = Scratch::new(input.laws.all());
-    let mut contacts = Vec::new();
     let own = input.neighbours.own();
     for (block, list) in forces.blocks[own.clone()].iter().zip(&input.neighbours.lists[own]) {
         let mut take = |batch: &ContactBatch, wall: bool| {
@@ -20,7 +19,7 @@ pub(in crate::dem) fn contact_list(forces: &ContactForces, input: &ForceInput) -
                 let second = batch.second[r] as usize;
                 let second = if wall { second } else { list.grain_at[second] as usize };
                 let contact_point = batch.contact_point(r);
-                contacts.push(Contact {
+                show(Contact {
                     first,
                     second,
                     wall,
@@ -39,5 +38,4 @@ pub(in crate::dem) fn contact_list(forces: &ContactForces, input: &ForceInput) -
         walls::evaluate(&input, list, &block.history, &mut scratch, &mut sums, |batch| take(batch, true));
         scratch.forget(input.laws.all());
     }
-    contacts
 }

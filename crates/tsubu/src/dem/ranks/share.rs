@@ -12,6 +12,9 @@ use std::ops::Range;
 /// In how many parts blocks are evaluated while messages are under way: between them messages move on.
 const PARTS: usize = 8;
 
+/// Grains of which a column goes over at once.
+const AT_ONCE: usize = 1 << 16;
+
 impl Ranks {
     /// What a step has done to all blocks: drifts, reports and the sums of its `contacts`; and the grains that others see.
     pub fn share_motion(
@@ -155,21 +158,25 @@ impl Ranks {
         self.apart = !self.cuts.is_empty();
     }
 
-    /// One column after the other: messages of all grains are large.
+    /// One column after the other, in parts: messages of all grains are large.
     fn gather_columns<const N: usize>(&mut self, columns: [&mut Vec<DVec3>; N]) {
         if self.cuts.is_empty() {
             return;
         }
         for column in columns {
             let (all, mut column) = (column.len(), [column]);
-            self.write(|ranks, _, message| put_rows(message, &column, ranks.grains(ranks.rank(), all)));
-            self.send_and_read(|ranks, rank, message| take_rows(message, &mut column, ranks.grains(rank, all)));
+            let most = (0..self.seams.len()).map(|rank| self.grains(rank, all).len()).max().unwrap_or_default();
+            for part in 0..most.div_ceil(AT_ONCE) {
+                let rows = |ranks: &Self, rank| ranks.grains(rank, all).skip(part * AT_ONCE).take(AT_ONCE);
+                self.write(|ranks, _, message| put_rows(message, &column, rows(ranks, ranks.rank())));
+                self.send_and_read(|ranks, rank, message| take_rows(message, &mut column, rows(ranks, rank)));
+            }
         }
     }
 
     /// The columns that ranks know of their own grains alone, and that are not sorted with the others: they go by [`Self::move_grains`].
     pub fn columns_apart(&self) -> &'static [&'static str] {
-        if self.apart { &["velocity", "acceleration", "spin", "angular_acceleration"] } else { &[] }
+        if self.apart { Grains::APART } else { &[] }
     }
 
     /// After grains have been sorted and cut anew, gives every rank what its grains have in the columns apart, from those that had them. `order` has
@@ -185,17 +192,12 @@ impl Ranks {
             ranks.grains(to, all).filter(move |i| had.contains(&before(*i)))
         };
         let rank = self.rank();
-        let Grains { velocity, acceleration, spin, angular_acceleration, .. } = grains;
-        let mut columns = [velocity, acceleration, spin, angular_acceleration];
+        let mut columns = grains.apart();
+        self.write(|ranks, other, message| put_rows(message, &columns, came_from(ranks, rank, other).map(before)));
         let had = of_blocks(&self.cuts_before, rank, all);
-        let old = columns.each_ref().map(|column| column[had.clone()].to_vec());
-        self.write(|ranks, other, message| {
-            for i in came_from(ranks, rank, other) {
-                put(message, old.each_ref().map(|column| column[before(i) - had.start]));
-            }
-        });
-        for i in came_from(self, rank, rank) {
-            for (column, old) in columns.iter_mut().zip(&old) {
+        for column in &mut columns {
+            let old = column[had.clone()].to_vec();
+            for i in came_from(self, rank, rank) {
                 column[i] = old[before(i) - had.start];
             }
         }

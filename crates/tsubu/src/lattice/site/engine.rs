@@ -254,7 +254,7 @@ impl Engine for SiteEngine {
         View { time: self.time(), periodic: self.scene.ground.ends(), grains, contacts, walls, ..View::default() }
     }
 
-    fn save(&self, state: &mut State) {
+    fn save<'a>(&'a self, state: &mut State<'a>) {
         self.model.save(state);
         if !self.scene.streams.is_empty() {
             state.put_integer("sites.placed", self.scene.streams.iter().map(|s| s.placed as i64).collect::<Vec<_>>());

@@ -281,7 +281,7 @@ impl<'a> Work<'a> {
 
     /// The settled beds of these, each once: all points of a curve begin from one. A candidate whose grains do not settle is out; one that the cheap
     /// method cannot begin with is not measured by it.
-    fn beds(&mut self, keys: &[Key]) -> Result<BTreeMap<Key, State>, CasesError> {
+    fn beds(&mut self, keys: &[Key]) -> Result<BTreeMap<Key, State<'static>>, CasesError> {
         let task = self.task;
         let wanted: BTreeSet<Key> = keys.iter().map(Key::bed).collect();
         let settled: Vec<_> =

@@ -86,12 +86,13 @@ fn discard(plan: &Plan, wanted: &Response) -> Option<u32> {
 }
 
 /// The state at time 0 of a case and seed, settled.
-pub fn bed(plan: &Plan, seed: u32) -> Result<State, OpenError> {
+pub fn bed(plan: &Plan, seed: u32) -> Result<State<'static>, OpenError> {
     let plan = seeded(plan, seed);
     let hosts = Hosts::new(&plan.hosts);
     let mut state = State::default();
-    methods::open(&plan, &hosts)?.save(&mut state);
-    Ok(state)
+    let engine = methods::open(&plan, &hosts)?;
+    engine.save(&mut state);
+    Ok(state.into_owned())
 }
 
 /// Steps between two questions whether to stop.
