@@ -4,6 +4,7 @@
 use super::bench::Rig;
 use super::control::refused;
 use super::ensemble::{self, members};
+use crate::case::Judged;
 use crate::origin::{closed_form, printed};
 use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
@@ -111,7 +112,7 @@ fn gates(found: &[Ensemble; 4]) -> Vec<Claim> {
 }
 
 /// The measured powers, by beads of steel; the size of the box and the number of beads are not the paper's.
-pub(super) fn measured(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn measured(perturbation: f64) -> Judged {
     let mut claims = gates(&responses("beads", AT_REST, 0.5, GRAVITY, perturbation)?);
     let adrift = gates(&responses("no gravity", AT_REST, 0.5, 0.0, perturbation)?);
     claims.push(refused("no gravity", &adrift[..3], 3));

@@ -3,6 +3,7 @@
 use super::bench::Rig;
 use super::control::refused;
 use super::ensemble;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use tsubu::state::sphere;
 use tsubu::view::Wants;
@@ -132,7 +133,7 @@ fn transport(
 }
 
 /// What is claimed of a stream: its rate is within a factor of 2 of each formula by itself, and it is steady. By the mean of five beds.
-fn gates(name: &str, stream: [f64; 2], kind: Kind, span: [f64; 2], perturbation: f64) -> Result<Vec<Claim>, String> {
+fn gates(name: &str, stream: [f64; 2], kind: Kind, span: [f64; 2], perturbation: f64) -> Judged {
     let [slope, water] = stream;
     let name = format!("bedload, {name}, slope {slope}, {water} d of water");
     let [balance, rates @ ..] = ensemble::members(&format!("{name}, from {} s", span[0]), 1..=5, |seed| {
@@ -151,7 +152,7 @@ fn gates(name: &str, stream: [f64; 2], kind: Kind, span: [f64; 2], perturbation:
 }
 
 /// V-57: rates of steady streams beside published ones.
-pub(super) fn rates(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn rates(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     for (kind, name) in [(Kind::Mean, "mean stream"), (Kind::Turbulent, "turbulent stream")] {
         for stream in [[0.025, 8.0], [0.06, 8.0], [0.06, 15.0]] {

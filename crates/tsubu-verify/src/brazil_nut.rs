@@ -4,6 +4,7 @@ use super::beds::{law, mean, sampled};
 use super::bench::{Rig, within};
 use super::control::refused;
 use super::ensemble;
+use crate::case::Judged;
 use crate::origin::own;
 use tsubu_frame::Claim;
 
@@ -92,7 +93,7 @@ fn rises(what: &str, [start, end]: [f64; 2]) -> [Claim; 2] {
 }
 
 /// V-38: a grain of four diameters comes up from the floor and stays on top; grains of the bed's own size go everywhere.
-pub(super) fn brazil_nut(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn brazil_nut(perturbation: f64) -> Judged {
     ensemble::drawn("shaken beds", 1..=5, |seed| {
         let found = heights(4.0, seed, perturbation, |_| vec![0])?;
         let mut claims = rises("shaken bed, a grain of 4 diameters", found).to_vec();

@@ -3,6 +3,7 @@
 
 use super::bench::{Rig, near};
 use super::control::refused;
+use crate::case::Judged;
 use crate::origin::closed_form;
 use tsubu_frame::Claim;
 
@@ -64,7 +65,7 @@ fn stayed_behind(tangential: &str, perturbation: f64) -> Result<Claim, String> {
 }
 
 /// The spring of a contact goes on over every rebuild of the neighbour lists.
-pub(super) fn held(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn held(perturbation: f64) -> Judged {
     let held = stayed_behind("tangential.spring.damping = 1", perturbation)?;
     let creeps = stayed_behind("tangential.coulomb.smoothing-speed = 1e-3", perturbation)?;
     Ok(vec![held, refused("friction without a spring, which creeps", &[creeps], 1)])

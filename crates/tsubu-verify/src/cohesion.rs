@@ -1,9 +1,10 @@
 //! Pull-off forces (V-08).
 
 use super::bench::{Rig, near, vectors, within};
+use crate::case::Judged;
 use crate::origin::closed_form;
 use std::f64::consts::PI;
-use tsubu_frame::{Claim, Kind, Values};
+use tsubu_frame::{Kind, Values};
 
 const RADIUS: f64 = 1e-3;
 const GAMMA: f64 = 0.05;
@@ -89,7 +90,7 @@ fn lift(law: &str, plane: bool, perturbation: f64) -> Result<(f64, f64), String>
 }
 
 /// V-08: DMT parts at 4 pi gamma R*, JKR at 3 pi gamma R*, gamma the energy of one face.
-pub(super) fn pull_off(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn pull_off(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     for (law, factor) in [("dmt", 4.0), ("jkr", 3.0)] {
         for (other, plane, reduced) in [("sphere", false, 0.5 * RADIUS), ("plane", true, RADIUS)] {

@@ -1,6 +1,7 @@
 //! Single contacts against closed forms.
 
 use super::bench;
+use crate::case::Judged;
 use crate::origin::closed_form;
 use tsubu::engine;
 use tsubu::ledger::Ledger;
@@ -55,7 +56,7 @@ fn impact(law: &str, restitution: f64, pair: bool, speed: f64, perturbation: f64
 }
 
 /// V-05. The restitution that was asked for comes back, to 1e-3, at the speed where the form promises it.
-pub(super) fn restitution(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn restitution(perturbation: f64) -> Judged {
     let forms = [
         ("sqrt, attraction", "damping.sqrt = {}\nattraction = true"),
         ("sqrt", "damping.sqrt = {}"),

@@ -1,6 +1,7 @@
 //! A gas of inelastic grains that cools (V-30).
 
 use crate::bench::Rig;
+use crate::case::Judged;
 use crate::ensemble;
 use crate::origin::closed_form;
 use std::f64::consts::PI;
@@ -84,7 +85,7 @@ fn haffs(dimension: u8, count: u32, restitution: f64) -> f64 {
 }
 
 /// Haff's times of a plane and a spatial gas. A gas is chaotic: means over seeds.
-fn cooled(restitution: f64, perturbation: f64) -> Result<Vec<Claim>, String> {
+fn cooled(restitution: f64, perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     for (dimension, count, seeds) in [(2, 50, 24), (3, 400, 6)] {
         let [times] = ensemble::members(&format!("{dimension}-D, restitution {restitution}"), 1..=seeds, |seed| {
@@ -98,12 +99,12 @@ fn cooled(restitution: f64, perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-30: sqrt(T1/T2) - 1 grows as time over Haff's time, in boxes too small for clusters.
-pub(super) fn haff(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn haff(perturbation: f64) -> Judged {
     cooled(0.9, perturbation)
 }
 
 /// The same where a collision takes more: the gas cools 3 to 5 % more slowly than by molecular chaos, at a fifth of the step and a
 /// hundred times the stiffness too. Neighbours come to move alike, and the box is near the size at which vortices grow.
-pub(super) fn haff_inelastic(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn haff_inelastic(perturbation: f64) -> Judged {
     cooled(0.8, perturbation)
 }

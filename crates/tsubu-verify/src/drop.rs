@@ -2,6 +2,7 @@
 
 use super::bench::{self, Rig, near};
 use super::control::refused;
+use crate::case::Judged;
 use crate::origin::{closed_form, digitised};
 use tsubu::engine::{self, Engine};
 use tsubu::ledger::Ledger;
@@ -61,7 +62,7 @@ fn bounces(k: i32, e: f64) -> (f64, f64) {
 }
 
 /// V-06 and A-F8 by DEM: heights within 0.5 %, times within 0.2 % (a contact lasts 0.1 % of the first flight).
-pub(super) fn dem(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn dem(perturbation: f64) -> Judged {
     let found = apexes(Method::Dem, perturbation, 4)?;
     let mut claims = Vec::new();
     for k in 1..=4 {
@@ -81,7 +82,7 @@ pub(super) fn dem(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// A-F8 by the automaton: apex cells are the whole part of the continuous apex in cells, times within 2 %.
-pub(super) fn lattice(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn lattice(perturbation: f64) -> Judged {
     let found = apexes(Method::Lattice, perturbation, 4)?;
     let mut claims = Vec::new();
     for k in 1..=4 {
@@ -110,7 +111,7 @@ pub(super) fn lattice(perturbation: f64) -> Result<Vec<Claim>, String> {
 
 /// Two balls of the automaton that meet head-on in one column, without gravity: each leaves with e of its speed. A rebound that is
 /// scattered would keep the energy and not the momentum.
-pub(super) fn meeting(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn meeting(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     let run = |e: f64, scatter: bool| {
         let text = format!(

@@ -1,8 +1,8 @@
 //! A rotating drum: where grains stay on the wall (V-37).
 
 use super::bench::{Rig, within};
+use crate::case::Judged;
 use crate::origin::closed_form;
-use tsubu_frame::Claim;
 
 const G: f64 = 9.8;
 const DRUM: f64 = 0.1;
@@ -65,7 +65,7 @@ fn leaves(froude: f64, perturbation: f64) -> Result<Option<f64>, String> {
 
 /// V-37: from a Froude number of 1 on a grain goes round; below it leaves the wall where its cosine from the top is that
 /// number.
-pub(super) fn centrifuging(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn centrifuging(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     let source = closed_form("closed form w^2 R = g cos(angle)");
     for froude in [0.5f64, 0.7, 0.9, 0.98] {

@@ -4,6 +4,7 @@ use super::beds::{law, line, sampled};
 use super::bench::{Rig, scalars};
 use super::control::refused;
 use super::ensemble;
+use crate::case::Judged;
 use crate::origin::own;
 use glam::DVec3;
 use tsubu_frame::{Claim, Kind};
@@ -160,7 +161,7 @@ fn bend(samples: &[Vec<DVec3>], flights: &[Vec<bool>]) -> f64 {
 
 /// V-37: at Froude numbers in the middle of the ranges the bed rolls, cascades, cataracts and is centrifuged, and is refused by
 /// the gates of its neighbours.
-pub(super) fn regimes(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn regimes(perturbation: f64) -> Judged {
     ensemble::drawn("drums", 1..=5, |seed| {
         let middle = [
             (0.005, Regime::Rolling),

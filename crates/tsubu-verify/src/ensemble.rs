@@ -38,8 +38,13 @@ pub(super) fn drawn(of: &str, seeds: RangeInclusive<u64>, run: impl Fn(u64) -> J
     })?;
     // Values alone are kept of a run that was done before.
     let first = first.into_inner().map_or_else(|| run(seeds[0]), Ok)?;
-    let values = |i: usize| found.iter().map(|values| values[i]).collect();
-    Ok(first.into_iter().enumerate().map(|(i, claim)| of_all(claim, &seeds, values(i))).collect())
+    Ok(of_draws(first, &seeds, &found))
+}
+
+/// The claims of the first draw as those of all, by the values that each draw found.
+pub(super) fn of_draws(first: Vec<Claim>, seeds: &[u64], values: &[Vec<f64>]) -> Vec<Claim> {
+    let of_claim = |i: usize| values.iter().map(|values| values[i]).collect();
+    first.into_iter().enumerate().map(|(i, claim)| of_all(claim, seeds, of_claim(i))).collect()
 }
 
 /// The claim of the first draw as one of all draws.

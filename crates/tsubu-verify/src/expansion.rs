@@ -3,6 +3,7 @@
 use super::beds::line;
 use super::bench::{Rig, near};
 use super::control::refused;
+use crate::case::Judged;
 use crate::origin::{closed_form, remembered};
 use std::f64::consts::PI;
 use tsubu_frame::Claim;
@@ -109,7 +110,7 @@ fn gate(beads: &Beads, wanted: f64, perturbation: f64) -> Result<(f64, Claim), S
 }
 
 /// Fine beads: drag balances weight in the bed as it expands.
-pub(super) fn balance(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn balance(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     for wanted in WANTED {
         claims.push(gate(&FINE, wanted, perturbation)?.1);
@@ -125,7 +126,7 @@ fn published(reynolds: f64) -> f64 {
 }
 
 /// Fine and coarse beads: the exponent is the published one, 10 %; the coarse ones keep the balance.
-pub(super) fn exponents(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn exponents(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     for beads in [FINE, COARSE] {
         let mut points = Vec::new();

@@ -2,6 +2,7 @@
 
 use super::bench::{Rig, near, within};
 use super::control::{refused, refused_number};
+use crate::case::Judged;
 use crate::origin::{closed_form, remembered};
 use std::f64::consts::PI;
 use tsubu::view::Wants;
@@ -85,7 +86,7 @@ fn rebound(viscosity: f64, stiffness: &str, rest: &str, perturbation: f64) -> Re
 }
 
 /// V-56: what a film takes of an approach, and what it leaves of a rebound.
-pub(super) fn rebounds(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn rebounds(perturbation: f64) -> Judged {
     let (soft, hard) = ("0.5 MPa", "5 MPa");
     let film = "[contact]\nfilm.lubrication = {}";
     let (mut claims, mut missing) = (Vec::new(), 0.0f64);

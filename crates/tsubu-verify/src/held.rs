@@ -3,6 +3,7 @@
 use super::bench::{Rig, near, within};
 use super::control::refused;
 use super::throw::Throw;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use tsubu_frame::Claim;
 
@@ -60,7 +61,7 @@ fn squeezed(ratio: f64, share: f64, perturbation: f64) -> Result<Rig, String> {
 
 /// V-16: friction holds the small sphere at any ratio of sizes: it sags as the springs say, does not drift, and falls when
 /// it is too heavy.
-pub(super) fn three_spheres(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn three_spheres(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     let source = closed_form("statics; after the three spheres of Vyas et al. 2025");
     for ratio in [1.0, 3.0, 10.0, 30.0, 100.0] {
@@ -103,7 +104,7 @@ pub(super) fn three_spheres(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-15: tangential restitution of a linear spring that does not slip.
-pub(super) fn no_slip(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn no_slip(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     for (name, shape, inverse) in [("sphere", "sphere = {}", 3.5f64), ("disc", "disc = { thickness = 1e-3 }", 3.0)] {
         for ratio in [0.1, 2.0 / 7.0, 0.5, 1.0] {

@@ -2,6 +2,7 @@
 
 use super::bench;
 use super::control::refused;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use tsubu::interrupt::Interrupt;
 use tsubu::study::response::{CaseResult, Point, bed, measure};
@@ -26,7 +27,7 @@ pub(super) fn measured(plan: &Plan, wanted: &Response, bed: &State, frequency: f
 }
 
 /// The empty structure: half-power width, energy per cycle and ring-down give twice the damping ratio.
-pub(super) fn loss_factor(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn loss_factor(perturbation: f64) -> Judged {
     let mut plan = bench::plan(DAMPER)?;
     set_count(&mut plan, 0);
     if let tsubu_scene::plan::Structure::Oscillator { damping, .. } = &mut structure(&mut plan)?.structure {
@@ -78,7 +79,7 @@ pub(super) fn loss_factor(perturbation: f64) -> Result<Vec<Claim>, String> {
 
 /// V-65 and: a bed that never leaves the floor rings with the structure at f0 / sqrt(1 + N m / M). The perturbation multiplies
 /// the mass of the balls.
-pub(super) fn added_mass(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn added_mass(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     for count in [10usize, 30, 50] {
         let mut plan = bench::plan(DAMPER)?;
@@ -110,7 +111,7 @@ pub(super) fn added_mass(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// With 30 balls that fly: the loss factor of a cycle of the ring-down is that of the driven structure at that amplitude.
-pub(super) fn loss_factor_with_grains(_spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn loss_factor_with_grains(_spoiler: f64) -> Judged {
     let mut plan = bench::plan(DAMPER)?;
     set_count(&mut plan, 30);
     plan.dem.time_step = Some(1e-5);

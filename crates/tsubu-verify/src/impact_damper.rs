@@ -2,6 +2,7 @@
 
 use super::bench;
 use super::control::refused;
+use crate::case::Judged;
 use crate::origin::closed_form;
 use tsubu::engine;
 use tsubu::ledger::Ledger;
@@ -12,7 +13,7 @@ use tsubu_frame::Claim;
 const SCENE: &str = include_str!("../../../scenes/impact-damper.toml");
 
 /// Two symmetric impacts a cycle: peak, root mean square and number of impacts of the last twenty periods.
-pub(super) fn symmetric(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn symmetric(perturbation: f64) -> Judged {
     let mut claims = driven(SCENE, 40.0, perturbation)?.to_vec();
     let long = driven(&SCENE.replace("46 mm", "126 mm"), 15.0, perturbation)?;
     claims.push(refused("three times the clearance", &long, 3));

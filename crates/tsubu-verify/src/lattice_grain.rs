@@ -5,6 +5,7 @@
 use super::bench::{between, within};
 use super::control::refused;
 use super::ensemble;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use tsubu::lattice::grid::Grid;
 use tsubu::lattice::gutt_haff::{Grain, LatticeGrains};
@@ -70,7 +71,7 @@ fn drop_gates(name: &str, found: &[(f64, f64)]) -> Vec<Claim> {
 }
 
 /// free fall, rebounds beyond the fourth, momentum.
-pub(super) fn drop(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn drop(perturbation: f64) -> Judged {
     let mut claims = drop_gates("lattice grain dropped on a low node", &rebounds(4, 1e-4, 0.75 * perturbation)?);
     claims.extend(drop_gates("lattice grain dropped on a high node", &rebounds(5, 1e-4, 0.75 * perturbation)?));
     claims.push(refused("restitution 0.7", &drop_gates("", &rebounds(4, 1e-4, 0.7)?), 8));
@@ -158,7 +159,7 @@ fn floor_load(columns: usize, rows: usize, heavier: f64, restitution: f64, seed:
 }
 
 /// the load on the floor of a silo saturates, as Janssen has it; that of water does not.
-pub(super) fn janssen(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn janssen(perturbation: f64) -> Judged {
     ensemble::drawn("silo", 1..=3, |seed| {
         let heights = [10, 20, 40];
         let loads = |columns: usize, heavier: f64| -> Result<Vec<(f64, f64)>, String> {

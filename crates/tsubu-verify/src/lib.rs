@@ -64,8 +64,6 @@ mod twisting;
 mod voids;
 mod water;
 mod window;
-#[cfg(test)]
-mod without;
 
 pub use case::{Case, How, Judged};
 pub use case_run::{CaseRun, Done};

@@ -1,6 +1,7 @@
 //! An inelastic ball on a shaken floor (V-39).
 
 use super::bench;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use tsubu::engine;
 use tsubu::ledger::Ledger;
@@ -70,7 +71,7 @@ fn flights(gamma: f64, perturbation: f64) -> Result<Vec<f64>, String> {
 
 /// Flight time is one period for sqrt(1 + pi^2) <= Gamma <= sqrt(4 + pi^2), shorter below, of two lengths above. The
 /// tolerance is the time that a contact of this stiffness lasts.
-pub(super) fn locking(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn locking(perturbation: f64) -> Judged {
     let source = closed_form("closed form and event-driven integration");
     let mut claims = Vec::new();
     for (gamma, expected) in [(3.25, 0.9922), (3.32, 1.0), (3.6, 1.0)] {

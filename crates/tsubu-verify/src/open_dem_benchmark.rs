@@ -1,16 +1,16 @@
 //! V-48: the two checks of a single contact in the comparison of open-source codes by Dosta et al. 2024.
 
 use super::bench::{Rig, near, plan, within};
+use crate::case::Judged;
 use crate::origin::{closed_form, printed};
 use glam::DVec3;
-use tsubu_frame::Claim;
 
 const REBOUND: &str = include_str!("../../../studies/open-dem-benchmark/rebound.toml");
 const ROLL: &str = include_str!("../../../studies/open-dem-benchmark/roll.toml");
 
 /// An M1 sphere strikes steel at 1 m/s and comes back with the restitution of the pair, at the source's time step: 58
 /// steps per contact, good for 1 %.
-pub(super) fn rebound(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn rebound(perturbation: f64) -> Judged {
     let mut plan = plan(REBOUND)?;
     for pair in &mut plan.material_pair {
         pair.restitution = pair.restitution.map(|e| e * perturbation);
@@ -26,7 +26,7 @@ pub(super) fn rebound(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// A steel sphere on a slope of 45 degrees, below atan(7/2 mu): it rolls from the beginning, at 5/7 of the pull.
-pub(super) fn roll(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn roll(perturbation: f64) -> Judged {
     let mut plan = plan(ROLL)?;
     let pull = plan.gravity[0];
     // What rolls without slip knows no constant of the law.

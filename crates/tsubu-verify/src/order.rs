@@ -3,6 +3,7 @@
 use super::bench::{Rig, between, within};
 use super::control::refused;
 use super::origin::closed_form;
+use crate::case::Judged;
 use glam::DVec3;
 use std::fmt::Write as _;
 use tsubu_frame::Claim;
@@ -104,7 +105,7 @@ fn convergence(law: [&str; 2], right: &[DVec3], perturbation: f64) -> Result<(f6
 }
 
 /// Oblique impacts with spin against the same law at 2000 steps a contact: springs and dashpots are second order in time.
-pub(super) fn oblique(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn oblique(perturbation: f64) -> Judged {
     let elastic = "damping.none = {}\ntangential.mindlin.damping = 0";
     let laws = [
         ("Hertz and Mindlin without dashpots", elastic),
@@ -187,7 +188,7 @@ fn restitution_errors(law: &str, dem: &str, perturbation: f64) -> Result<Vec<[f6
 }
 
 /// The restitution asked for comes back at the default step, wherever in a step the bodies touch first.
-pub(super) fn restitution(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn restitution(perturbation: f64) -> Judged {
     let source = closed_form("definition of the restitution");
     let mut claims = Vec::new();
     for (name, law) in [("quarter (default)", ""), ("sqrt", "damping.sqrt = {}")] {

@@ -4,6 +4,7 @@ use super::beds::law;
 use super::bench::{Rig, within};
 use super::control::{refused, refused_number};
 use super::outlet::{Fit, seeds};
+use crate::case::Judged;
 use crate::origin::{own, remembered};
 use glam::DVec3;
 use tsubu_frame::Claim;
@@ -139,7 +140,7 @@ fn gates(fit: &Fit) -> [Claim; 2] {
 }
 
 /// V-31, in space: rate^(2/5) is straight in the width of the hole, zero at k d, and does not know the height.
-pub(super) fn beverloo(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn beverloo(perturbation: f64) -> Judged {
     let (mut claims, points) = discharge(&HOLES, &HIGH, perturbation)?;
     let whole = gates(&Fit::of(&points, 2.5, 0.0));
     claims.push(refused_number("hole, the whole width without k d", &whole[1..], 1));

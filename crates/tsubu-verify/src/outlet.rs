@@ -4,6 +4,7 @@ use super::beds::{law, line};
 use super::bench::{Rig, within};
 use super::control::{refused, refused_number};
 use super::ensemble;
+use crate::case::Judged;
 use crate::origin::remembered;
 use std::fmt::Write;
 use std::ops::RangeInclusive;
@@ -151,7 +152,7 @@ impl Fit {
 }
 
 /// V-31, in the plane: rate^(2/3) is straight in the width of the slot, zero at k d, and does not know the height.
-pub(super) fn beverloo(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn beverloo(perturbation: f64) -> Judged {
     let mut claims = ensemble::drawn("silos", DRAWS, |draw| {
         let (mut claims, points) = discharge(&SLOTS, &HIGH, draw, perturbation)?;
         let whole = Fit::of(&points, 1.5, 0.0).claims();

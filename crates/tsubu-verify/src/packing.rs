@@ -3,6 +3,7 @@
 use super::bench::{Rig, vectors};
 use super::control::refused;
 use super::ensemble;
+use crate::case::Judged;
 use crate::origin::remembered;
 use glam::{DMat3, DQuat, DVec3};
 use std::f64::consts::PI;
@@ -94,7 +95,7 @@ fn gate(semi_axes: [f64; 3], friction: f64) -> Result<Claim, String> {
 }
 
 /// Frictionless ellipsoids lie denser than spheres.
-pub(super) fn ellipsoids(_: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn ellipsoids(_: f64) -> Judged {
     let all = |friction: f64| [SPHERE, [1.5, 1.0, 1.0], [1.25, 1.0, 0.8]].map(|axes| gate(axes, friction));
     let mut claims = all(0.0).into_iter().collect::<Result<Vec<_>, _>>()?;
     let rough = all(1.0).into_iter().collect::<Result<Vec<_>, _>>()?;

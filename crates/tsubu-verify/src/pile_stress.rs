@@ -5,6 +5,7 @@
 use super::bench::within;
 use super::control::refused;
 use super::ensemble;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use tsubu::lattice::hemmingsson_herrmann::{Pile, Rule, Split};
 use tsubu::lattice::sheet::{Layout, Sheet, WALL};
@@ -74,7 +75,7 @@ fn dip(rule: Rule, set: u64, perturbation: f64) -> f64 {
 }
 
 /// the closed forms but for the q-model, which is a case of its own, and the dip by arching.
-pub(super) fn pile(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn pile(perturbation: f64) -> Judged {
     ensemble::drawn("piles", 0..=7, |set| {
         let size = 40;
         let total = triangle(size).grains() as f64;

@@ -7,6 +7,7 @@ use super::bench::{Rig, at_least, between, within};
 use super::control::refused;
 use super::ensemble;
 use super::pile_stress::{BALANCE, base};
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use std::fmt::Write as _;
 use tsubu::lattice::hemmingsson_herrmann::{Rule, Split};
@@ -239,7 +240,7 @@ fn piled(size: usize, tangent: f64, rule: Rule, seed: u64, perturbation: f64) ->
 const HEAPS: u64 = 5;
 
 /// R-5, point 5: the automaton beside DEM.
-pub(super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn twin(perturbation: f64) -> Judged {
     ensemble::drawn("heaps", 0..=9, |set| {
         let tangent = 0.5 * DISC[1] / (DISC[0] * DISC[0] - 0.25 * DISC[1] * DISC[1]).sqrt();
         let mut claims = flat("the same pile by DEM", &same(0.0)?, tangent);

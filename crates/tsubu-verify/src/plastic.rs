@@ -2,8 +2,8 @@
 
 use super::bench::{Rig, near, within};
 use super::control::refused;
+use crate::case::Judged;
 use crate::origin::closed_form;
-use tsubu_frame::Claim;
 
 const MASS: f64 = 1e-5;
 const RADIUS: f64 = 1e-3;
@@ -86,7 +86,7 @@ fn closed(adhesion: f64, speed: f64) -> (f64, f64) {
 
 /// Luding 2008: an impact without adhesion returns sqrt(k1/k2), k2 of its depth; with adhesion slow and fast ones come back and
 /// those between stay; the strongest pull is kc d_min.
-pub(super) fn dent(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn dent(perturbation: f64) -> Judged {
     let source = closed_form("Luding 2008, by the areas under his forces");
     let (mut claims, mut simple) = (Vec::new(), Vec::new());
     for adhesion in [0.0, 0.5] {

@@ -1,6 +1,7 @@
 //! An atlas of a cavity, and what it says of three structures that were not used to make it.
 
 use super::control::refused;
+use crate::case::Judged;
 use crate::origin::own;
 use std::path::Path;
 use tsubu::study::{atlas, predict, response};
@@ -69,7 +70,7 @@ fn off(scene: &Scene, cavities: &[atlas::Cavity], simulated: f64) -> Result<f64,
 }
 
 /// The box with 30 balls alone on a shaker, then the peaks of three structures that carry it.
-pub(super) fn three_structures(_spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn three_structures(_spoiler: f64) -> Judged {
     let known = |count| atlas::cavities(&scene(OSCILLATOR, BASE, count)?).map_err(|error| error.to_string());
     let (thirty, ten) = (known(30)?, known(10)?);
     let (mut claims, mut wrong) = (Vec::new(), Vec::new());

@@ -3,6 +3,7 @@
 use super::control::refused;
 use super::ensemble;
 use super::pile_stress::{BALANCE, base};
+use crate::case::Judged;
 use crate::origin::closed_form;
 use tsubu::lattice::hemmingsson_herrmann::{Rule, Split};
 use tsubu::lattice::sheet::{Layout, Sheet};
@@ -48,7 +49,7 @@ fn loads(split: Split, seed: u64, perturbation: f64) -> [f64; 2 + BELOW.len()] {
 }
 
 /// What is claimed of the loads, by the mean of eight beds.
-fn gates(split: Split, perturbation: f64) -> Result<Vec<Claim>, String> {
+fn gates(split: Split, perturbation: f64) -> Judged {
     let found = ensemble::members(&format!("{split:?}"), 1..=8, |seed| Ok(loads(split, seed, perturbation)))?;
     let [mean, variance, shares @ ..] = found;
     let gate = |what: &str, found: Ensemble, wanted: f64, distance: f64, source: &str| {
@@ -69,7 +70,7 @@ fn gates(split: Split, perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-40: the distribution tends to 4 x exp(-2x).
-pub(super) fn q_model(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn q_model(perturbation: f64) -> Judged {
     let mut claims = gates(Split::Random, perturbation)?;
     claims.push(refused("loads that balance as forces do", &gates(Split::Vector, perturbation)?, 4));
     Ok(claims)

@@ -4,6 +4,7 @@ use super::beds::{law, line, sampled};
 use super::bench::{Rig, scalars, within};
 use super::control::refused;
 use super::ensemble;
+use crate::case::Judged;
 use crate::origin::{own, remembered};
 use std::fmt::Write;
 use tsubu_frame::{Claim, Kind};
@@ -181,7 +182,7 @@ fn straight(flows: &[Flow]) -> [Claim; 2] {
 }
 
 /// V-35: four slopes lie on the published straight lines, which are those of flows sheared under a constant pressure.
-pub(super) fn friction(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn friction(perturbation: f64) -> Judged {
     ensemble::drawn("slopes", 1..=5, |seed| {
         let flows = |runs: &[Run], perturbation: f64| {
             runs.iter().map(|run| Flow::of(run, perturbation)).collect::<Result<Vec<_>, _>>()

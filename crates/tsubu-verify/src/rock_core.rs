@@ -1,6 +1,7 @@
 //! A core of rock whose bonds have strengths that scatter by Weibull: the more they scatter the weaker is the core.
 
 use crate::bench::{self, Rig};
+use crate::case::Judged;
 use crate::control::refused;
 use crate::ensemble;
 use crate::origin::own;
@@ -51,7 +52,7 @@ fn weaker(modulus: f64, than: f64, ratio: f64) -> Claim {
 }
 
 /// Strengths of cores with bonds of four scatters.
-pub(super) fn core(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn core(perturbation: f64) -> Judged {
     ensemble::drawn("cores", 1..=5, |seed| {
         let mut strengths = [0.0; MODULI.len()];
         for (strength, modulus) in strengths.iter_mut().zip(MODULI) {

@@ -1,6 +1,7 @@
 //! A gas of smooth rods: how its energy is shared, and how it cools.
 
 use crate::bench::Rig;
+use crate::case::Judged;
 use crate::control::refused;
 use crate::ensemble;
 use crate::origin::closed_form;
@@ -91,7 +92,7 @@ fn haff(growths: Ensemble) -> Claim {
 }
 
 /// Without loss moving and turning share evenly; with loss both cool by Haff's law.
-pub(super) fn cool(_: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn cool(_: f64) -> Judged {
     let mut claims = vec![equal(shares(MIXED)?)];
     let cooled = ensemble::members("rods of restitution 0.9", 1..=6, |seed| {
         let mut rig = gas(0.9, seed)?;

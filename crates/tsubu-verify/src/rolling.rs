@@ -1,6 +1,7 @@
 //! Sliding and rolling on a plane.
 
 use super::bench::{Rig, near, within};
+use crate::case::Judged;
 use crate::origin::{closed_form, own, printed};
 use tsubu::ledger::Account;
 use tsubu_frame::Claim;
@@ -85,7 +86,7 @@ fn books(name: &str, rig: &Rig) -> Claim {
 }
 
 /// V-20: a sliding grain comes to roll.
-pub(super) fn slide_to_roll(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn slide_to_roll(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     let (mu, u0) = (0.3, 1.0);
     for (name, shape, share) in [SPHERE, DISC] {
@@ -112,7 +113,7 @@ pub(super) fn slide_to_roll(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-21: down a slope, with and without slip.
-pub(super) fn incline(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn incline(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     for (name, shape, share) in [SPHERE, DISC] {
         // It rolls without slip up to tan(slope) = (1 + 1/share) mu.
@@ -139,7 +140,7 @@ pub(super) fn incline(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-22: rolling resistance alone slows a spin at a constant rate; V-24: Osada's torque, and its energy.
-pub(super) fn spin_down(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn spin_down(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     let (mu_r, w0, time) = (0.05, 100.0, 0.2);
     let laws = ["rolling.constant = {}", "rolling.epsd = {}", "rolling.spring = { stiffness = 1e4, damping = 0.1 }"];
@@ -173,7 +174,7 @@ pub(super) fn spin_down(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-23: a rolling grain stops where it must, and stays there; models that cannot hold a slope creep as they say.
-pub(super) fn models(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn models(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     let (mu_r, v0) = (0.1, 0.3);
     let slowing = mu_r * G / 1.4;

@@ -1,10 +1,10 @@
 //! Restitution at every kind of contact: equal and unequal grains, plane, cylinder, triangle.
 
 use super::bench::{Rig, within};
+use crate::case::Judged;
 use crate::origin::{closed_form, other_program, printed};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
-use tsubu_frame::Claim;
 
 /// What is hit, and where the grain stands before it, in space, moving along -z.
 const SHAPES: [(&str, &str); 5] = [
@@ -85,7 +85,7 @@ fn impact(
 }
 
 /// V-05: the restitution that was asked for comes back within 1e-3, whatever the other body is.
-pub(super) fn restitution(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn restitution(perturbation: f64) -> Judged {
     let folder = Folder::with_triangle()?;
     // A linear dashpot jumps at first touch: its error falls with the step, not with its square.
     let forms = [
@@ -113,7 +113,7 @@ pub(super) fn restitution(perturbation: f64) -> Result<Vec<Claim>, String> {
 
 /// V-05: the coefficient found for contacts without attraction is that of the published polynomial (0.1 <= e <= 0.9).
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(super) fn thornton(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn thornton(perturbation: f64) -> Judged {
     use tsubu::contact::calibrate;
     let published = |e: f64| {
         let h = [

@@ -6,6 +6,7 @@ use super::bench::near;
 use super::control::refused;
 use super::ensemble;
 use super::voids::slope;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use tsubu::lattice::savage::{Chute, Moves};
 use tsubu::lattice::sheet::{Layout, Sheet};
@@ -79,7 +80,7 @@ fn sorted(ratio: f64, perturbation: f64, seed: u64) -> Vec<(f64, f64)> {
 }
 
 /// the profile of the flow, and large grains that come to lie on top.
-pub(super) fn chute(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn chute(perturbation: f64) -> Judged {
     ensemble::drawn("chute", 1..=12, |seed| {
         let closed = closed_form(
             "closed form: n/(1-n) = exp((z0-z)/h), speed as exp(-(z0-z)/h), h = 1/ln(downward chances / upward)",

@@ -4,6 +4,7 @@ use super::beds::{centres, law, sampled};
 use super::bench::{Rig, near, scalars, vectors};
 use super::control::refused;
 use super::ensemble;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use std::ops::RangeInclusive;
 use tsubu_frame::{Claim, Kind, Values};
@@ -182,7 +183,7 @@ fn columns(friction: f64, seed: u64) -> Result<[Vec<Seen>; 2], String> {
 }
 
 /// V-32: vertical stress follows Janssen's exponential, with one fitted length.
-pub(super) fn janssen(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn janssen(perturbation: f64) -> Judged {
     let mut claims = ensemble::drawn("silos", DRAWS, |draw| {
         let (mut rest, mut sinking) = (Vec::new(), Vec::new());
         for silo in 1..=SILOS {

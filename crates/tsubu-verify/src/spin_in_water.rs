@@ -3,9 +3,9 @@
 use super::bench::{Rig, near};
 use super::control::{refused, refused_number};
 use super::water::quartz;
+use crate::case::Judged;
 use crate::origin::{closed_form, printed};
 use std::f64::consts::{LN_10, PI};
-use tsubu_frame::Claim;
 
 /// Of the grain, 2 mm of quartz, and of water.
 const R: f64 = 1e-3;
@@ -39,7 +39,7 @@ fn decayed(seconds: f64, square: f64) -> f64 {
 }
 
 /// V-54: spins die away as the torque of the water says, and end at half the shear rate of a stream.
-pub(super) fn spin(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn spin(perturbation: f64) -> Judged {
     let (slow, passed) = left(SPIN, "torque.stokes = {}", STOKES, perturbation)?;
     let time = passed / (SPIN / slow).ln();
     let gate = |wanted: f64| {

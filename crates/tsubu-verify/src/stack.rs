@@ -1,8 +1,8 @@
 //! Two spheres stacked between two planes (V-07).
 
 use super::bench::{Rig, near, within};
+use crate::case::Judged;
 use crate::origin::closed_form;
-use tsubu_frame::Claim;
 
 const RADIUS: f64 = 5e-3;
 const MASS: [f64; 2] = [1e-3, 3e-3];
@@ -73,7 +73,7 @@ fn closed(t: f64) -> [f64; 2] {
 }
 
 /// V-07: both move as two masses on three springs, and elastic energy is not lost.
-pub(super) fn stacked(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn stacked(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     let hooke = format!("normal.hooke.stiffness = {STIFFNESS}\ntangential.none = {{}}");
     let mut stack = rig(&hooke, 1000.0, perturbation)?;

@@ -4,6 +4,7 @@ use super::beds::line;
 use super::bench::spoiled_materials;
 use super::control::refused;
 use super::ensemble;
+use crate::case::Judged;
 use crate::origin::{own, printed, remembered};
 use std::f64::consts::PI;
 use std::path::Path;
@@ -192,7 +193,7 @@ fn saturation(of: &str, [free, half, whole]: [&Ensemble; 3]) -> Claim {
 }
 
 /// Strength and stiffness beside what is published.
-pub(super) fn spheres(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn spheres(perturbation: f64) -> Judged {
     let half = tests("friction 0.5", 0.5, true, 5, perturbation)?;
     let free = tests("without friction", 0.0, true, 5, perturbation)?;
     let whole = tests("friction 1", 1.0, true, 5, perturbation)?;

@@ -1,8 +1,8 @@
 //! A sphere that spins about the normal of a plane: twisting friction (Marshall 2009).
 
 use super::bench::{Rig, near, within};
+use crate::case::Judged;
 use crate::origin::closed_form;
-use tsubu_frame::Claim;
 
 const G: f64 = 9.8;
 const RADIUS: f64 = 5e-3;
@@ -51,7 +51,7 @@ fn top(law: &str, spin: f64, perturbation: f64) -> Result<Rig, String> {
 }
 
 /// A spin that slides is slowed at a constant rate, by both models; below its limit the spring swings as a pendulum.
-pub(super) fn spin_about_normal(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn spin_about_normal(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     let source = closed_form("Marshall 2009: torque 2/3 mu_t a f_n of a disc under even pressure");
     let (disc, inertia) = (RADIUS * PRESSED.sqrt(), 0.4 * MASS * RADIUS * RADIUS);

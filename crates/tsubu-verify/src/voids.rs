@@ -5,7 +5,8 @@
 use super::bench::within;
 use super::control::refused;
 use super::ensemble;
-use crate::origin::{closed_form, own, regression, remembered};
+use crate::case::Judged;
+use crate::origin::{closed_form, own, regression};
 use std::ops::Range;
 use tsubu::lattice::caram_hong::{CaramHong, Chances};
 use tsubu::lattice::litwiniszyn::{Litwiniszyn, SPREAD, frequency};
@@ -99,7 +100,7 @@ fn spread_gates(name: &str, passed: &[f64], sheet: &Sheet) -> Vec<Claim> {
 }
 
 /// (a) spreading, (b) flux against height, (c) wide outlet, (d) reflecting walls, (e) discharge against fill height.
-pub(super) fn litwiniszyn_case(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn litwiniszyn_case(perturbation: f64) -> Judged {
     ensemble::drawn("voids", 0..=4, |set| {
         let left = 0.5 * perturbation;
         let sheet = bed(COLUMNS, 102, MIDDLE..=MIDDLE);
@@ -119,17 +120,6 @@ pub(super) fn litwiniszyn_case(perturbation: f64) -> Result<Vec<Claim>, String> 
             "a second outlet in the middle of the bed",
             &[even(&litwiniszyn(&leaking, left, beds(set, 5), 300))],
             1,
-        ));
-        let (low, far) = (SPREAD, 1.0);
-        let source = remembered(
-            "measured: 1 to 3.5 grain diameters (as the literature has it); one site a grain spreads far too little",
-        );
-        claims.push(Claim::judge(
-            "Litwiniszyn: B of the lattice over the least measured",
-            low / far,
-            None,
-            Some(0.15),
-            source,
         ));
         claims.push(wide_outlet(left));
         claims.extend(walls_reflect(left));
@@ -220,7 +210,7 @@ fn discharge(left: f64) -> Vec<Claim> {
 }
 
 /// rare voids spread as R-1; dense ones do not; V-shaped depression, stable slope, shadow of an obstacle, voids kept.
-pub(super) fn caram_hong_case(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn caram_hong_case(perturbation: f64) -> Judged {
     ensemble::drawn("voids", 0..=4, |set| {
         let left = 0.5 * perturbation;
         let sheet = bed(COLUMNS, 102, MIDDLE..=MIDDLE);
@@ -345,7 +335,7 @@ fn run_empty(left: f64, outlet: std::ops::RangeInclusive<usize>, thief: bool, se
 }
 
 /// A bed that has run out: slopes of 60 degrees down to the outlet, none missing.
-fn emptied(left: f64, seed: u64) -> Result<Vec<Claim>, String> {
+fn emptied(left: f64, seed: u64) -> Judged {
     let mut claims = run_empty(left, MIDDLE - 1..=MIDDLE + 1, false, seed)?.to_vec();
     let wide = run_empty(left, 1..=COLUMNS - 2, false, seed)?;
     claims.push(refused("an outlet as wide as the bed", &wide[..3], 3));

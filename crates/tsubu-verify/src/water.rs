@@ -2,6 +2,7 @@
 
 use super::bench::{Rig, near, vectors, within};
 use super::control::{refused, refused_number};
+use crate::case::Judged;
 use crate::origin::{closed_form, own, printed};
 use tsubu::state::sphere;
 use tsubu::view::Wants;
@@ -76,7 +77,7 @@ const LAWS: [Law; 4] = [
 ];
 
 /// V-50: terminal speeds, 0.1 %, and the table of the literature to its digits.
-pub(super) fn settling(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn settling(perturbation: f64) -> Judged {
     let tabled = |name: String, found: f64, published: f64| {
         within(name, found, published, 1.01e-4 + 1e-3 * published, printed("terminal speed as published"))
     };
@@ -106,7 +107,7 @@ pub(super) fn settling(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-55: (s-1) g/(s + 1/2).
-pub(super) fn released(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn released(perturbation: f64) -> Judged {
     // Over the time of its last step: over the millisecond that was asked for, the last of 300 steps hid an added mass 5 % too large.
     let begin = |rest: &str| {
         let mut rig = Rig::new(&quartz(2e-3, "none = {}", rest), perturbation)?;
@@ -173,7 +174,7 @@ fn loss(rig: &Rig) -> (f64, f64) {
 }
 
 /// V-52: the forces on the beads add up to Ergun's loss, 3 %.
-pub(super) fn packed(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn packed(perturbation: f64) -> Judged {
     let ergun = |e: f64, u: f64| {
         let (mu, rho, d) = (1e-3, 1000.0, 2e-3f64);
         150.0 * mu * (1.0 - e).powi(2) * u / (e.powi(3) * d * d) + 1.75 * rho * (1.0 - e) * u * u / (e.powi(3) * d)
@@ -207,7 +208,7 @@ pub(super) fn packed(perturbation: f64) -> Result<Vec<Claim>, String> {
 
 /// V-53: water that rises faster than the velocity at which Ergun's loss carries the bed lifts it, at 0.85 of that the bed stays.
 /// The velocity: 150 mu (1-e)/(e^3 d^2) u + 1.75 rho u^2/(e^3 d) = (sigma - rho) g.
-pub(super) fn fluidised(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn fluidised(perturbation: f64) -> Judged {
     let e = 0.42f64;
     let (a, b) = (1.75 * 1000.0 / (e.powi(3) * 2e-3), 150.0 * 1e-3 * (1.0 - e) / (e.powi(3) * 4e-6));
     let least = ((b * b + 4.0 * a * 1500.0 * 9.8).sqrt() - b) / (2.0 * a);

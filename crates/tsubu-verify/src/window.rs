@@ -4,6 +4,7 @@ use super::bench;
 use super::control::refused;
 use super::ensemble;
 use super::host::measured;
+use crate::case::Judged;
 use crate::origin::own;
 use tsubu::partner::Hosts;
 use tsubu::study::response::bed;
@@ -72,7 +73,7 @@ fn heard(plan: &Plan, seed: u64) -> Result<[f64; 3], String> {
 }
 
 /// 400 balls in a box 16 diameters deep, and 100 of them in a periodic slice of four diameters.
-pub(super) fn window(_spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn window(_spoiler: f64) -> Judged {
     let whole = bench::plan(&scene(96.0, 400, true, 1.0))?;
     let over = |what: &str, copies: f64, seeds: u64| -> Result<[Ensemble; 3], String> {
         let slice = bench::plan(&scene(24.0, 100, false, copies))?;

@@ -2,6 +2,7 @@
 
 use super::{Material, OXIDE, material};
 use crate::bench::{Rig, near, within};
+use crate::case::Judged;
 use crate::origin::closed_form;
 use crate::throw::{Throw, watch};
 use tsubu_frame::Claim;
@@ -69,7 +70,7 @@ fn onto_plane(m: &Material) -> Throw<'static> {
 }
 
 /// V-02, V-03, and the elastic limit of V-04: force, overlap and time within 0.2 %.
-pub(crate) fn elastic(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn elastic(perturbation: f64) -> Judged {
     let mut all = Vec::new();
     for (m, closed) in &PAIRS {
         let (found, _) = head_on(m, 2000.0, perturbation)?;
@@ -103,7 +104,7 @@ pub(crate) fn elastic(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-04: the restitution asked for comes back, within 1e-3.
-pub(crate) fn restitution(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn restitution(perturbation: f64) -> Judged {
     let mut all = Vec::new();
     for (m, _) in &THROWN {
         for e in [0.2, 0.4, 0.6, 0.8, 1.0] {

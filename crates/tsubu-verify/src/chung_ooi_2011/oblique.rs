@@ -2,9 +2,9 @@
 
 use super::{ALLOY, Material, OXIDE, material};
 use crate::bench::{near, within};
+use crate::case::Judged;
 use crate::origin::{closed_form, digitised};
 use crate::throw::Throw;
-use tsubu_frame::Claim;
 
 const SECANT: &str = "tangential.mindlin = { form = \"secant\", damping = 0 }";
 const AUTHORS: &str = include_str!("../../../../studies/chung-ooi-2011/test-4.csv");
@@ -35,7 +35,7 @@ fn hit(m: &Material, angle: f64, law: &str, perturbation: f64) -> Result<(f64, f
 }
 
 /// V-10, test 4: exact where the contact slides all the time (from 30 degrees), the authors' curve below 20.
-pub(crate) fn kharaz(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn kharaz(perturbation: f64) -> Judged {
     let mut claims = on_curve("test 4", SECANT, perturbation)?;
     let source = closed_form("Coulomb, gross sliding");
     for [angle, ..] in table::<5>(AUTHORS).into_iter().filter(|row| row[0] >= 30.0) {
@@ -53,12 +53,12 @@ pub(crate) fn kharaz(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-10, test 4 by the default law: Mindlin's increments, which make no energy on unloading, and a dashpot.
-pub(crate) fn kharaz_default(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn kharaz_default(perturbation: f64) -> Judged {
     on_curve("test 4, default law", "", perturbation)
 }
 
 /// The authors' curve below 20 degrees, where the contact sticks for a while and laws part.
-fn on_curve(test: &str, law: &str, perturbation: f64) -> Result<Vec<Claim>, String> {
+fn on_curve(test: &str, law: &str, perturbation: f64) -> Judged {
     let source = digitised("Chung and Ooi 2011, figures of test 4");
     let fullest = 618.0;
     let mut claims = Vec::new();
@@ -77,7 +77,7 @@ fn on_curve(test: &str, law: &str, perturbation: f64) -> Result<Vec<Claim>, Stri
 }
 
 /// V-11, test 5: contact velocity and spin where the contact slides all the time.
-pub(crate) fn gross_sliding(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn gross_sliding(perturbation: f64) -> Judged {
     let steel = material("steel", 208e9, 0.3, 7850.0);
     let polyethylene = material("polyethylene", 1e9, 0.4, 1400.0);
     let mut claims = Vec::new();

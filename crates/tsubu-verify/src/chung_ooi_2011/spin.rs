@@ -3,10 +3,10 @@
 use super::oblique::table;
 use super::{ALLOY, Material, material};
 use crate::bench::{Rig, near, within};
+use crate::case::Judged;
 use crate::control::refused;
 use crate::origin::{closed_form, digitised};
 use crate::throw::Throw;
-use tsubu_frame::Claim;
 
 const FRICTION: f64 = 0.4;
 const RESTITUTION: f64 = 0.5;
@@ -102,7 +102,7 @@ fn against_large(m: &Material, s: f64, law: &str, perturbation: f64) -> Result<f
 }
 
 /// V-12 and V-14, tests 6 and 8: gross sliding gives s - 1; above, both are one curve.
-pub(crate) fn spinning(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn spinning(perturbation: f64) -> Judged {
     let nylon = material("nylon", 2.5e9, 0.4, 1000.0);
     let source = closed_form("Coulomb, gross sliding: s - 1");
     let mut claims = Vec::new();
@@ -135,7 +135,7 @@ pub(crate) fn spinning(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// V-13, test 7: spins that do not slip are left alone, to 1e-10.
-pub(crate) fn no_slip(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn no_slip(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     for spin in [0.175, 1.0, 5.0, 22.86] {
         // The constants of the law do not matter here: the perturbation spoils one spin.

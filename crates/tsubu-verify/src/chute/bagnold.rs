@@ -2,6 +2,7 @@
 
 use super::{Flow, Slope, World, grows, quicker};
 use crate::bench::within;
+use crate::case::Judged;
 use crate::control::refused;
 use crate::ensemble;
 use crate::origin::own;
@@ -13,12 +14,12 @@ pub(super) const SIZE: [f64; 2] = [8.0, 6.0];
 pub(super) const STIFFNESS: f64 = 5e3;
 
 /// V-36: at rest below, steady flow of constant density with Bagnold's profile above the angle of repose.
-pub fn bagnold(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub fn bagnold(perturbation: f64) -> Judged {
     ensemble::drawn("slopes", 1..=5, |seed| of_a_bed(seed, perturbation))
 }
 
 /// The same of one base and the layers on it.
-fn of_a_bed(seed: u64, perturbation: f64) -> Result<Vec<Claim>, String> {
+fn of_a_bed(seed: u64, perturbation: f64) -> Judged {
     let world = World::new(SIZE, STIFFNESS, seed, perturbation)?;
     let slope = |degrees: f64, layers: f64, start: f64| Slope::new(&world, degrees, layers, start);
     let still = slope(17.0, 12.0, 1.0).flow([200.0, 220.0], perturbation)?;

@@ -6,18 +6,23 @@
 use super::{Flow, Slope, World, bagnold, grows};
 use crate::beds::line;
 use crate::bench::{Rig, within};
+use crate::case::Judged;
 use crate::control::refused;
-use crate::keep;
 use crate::origin::{own, remembered};
+use crate::{ensemble, keep};
 use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+use std::ops::RangeInclusive;
 use tsubu_frame::{Claim, State};
 
 /// Length and width of the periodic world.
 const SIZE: [f64; 2] = [20.0, 10.0];
 /// Stiffness of the springs, in m g/d.
 const STIFFNESS: f64 = 2e5;
-/// Layers that are brought to rest, and slopes on which they begin.
-const STOPPED: [[f64; 2]; 5] = [[4.0, 28.0], [6.0, 26.5], [10.0, 25.0], [16.0, 23.5], [24.0, 22.5]];
+/// Bases, each with beds of its own.
+const DRAWS: RangeInclusive<u64> = 1..=3;
+/// Layers that are brought to rest, and slopes on which they begin: a degree steeper than the published ones.
+const STOPPED: [[f64; 2]; 5] = [[4.0, 26.5], [6.0, 25.0], [10.0, 23.5], [16.0, 22.0], [24.0, 21.0]];
 /// The slope is lowered by so much [degrees] each time, and left for so long.
 const LOWERED: f64 = 0.25;
 const LEFT: f64 = 50.0;
@@ -35,7 +40,7 @@ const FLOWS: [[f64; 3]; 8] = [
     [26.0, 10.0, 3.5],
 ];
 /// When flows have become steady, and until when they are looked at.
-const LOOKED: [f64; 2] = [200.0, 350.0];
+const LOOKED: [f64; 2] = [90.0, 180.0];
 
 /// Slope and layers of flows of wrong models.
 const WRONG: [[f64; 2]; 4] = [[17.0, 12.0], [22.0, 12.0], [25.0, 12.0], [25.0, 24.0]];
@@ -132,9 +137,9 @@ fn one_law(by: &str, flows: &[Flow], unit: impl Fn(f64) -> f64) -> [Claim; 2] {
     ]
 }
 
-/// What the gates of flows refuse, in a small world: a layer at rest, a flow on a plane, and what slides on it without friction, as
-/// fast in a high layer as in a low one.
-fn wrong_flows() -> Result<[Claim; 3], String> {
+/// What the gates refuse, in a small world: a layer at rest, a flow on a plane, and what slides on it without friction, as fast in a high
+/// layer as in a low one; and a layer without friction, which does not come to rest.
+fn wrong_flows(layer: f64) -> Result<[Claim; 4], String> {
     let world = World::new(bagnold::SIZE, bagnold::STIFFNESS, 1, 1.0)?;
     let flows = keep::members("flows of wrong models", &[0, 1, 2, 3], |number| {
         let [degrees, layers] = WRONG[number as usize];
@@ -148,53 +153,85 @@ fn wrong_flows() -> Result<[Claim; 3], String> {
     let mut flows = flows.into_iter().zip(WRONG).map(|(n, [degrees, layers])| Flow::from(degrees, layers, n));
     let mut next = || flows.next().ok_or("a flow is missing");
     let [still, smooth, low, high] = [next()?, next()?, next()?, next()?];
+    let slippery = stops(&Slope { friction: 0.0, ..Slope::new(&world, 17.0, 6.0, 3.0) }, 16.0, 1.0)?;
     Ok([
         refused("chute, a slope below the angle of repose", &still.gates()[..1], 1),
         refused("chute, a base that is a plane", &smooth.gates(), 1),
         refused("chute, grains without friction on a plane", &[grows(&high, &low)], 1),
+        refused("chute, a layer of grains without friction", &[gate_of_rest(6.0, slippery, layer)], 1),
     ])
 }
 
-/// V-36 at full size: where layers come to rest, and how flows go by it.
-pub fn stopping(perturbation: f64) -> Result<Vec<Claim>, String> {
-    let world = World::new(SIZE, STIFFNESS, 1, perturbation)?;
-    let numbers: Vec<u64> = (0..FLOWS.len() as u64).collect();
-    let flows = keep::members("flows", &numbers, |number| {
-        let [degrees, layers, start] = FLOWS[number as usize];
-        Ok(Slope::new(&world, degrees, layers, start).flow(LOOKED, perturbation)?.numbers())
+/// What one base and the beds on it come to.
+struct Draw {
+    flows: Vec<Flow>,
+    /// Slopes [degrees] at which the layers come to rest.
+    rests: Vec<f64>,
+}
+
+/// All draws: the runs of all side by side.
+fn draws(perturbation: f64) -> Result<Vec<Draw>, String> {
+    let seeds: Vec<u64> = if keep::is_spoilt() { vec![1] } else { DRAWS.collect() };
+    let worlds = seeds.par_iter().map(|&seed| World::new(SIZE, STIFFNESS, seed, perturbation));
+    let worlds: Vec<World> = worlds.collect::<Result<_, _>>()?;
+    // A run's number tells its draw, too.
+    let numbers = |runs: usize| -> Vec<u64> { (0..(worlds.len() * runs) as u64).collect() };
+    let flows = keep::members("flows", &numbers(FLOWS.len()), |number| {
+        let world = &worlds[number as usize / FLOWS.len()];
+        let [degrees, layers, start] = FLOWS[number as usize % FLOWS.len()];
+        Ok(Slope::new(world, degrees, layers, start).flow(LOOKED, perturbation)?.numbers())
     })?;
-    let flows: Vec<Flow> =
-        flows.into_iter().zip(FLOWS).map(|(n, [degrees, layers, _])| Flow::from(degrees, layers, n)).collect();
-    // As dense at rest as in flow, but for a few hundredths.
-    let high = flows.iter().map(|f| f.thickness / f.layers).sum::<f64>() / flows.len() as f64;
-    let numbers: Vec<u64> = (0..=STOPPED.len() as u64).collect();
-    let rests = keep::members("layers that come to rest", &numbers, |number| {
-        let Some(&[layers, degrees]) = STOPPED.get(number as usize) else {
-            let slippery = Slope { friction: 0.0, ..Slope::new(&world, 20.0, 6.0, 3.0) };
-            return Ok([stops(&slippery, 16.0, 1.0)?]);
-        };
-        Ok([stops(&Slope::new(&world, degrees, layers, 3.0), 15.0, perturbation)?])
+    let rests = keep::members("layers that come to rest", &numbers(STOPPED.len()), |number| {
+        let world = &worlds[number as usize / STOPPED.len()];
+        let [layers, degrees] = STOPPED[number as usize % STOPPED.len()];
+        Ok([stops(&Slope::new(world, degrees, layers, 3.0), 15.0, perturbation)?])
     })?;
-    let rests: Vec<f64> = rests.into_iter().map(|[degrees]| degrees).collect();
-    let gate = |layers: f64, degrees: f64| {
-        let name = format!("a layer of {layers}: slope at which it comes to rest, less the published one");
-        within(name, degrees - PUBLISHED.slope(layers * high), 0.0, 0.75, remembered(SOURCE))
+    let draw = |(flows, rests): (&[[f64; 7]], &[[f64; 1]])| Draw {
+        flows: flows.iter().zip(FLOWS).map(|(n, [degrees, layers, _])| Flow::from(degrees, layers, *n)).collect(),
+        rests: rests.iter().map(|[degrees]| *degrees).collect(),
     };
-    let (slippery, rests) = rests.split_last().ok_or("no layer came to rest")?;
-    let heights: Vec<[f64; 2]> = STOPPED.iter().zip(rests).map(|(&[layers, _], &d)| [layers * high, d]).collect();
-    let found = Stopping::through(&heights);
-    let mut claims: Vec<Claim> =
-        STOPPED.iter().zip(rests).map(|(&[layers, _], &degrees)| gate(layers, degrees)).collect();
-    claims.push(refused("chute, a layer of grains without friction", &[gate(6.0, *slippery)], 1));
-    claims.extend(flows[..3].iter().flat_map(Flow::gates));
-    claims.extend([grows(&flows[0], &flows[3]), grows(&flows[1], &flows[4]), grows(&flows[2], &flows[5])]);
-    claims.extend(wrong_flows()?);
-    claims.extend(one_law("by heights found here", &flows, |degrees| found.height(degrees)));
-    claims.extend(one_law("by published heights", &flows, |degrees| PUBLISHED.height(degrees)));
-    claims.push(refused(
-        "chute, heights in diameters in the law of flows",
-        &one_law("by diameters", &flows, |_| 1.0),
-        2,
-    ));
+    Ok(flows.chunks(FLOWS.len()).zip(rests.chunks(STOPPED.len())).map(draw).collect())
+}
+
+/// The gate of a layer that comes to rest: as high as published for its slope, in layers of the height `high`.
+fn gate_of_rest(layers: f64, degrees: f64, high: f64) -> Claim {
+    let name = format!("a layer of {layers}: slope at which it comes to rest, less the published one");
+    within(name, degrees - PUBLISHED.slope(layers * high), 0.0, 0.75, remembered(SOURCE))
+}
+
+impl Draw {
+    /// Height of a layer [d]. Grains are as dense at rest as in flow, but for a few hundredths.
+    fn layer(&self) -> f64 {
+        self.flows.iter().map(|f| f.thickness / f.layers).sum::<f64>() / self.flows.len() as f64
+    }
+
+    fn claims(&self) -> Vec<Claim> {
+        let (flows, high) = (&self.flows, self.layer());
+        let rests = || STOPPED.iter().zip(&self.rests);
+        let found = Stopping::through(&rests().map(|(&[layers, _], &d)| [layers * high, d]).collect::<Vec<_>>());
+        let mut claims: Vec<Claim> =
+            rests().map(|(&[layers, _], &degrees)| gate_of_rest(layers, degrees, high)).collect();
+        claims.extend(flows[..3].iter().flat_map(Flow::gates));
+        claims.extend([grows(&flows[0], &flows[3]), grows(&flows[1], &flows[4]), grows(&flows[2], &flows[5])]);
+        claims.extend(one_law("by heights found here", flows, |degrees| found.height(degrees)));
+        claims.extend(one_law("by published heights", flows, |degrees| PUBLISHED.height(degrees)));
+        claims.push(refused(
+            "chute, heights in diameters in the law of flows",
+            &one_law("by diameters", flows, |_| 1.0),
+            2,
+        ));
+        claims
+    }
+}
+
+/// V-36 at full size: where layers come to rest, and how flows go by it.
+pub fn stopping(perturbation: f64) -> Judged {
+    let draws = draws(perturbation)?;
+    let all: Vec<Vec<Claim>> = draws.iter().map(Draw::claims).collect();
+    let values: Vec<Vec<f64>> = all.iter().map(|claims| claims.iter().map(|claim| claim.value).collect()).collect();
+    let seeds: Vec<u64> = DRAWS.take(draws.len()).collect();
+    let first = all.into_iter().next().ok_or("no draw")?;
+    let mut claims = ensemble::of_draws(first, &seeds, &values);
+    claims.extend(wrong_flows(draws[0].layer())?);
     Ok(claims)
 }

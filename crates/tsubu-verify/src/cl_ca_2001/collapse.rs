@@ -4,6 +4,7 @@ use super::super::beds::line;
 use super::super::bench::{Rig, at_least, between};
 use super::super::control::refused;
 use super::super::ensemble;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use glam::DVec3;
 use std::path::Path;
@@ -66,7 +67,7 @@ pub(in super::super) fn slope(grains: &[DVec3], wall: f64) -> (f64, f64, f64) {
 }
 
 /// C-F9 to F11: dropped, at rest, a side wall removed, at rest again.
-pub(in super::super) fn collapse(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn collapse(perturbation: f64) -> Judged {
     ensemble::drawn("collapse", 1..=8, |seed| {
         let drawn = format!("seed={seed}");
         let mut rig = collapsing("cl-ca", perturbation == 1.0, &[&drawn])?;
@@ -100,7 +101,7 @@ pub(in super::super) fn collapse(perturbation: f64) -> Result<Vec<Claim>, String
 
 /// C-F9 to F11 by CL-CA and by DEM, one after the other on one machine. Hexagons cannot turn, so their fair twins are discs
 /// that do not turn; discs that roll, freely or with resistance, stand beside them.
-pub(in super::super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn twin(perturbation: f64) -> Judged {
     ensemble::drawn("collapse by both", 1..=5, |seed| {
         let drawn = format!("seed={seed}");
         let run = |method: &str, changes: &[&str]| -> Result<_, String> {
@@ -155,7 +156,7 @@ pub(in super::super) fn twin(perturbation: f64) -> Result<Vec<Claim>, String> {
 
 /// The collapse of triangles that may turn by 60 degrees, against those that may not (C-7). DEM has no triangles; what turning
 /// does to discs says [`twin`].
-pub(in super::super) fn turning(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn turning(perturbation: f64) -> Judged {
     ensemble::drawn("triangles that turn", 1..=24, |seed| {
         // 6 and 21 points, for the 7 and 19 of the hexagons.
         const TRIANGLES: &str = "cl-ca.shapes={ small = { polygon = { corners = [[0, 0], [0, 4], [2, 2]] } }, \

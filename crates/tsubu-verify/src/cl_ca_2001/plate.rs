@@ -3,6 +3,7 @@
 use super::super::bench::{self, Rig, at_least, between};
 use super::super::control::{refused, refused_number};
 use super::super::ensemble;
+use crate::case::Judged;
 use crate::origin::own;
 use std::path::Path;
 use tsubu::view::{Contact, Contacts, Wants};
@@ -13,7 +14,7 @@ use tsubu_scene::Scene;
 pub(super) const PUSHED: f64 = 1.46;
 
 /// C-x4: shared points of a bed into which a plate has been pushed by 1 mm: some grains carry, most of them below the plate.
-pub(in super::super) fn plate(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn plate(perturbation: f64) -> Judged {
     ensemble::drawn("plate", 1..=10, |seed| {
         let pushed = |plate: bool| -> Result<_, String> {
             let mut plan = bench::plan(include_str!("../../../../studies/cl-ca-2001/plate.toml"))?;
@@ -125,7 +126,7 @@ fn chains(discs: &Network) -> Vec<Claim> {
 }
 
 /// C-x4 beside DEM: the forces of a bed of discs into which the same plate has been pushed as far.
-pub(in super::super) fn plate_twin(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn plate_twin(perturbation: f64) -> Judged {
     ensemble::drawn("plate in discs", 1..=5, |seed| {
         let drawn = format!("seed={seed}");
         let pressed = perturbation == 1.0;

@@ -4,6 +4,7 @@
 //! their centres are 3 spacings from each other. The lattice is empty but for what a sketch puts there.
 
 use crate::bench::{between, within};
+use crate::case::Judged;
 use crate::control::refused;
 use crate::ensemble;
 use crate::origin::closed_form;
@@ -151,7 +152,7 @@ fn passive_rule(step: impl Fn(Sketch, u64) -> Option<Direction>, set: u64) -> Ve
 }
 
 /// C-F4 to C-F8, exactly. The perturbation makes hexagons one point larger, lets gravity pull up, and gives nobody a push.
-pub(crate) fn rules(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn rules(perturbation: f64) -> Judged {
     ensemble::drawn("sketches", 0..=3, |set| {
         let spoilt = perturbation != 1.0;
         let source = closed_form("counted row by row");

@@ -3,9 +3,9 @@
 use super::super::bench::{Rig, at_least, between};
 use super::super::control::refused;
 use super::super::ensemble;
+use crate::case::Judged;
 use crate::origin::own;
 use glam::DVec3;
-use tsubu_frame::Claim;
 
 /// A box of hexagons and triangles, mixed so that they do not crystallise, shaken by gravity that points up for 20 steps.
 fn shaken(more: &str, seed: u64, perturbation: f64) -> Result<Rig, String> {
@@ -44,7 +44,7 @@ fn shaken(more: &str, seed: u64, perturbation: f64) -> Result<Rig, String> {
 const CYCLE: [u64; 2] = [20, 200];
 
 /// C-x1: how high a grain of some radius rises, and in how many cycles.
-pub(in super::super) fn rise(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn rise(perturbation: f64) -> Judged {
     const SEEDS: u64 = 3;
     const CYCLES: u64 = 200;
     let source = own("the large grain rises, a grain as small as the others does not").after();
@@ -129,7 +129,7 @@ fn rolls(rough: bool, seed: u64) -> Result<[f64; 7], String> {
 }
 
 /// C-x2: down along rough walls, up beside that; along smooth walls next to nothing.
-pub(in super::super) fn convection(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn convection(perturbation: f64) -> Judged {
     ensemble::drawn("rolls", 1..=3, |seed| {
         let source = own("convection needs rough walls").after();
         let rough = rolls(perturbation == 1.0, seed)?;

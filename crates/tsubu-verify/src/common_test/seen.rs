@@ -2,6 +2,7 @@
 
 use super::super::bench::Rig;
 use super::super::ensemble;
+use crate::case::Judged;
 use glam::DVec3;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -146,7 +147,7 @@ impl Measured {
 const SEEDS: RangeInclusive<u64> = 1..=5;
 
 /// Runs a test and judges it; into a folder also pictures and tables.
-pub(super) fn judged(test: &Test, perturbation: f64, folder: Option<&RunFolder>) -> Result<Vec<Claim>, String> {
+pub(super) fn judged(test: &Test, perturbation: f64, folder: Option<&RunFolder>) -> Judged {
     ensemble::drawn(test.name, SEEDS, |seed| {
         let measured = run(test, seed, perturbation)?;
         if let Some(folder) = folder.filter(|_| seed == *SEEDS.start()) {

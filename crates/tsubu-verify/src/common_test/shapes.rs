@@ -4,6 +4,7 @@ use super::super::bench::Rig;
 use super::super::cl_ca_2001::slope;
 use super::super::control::refused;
 use super::super::ensemble;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use std::path::Path;
 use tsubu::watch;
@@ -126,7 +127,7 @@ fn lie_alike(name: &str, lattice: &Bed, dem: &Bed) -> Claim {
 }
 
 /// Both shapes by both methods.
-pub(in super::super) fn shapes(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn shapes(perturbation: f64) -> Judged {
     let run = |method: &str, shape: &[&str], more: &[&str]| bed(method, shape, more, STILL, perturbation);
     let [hexagons, rods] = [&HEXAGONS[..], &RODS[..]];
     let dem = [

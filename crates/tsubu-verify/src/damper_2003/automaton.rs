@@ -2,6 +2,7 @@
 
 use super::{FIGURE_11, peak, respond};
 use crate::bench::within;
+use crate::case::Judged;
 use crate::control::refused;
 use crate::ensemble;
 use crate::origin::{closed_form, own, printed};
@@ -80,7 +81,7 @@ impl Curves {
 }
 
 /// That the peak does not move down, as the paper's does not. The grid of frequencies is 0.01 wide: a shift below half of it is none.
-fn not_down(mode: &str, amplitude: f64, perturbation: f64) -> Result<Vec<Claim>, String> {
+fn not_down(mode: &str, amplitude: f64, perturbation: f64) -> Judged {
     let curves = Curves::of(mode, amplitude, perturbation)?;
     let source =
         printed("figure 11: more balls, peak at a higher frequency (a defect of the model, says the paper)").after();
@@ -122,7 +123,7 @@ fn cases(mode: &str, changes: &[&str], perturbation: f64) -> Result<Vec<CaseResu
 
 /// A-F11, literal: the peak falls and does not move down, which the authors name as the defect of their model. The paper gives no
 /// amplitude: the shift is told at four.
-pub(crate) fn figure_11_literal(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn figure_11_literal(perturbation: f64) -> Judged {
     let mut claims = lower("literal", &cases("literal", &["response.seeds=20"], perturbation)?);
     for amplitude in [0.25, 0.5, 1.0, 2.0] {
         claims.extend(not_down("literal", amplitude, perturbation)?);
@@ -132,12 +133,12 @@ pub(crate) fn figure_11_literal(perturbation: f64) -> Result<Vec<Claim>, String>
 }
 
 /// A-F11, extended: with resting impulses the shift has the sign of nature.
-pub(crate) fn figure_11_extended(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn figure_11_extended(perturbation: f64) -> Judged {
     ensemble::drawn("responses", 1..=5, |seed| extended_of(seed, perturbation))
 }
 
 /// The same of one draw.
-fn extended_of(seed: u64, perturbation: f64) -> Result<Vec<Claim>, String> {
+fn extended_of(seed: u64, perturbation: f64) -> Judged {
     let drawn = format!("seed={seed}");
     let down = |mode: &str, cases: &[CaseResult]| -> Vec<Claim> {
         let source = own("resting impulses bring the shift down").after();
@@ -153,7 +154,7 @@ fn extended_of(seed: u64, perturbation: f64) -> Result<Vec<Claim>, String> {
     claims.extend(down("extended", &found));
     let literal = cases("literal", &[&drawn], perturbation)?;
     claims.push(refused("the automaton without resting impulses", &down("literal", &literal), 1));
-    let small = |mode: &str| -> Result<Vec<Claim>, String> {
+    let small = |mode: &str| -> Judged {
         let changes = [
             "hosts.leaf-spring.base.sine.amplitude=0.05 mm",
             "response.seeds=1",

@@ -1,5 +1,6 @@
 //! A-F9, A-F10: the box moved by hand; when the bed leaves the floor and when it comes back.
 
+use crate::case::Judged;
 use crate::control::refused;
 use crate::ensemble;
 use crate::origin::{closed_form, own};
@@ -67,7 +68,7 @@ fn events(force: &[f64; BINS]) -> (f64, f64, f64) {
 /// A-F9/F10. The floor falls away faster than gravity from phase asin(1 / Gamma) / 2 pi = 0.046 on: no bed leaves earlier.
 /// A fully inelastic lump lands and leaves at 0.071; a bed lands no later, its loose balls earlier. It touches the
 /// floor for less than half of the period.
-pub(crate) fn figure_9(_spoiler: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn figure_9(_spoiler: f64) -> Judged {
     let mut claims = Vec::new();
     for method in ["dem", "lattice"] {
         for count in [20, 40] {
@@ -84,7 +85,7 @@ pub(crate) fn figure_9(_spoiler: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// What is claimed of a bed, by the mean over [`SEEDS`] fillings.
-fn gates(method: &str, count: usize, changes: &[&str]) -> Result<Vec<Claim>, String> {
+fn gates(method: &str, count: usize, changes: &[&str]) -> Judged {
     let [landing, lift_off, flight] =
         ensemble::members(&format!("{method}, {count} balls {changes:?}"), SEEDS, |seed| {
             let (landing, lift_off, flight) = events(&force_by_phase(method, count, seed, changes)?);

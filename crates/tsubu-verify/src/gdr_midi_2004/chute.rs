@@ -3,6 +3,7 @@
 use super::super::control::refused;
 use super::super::ensemble::members;
 use super::{FRICTION, Flow, published};
+use crate::case::Judged;
 use crate::origin::{closed_form, own, remembered};
 use std::ops::RangeInclusive;
 use tsubu_frame::{Claim, Ensemble};
@@ -70,7 +71,7 @@ fn gates([carried, plug, shear, packed]: &[Ensemble; 4]) -> Vec<Claim> {
 }
 
 /// A chute whose walls carry the weight of the discs: in the middle they go down as a block.
-pub(in super::super) fn vertical_chute(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn vertical_chute(perturbation: f64) -> Judged {
     let mut claims = gates(&chutes("grains that rub", FRICTION, SPAN, perturbation)?);
     claims.push(refused(
         "discs and walls without friction",

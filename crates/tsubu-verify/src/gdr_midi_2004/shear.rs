@@ -4,6 +4,7 @@ use super::super::beds::line;
 use super::super::control::refused;
 use super::super::ensemble::members;
 use super::{FRICTION, Flow, published};
+use crate::case::Judged;
 use crate::origin::{own, remembered};
 use std::ops::RangeInclusive;
 use tsubu_frame::{Claim, Ensemble, Source};
@@ -88,7 +89,7 @@ fn gates(found: &[Ensemble; 14]) -> Vec<Claim> {
 }
 
 /// Discs sheared between two plates follow the law that was found so.
-pub(in super::super) fn plane_shear(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn plane_shear(perturbation: f64) -> Judged {
     let mut claims = gates(&layers("grains that rub", FRICTION, perturbation)?);
     claims.push(refused("discs without friction", &gates(&layers("no friction", 0.0, perturbation)?), 10));
     Ok(claims)

@@ -3,6 +3,7 @@
 use super::super::bench::within;
 use super::super::control::refused;
 use super::super::ensemble;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use tsubu::lattice::direction::Direction;
 use tsubu::lattice::gas::collide::{REST, SLOTS};
@@ -133,7 +134,7 @@ fn run(alignment: Option<Alignment>, make: Make) -> Seen {
 }
 
 /// Grains that like to lie along their way stand upright where the hopper narrows; nothing else changes.
-pub(crate) fn hopper_order(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn hopper_order(perturbation: f64) -> Judged {
     ensemble::drawn("hopper", 1..=3, |seed| {
         let hopper = Make { seed, ..HOPPER };
         // The perturbation heats the grains.
@@ -187,7 +188,7 @@ pub(crate) fn hopper_order(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// Order was to grow near walls as well as along the slope.
-pub(crate) fn hopper_walls(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn hopper_walls(perturbation: f64) -> Judged {
     ensemble::drawn("walls of the hopper", 1..=3, |seed| {
         let hopper = Make { seed, ..HOPPER };
         let gate = |alignment: Alignment| {

@@ -3,6 +3,7 @@
 use super::super::bench::{near, within};
 use super::super::control::{refused, refused_number};
 use super::super::ensemble;
+use crate::case::Judged;
 use crate::origin::closed_form;
 use std::f64::consts::{PI, TAU};
 use tsubu::lattice::direction::Direction;
@@ -62,7 +63,7 @@ pub(crate) fn slope(x: &[f64], y: &[f64]) -> f64 {
 
 /// The viscosity that the collisions themselves give, against the published closed form.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn collisions(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn collisions(perturbation: f64) -> Judged {
     let (mut claims, mut gates) = (Vec::new(), Vec::new());
     for (rules, name) in ALL {
         for d in [0.1, 0.3, 0.5] {
@@ -104,7 +105,7 @@ fn sound_speed(rules: Rules, seed: u64) -> f64 {
 }
 
 /// Speed of sound of the three forms.
-pub(crate) fn sound(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn sound(perturbation: f64) -> Judged {
     ensemble::drawn("sound", 1..=3, |seed| {
         let speeds = ALL.map(|(rules, name)| (rules, name, sound_speed(rules, seed) * perturbation));
         let expected = |rules: Rules| if rules == Rules::One { 0.5_f64.sqrt() } else { (3.0_f64 / 7.0).sqrt() };
@@ -181,7 +182,7 @@ fn profile_of(push: f64) -> Vec<f64> {
 /// A channel whose walls send back flows as the closed form says, and comes to rest half a column inside the walls; with
 /// mirrors for walls the gas falls freely.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn channel(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn channel(perturbation: f64) -> Judged {
     let mut channel = Channel::new(true);
     channel.profile(1000);
     let speeds = channel.profile(1600);

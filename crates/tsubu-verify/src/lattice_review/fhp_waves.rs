@@ -4,6 +4,7 @@ use super::super::bench::near;
 use super::super::control::{refused, refused_number};
 use super::super::ensemble;
 use super::fhp::{ALL, FRISCH, formula, slope};
+use crate::case::Judged;
 use crate::origin::{other_program, own};
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -66,7 +67,7 @@ impl Wave {
 
 /// Viscosity from shear waves, in a gas that forgets whom it met and in the gas as it is.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn viscosity(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn viscosity(perturbation: f64) -> Judged {
     let (mut claims, mut gates) = (Vec::new(), Vec::new());
     let wave = Wave { amplitude: 0.2, forgetful: true, ..Wave::new(Rules::One, 0.15 * perturbation, [192, 32_768]) };
     // At d = 0.15 the closed forms of all three are steep, and a wrong density is seen.
@@ -105,7 +106,7 @@ const SEEDS: RangeInclusive<u64> = 1..=16;
 
 /// The same where the gas as it is is not the formula: FHP-II and III away from half filling. Particles that have met meet
 /// again, the more so the larger the box; where they forget each other the formula holds.
-pub(crate) fn viscosity_plain(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn viscosity_plain(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     // What the other program gives for 64 columns at this amplitude, within 0.01.
     for (rules, name, d, elsewhere) in [(Rules::Two, "FHP-II", 0.25, 1.12), (Rules::Three, "FHP-III", 0.3, 1.16)] {

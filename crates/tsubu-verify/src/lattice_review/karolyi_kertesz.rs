@@ -3,6 +3,7 @@
 use super::super::control::refused;
 use super::super::ensemble;
 use super::fhp::slope;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use tsubu::lattice::gas::pile::{Habits, Pile};
 use tsubu::lattice::gas::sites::Sites;
@@ -56,7 +57,7 @@ fn angle(friction: f64, seed: u64) -> f64 {
 }
 
 /// The slope is finite and grows with friction.
-pub(crate) fn pile_angle(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn pile_angle(perturbation: f64) -> Judged {
     ensemble::drawn("slopes", 1..=8, |seed| {
         // The perturbation takes friction away.
         let angles = [0.02, 0.1, 0.2].map(|friction| angle(friction * perturbation.powi(60), seed));
@@ -86,7 +87,7 @@ fn exponent(fell: &[f64], from: f64, to: f64) -> f64 {
 }
 
 /// Avalanches over the edge have a largest size: their distribution falls ever more steeply.
-pub(crate) fn pile_avalanches(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn pile_avalanches(perturbation: f64) -> Judged {
     ensemble::drawn("avalanches", 1..=8, |seed| {
         let (pile, fell) = heap(0.1 * perturbation, 60, 30_000, seed);
         let fell: Vec<f64> = fell.iter().map(|f| *f as f64).collect();
@@ -145,7 +146,7 @@ fn farther(pile: &Pile) -> f64 {
 }
 
 /// Poured at one side of a silo, smooth grains go farther than rough ones; equal ones do not part.
-pub(crate) fn pile_segregation(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn pile_segregation(perturbation: f64) -> Judged {
     ensemble::drawn("silo", 1..=8, |seed| {
         let rough = 0.02 + 0.38 * perturbation.powi(60);
         let gate = |name: &str, value: f64| Claim::judge(name, value, Some(4.0), None, SOURCE);
@@ -183,7 +184,7 @@ fn layered(kind: impl Fn(usize, usize) -> Option<usize>) -> f64 {
 }
 
 /// Grains of two kinds were to part into layers, as real ones do when they are poured.
-pub(crate) fn silo_layers(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn silo_layers(perturbation: f64) -> Judged {
     ensemble::drawn("layers", 1..=8, |seed| {
         let rough = 0.02 + 0.38 * perturbation.powi(60);
         let gate = |name: &str, value: f64| Claim::judge(name, value, Some(0.1), None, SOURCE);

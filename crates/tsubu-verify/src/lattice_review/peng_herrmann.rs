@@ -4,6 +4,7 @@ use super::super::bench::within;
 use super::super::control::refused;
 use super::super::ensemble;
 use super::fhp::slope;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use std::f64::consts::TAU;
 use tsubu::lattice::gas::collide::Rules;
@@ -70,7 +71,7 @@ fn none(name: &str, value: f64) -> Claim {
 }
 
 /// Waves come with dissipation and a density that is neither low nor high; what smooth walls do says [`pipe_smooth`].
-pub(crate) fn pipe_waves(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn pipe_waves(perturbation: f64) -> Judged {
     ensemble::drawn("pipe waves", 1..=5, |seed| {
         let wave = waves(0.25, perturbation.min(1.0).powi(20), 1.0, seed);
         let is = |name: &str, value: f64| Claim::judge(name, value, Some(8.0), None, SOURCE);
@@ -88,7 +89,7 @@ pub(crate) fn pipe_waves(perturbation: f64) -> Result<Vec<Claim>, String> {
 }
 
 /// The abstract says that waves need rough walls.
-pub(crate) fn pipe_smooth(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn pipe_smooth(perturbation: f64) -> Judged {
     ensemble::drawn("pipe smooth", 1..=5, |seed| {
         let name = "pipe, smooth walls: variance of the density over that of lone grains";
         let rough = none(name, waves(0.25, perturbation.min(1.0).powi(20), 1.0, seed));
@@ -98,7 +99,7 @@ pub(crate) fn pipe_smooth(perturbation: f64) -> Result<Vec<Claim>, String> {
 
 /// Without gravity and dissipation the grains are FHP-II, site by site.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn pipe_limit(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn pipe_limit(perturbation: f64) -> Judged {
     let differing = |dissipation: f64, thief: bool| {
         let mut grains = pipe(2.0, Habits { gravity: 0.0, dissipation, roughness: 1.0 }, 1);
         let mut gas = Gas::new(Rules::Two, WIDTH + 2, LENGTH, [true, true], 1);
@@ -172,7 +173,7 @@ fn exponent(dissipation: f64) -> f64 {
 
 /// The spectrum falls as a power near 4/3.
 #[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
-pub(crate) fn pipe_spectrum(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(crate) fn pipe_spectrum(perturbation: f64) -> Judged {
     let name = "pipe: exponent of the power spectrum of the density, periods of 25 to 1000 steps";
     let value = exponent(perturbation.min(1.0).powi(20));
     let gate = |value: f64| Claim::judge(name, value, Some(1.1), Some(1.5), SOURCE);

@@ -3,6 +3,7 @@
 use super::super::bench::{Rig, near, within};
 use super::super::control::{refused, refused_number};
 use super::{DAMPING_RATIO, DENSITY, contact_seconds, dashpot, mass, stiffness_for};
+use crate::case::Judged;
 use crate::origin::{closed_form, printed};
 use std::f64::consts::PI;
 use tsubu_frame::{Claim, Points};
@@ -139,7 +140,7 @@ fn times(diameter: f64, stiffnesses: &[f64], share: f64, perturbation: f64) -> R
 }
 
 /// B-F4, B-F12: contact times are half a natural period.
-pub(in super::super) fn contact_time(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn contact_time(perturbation: f64) -> Judged {
     let source = closed_form("t = pi sqrt(m/k) (Osada 2004, equation 8; figures 4, 12)");
     let claim = |d: f64, k: &[f64], share: f64| {
         let name = format!(
@@ -178,7 +179,7 @@ pub(in super::super) fn contact_time(perturbation: f64) -> Result<Vec<Claim>, St
 }
 
 /// B-F5: damping hardly changes the contact time.
-pub(in super::super) fn damped(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn damped(perturbation: f64) -> Judged {
     let (d, k) = (2e-3, 100.0 * N_PER_CM);
     let free = contact_seconds(d, k);
     let z = DAMPING_RATIO;
@@ -211,7 +212,7 @@ pub(in super::super) fn damped(perturbation: f64) -> Result<Vec<Claim>, String> 
 }
 
 /// B-F8, B-F11: overlap against stiffness, and the band of stiffness that the paper draws from it.
-pub(in super::super) fn overlap(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn overlap(perturbation: f64) -> Judged {
     let law = closed_form("v sqrt(m/k) / d at 0.600 m/s (Osada 2004, figures 8, 11)");
     let impact = |d: f64, k: f64| Impact::undamped(d, k, SPEED).seen(perturbation);
     let of = |d: f64, k: f64| Ok::<_, String>(impact(d, k)?.overlap);

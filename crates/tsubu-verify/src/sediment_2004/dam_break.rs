@@ -5,6 +5,7 @@ use super::super::bench::{Rig, scalars, within};
 use super::super::control::refused;
 use super::super::ensemble;
 use super::{FORWARD, VERLET, Way, law, rig};
+use crate::case::Judged;
 use crate::origin::{own, printed};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -103,7 +104,7 @@ fn fillings(set: u64, count: u64) -> Range<u64> {
 
 /// B-F19: slopes with rotation locked and free; and what the paper's integration has to do with it: the slope of locked grains hangs on
 /// the steps in a contact, of which the paper says no more than that they are at least 10.
-pub(in super::super) fn dam_break(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn dam_break(perturbation: f64) -> Judged {
     ensemble::drawn("boxes", 0..=4, |set| {
         let source = printed("about 33 degrees locked, 18 free (Osada 2004, figure 19)");
         let differs =
@@ -131,7 +132,7 @@ pub(in super::super) fn dam_break(perturbation: f64) -> Result<Vec<Claim>, Strin
 const OTHERS: u64 = 100;
 
 /// B-F23: what the rolling friction (B13) does to the slope.
-pub(in super::super) fn dam_break_rolling(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn dam_break_rolling(perturbation: f64) -> Judged {
     ensemble::drawn("boxes", 0..=4, |set| {
         let mut claims = Vec::new();
         let mut slopes = Vec::new();

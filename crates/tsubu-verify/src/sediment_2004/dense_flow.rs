@@ -4,6 +4,7 @@ use super::super::bench::{Rig, within};
 use super::super::control::{refused, refused_number};
 use super::super::ensemble;
 use super::rig;
+use crate::case::Judged;
 use crate::origin::{closed_form, own, printed};
 use glam::DVec3;
 use tsubu::state::sphere;
@@ -111,7 +112,7 @@ fn takahashi(slope: f64, friction: f64) -> f64 {
 }
 
 /// B-F17: the paper's stream, which grains do not slow, and one that digs into its bed and is slowed.
-pub(in super::super) fn dense_flow(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn dense_flow(perturbation: f64) -> Judged {
     ensemble::drawn("flows", 1..=5, |seed| {
         let upper = |value: f64, what: &str| {
             let source = printed("concentration near the surface about 0.3 (Osada 2004, figure 17)").after();

@@ -3,6 +3,7 @@
 use super::super::control::refused;
 use super::super::ensemble;
 use super::rig;
+use crate::case::Judged;
 use crate::origin::own;
 use tsubu::view::Wants;
 use tsubu_frame::Claim;
@@ -47,7 +48,7 @@ fn bed(slope: f64, rotation: bool, seed: u64, perturbation: f64) -> Result<Bed, 
 }
 
 /// B-F22: the slope at which the bed begins to move, locked and free, and how rows of locked grains move above it.
-pub(in super::super) fn mobile_bed(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn mobile_bed(perturbation: f64) -> Judged {
     ensemble::drawn("beds", 1..=5, |seed| {
         let source = own("grains that do not turn cannot climb over one another (Osada 2004, figure 22)").after();
         let lies = |bed: &Bed, what: &str| {

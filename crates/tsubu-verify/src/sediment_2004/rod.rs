@@ -3,6 +3,7 @@
 use super::super::bench::within;
 use super::super::control::refused;
 use super::rig;
+use crate::case::Judged;
 use crate::origin::{closed_form, own};
 use tsubu_frame::Claim;
 
@@ -36,7 +37,7 @@ fn largest(rotation: bool, perturbation: f64) -> Result<f64, String> {
 }
 
 /// B-F22: locked grains form a rod up to the angle of friction; grains that spin do not.
-pub(in super::super) fn rod(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn rod(perturbation: f64) -> Judged {
     let source =
         closed_form("a wedge between two grains holds up to the angle of friction, 38 degrees (Osada 2004, figure 22)");
     let locked =

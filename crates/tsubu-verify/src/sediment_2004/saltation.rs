@@ -3,6 +3,7 @@
 use super::super::bench::{Rig, near};
 use super::super::control::refused;
 use super::super::ensemble;
+use crate::case::Judged;
 use crate::origin::{closed_form, own, printed, remembered};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -122,6 +123,8 @@ fn leaps(stiffness: f64, changes: &[&str], hops: usize, perturbation: f64) -> Re
 const LOCKED: &[&str] = &["contact.rotation=false"];
 /// Nine times as deep, which makes three times the shear velocity.
 const DEEP: &[&str] = &["water.flow.log-law.depth=0.18"];
+/// Impacts give hardly anything back.
+const DEAD: &[&str] = &["materials.quartz.restitution=0.05"];
 pub(super) const FREE: &[&str] = &["contact.rotation=true"];
 pub(super) const IN_WATER: &[&str] = &["contact.rotation=true", "water.torque={finite-reynolds={}}"];
 
@@ -143,7 +146,7 @@ fn contact_claim(stiffness: f64, found: &Leaps) -> Claim {
 }
 
 /// B-F6, B-F7: contact times follow the stiffness, hops do not while grains overlap little; published hops.
-pub(in super::super) fn saltation(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn saltation(perturbation: f64) -> Judged {
     ensemble::drawn("leaping grains", DRAWS, |draw| {
         let begins = begins(draw);
         let run = |stiffness: f64, hops: usize, changes: &[&str]| {
@@ -166,6 +169,8 @@ pub(in super::super) fn saltation(perturbation: f64) -> Result<Vec<Claim>, Strin
         claims.extend(measured(&paper));
         let torrent = run(1e4, HOPS, DEEP)?;
         claims.push(refused("a stream of three times the shear velocity", &measured(&torrent), 2));
+        let dead = run(1e4, HOPS, DEAD)?;
+        claims.push(refused("a grain that hardly rebounds", &measured(&dead), 1));
         Ok(claims)
     })
 }
@@ -185,7 +190,7 @@ fn measured(found: &Leaps) -> [Claim; 3] {
 }
 
 /// B-F6 at its softest: in a contact of 1 ms the grain goes on by half a diameter, so that the bed's grain lets it go early.
-pub(in super::super) fn softest(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn softest(perturbation: f64) -> Judged {
     ensemble::drawn("leaping grains", DRAWS, |draw| {
         let begins = begins(draw);
         let run = |stiffness: f64| leaps(stiffness, &[LOCKED, &[&begins]].concat(), MANY, perturbation);
@@ -201,7 +206,7 @@ pub(in super::super) fn softest(perturbation: f64) -> Result<Vec<Claim>, String>
 }
 
 /// What the spin does to the hops of one draw.
-pub(super) fn spinning_of(draw: u64, perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(super) fn spinning_of(draw: u64, perturbation: f64) -> Judged {
     let begins = begins(draw);
     let run = |hops: usize, changes: &[&[&str]]| {
         leaps(1e4, &[&changes.concat()[..], &[&begins]].concat(), hops, perturbation)

@@ -3,6 +3,7 @@
 use super::super::beds::mean;
 use super::super::control::refused;
 use super::{FORWARD, VERLET, Way, law, mass, rig};
+use crate::case::Judged;
 use crate::origin::{digitised, own, printed};
 use tsubu_frame::{Claim, Points};
 
@@ -86,7 +87,7 @@ fn worst(stiffness: f64, ways: &[Way], name: &str, perturbation: f64) -> Result<
 }
 
 /// B-F9, B-F10: at rest when integrated well; by forward differences near the paper's least number of steps, not.
-pub(in super::super) fn settling(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn settling(perturbation: f64) -> Judged {
     let mut claims = Vec::new();
     let some = |integrator, steps: &[u32]| steps.iter().map(|&steps| Way { integrator, steps }).collect::<Vec<_>>();
     for stiffness in [SOFT, HARD] {

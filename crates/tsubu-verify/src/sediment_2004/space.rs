@@ -4,6 +4,7 @@ use super::super::bench::{Rig, near};
 use super::super::control::refused;
 use super::super::ensemble;
 use super::{contact_seconds, rig};
+use crate::case::Judged;
 use crate::origin::{closed_form, printed, remembered};
 use tsubu::watch::{self, Watch};
 use tsubu_frame::Claim;
@@ -48,7 +49,7 @@ fn hops(changes: &[&str], perturbation: f64) -> Result<[f64; 4], String> {
 }
 
 /// V-58 in space: hops as high, long and fast as measured ones, to a factor of 2; contact times as in figure 6.
-pub(in super::super) fn saltation_space(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn saltation_space(perturbation: f64) -> Judged {
     ensemble::drawn("leaping grains", 1..=3, |seed| {
         const D: f64 = 2e-3;
         let drawn = format!("seed={seed}");
@@ -78,6 +79,8 @@ pub(in super::super) fn saltation_space(perturbation: f64) -> Result<Vec<Claim>,
             &drawn,
         ];
         claims.push(refused("a stream three times as fast", &gates(hops(&faster, perturbation)?), 2));
+        let dead = ["materials.quartz.restitution=0.05", &drawn];
+        claims.push(refused("grains that hardly rebound", &gates(hops(&dead, perturbation)?), 1));
         let softer = hops(&["contact.normal.hooke.stiffness=5e3", "duration=1.5", &drawn], perturbation)?;
         claims.push(refused("half the stiffness", &[contact(softer)], 1));
         Ok(claims)
@@ -97,7 +100,7 @@ fn run_out(count: u32, changes: &[&str], perturbation: f64) -> Result<[f64; 2], 
 }
 
 /// Run-out of a dam break in space: in proportion to the height before, and how far.
-pub(in super::super) fn dam_break_space(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn dam_break_space(perturbation: f64) -> Judged {
     ensemble::drawn("fillings", 1..=5, |seed| {
         let drawn = format!("seed={seed}");
         let gates = |low: [f64; 2], high: [f64; 2]| {

@@ -4,6 +4,7 @@ use super::super::bench::Rig;
 use super::super::control::refused;
 use super::super::ensemble::{drawn, members};
 use super::saltation::{D, DRAWS, FREE, IN_WATER, grain, leaping, spinning_of};
+use crate::case::Judged;
 use crate::origin::printed;
 use tsubu_frame::{Claim, Ensemble};
 
@@ -43,7 +44,7 @@ fn spun_up(of: &str, changes: &[&str], perturbation: f64) -> Result<[Ensemble; 3
 }
 
 /// That spin grows from impact to impact, to what the paper prints; the torque of the water would have taken it away between them.
-fn spun_up_claims(perturbation: f64) -> Result<Vec<Claim>, String> {
+fn spun_up_claims(perturbation: f64) -> Judged {
     let source =
         printed("Osada et al. 2004, figure 21: at each impact, to about -900 rad/s, 143 turns a second").after();
     let gates = |[share, _, level]: [Ensemble; 3]| {
@@ -73,7 +74,7 @@ fn spun_up_claims(perturbation: f64) -> Result<Vec<Claim>, String> {
 
 /// B-F20, B-F21: free to spin, grains leap higher and farther, friction holds them half as much, and they spin up to what rolling
 /// would have; the torque of the water, which the paper leaves out, takes most of the spin away.
-pub(in super::super) fn spinning(perturbation: f64) -> Result<Vec<Claim>, String> {
+pub(in super::super) fn spinning(perturbation: f64) -> Judged {
     let mut claims = drawn("leaping grains", DRAWS, |draw| spinning_of(draw, perturbation))?;
     claims.extend(spun_up_claims(perturbation)?);
     Ok(claims)

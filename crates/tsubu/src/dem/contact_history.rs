@@ -175,11 +175,6 @@ impl ContactHistory {
         history
     }
 
-    /// Number of contacts.
-    pub fn len(&self) -> usize {
-        self.pairs.keys.len() + self.features.keys.len() + self.walls.keys.len()
-    }
-
     /// Forgets all; from now on there are `width` numbers a contact.
     pub fn clear(&mut self, width: usize) {
         self.pairs.clear(width);

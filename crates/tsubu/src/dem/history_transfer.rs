@@ -3,7 +3,7 @@
 //! Every block hands over its own contacts, and is filled from what belongs to it: both on many threads.
 
 use super::contact_forces::{BlockContacts, ContactForces, ForceInput};
-use super::contact_history::{ContactHistory, FeatureKey, WallKey};
+use super::contact_history::{FeatureKey, WallKey};
 use super::ranks::Ranks;
 use super::sweep::{Direction, sweep};
 use crate::contact::Law;
@@ -107,32 +107,6 @@ impl ContactForces {
     /// Snapshot of every contact's history, in the order of blocks.
     pub fn snapshot_history(&mut self, input: &ForceInput) -> HistorySnapshot {
         let mut snapshot = std::mem::take(&mut self.snapshot);
-        self.record_history(input, &mut snapshot);
-        snapshot
-    }
-
-    /// The contacts of all ranks by ids, in the order of blocks, on the first of them: of each the bodies, whether the second is a wall, and the
-    /// patch; and what they remember.
-    pub fn by_id(&self, input: &ForceInput, ranks: &Ranks) -> (Vec<i64>, Vec<f64>) {
-        let width = input.laws.history_width();
-        let own = if width == 0 { 0..0 } else { input.neighbours.own() };
-        let contacts = self.blocks[own.clone()].iter().flat_map(|block| &block.history).map(ContactHistory::len);
-        let contacts: usize = contacts.sum();
-        let (mut ids, mut histories) = (Vec::with_capacity(4 * contacts), Vec::with_capacity(width * contacts));
-        // Block by block: there may be hundreds of millions of numbers.
-        let mut block = BlockHistory::default();
-        for list in &input.neighbours.lists[own] {
-            block.record(&self.blocks[list.first / BLOCK], list, &input.grains.id, width);
-            let of = |k: &ContactId| [k.first, k.second, u32::from(k.wall), k.patch].map(f64::from);
-            ids.extend(block.contacts.iter().flat_map(of));
-            histories.extend_from_slice(&block.history);
-        }
-        let ids = ranks.gather_first(ids).into_iter().map(|id| id as i64).collect();
-        (ids, ranks.gather_first(histories))
-    }
-
-    /// Writes every contact's history into a snapshot, in the order of blocks.
-    fn record_history(&self, input: &ForceInput, snapshot: &mut HistorySnapshot) {
         let width = input.laws.history_width();
         let own = if width == 0 { 0..0 } else { input.neighbours.own() };
         let lists = &input.neighbours.lists[own.clone()];
@@ -143,6 +117,38 @@ impl ContactForces {
         sweep(range, Direction::Forward, shares(id.len()), &|(of, lists): (&mut [BlockHistory], &[BlockList])| {
             of[0].record(&blocks[lists[0].first / BLOCK], &lists[0], id, width);
         });
+        snapshot
+    }
+
+    /// The contacts of all ranks by ids, in the order of blocks, on the first of them: of each the bodies, whether the second is a wall, and the
+    /// patch; and what they remember.
+    pub fn by_id(&self, input: &ForceInput, ranks: &Ranks) -> (Vec<i64>, Vec<f64>) {
+        let width = input.laws.history_width();
+        if width == 0 {
+            return Default::default();
+        }
+        let contacts = if ranks.is_first() { self.sums.contacts } else { 0 };
+        let (mut ids, mut histories) = (Vec::with_capacity(4 * contacts), Vec::with_capacity(width * contacts));
+        let mut block = BlockHistory::default();
+        ranks.tell_first(
+            input.neighbours.own(),
+            |blocks, message| {
+                for number in blocks {
+                    block.record(&self.blocks[number], &input.neighbours.lists[number], &input.grains.id, width);
+                    for (k, history) in block.contacts.iter().zip(block.history.chunks_exact(width)) {
+                        message.extend([k.first, k.second, u32::from(k.wall), k.patch].map(f64::from));
+                        message.extend(history);
+                    }
+                }
+            },
+            |message| {
+                while !message.is_at_end() {
+                    ids.extend(message.numbers(4).iter().map(|id| *id as i64));
+                    histories.extend(message.numbers(width));
+                }
+            },
+        );
+        (ids, histories)
     }
 
     /// Gives the pairs of new neighbour lists the histories they had; a pair whose bodies have changed places gets its turned.

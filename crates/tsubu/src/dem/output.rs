@@ -142,7 +142,7 @@ impl DemEngine {
         };
         let mut contacts = match wants.contacts {
             Contacts::Nothing => Vec::new(),
-            Contacts::Places => self.overlaps_to_show(),
+            Contacts::Places => self.overlaps(),
             Contacts::Forces => {
                 let mut all = Vec::new();
                 self.each_contact(|contact| all.push(contact));

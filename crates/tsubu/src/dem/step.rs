@@ -132,8 +132,8 @@ impl DemEngine {
         self.ranks.cut(self.grains.len().div_ceil(BLOCK), contacts)
     }
 
-    /// The contacts that this rank and all others have, in the order of blocks: where they are to be `for_all`, else on the first rank alone.
-    fn of_all_ranks(&self, own: Vec<Contact>, for_all: bool) -> Vec<Contact> {
+    /// The contacts that this rank and all others have, in the order of blocks.
+    fn of_all_ranks(&self, own: Vec<Contact>) -> Vec<Contact> {
         if self.ranks.is_alone() {
             return own;
         }
@@ -141,7 +141,7 @@ impl DemEngine {
         for contact in own {
             contact.put(&mut message);
         }
-        let all = if for_all { self.ranks.gather(message) } else { self.ranks.gather_first(message) };
+        let all = self.ranks.gather(message);
         let mut all = Reader::new(&all);
         std::iter::from_fn(|| (!all.is_at_end()).then(|| Contact::take(&mut all))).collect()
     }
@@ -247,28 +247,21 @@ impl DemEngine {
 
     /// Shows the contacts of this moment one by one, in the order of blocks, on the first rank; the others tell it theirs.
     pub(super) fn each_contact(&self, mut show: impl FnMut(Contact)) {
-        let mut message = Vec::new();
-        if self.ranks.is_first() {
-            each_contact(&self.contacts, &self.force_input(), &mut show);
-        } else {
-            each_contact(&self.contacts, &self.force_input(), |contact| contact.put(&mut message));
-        }
-        for message in self.ranks.tell_first(message) {
-            let mut message = Reader::new(&message);
-            while !message.is_at_end() {
-                show(Contact::take(&mut message));
-            }
-        }
+        let input = self.force_input();
+        self.ranks.tell_first(
+            self.neighbours.own(),
+            |blocks, message| each_contact(&self.contacts, &input, blocks, |contact| contact.put(message)),
+            |message| {
+                while !message.is_at_end() {
+                    show(Contact::take(message));
+                }
+            },
+        );
     }
 
     /// The contacts without forces, on all ranks, for those who look at every step.
     pub(super) fn overlaps(&self) -> Vec<Contact> {
-        self.of_all_ranks(overlaps(&self.force_input()), true)
-    }
-
-    /// The same on the first rank.
-    pub(super) fn overlaps_to_show(&self) -> Vec<Contact> {
-        self.of_all_ranks(overlaps(&self.force_input()), false)
+        self.of_all_ranks(overlaps(&self.force_input()))
     }
 
     /// Accelerations from forces and gravity; completes the velocities of a step `dt` (0: leaves them).
@@ -343,7 +336,7 @@ impl DemEngine {
             return None;
         }
         let mut own = Vec::new();
-        each_contact(&self.contacts, &self.force_input(), |contact| own.push(contact));
+        each_contact(&self.contacts, &self.force_input(), self.neighbours.own(), |contact| own.push(contact));
         self.deepest(own)
     }
 
@@ -358,7 +351,7 @@ impl DemEngine {
         if !self.is_deep(self.contacts.sums.deepest) {
             return Ok(());
         }
-        let all = self.of_all_ranks(deepest.into_iter().collect(), true);
+        let all = self.of_all_ranks(deepest.into_iter().collect());
         let Some(contact) = self.deepest(all) else { return Ok(()) };
         let ratio = self.overlap_ratio(&contact);
         let limit = self.limits.largest_overlap;

@@ -4,14 +4,19 @@ use super::{ContactForces, ContactSums, ForceInput, Scratch, features, pairs, wa
 use crate::contact::chunk::Chunk;
 use crate::dem::contact_batch::ContactBatch;
 use crate::view::Contact;
+use std::ops::Range;
 
-/// Shows all contacts one by one, evaluated anew at the present positions and velocities without changing what is remembered.
-pub(in crate::dem) fn each_contact(forces: &ContactForces, input: &ForceInput, mut show: impl FnMut(Contact)) {
+/// Shows the contacts of own blocks one by one, evaluated anew at the present positions and velocities without changing what is remembered.
+pub(in crate::dem) fn each_contact(
+    forces: &ContactForces,
+    input: &ForceInput,
+    blocks: Range<usize>,
+    mut show: impl FnMut(Contact),
+) {
     // A step of length zero leaves the tangential springs as they are.
     let input = ForceInput { dt: 0.0, ..*input };
     let mut scratch = Scratch::new(input.laws.all());
-    let own = input.neighbours.own();
-    for (block, list) in forces.blocks[own.clone()].iter().zip(&input.neighbours.lists[own]) {
+    for (block, list) in forces.blocks[blocks.clone()].iter().zip(&input.neighbours.lists[blocks]) {
         let mut take = |batch: &ContactBatch, wall: bool| {
             // What is only near, within the reach of a law, is no contact.
             for r in (0..batch.chunk.rows()).filter(|&r| batch.chunk.contact_radius[r] > 0.0) {

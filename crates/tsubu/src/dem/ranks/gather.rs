@@ -1,6 +1,11 @@
 //! Numbers of all ranks in one place.
 
 use super::Ranks;
+use crate::ranks::Reader;
+use std::ops::Range;
+
+/// Blocks that are told of at once.
+const AT_ONCE: usize = 64;
 
 impl Ranks {
     /// What all ranks have, in the order of the ranks; `mine` alone where there is but one.
@@ -11,24 +16,35 @@ impl Ranks {
         messages.concat()
     }
 
-    /// The same on the first rank; on others nothing.
-    pub fn gather_first(&self, mut mine: Vec<f64>) -> Vec<f64> {
-        if !self.is_first() {
-            self.tell_first(mine);
-            return Vec::new();
+    /// Brings to the first rank what all have of their blocks, rank by rank and in parts: all at once is large. `write` makes the message of some own
+    /// blocks, and the first rank reads them in the order of blocks.
+    pub fn tell_first(
+        &self,
+        own: Range<usize>,
+        mut write: impl FnMut(Range<usize>, &mut Vec<f64>),
+        mut read: impl FnMut(&mut Reader),
+    ) {
+        let mut messages = vec![Vec::new(); self.seams.len().max(1)];
+        let all = self.communicator.as_ref();
+        for rank in 0..messages.len() {
+            let (mine, first) = (rank == self.rank(), self.is_first());
+            if !mine && !first {
+                continue;
+            }
+            let blocks = if mine { own.clone() } else { self.blocks(rank) };
+            let partner = if first { rank } else { 0 };
+            for begin in blocks.clone().step_by(AT_ONCE) {
+                messages[partner].clear();
+                if mine {
+                    write(begin..(begin + AT_ONCE).min(blocks.end), &mut messages[partner]);
+                }
+                if let Some(all) = all.filter(|_| rank > 0) {
+                    all.exchange_while(&mut messages, &[partner], &mut || false);
+                }
+                if first {
+                    read(&mut Reader::new(&messages[partner]));
+                }
+            }
         }
-        let others = self.tell_first(Vec::new());
-        mine.reserve_exact(others.iter().map(Vec::len).sum());
-        others.into_iter().for_each(|mut message| mine.append(&mut message));
-        mine
-    }
-
-    /// What the other ranks have, in their order, on the first rank; on others nothing.
-    pub fn tell_first(&self, mine: Vec<f64>) -> Vec<Vec<f64>> {
-        let Some(all) = &self.communicator else { return Vec::new() };
-        let mut messages = self.letters();
-        messages[0] = mine;
-        all.exchange(&mut messages);
-        if self.is_first() { messages.split_off(1) } else { Vec::new() }
     }
 }
