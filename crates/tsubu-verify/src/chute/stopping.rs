@@ -39,7 +39,7 @@ const FLOWS: [[f64; 3]; 8] = [
     [24.0, 10.0, 2.0],
     [26.0, 10.0, 3.5],
 ];
-/// When flows have become steady, and until when they are looked at.
+/// From when to when flows are looked at; the highest still slow down then.
 const LOOKED: [f64; 2] = [90.0, 180.0];
 
 /// Slope and layers of flows of wrong models.
