@@ -4,7 +4,7 @@ mod automaton;
 mod cost;
 mod shaken;
 
-pub(super) use automaton::{figure_11_extended, figure_11_literal};
+pub(super) use automaton::{figure_11_extended, figure_11_literal, hexagons};
 pub(super) use cost::figure_12;
 pub(super) use shaken::figure_9;
 
@@ -38,8 +38,8 @@ fn peak(cases: &[CaseResult], count: usize) -> (f64, f64) {
     case.and_then(|c| c.peak).map_or((f64::NAN, f64::NAN), |p| (p.ratio, p.rms))
 }
 
-/// What every DEM response must show: lower peaks with more balls, at the place of the added mass.
-fn dem_claims(name: &str, cases: &[CaseResult], lumps: &[(usize, f64)], source: Source<'_>) -> Vec<Claim> {
+/// What every response by grains of a shape of their own must show: lower peaks with more balls, at the place of the added mass.
+fn response_claims(name: &str, cases: &[CaseResult], lumps: &[(usize, f64)], source: Source<'_>) -> Vec<Claim> {
     let mut claims = Vec::new();
     let counts: Vec<usize> = lumps.iter().map(|(count, _)| *count).collect();
     for pair in counts.windows(2) {
@@ -75,29 +75,30 @@ fn dem_claims(name: &str, cases: &[CaseResult], lumps: &[(usize, f64)], source: 
 
 /// Balls three times as heavy, on a floor that they never leave, are an added mass that damps nothing: the peak is elsewhere, higher
 /// than that of a lump that hits the box, and highest with the most balls.
-fn heavy(text: &str) -> Result<Claim, String> {
-    let changes = [
+fn heavy(text: &str, changes: &[&str]) -> Result<Claim, String> {
+    let heavier = [
         "particles.balls.mass='0.6 g'",
         "gravity='100 m/s^2'",
         "response.frequency-ratio={ from = 0.89, to = 0.98, step = 0.01 }",
         "response.vary={ \"particles.balls.count\" = [10, 30] }",
     ];
-    let cases = respond(text, &changes.map(str::to_owned), 1.0)?;
-    let gates = dem_claims("", &cases, &LUMP[..2], printed("more balls, lower peak"));
+    let changes: Vec<String> = changes.iter().chain(&heavier).map(|&change| change.to_owned()).collect();
+    let cases = respond(text, &changes, 1.0)?;
+    let gates = response_claims("", &cases, &LUMP[..2], printed("more balls, lower peak"));
     Ok(refused("balls three times as heavy that never leave the floor", &gates, 5))
 }
 
 /// Fillings of the box that a response is drawn from.
 const FILLINGS: RangeInclusive<u64> = 1..=5;
 
-/// What every DEM response must show, of all fillings, and that heavy balls do not show it.
+/// What every response must show, of all fillings, and that heavy balls do not show it.
 fn of_fillings(name: &str, text: &str, changes: &[&str], source: Source<'_>, perturbation: f64) -> Judged {
     let mut claims = ensemble::drawn("fillings", FILLINGS, |seed| {
         let drawn = format!("seed={seed}");
         let changes: Vec<String> = changes.iter().chain(&[drawn.as_str()]).map(|&change| change.to_owned()).collect();
-        Ok(dem_claims(name, &respond(text, &changes, perturbation)?, &LUMP, source))
+        Ok(response_claims(name, &respond(text, &changes, perturbation)?, &LUMP, source))
     })?;
-    claims.push(heavy(text)?);
+    claims.push(heavy(text, changes)?);
     Ok(claims)
 }
 

@@ -26,7 +26,7 @@ const SLOTS: [(f64, u32); 5] = [(6.0, 2), (8.0, 1), (10.0, 1), (14.0, 1), (20.0,
 const DRAWS: RangeInclusive<u64> = 1..=5;
 
 /// Seeds of so many silos of a draw.
-pub(super) fn seeds(draw: u64, silos: u32) -> impl Iterator<Item = u64> {
+fn seeds(draw: u64, silos: u32) -> impl Iterator<Item = u64> {
     (0..u64::from(silos)).map(move |silo| 10 * (draw - 1) + silo + 1)
 }
 

@@ -200,7 +200,7 @@ pub static CASES: &[Case] = &[
     gap(case("vertical-chute", "gdr-midi-2004", 600, "down between two rough walls", gdr_midi_2004::vertical_chute)),
     gap(case("apparent-mass", "masmoudi-2016", 300, "a measured particle damper", apparent_mass::measured)),
     gap(case("beverloo", "dem-benchmarks", 1800, "discharge through a slot, in the plane", outlet::beverloo)),
-    gap(case("beverloo-3d", "dem-benchmarks", 1800, "discharge through a round hole", orifice::beverloo)),
+    gap(case("beverloo-3d", "dem-benchmarks", 3600, "discharge through a round hole", orifice::beverloo)),
     gap(case("janssen", "dem-benchmarks", 1800, "pressure in a silo, in the plane", silo::janssen)),
     gap(case("chute", "dem-benchmarks", 1800, "flow down a rough slope", chute::bagnold)),
     gap(case(
@@ -259,6 +259,13 @@ pub static CASES: &[Case] = &[
         damper_2003::figure_11_literal,
     )),
     case("figure-11-extended", "damper-2003", 1800, "the same, extended (figure 11)", damper_2003::figure_11_extended),
+    gap(case(
+        "damper-hexagons",
+        "damper-2003",
+        600,
+        "response and shaken box by balls of 19 cells (A-9)",
+        damper_2003::hexagons,
+    )),
     gap(case("figure-12", "damper-2003", 300, "cost of both methods against N (figure 12)", damper_2003::figure_12)),
 ];
 

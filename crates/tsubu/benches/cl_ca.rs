@@ -13,8 +13,8 @@ use std::time::Duration;
 use tsubu::clca::active::Active;
 use tsubu::clca::bed::{Bed, GrainKind};
 use tsubu::clca::order::Pull;
-use tsubu::clca::shape::Shape;
 use tsubu::lattice::grid::Grid;
+use tsubu::lattice::shape::Shape;
 
 /// Grain-steps that are timed: from all falling to half of a thousand at rest.
 const GRAIN_STEPS: usize = 10_000_000;

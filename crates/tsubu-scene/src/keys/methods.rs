@@ -86,6 +86,14 @@ pub(super) static LATTICE: &[Key] = &[
         .default("8")
         .at_least(0.0)
         .at_most(1e5),
+    Key::new(
+        "ball-radius",
+        Kind::Whole,
+        "Cells from the middle of a ball to its rim: 0, a ball is one cell; r, a hexagon of 3 r² + 3 r + 1 cells",
+    )
+    .default("0")
+    .at_least(0.0)
+    .at_most(10.0),
 ];
 
 static MODE: &[Word] = &[

@@ -64,6 +64,8 @@ pub struct Lattice {
     pub arithmetic: Arithmetic,
     /// Rows of head-room added above and below the box's travel.
     pub head_room: usize,
+    /// Cells from the middle of a ball to its rim: 0, a ball is one cell; r, a hexagon of 3 r^2 + 3 r + 1 cells.
+    pub ball_radius: usize,
 }
 
 /// Preset of lattice rules.

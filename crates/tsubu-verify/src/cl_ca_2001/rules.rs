@@ -12,10 +12,10 @@ use tsubu::clca::active::Active;
 use tsubu::clca::bed::{Bed, GrainKind};
 use tsubu::clca::order::{Past, Pull};
 use tsubu::clca::passive::Passive;
-use tsubu::clca::shape::Shape;
 use tsubu::lattice::direction::Direction::{self, N, S, SE, SW};
 use tsubu::lattice::direction::Vector;
 use tsubu::lattice::grid::{EMPTY, Grid};
+use tsubu::lattice::shape::Shape;
 use tsubu_frame::Claim;
 
 /// Draws of each sketch.

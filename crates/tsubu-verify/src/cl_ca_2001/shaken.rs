@@ -65,7 +65,7 @@ pub(in super::super) fn rise(perturbation: f64) -> Judged {
                 "#,
                 CYCLE[0],
                 CYCLE[1],
-                1e-3 * tsubu::clca::shape::Shape::hexagon(drawn).diameter()
+                1e-3 * tsubu::lattice::shape::Shape::hexagon(drawn).diameter()
             );
             let mut rig = shaken(&more, seed, 1.0)?;
             let mut reached = CYCLES;

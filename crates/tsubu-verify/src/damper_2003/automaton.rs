@@ -1,6 +1,6 @@
 //! A-F11: response by the automaton, with its literal rules and with resting impulses.
 
-use super::{FIGURE_11, peak, respond};
+use super::{FIGURE_11, LUMP, of_fillings, peak, respond, response_claims, shaken};
 use crate::bench::within;
 use crate::case::Judged;
 use crate::control::refused;
@@ -154,22 +154,40 @@ fn extended_of(seed: u64, perturbation: f64) -> Judged {
     claims.extend(down("extended", &found));
     let literal = cases("literal", &[&drawn], perturbation)?;
     claims.push(refused("the automaton without resting impulses", &down("literal", &literal), 1));
-    let small = |mode: &str| -> Judged {
-        let changes = [
-            "hosts.leaf-spring.base.sine.amplitude=0.05 mm",
-            "response.seeds=1",
-            "response.frequency-ratio={ from = 0.9, to = 1.04, step = 0.005 }",
-            &drawn,
-        ];
-        let found = cases(mode, &changes, perturbation)?;
-        let claim = |&count: &usize| {
-            let limit = 1.0 / (1.0 + 0.2e-3 * count as f64 / 0.086_f64).sqrt();
-            let name = format!("automaton, {mode}, 0.05 mm, {count} balls: peak frequency ratio");
-            within(name, peak(&found, count).0, limit, 0.01, closed_form("added-mass limit at small amplitude"))
-        };
-        Ok(COUNTS[1..].iter().map(claim).collect())
+    claims.extend(small("extended", "extended", &[&drawn], perturbation)?);
+    let literal = small("literal", "literal", &[&drawn], perturbation)?;
+    claims.push(refused("the automaton without resting impulses, at 0.05 mm", &literal, 1));
+    Ok(claims)
+}
+
+/// Where the peak is if the base hardly moves: the balls move with the box.
+fn small(what: &str, mode: &str, changes: &[&str], perturbation: f64) -> Judged {
+    let gentle = [
+        "hosts.leaf-spring.base.sine.amplitude=0.05 mm",
+        "response.seeds=1",
+        "response.frequency-ratio={ from = 0.9, to = 1.04, step = 0.005 }",
+    ];
+    let found = cases(mode, &[&gentle, changes].concat(), perturbation)?;
+    let claim = |&count: &usize| {
+        let limit = 1.0 / (1.0 + 0.2e-3 * count as f64 / 0.086_f64).sqrt();
+        let name = format!("automaton, {what}, 0.05 mm, {count} balls: peak frequency ratio");
+        within(name, peak(&found, count).0, limit, 0.01, closed_form("added-mass limit at small amplitude"))
     };
-    claims.extend(small("extended")?);
-    claims.push(refused("the automaton without resting impulses, at 0.05 mm", &small("literal")?, 1));
+    Ok(COUNTS[1..].iter().map(claim).collect())
+}
+
+/// A-9, the authors' remedy for a locked packing: balls of several cells. What is asked of DEM is asked of them.
+pub(crate) fn hexagons(perturbation: f64) -> Judged {
+    const HEXAGONS: [&str; 2] = ["lattice.ball-radius=2", "lattice.head-room=200"];
+    let source = printed("figure 11: more balls, lower peak");
+    let extended = [&["response.vary.\"lattice.mode\"=[\"extended\"]"], HEXAGONS.as_slice()].concat();
+    let mut claims = of_fillings("balls of 19 cells", FIGURE_11, &extended, source, perturbation)?;
+    let single = ["response.vary.\"lattice.mode\"=[\"literal\"]".to_owned()];
+    let gates = response_claims("", &respond(FIGURE_11, &single, 1.0)?, &LUMP, source);
+    claims.push(refused("the published automaton, one cell a ball", &gates, 3));
+    claims.extend(small("balls of 19 cells", "extended", &HEXAGONS, perturbation)?);
+    let literal = small("balls of 19 cells", "literal", &HEXAGONS, perturbation)?;
+    claims.push(refused("balls of 19 cells without resting impulses, at 0.05 mm", &literal, 2));
+    claims.extend(shaken::hexagons(&HEXAGONS)?);
     Ok(claims)
 }

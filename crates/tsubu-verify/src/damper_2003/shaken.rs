@@ -17,6 +17,9 @@ const BINS: usize = 60;
 /// Fillings of the box.
 const SEEDS: RangeInclusive<u64> = 1..=12;
 
+/// The floor never falls faster than the balls.
+const GENTLE: [&str; 1] = ["walls.box.motion.signal.sine.amplitude=5.5 mm"];
+
 /// Neither friction nor loss; such balls never settle.
 const ELASTIC: [&str; 5] = [
     "particles.balls.start={ rows = {} }",
@@ -72,20 +75,34 @@ pub(crate) fn figure_9(_spoiler: f64) -> Judged {
     let mut claims = Vec::new();
     for method in ["dem", "lattice"] {
         for count in [20, 40] {
-            claims.extend(gates(method, count, &[])?);
+            claims.extend(gates(method, method, count, &[])?);
         }
     }
-    let gentle = gates("dem", 20, &["walls.box.motion.signal.sine.amplitude=5.5 mm"])?;
+    let gentle = gates("dem", "dem", 20, &GENTLE)?;
     claims.push(refused("a box shaken with 0.8 of gravity", &gentle, 3));
     for method in ["dem", "lattice"] {
-        let elastic = gates(method, 40, &ELASTIC)?;
+        let elastic = gates(method, method, 40, &ELASTIC)?;
         claims.push(refused(&format!("balls without friction that lose nothing, by {method}"), &elastic, 2));
     }
     Ok(claims)
 }
 
-/// What is claimed of a bed, by the mean over [`SEEDS`] fillings.
-fn gates(method: &str, count: usize, changes: &[&str]) -> Judged {
+/// The same of balls of 19 cells, made so by changes of the scene.
+pub(super) fn hexagons(changes: &[&str]) -> Judged {
+    let balls = "balls of 19 cells";
+    let mut claims = Vec::new();
+    for count in [20, 40] {
+        claims.extend(gates("lattice", balls, count, changes)?);
+    }
+    let gentle = gates("lattice", balls, 20, &[changes, &GENTLE].concat())?;
+    claims.push(refused("balls of 19 cells shaken with 0.8 of gravity", &gentle, 3));
+    let elastic = gates("lattice", balls, 40, &[changes, &ELASTIC].concat())?;
+    claims.push(refused("balls of 19 cells without friction that lose nothing", &elastic, 2));
+    Ok(claims)
+}
+
+/// What is claimed of a bed of such balls, by the mean over [`SEEDS`] fillings.
+fn gates(method: &str, balls: &str, count: usize, changes: &[&str]) -> Judged {
     let [landing, lift_off, flight] =
         ensemble::members(&format!("{method}, {count} balls {changes:?}"), SEEDS, |seed| {
             let (landing, lift_off, flight) = events(&force_by_phase(method, count, seed, changes)?);
@@ -96,7 +113,7 @@ fn gates(method: &str, count: usize, changes: &[&str]) -> Judged {
     let gravity = closed_form("floor acceleration below -g");
     let air = own("figures 9 and 10: separates in mid-air").after();
     let claim = |what: &str, found: Ensemble, low: f64, high: f64, source: Source<'_>| {
-        let name = format!("shaken box, {method}, {count} balls: {what}");
+        let name = format!("shaken box, {balls}, {count} balls: {what}");
         Claim::judge_ensemble(name, found, Some(low), Some(high), source)
     };
     Ok(vec![

@@ -9,10 +9,10 @@
 
 use super::bed::{Bed, GrainKind, Grains, NOWHERE};
 use super::order::{Pull, rank};
-use super::shape::Stencil;
 use super::strips::{Strips, Window};
 use crate::lattice::direction::Direction;
 use crate::lattice::grid::{EMPTY, Numbering};
+use crate::lattice::shape::Stencil;
 use crate::random::{Purpose, words};
 use rayon::prelude::*;
 

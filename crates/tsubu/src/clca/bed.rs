@@ -1,9 +1,9 @@
 //! Grains of many points on their lattice.
 
 use super::order::Past;
-use super::shape::{Shape, Stencil};
 use crate::lattice::direction::{Direction, Vector};
 use crate::lattice::grid::{EMPTY, Grid, WALL};
+use crate::lattice::shape::{Shape, Stencil};
 
 /// What grains of one group and shape have in common.
 #[derive(Clone, Debug)]

@@ -2,9 +2,9 @@
 
 use super::bed::GrainKind;
 use super::place::Grain;
-use super::shape::Shape;
 use crate::lattice::direction::Vector;
 use crate::lattice::remarks::Remarks;
+use crate::lattice::shape::Shape;
 use crate::lattice::stage;
 use crate::random::{Purpose, words};
 use crate::sizes;

@@ -1,6 +1,6 @@
 //! CL-CA: grains made of many lattice points that move where there is room (Sakaguchi, Murakami, Hasegawa, Kawai 2001).
 //!
-//! A grain is a connected set of points of the triangular lattice ([`shape`]). In a step it moves by one spacing or
+//! A grain is a connected set of points of the triangular lattice ([`crate::lattice::shape`]). In a step it moves by one spacing or
 //! rests; forces do not exist. Under the [`active`] rule gravity lets it go down where there is room; under the
 //! [`passive`] rule walls and driven grains push, grains overlap, and the number of shared points stands for the force.
 //! Many grains take their turns in strips of the lattice side by side. [`bed`] holds the grains and [`order`] says who goes
@@ -17,7 +17,6 @@ pub mod order;
 mod output;
 pub mod passive;
 mod place;
-pub mod shape;
 mod sources;
 mod strips;
 

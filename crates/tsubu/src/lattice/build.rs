@@ -5,11 +5,12 @@ mod casing;
 use super::damper::{Beyond, Damper, Rules};
 use super::fixed::{Restitution, Scale};
 use super::remarks::{Remarks, World};
+use super::shape::Shape;
 use super::start;
 use crate::engine::{Note, Refusal};
 use crate::view::Wants;
 use casing::{Casing, casing, check_carrier, place};
-use tsubu_scene::plan::{self, Collision, LatticeMode, ObliqueGravity, Plan, Rolling, Shape, Tangential};
+use tsubu_scene::plan::{self, Collision, LatticeMode, ObliqueGravity, Plan, Rolling, Tangential};
 
 /// Everything that the engine needs from a plan.
 pub(super) struct Built {
@@ -22,10 +23,8 @@ pub(super) struct Built {
     pub mass: f64,
     /// Radius of a ball [m].
     pub radius: f64,
-    /// Centre of the floor at level 0 [m].
-    pub floor_centre: plan::Vector,
-    /// Cell spacing [m].
-    pub spacing: f64,
+    /// The box at level 0, and the cells of a ball.
+    pub geometry: start::Geometry,
 }
 
 /// The balls' common properties.
@@ -98,23 +97,21 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         return Err(remarks.refusal().unwrap_or(Refusal { method: "lattice", notes: Vec::new() }));
     };
     check_carrier(&casing, &kind, hosts, lattice, &mut remarks);
-    let place = place(&casing, &kind, lattice, &mut remarks);
-    let scale = scale(&kind, -gravity[2], lattice, &mut remarks);
+    let shape = Shape::hexagon(lattice.ball_radius);
+    // As many balls fit into an area as where each has one cell.
+    let spacing = kind.diameter / (shape.points().len() as f64).sqrt();
+    let place = place(&casing, &kind, spacing, lattice, &mut remarks);
+    let scale = scale(spacing, -gravity[2], lattice, &mut remarks);
     let rules = rules(plan, &casing, &kind, *seed, &scale);
     if let Some(refusal) = remarks.refusal() {
         return Err(refusal);
     }
-    let geometry = start::Geometry {
-        spacing: kind.diameter,
-        floor_centre: casing.floor_centre,
-        columns: place.columns,
-        rows: place.rows,
-    };
+    let geometry = start::Geometry { spacing, floor_centre: casing.floor_centre, place, shape };
     let balls = start::place(plan, &geometry, &scale, &mut remarks);
     if let Some(refusal) = remarks.refusal() {
         return Err(refusal);
     }
-    let damper = Damper::new(scale, rules, place, &balls);
+    let damper = Damper::new(scale, rules, place, geometry.shape.clone(), &balls);
     remark_reach(&damper, scale, lattice, &mut remarks);
     if let Some(refusal) = remarks.refusal() {
         return Err(refusal);
@@ -126,8 +123,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         dt: lattice.time_step,
         mass: kind.mass,
         radius: 0.5 * kind.diameter,
-        floor_centre: casing.floor_centre,
-        spacing: kind.diameter,
+        geometry,
     })
 }
 
@@ -158,7 +154,7 @@ fn kind<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Option<BallKind<'a>> {
     let Some((first_name, first)) = groups.next() else {
         // An empty box is what every response curve is compared with; cells still need a size.
         let wall = plan.walls.values().next()?;
-        let Shape::Box { width, .. } = wall.shape else { return None };
+        let plan::Shape::Box { width, .. } = wall.shape else { return None };
         return Some(BallKind { material: &wall.material, diameter: width / 10.0, mass: 0.0, count: 0 });
     };
     let mut count = first.count;
@@ -240,19 +236,22 @@ fn remark_contact(contact: &plan::Contact, pair: Option<(usize, &plan::Contact)>
 }
 
 /// Units, and whether whole numbers can hold them.
-fn scale(kind: &BallKind, gravity: f64, lattice: &plan::Lattice, remarks: &mut Remarks) -> Scale {
+fn scale(spacing: f64, gravity: f64, lattice: &plan::Lattice, remarks: &mut Remarks) -> Scale {
     let dt = lattice.time_step;
     if dt.is_nan() || dt <= 0.0 {
         remarks.refuse("lattice.time-step", "it must be positive; the automaton of Komatsuzaki (2003) uses \"0.1 ms\"");
     }
     let half = lattice.oblique_gravity == ObliqueGravity::Projected;
-    let scale = Scale::new(kind.diameter, gravity, dt, lattice.arithmetic, half);
+    let scale = Scale::new(spacing, gravity, dt, lattice.arithmetic, half);
     if scale.gravity > 0 && !(1 << 17..1 << 32).contains(&scale.cell) {
-        let longest = (kind.diameter * 1024.0 / gravity / f64::from(1 << 17)).sqrt();
-        let shortest = (kind.diameter * 1024.0 / gravity / 2.0_f64.powi(32)).sqrt();
+        let longest = (spacing * 1024.0 / gravity / f64::from(1 << 17)).sqrt();
+        let shortest = (spacing * 1024.0 / gravity / 2.0_f64.powi(32)).sqrt();
         remarks.refuse(
             "lattice.time-step",
-            format!("{dt} s is outside of what balls of this size need: {shortest:.1e} to {longest:.1e} s"),
+            format!(
+                "{dt} s is outside of what cells of {:.3} mm need: {shortest:.1e} to {longest:.1e} s",
+                1e3 * spacing
+            ),
         );
     }
     scale
@@ -271,6 +270,7 @@ fn rules(plan: &Plan, casing: &Casing, kind: &BallKind, seed: u64, scale: &Scale
         resting_threshold,
         arithmetic: _,
         head_room: _,
+        ball_radius: _, // Makes the balls' shape.
     } = &plan.lattice;
     // The mode has done its work when the scene was read: it chose the defaults of the options below.
     let (LatticeMode::Literal | LatticeMode::Extended) = mode;

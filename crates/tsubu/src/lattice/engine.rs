@@ -45,14 +45,13 @@ pub struct LatticeEngine {
 impl LatticeEngine {
     /// Builds the automaton of a plan at time 0, or says all that it cannot do.
     pub fn new(plan: &Plan, hosts: &Hosts) -> Result<Self, Refusal> {
-        let Built { mut damper, notes, wall, dt, mass, radius, floor_centre, spacing } = build(plan)?;
+        let Built { mut damper, notes, wall, dt, mass, radius, geometry } = build(plan)?;
         let groups = plan.particles.values().enumerate();
         let groups = groups.flat_map(|(k, group)| std::iter::repeat_n(k as u32, group.count)).collect();
         let mover = Mover::new(&plan.walls[&wall], hosts, DVec3::ZERO);
         let unit = mass * damper.scale.speed;
-        let geometry = Geometry { spacing, floor_centre, columns: damper.place.columns, rows: damper.place.rows };
         // A box that does not begin at its drawn place takes its balls along.
-        let level = (mover.displacement(0.0, hosts).0.z / spacing).round() as i64;
+        let level = (mover.displacement(0.0, hosts).0.z / geometry.spacing).round() as i64;
         let place = &mut damper.place;
         place.level = level.clamp(-(place.head as i64), place.head as i64);
         for cell in &mut damper.cell {
@@ -164,11 +163,11 @@ impl LatticeEngine {
 
     /// Corners of the box at the level where the automaton has it [m].
     fn outline(&self) -> Vec<[f64; 3]> {
-        let Geometry { spacing, floor_centre: [x, y, z], columns, rows } = self.geometry;
-        let half = 0.5 * columns as f64 * COLUMN_SPACING * spacing;
+        let Geometry { spacing, floor_centre: [x, y, z], place, .. } = self.geometry;
+        let half = 0.5 * place.columns as f64 * COLUMN_SPACING * spacing;
         let low = z + self.damper.place.level as f64 * spacing;
         // Odd columns stand half a cell higher, and their highest balls too.
-        let high = low + (rows as f64 + 0.5) * spacing;
+        let high = low + (place.rows as f64 + 0.5) * spacing;
         vec![[x - half, y, low], [x + half, y, low], [x + half, y, high], [x - half, y, high]]
     }
 }
@@ -298,8 +297,11 @@ impl Engine for LatticeEngine {
         (d.cell, d.direction, d.speed, d.stored, d.resting) = (cell, direction, speed, stored, resting);
         (d.place.level, d.rest.speed, d.rest.risen) = (numbers[0], numbers[1], numbers[2]);
         d.step = numbers[3] as u64;
-        d.rebuild();
         let section = |name: &str| MissingSection { name: name.to_owned(), kind: "integer" };
+        if !d.cell.iter().all(|&cell| d.fits(cell)) {
+            return Err(section("lattice.cell"));
+        }
+        d.rebuild();
         d.within_reach().map_err(|_| section("lattice.speed"))?;
         if d.fault().is_some() { Err(section("lattice.cell")) } else { Ok(()) }
     }

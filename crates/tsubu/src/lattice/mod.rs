@@ -1,7 +1,7 @@
 //! Cellular automata on lattices.
 //!
-//! The kit: [`direction`], [`grid`], [`stage`] (a scene's walls on the lattice), [`remarks`] and [`fixed`] for the triangular
-//! lattice with gravity along one of its axes, [`sheet`] for lattices with level rows. [`damper`] is the automaton of
+//! The kit: [`direction`], [`grid`], [`shape`] (grains of many points), [`stage`] (a scene's walls on the lattice), [`remarks`] and
+//! [`fixed`] for the triangular lattice with gravity along one of its axes, [`sheet`] for lattices with level rows. [`damper`] is the automaton of
 //! Komatsuzaki, Sato, Iwata and Morishita (2003) for balls in a shaken box, one file per family of rules; [`engine`] runs it
 //! from a plan, together with the structure that carries the box. Models of beds and piles, a file each: [`litwiniszyn`] and
 //! [`caram_hong`] (voids that walk up), [`savage`] (a chute that sorts), [`gutt_haff`] (velocities and offsets on nodes),
@@ -21,6 +21,7 @@ pub mod litwiniszyn;
 pub(crate) mod reach;
 pub mod remarks;
 pub mod savage;
+pub mod shape;
 pub mod sheet;
 pub mod site;
 pub mod stage;

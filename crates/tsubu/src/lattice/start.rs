@@ -1,44 +1,45 @@
 //! Where the balls of the automaton begin.
 //!
-//! `settled` and `rows` fill the box row by row from the floor; the columns of the last, incomplete row are drawn at
-//! random. `at` takes the nearest cell, and the lattice direction nearest to the velocity.
+//! `settled` and `rows` fill the box row by row from the floor, as long as balls fit in; the columns of the last, incomplete row
+//! are drawn at random. `at` takes the nearest cell, and the lattice direction nearest to the velocity.
 
-use super::damper::Ball;
+use super::damper::{Ball, BoxPlace};
 use super::direction::{Direction, Vector as LatticeVector};
 use super::fixed::Scale;
 use super::grid::COLUMN_SPACING;
 use super::remarks::Remarks;
+use super::shape::Shape;
 use crate::random::{Purpose, words};
 use std::collections::BTreeMap;
 use tsubu_scene::plan::{Plan, Start, Vector};
 
 /// The interior of the box.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Geometry {
-    /// Cell spacing: a ball's diameter [m].
+    /// Cell spacing [m]; where a ball has one cell, its diameter.
     pub spacing: f64,
     /// Centre of the floor [m].
     pub floor_centre: Vector,
-    /// Interior columns, numbered from 1.
-    pub columns: usize,
-    /// Interior rows, numbered from 0.
-    pub rows: usize,
+    /// Interior columns, numbered from 1, and rows, numbered from 0.
+    pub place: BoxPlace,
+    /// The cells of a ball.
+    pub shape: Shape,
 }
 
 impl Geometry {
     /// Centre of a cell [m].
     pub fn centre(&self, column: usize, row: i64) -> Vector {
-        let x = (column as f64 - 0.5 * (self.columns + 1) as f64) * COLUMN_SPACING;
+        let x = (column as f64 - 0.5 * (self.place.columns + 1) as f64) * COLUMN_SPACING;
         let z = row as f64 + 0.5 + if column % 2 == 1 { 0.5 } else { 0.0 };
         let [x0, y0, z0] = self.floor_centre;
         [x0 + self.spacing * x, y0, z0 + self.spacing * z]
     }
 
-    /// Interior cell nearest to a point, and its distance [m].
+    /// The cell nearest to a point in which the middle of a ball can be, and its distance [m].
     fn nearest(&self, point: Vector) -> (usize, usize, f64) {
         let mut best = (1, 0, f64::INFINITY);
-        for column in 1..=self.columns {
-            for row in 0..self.rows {
+        for column in 1..=self.place.columns {
+            for row in (0..self.place.rows).filter(|row| self.place.holds(&self.shape, column, *row as i64)) {
                 let [x, _, z] = self.centre(column, row as i64);
                 let distance = (x - point[0]).hypot(z - point[2]);
                 if distance < best.2 {
@@ -51,19 +52,20 @@ impl Geometry {
 }
 
 /// Cells taken so far, with the ball that took them.
-type Taken = BTreeMap<(usize, usize), usize>;
+type Taken = BTreeMap<[i64; 2], usize>;
 
 pub(super) fn place(plan: &Plan, geometry: &Geometry, scale: &Scale, remarks: &mut Remarks) -> Vec<Ball> {
-    let cells = geometry.columns * geometry.rows;
+    let BoxPlace { columns, rows, .. } = geometry.place;
     let count = plan.grains();
-    if count > cells {
-        remarks.refuse(
-            "particles",
-            format!(
-                "{count} balls do not fit into {} columns of {} cells; the automaton's box holds {cells}",
-                geometry.columns, geometry.rows
-            ),
+    let holds = columns * rows / geometry.shape.points().len();
+    let refuse = |holds: usize, remarks: &mut Remarks| {
+        let text = format!(
+            "{count} balls do not fit into {columns} columns of {rows} cells; the automaton's box holds {holds}"
         );
+        remarks.refuse("particles", text);
+    };
+    if count > holds {
+        refuse(holds, remarks);
         return Vec::new();
     }
     let mut taken = Taken::new();
@@ -109,6 +111,9 @@ pub(super) fn place(plan: &Plan, geometry: &Geometry, scale: &Scale, remarks: &m
             }
         }
     }
+    if balls.len() < count {
+        refuse(balls.len(), remarks);
+    }
     balls
 }
 
@@ -128,11 +133,13 @@ fn place_at(
     for (index, point) in position.iter().enumerate() {
         let (column, row, distance) = geometry.nearest(*point);
         farthest = farthest.max(distance);
-        if let Some(other) = taken.insert((column, row), balls.len()) {
+        let cells = geometry.shape.seen_from(column, row as i64);
+        let others: Vec<usize> = cells.filter_map(|cell| taken.insert(cell, balls.len())).collect();
+        if let Some(other) = others.first() {
             remarks.refuse(
                 format!("{key}.at.position[{index}]"),
                 format!(
-                    "its nearest cell (column {column}, row {}) is that of ball {other}; the lattice holds one ball a cell",
+                    "its nearest cell (column {column}, row {}) is that of ball {other}; a cell holds one ball",
                     row + 1
                 ),
             );
@@ -163,9 +170,18 @@ fn place_at(
 
 /// Fills the lowest free cells row by row; the columns of a row that is not filled up are drawn at random.
 fn fill(count: usize, seed: u64, geometry: &Geometry, taken: &mut Taken, balls: &mut Vec<Ball>) {
+    let Geometry { place, shape, .. } = geometry;
     let mut left = count;
-    for row in 0..geometry.rows {
-        let mut free: Vec<usize> = (1..=geometry.columns).filter(|&c| !taken.contains_key(&(c, row))).collect();
+    for row in 0..place.rows {
+        let mut free = Vec::new();
+        let mut in_row = taken.clone();
+        for column in 1..=place.columns {
+            let mut cells = shape.seen_from(column, row as i64);
+            if place.holds(shape, column, row as i64) && cells.all(|cell| !in_row.contains_key(&cell)) {
+                in_row.extend(shape.seen_from(column, row as i64).map(|cell| (cell, balls.len())));
+                free.push(column);
+            }
+        }
         if left < free.len() {
             // Fisher-Yates from the end; the drawn columns are put in order so that ids run from left to right.
             for last in (1..free.len()).rev() {
@@ -177,7 +193,7 @@ fn fill(count: usize, seed: u64, geometry: &Geometry, taken: &mut Taken, balls: 
         }
         left -= free.len();
         for column in free {
-            taken.insert((column, row), balls.len());
+            taken.extend(shape.seen_from(column, row as i64).map(|cell| (cell, balls.len())));
             balls.push(Ball { column, row, direction: Direction::S, speed: 0 });
         }
     }

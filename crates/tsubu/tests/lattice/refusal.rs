@@ -29,6 +29,24 @@ fn bad_plans_are_refused_with_all_reasons() {
         message(&plan(161, LatticeMode::Extended)),
         "method `lattice` cannot run this scene:\n  particles: 161 balls do not fit into 10 columns of 16 cells; the automaton's box holds 160"
     );
+    let hexagons = |radius: usize, count: usize| {
+        let mut plan = plan(count, LatticeMode::Extended);
+        plan.lattice.ball_radius = radius;
+        plan
+    };
+    assert_eq!(message(&hexagons(2, 120)), "it was accepted");
+    // There is area for 184, and some of it is lost at the sides and between the balls.
+    for count in [180, 200] {
+        assert!(
+            message(&hexagons(2, count))
+                .contains(&format!("particles: {count} balls do not fit into 50 columns of 70 cells"))
+        );
+    }
+    let mut bad = hexagons(2, 1);
+    casing(&mut bad).shape = Shape::Box { width: 5e-3, height: 96e-3, depth: 6e-3, floor_centre: [0.0; 3] };
+    assert!(message(&bad).contains("walls.casing.shape.box: it is smaller than one ball"), "{}", message(&bad));
+    let bad = at(hexagons(2, 2), vec![[0.0, 0.0, 0.02], [0.0, 0.0, 0.023]], vec![]);
+    assert!(message(&bad).contains("particles.balls.start.at.position[1]: "), "{}", message(&bad));
     let mut bad = good();
     casing(&mut bad).shape = Shape::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
     assert!(message(&bad).contains("walls.casing.shape.plane: "), "{}", message(&bad));
@@ -65,7 +83,15 @@ fn what_whole_numbers_cannot_hold_is_refused() {
 /// on nothing. They were gone on from.
 #[test]
 fn states_that_no_run_comes_to_are_refused() {
-    let mut run = super::plans::Run::new(&plan(20, LatticeMode::Extended));
+    for radius in [0, 2] {
+        let mut plan = plan(20, LatticeMode::Extended);
+        plan.lattice.ball_radius = radius;
+        refuse_states(&plan);
+    }
+}
+
+fn refuse_states(plan: &Plan) {
+    let mut run = super::plans::Run::new(plan);
     let mut whole = State::default();
     run.engine.save(&mut whole);
     let whole = whole.into_owned();

@@ -131,25 +131,36 @@ pub(super) fn check_carrier(
 }
 
 /// Whole columns and rows for the box, and room for it to move.
-pub(super) fn place(casing: &Casing, kind: &BallKind, lattice: &plan::Lattice, remarks: &mut Remarks) -> BoxPlace {
-    let d = kind.diameter;
-    let columns = (casing.width / d).round() as usize;
-    let rows = (casing.height / d).round() as usize;
+pub(super) fn place(
+    casing: &Casing,
+    kind: &BallKind,
+    spacing: f64,
+    lattice: &plan::Lattice,
+    remarks: &mut Remarks,
+) -> BoxPlace {
+    // Where a ball has one cell, as many balls are side by side as in the box.
+    let single = lattice.ball_radius == 0;
+    let column = if single { spacing } else { COLUMN_SPACING * spacing };
+    let columns = (casing.width / column).round() as usize;
+    let rows = (casing.height / spacing).round() as usize;
     let key = format!("walls.{}.shape.box", casing.name);
-    if columns == 0 || rows == 0 {
-        remarks.refuse(&key, format!("it is smaller than one ball of {:.4} mm", 1e3 * d));
+    if columns.min(rows) <= 2 * lattice.ball_radius {
+        remarks.refuse(&key, format!("it is smaller than one ball of {:.4} mm", 1e3 * kind.diameter));
     }
-    let width = columns as f64 * COLUMN_SPACING * d;
-    remarks.approximate(
-        format!("{key}.width"),
-        format!(
-            "{columns} columns of the lattice: {:.1} mm instead of {:.1} mm (the number of columns counts)",
-            1e3 * width,
-            1e3 * casing.width
-        ),
-    );
-    let height = rows as f64 * d;
-    if (height - casing.height).abs() > 1e-9 * d {
+    let width = columns as f64 * COLUMN_SPACING * spacing;
+    if single || (width - casing.width).abs() > 1e-9 * spacing {
+        remarks.approximate(
+            format!("{key}.width"),
+            format!(
+                "{columns} columns of the lattice: {:.1} mm instead of {:.1} mm{}",
+                1e3 * width,
+                1e3 * casing.width,
+                if single { " (the number of columns counts)" } else { "" },
+            ),
+        );
+    }
+    let height = rows as f64 * spacing;
+    if (height - casing.height).abs() > 1e-9 * spacing {
         remarks.approximate(
             format!("{key}.height"),
             format!("{rows} rows of the lattice: {:.1} mm instead of {:.1} mm", 1e3 * height, 1e3 * casing.height),
@@ -157,5 +168,5 @@ pub(super) fn place(casing: &Casing, kind: &BallKind, lattice: &plan::Lattice, r
     }
     // A box that travels for ever is refused where it is looked at: no room is enough.
     let travel = casing.motion.map(|m| crate::check::peak(&m.signal)).filter(|far| far.is_finite()).unwrap_or(0.0);
-    BoxPlace { columns, rows, head: lattice.head_room + (travel / d).ceil() as usize, level: 0 }
+    BoxPlace { columns, rows, head: lattice.head_room + (travel / spacing).ceil() as usize, level: 0 }
 }

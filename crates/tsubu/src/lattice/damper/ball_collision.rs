@@ -1,7 +1,7 @@
 //! Ball-ball collisions (A9): v_a' = ((v_a + v_b) - e (v_a - v_b)) / 2 along the direction of a.
 //!
-//! A ball looks into the cell ahead. If a ball is there and they approach, the one that looks gives up the speed
-//! j = (1 + e) (v_a - v_b) / 2. With `pairwise` the other gets it, so that a head-on collision conserves momentum exactly;
+//! A ball looks into the cells ahead. If a ball is there and they approach, of several the one that it approaches fastest, the one
+//! that looks gives up the speed j = (1 + e) (v_a - v_b) / 2. With `pairwise` the other gets it, so that a head-on collision conserves momentum exactly;
 //! if it moved another way, it takes the lattice direction nearest to the vector sum. With `literal` every ball updates
 //! only itself. A ball whose speed changes sign rebounds: straight back with probability 1/2, to each neighbour of that
 //! direction with probability 1/4 (`rebound-scatter`).
@@ -10,8 +10,9 @@
 //! more than one pair, or a rebound to scatter.
 
 use super::Damper;
+use super::ball_set::BallSet;
 use crate::lattice::direction::{Direction, Vector};
-use crate::lattice::grid::EMPTY;
+use crate::lattice::grid::{EMPTY, WALL};
 use crate::mutation::{Mutation, left_out};
 use crate::random::{Purpose, words};
 use tsubu_scene::plan::Collision;
@@ -36,10 +37,7 @@ impl Damper {
         self.mark_watchers_of_oblique();
         self.pairs.clear();
         for word in 0..self.stale.0.len() {
-            let mut left = self.stale.0[word] | self.oblique.0[word];
-            while left != 0 {
-                let i = 64 * word + left.trailing_zeros() as usize;
-                left &= left - 1;
+            for i in BallSet::members(word, self.stale.0[word] | self.oblique.0[word]) {
                 self.look(i, wall);
             }
         }
@@ -61,56 +59,65 @@ impl Damper {
     /// oblique one must look every step.
     fn mark_watchers_of_oblique(&mut self) {
         for word in 0..self.oblique.0.len() {
-            let mut left = self.oblique.0[word];
-            while left != 0 {
-                let i = 64 * word + left.trailing_zeros() as usize;
-                left &= left - 1;
-                for cell in [self.cell[i] - 1, self.cell[i] + 1] {
-                    if let Ok(other) = usize::try_from(self.grid.at(cell)) {
-                        self.stale.insert(other);
+            for i in BallSet::members(word, self.oblique.0[word]) {
+                for direction in [Direction::S, Direction::N] {
+                    for &offset in &self.stencil.ahead[self.odd[i]][direction as usize] {
+                        if let Ok(other) = usize::try_from(self.grid.at(self.cell[i].wrapping_add_signed(offset))) {
+                            self.stale.insert(other);
+                        }
                     }
                 }
             }
         }
     }
 
-    /// Looks at the cell ahead: a wall, a pair for later, or nothing to do until something changes.
+    /// Looks at the cells ahead: a wall, a pair for later, or nothing to do until something changes.
     fn look(&mut self, i: usize, wall: i64) {
-        let ahead = self.grid.at(self.ahead[i]);
-        if ahead == EMPTY || self.resting[i] {
+        let direction = self.direction[i];
+        let (mut walled, mut pair) = (false, Pair { looker: i as u32, seen: 0, approach2: 0 });
+        if !self.resting[i] {
+            for cell in self.ahead(i, direction) {
+                match self.grid.at(cell) {
+                    EMPTY => {}
+                    WALL => walled = true,
+                    ball => {
+                        let approach2 = self.approach2(i, ball as usize, wall);
+                        if approach2 > pair.approach2 {
+                            pair = Pair { seen: ball as u32, approach2, ..pair };
+                        }
+                    }
+                }
+            }
+        }
+        let oblique_at_wall = walled && !direction.is_vertical();
+        if !oblique_at_wall && pair.approach2 <= 0 {
             self.stale.remove(i);
             return;
         }
         if self.hit.contains(i) {
             return;
         }
+        if oblique_at_wall {
+            self.stale.remove(i);
+            self.hit_wall_ahead(i, wall);
+            return;
+        }
+        let b = pair.seen as usize;
+        if self.resting[b] && pair.approach2 <= 2 * self.rules.resting_speed {
+            self.come_to_rest(i, wall);
+        } else if self.resting[b] || !self.hit.contains(b) {
+            self.pairs.push(pair);
+        }
+    }
+
+    /// Twice the speed at which a ball approaches one that it sees ahead; 0 where that is the floor's affair: straight above one that rests.
+    #[inline]
+    fn approach2(&self, i: usize, b: usize, wall: i64) -> i64 {
         let direction = self.direction[i];
-        if self.faces_wall(i) {
-            self.stale.remove(i);
-            if !direction.is_vertical() {
-                self.hit_wall_ahead(i, wall);
-            }
-            return;
+        if !self.resting[b] {
+            return 2 * self.speed[i] - direction.twice_cosine(self.direction[b]) * self.speed[b];
         }
-        let b = ahead as usize;
-        if self.resting[b] {
-            // Straight above a stack is the floor's affair.
-            let approach2 = 2 * self.speed[i] - direction.twice_cosine(Direction::N) * wall;
-            if direction.is_vertical() || approach2 <= 0 {
-                self.stale.remove(i);
-            } else if approach2 <= 2 * self.rules.resting_speed {
-                self.come_to_rest(i, wall);
-            } else {
-                self.pairs.push(Pair { looker: i as u32, seen: ahead as u32, approach2 });
-            }
-            return;
-        }
-        let approach2 = 2 * self.speed[i] - direction.twice_cosine(self.direction[b]) * self.speed[b];
-        if approach2 <= 0 {
-            self.stale.remove(i);
-        } else if !self.hit.contains(b) {
-            self.pairs.push(Pair { looker: i as u32, seen: ahead as u32, approach2 });
-        }
+        if direction.is_vertical() { 0 } else { 2 * self.speed[i] - direction.twice_cosine(Direction::N) * wall }
     }
 
     /// Fisher-Yates with a multiplicative generator started from the counter-based one.

@@ -24,6 +24,16 @@ impl BallSet {
         self.0[i / 64] >> (i % 64) & 1 == 1
     }
 
+    /// The balls of one word of a set.
+    #[inline]
+    pub(super) fn members(word: usize, mut bits: u64) -> impl Iterator<Item = usize> {
+        std::iter::from_fn(move || {
+            let next = (bits != 0).then(|| 64 * word + bits.trailing_zeros() as usize);
+            bits &= bits.wrapping_sub(1);
+            next
+        })
+    }
+
     #[inline]
     pub(super) fn clear(&mut self) {
         // A word or two: cheaper one by one than by a call.

@@ -3,7 +3,6 @@
 
 use super::Damper;
 use crate::lattice::direction::{Direction, Vector};
-use crate::lattice::grid::WALL;
 
 /// Half of what whole numbers hold: what a run adds to the energy of its beginning has as much room again.
 const MOST: f64 = (1_u64 << 62) as f64;
@@ -62,12 +61,16 @@ impl Damper {
 
     /// Touching pairs, of balls and of balls with walls, now.
     pub fn contacts(&self) -> usize {
-        let mut count = 0;
+        let (mut count, mut others) = (0, Vec::new());
         for i in 0..self.balls() {
             for direction in Direction::ALL {
-                let other = self.grid.at(self.grid.neighbour(self.cell[i], self.odd[i], direction));
-                count += usize::from(other == WALL || other > i as i32);
+                count += usize::from(self.meets_wall(i, direction));
+                others.extend(self.balls_ahead(i, direction).filter(|other| *other > i));
             }
+            others.sort_unstable();
+            others.dedup();
+            count += others.len();
+            others.clear();
         }
         count
     }

@@ -1,7 +1,9 @@
 //! The moving box: its displacement is rounded to whole cells; when it shifts, what is in the way is ejected.
 //!
 //! The cluster is every ball that touches the advancing wall, and every ball that touches one of the cluster. All get the
-//! velocity of the box and are moved with it by one cell. With resting impulses their change of momentum is delivered to
+//! velocity of the box and are moved with it by one cell. Cells that are finer than balls shift more often, and would stop all that
+//! touches each time, until the bed is one lump: balls of several cells are in the cluster where they are in the way, and keep their velocity
+//! if they are faster than the wall. With resting impulses their change of momentum is delivered to
 //! the box; without, the box feels only the balls that hit it (A11), and the change is the rules' doing. Since floor and
 //! ceiling belong to one rigid box, the opposite wall gives way by the same cell and never squeezes the cluster.
 //!
@@ -52,64 +54,70 @@ impl Damper {
             return Err(OutOfRoom::Grid { head: self.place.head });
         }
         if !up && !self.rules.resting_impulses {
-            self.release_riders();
+            // The literal automaton forgets resting balls when the floor recedes. They were given this step's rise already.
+            self.release_all(true);
         }
         self.gather(up);
         for place in 0..self.cluster.len() {
             let i = self.cluster[place];
-            if !self.resting[i] {
+            if !self.resting[i] && !self.outruns(i, up, wall) {
                 self.eject(i, up, wall);
             }
         }
-        self.move_cells(up, level)?;
-        self.place.level = level;
-        Ok(())
+        self.move_cells(up, level)
     }
 
-    /// The literal automaton forgets resting balls when the floor recedes. They were given this step's rise already.
-    fn release_riders(&mut self) {
-        for column in 1..=self.place.columns {
-            if self.rest.height[column] > 0 {
-                let lowest = self.grid.at(self.grid.index(column, self.place.floor()));
-                self.release_above(lowest as usize);
-            }
-        }
-        self.rest.risen = 0;
-    }
-
-    /// Collects the cluster: the row at the advancing wall, all that touch it in turn, and all resting balls.
+    /// Collects the cluster: who touches the advancing wall and all that touch it in turn; and all resting balls, with who is in their way.
     fn gather(&mut self, up: bool) {
-        let mut cluster = std::mem::take(&mut self.cluster);
-        cluster.clear();
+        self.cluster.clear();
         self.hit.clear();
-        let floor = self.place.floor();
-        let row = if up { floor } else { floor + self.place.rows - 1 };
-        for column in 1..=self.place.columns {
-            if let Ok(i) = usize::try_from(self.grid.at(self.grid.index(column, row))) {
-                self.hit.insert(i);
-                cluster.push(i);
+        let (wall, way) = if up { (Direction::S, [Direction::N]) } else { (Direction::N, [Direction::S]) };
+        for i in 0..self.balls() {
+            if self.meets_wall(i, wall) {
+                self.take(i);
             }
         }
-        let mut next = 0;
-        while next < cluster.len() {
-            let i = cluster[next];
+        self.gather_ahead(0, if self.has_one_cell_a_ball() { &Direction::ALL } else { &way });
+        let first = self.cluster.len();
+        for i in 0..self.balls() {
+            if self.resting[i] {
+                self.take(i);
+            }
+        }
+        self.gather_ahead(first, &way);
+    }
+
+    /// Takes into the cluster who touches one of it, from that number on, in these directions.
+    fn gather_ahead(&mut self, first: usize, directions: &[Direction]) {
+        let mut next = first;
+        while let Some(&i) = self.cluster.get(next) {
             next += 1;
-            for direction in Direction::ALL {
-                let other = self.grid.at(self.grid.neighbour(self.cell[i], self.odd[i], direction));
-                if let Ok(other) = usize::try_from(other)
-                    && !self.hit.contains(other)
-                {
-                    self.hit.insert(other);
-                    cluster.push(other);
+            for &direction in directions {
+                for k in 0..self.stencil.ahead[self.odd[i]][direction as usize].len() {
+                    if let Ok(other) = usize::try_from(self.grid.at(self.goal(i, direction, k))) {
+                        self.take(other);
+                    }
                 }
             }
         }
-        for i in 0..self.balls() {
-            if self.resting[i] && !self.hit.contains(i) {
-                cluster.push(i);
-            }
+    }
+
+    /// Takes a ball into the cluster, once.
+    fn take(&mut self, i: usize) {
+        if !self.hit.contains(i) {
+            self.hit.insert(i);
+            self.cluster.push(i);
         }
-        self.cluster = cluster;
+    }
+
+    fn has_one_cell_a_ball(&self) -> bool {
+        self.shape.points().len() == 1
+    }
+
+    /// Whether a ball of several cells goes faster than the wall that comes after it.
+    fn outruns(&self, i: usize, up: bool, wall: i64) -> bool {
+        let ahead = self.velocity(i).k - 2 * wall;
+        !self.has_one_cell_a_ball() && if up { ahead >= 0 } else { ahead <= 0 }
     }
 
     /// A ball of the cluster takes the velocity of the box.
@@ -137,15 +145,14 @@ impl Damper {
     /// Moves the cluster and the walls by one cell.
     fn move_cells(&mut self, up: bool, level: i64) -> Result<(), OutOfRoom> {
         let (sign, step) = if up { (1, 1_isize) } else { (-1, -1) };
-        for &i in &self.cluster {
-            self.grid.set(self.cell[i], EMPTY);
+        for place in 0..self.cluster.len() {
+            self.put(self.cluster[place], EMPTY);
         }
         for &i in &self.cluster {
-            let cell = self.cell[i].wrapping_add_signed(step);
-            if self.grid.at(cell) >= 0 {
+            self.cell[i] = self.cell[i].wrapping_add_signed(step);
+            if self.cells(i).any(|cell| self.grid.at(cell) >= 0) {
                 return Err(OutOfRoom::Squeezed { balls: self.cluster.len() });
             }
-            self.cell[i] = cell;
         }
         let forget = self.rules.reset_when_blocked;
         let cell = self.scale.cell;
@@ -155,6 +162,10 @@ impl Damper {
                 if forget {
                     self.tally.rules -= self.scale.gravity * 2 * cell * sign;
                 }
+                continue;
+            }
+            if !self.direction[i].is_vertical() {
+                self.tally.rules -= self.scale.gravity * 2 * cell * sign;
                 continue;
             }
             let half_k = self.direction[i].k() / 2;
@@ -167,13 +178,8 @@ impl Damper {
         if !forget {
             self.rest.risen -= sign * cell;
         }
-        let floor = (self.place.head as i64 + 1 + level) as usize;
-        self.grid.paint_box(self.place.columns, floor, self.place.rows);
-        for i in 0..self.cell.len() {
-            self.grid.set(self.cell[i], i as i32);
-            self.ahead[i] = self.grid.neighbour(self.cell[i], self.odd[i], self.direction[i]);
-        }
-        self.stale.fill(self.cell.len());
+        self.place.level = level;
+        self.paint();
         Ok(())
     }
 }

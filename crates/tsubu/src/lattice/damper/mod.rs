@@ -1,17 +1,21 @@
 //! The damper automaton (Komatsuzaki, Sato, Iwata, Morishita 2003): balls on a triangular lattice in a box that moves up
 //! and down.
 //!
-//! A ball sits in a cell and has a direction, a speed v and a stored distance S along the direction. One step is
+//! A ball sits in a cell, or in the hexagon of cells round one, and has a direction, a speed v and a stored distance S along the
+//! direction. One step is
 //!
 //! 1. [`gravity`]: v += -g dt (direction . z); a ball that went up and ran out of speed turns down;
 //! 2. [`resting`], [`wall_collision`], [`ball_collision`]: from the old state, at most one collision a ball;
 //! 3. [`box_motion`]: the box moves by whole cells and ejects what is in the way;
-//! 4. [`movement`]: S += v; at S >= dx the ball moves one cell if that is free, else by lottery.
+//! 4. [`movement`]: S += v; at S >= dx the ball moves one cell if what it takes is free, else by lottery.
+//!
+//! The authors name balls of several cells as a remedy for a packing and for directions that the lattice locks. The rules are the same for
+//! them: all that a ball's shape says is which cells a move takes and which it leaves, and so who is ahead, touches it, or stands on it.
 //!
 //! What makes it fast: a check of a ball against the one ahead is repeated only when it can have changed. Two balls in
 //! vertical free flight keep their relative speed, so a pair that does not approach will not until one of them collides,
 //! turns or moves (`stale`); oblique flyers, and whoever is next to the floor or the ceiling, are looked at every step. Balls
-//! that rest on the floor, straight or in columns, are one body (`rest`).
+//! that rest on the floor, straight or on each other, are one body (`rest`).
 //!
 //! Books are kept in whole numbers (`books`): twice the energy over m u^2, and momentum over m u in the basis of
 //! [`Vector`].
@@ -27,7 +31,8 @@ pub mod wall_collision;
 
 use super::direction::{Direction, Vector};
 use super::fixed::{Restitution, Scale};
-use super::grid::Grid;
+use super::grid::{Grid, WALL};
+use super::shape::{Shape, Stencil};
 use crate::about::About;
 use ball_set::BallSet;
 pub(crate) use books::Beyond;
@@ -37,7 +42,7 @@ pub(crate) const ABOUT: About = About {
     key: "method.lattice",
     formula: "v += -g dt (direction . z);  S += v dt;  at S >= one cell the ball moves one cell if it is free, else by lottery",
     symbols: "v speed along one of six directions [m/s], S stored distance [m], g gravity [m/s^2], dt time step [s]",
-    limits: "Equal balls in boxes that move up and down; no friction, no spin. Whole numbers: the books close without \
+    limits: "Equal balls of one cell or a hexagon of cells in boxes that move up and down; no friction, no spin. Whole numbers: the books close without \
 rounding. `lattice.mode` says how near it is to what was published.",
     reference: "Komatsuzaki, Sato, Iwata and Morishita 2003",
 };
@@ -100,15 +105,19 @@ impl BoxPlace {
     pub fn floor(&self) -> usize {
         (self.head as i64 + 1 + self.level) as usize
     }
+
+    /// Whether a ball of a shape with its middle there is inside: columns count from 1, rows from 0.
+    pub fn holds(&self, shape: &Shape, column: usize, row: i64) -> bool {
+        shape
+            .seen_from(column, row)
+            .all(|[column, row]| (1..=self.columns as i64).contains(&column) && (0..self.rows as i64).contains(&row))
+    }
 }
 
-/// The balls that rest on the floor or on each other: in every column a stack from the floor up, one body with the speed
-/// of the box.
+/// The balls that rest on the floor or on each other: one body with the speed of the box. Each has the floor or another of them below it.
 #[derive(Clone, Debug)]
 pub struct Rest {
-    /// Height of the stack of every grid column [balls].
-    pub height: Vec<usize>,
-    /// Balls in all stacks.
+    /// How many they are.
     pub count: i64,
     /// Speed up [speed units].
     pub speed: i64,
@@ -126,6 +135,9 @@ pub struct Damper {
     /// The box.
     pub place: BoxPlace,
     pub(crate) grid: Grid,
+    shape: Shape,
+    stencil: Stencil,
+    /// Cell of every ball, or of its middle.
     pub(crate) cell: Vec<usize>,
     pub(crate) direction: Vec<Direction>,
     /// Speed along the direction; 0 for balls at rest, whose speed is the box's.
@@ -141,12 +153,13 @@ pub struct Damper {
     pub look_everywhere: bool,
     // From here on scratch that follows from the above.
     odd: Vec<usize>,
-    ahead: Vec<usize>,
     pull: Vec<i64>,
     pull_of: [i64; 6],
     oblique_count: [i64; 6],
     oblique: BallSet,
     stale: BallSet,
+    /// At least all vertical flyers next to the floor, the ceiling or a ball at rest.
+    near: BallSet,
     hit: BallSet,
     pairs: Vec<ball_collision::Pair>,
     movers: Vec<usize>,
@@ -158,7 +171,7 @@ pub struct Damper {
     crowded: bool,
 }
 
-/// A ball as it is put into the box: column (1 is the leftmost), row (0 is the lowest), direction and speed.
+/// A ball as it is put into the box: column (1 is the leftmost) and row (0 is the lowest) of its middle, direction and speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ball {
     /// Interior column, from 1.
@@ -172,10 +185,9 @@ pub struct Ball {
 }
 
 impl Damper {
-    /// The automaton with these balls, one a cell, in a box at its level.
-    pub fn new(scale: Scale, rules: Rules, place: BoxPlace, balls: &[Ball]) -> Self {
-        let mut grid = Grid::new(place.columns + 2, place.rows + 2 + 2 * place.head);
-        grid.paint_box(place.columns, place.floor(), place.rows);
+    /// The automaton with these balls, all of one shape, in a box at its level.
+    pub fn new(scale: Scale, rules: Rules, place: BoxPlace, shape: Shape, balls: &[Ball]) -> Self {
+        let grid = Grid::new(place.columns + 2, place.rows + 2 + 2 * place.head);
         let n = balls.len();
         let oblique_pull = match rules.oblique_gravity {
             ObliqueGravity::Projected => scale.gravity / 2,
@@ -188,21 +200,23 @@ impl Damper {
             scale,
             rules,
             place,
-            direction: vec![Direction::S; n],
-            speed: vec![0; n],
+            stencil: Stencil::new(&shape, &grid),
+            shape,
+            direction: balls.iter().map(|ball| ball.direction).collect(),
+            speed: balls.iter().map(|ball| ball.speed).collect(),
             stored: vec![0; n],
             resting: vec![false; n],
-            rest: Rest { height: vec![0; grid.columns()], count: 0, speed: 0, risen: 0 },
+            rest: Rest { count: 0, speed: 0, risen: 0 },
             step: 0,
             tally: Tally::default(),
             look_everywhere: false,
-            odd: balls.iter().map(|b| b.column % 2).collect(),
-            ahead: vec![0; n],
+            odd: vec![0; n],
             pull: vec![0; n],
             pull_of,
             oblique_count: [0; 6],
             oblique: BallSet::new(n),
             stale: BallSet::new(n),
+            near: BallSet::new(n),
             hit: BallSet::new(n),
             pairs: Vec::with_capacity(6 * n),
             movers: Vec::with_capacity(n),
@@ -213,17 +227,18 @@ impl Damper {
             grid,
             cell,
         };
-        for (i, ball) in balls.iter().enumerate() {
-            damper.grid.set(damper.cell[i], i as i32);
-            damper.point(i, ball.direction, ball.speed);
-        }
-        damper.stale.fill(n);
+        damper.rebuild();
         damper
     }
 
     /// Number of balls.
     pub fn balls(&self) -> usize {
         self.cell.len()
+    }
+
+    /// The cells of a ball.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
     }
 
     /// Number of balls that rest on the floor or on each other.
@@ -245,21 +260,53 @@ impl Damper {
         Ok(())
     }
 
-    /// The first ball that is not alone in a cell of the box, or rests on nothing.
+    /// The first ball that is not alone in its cells of the box, or rests on nothing.
     pub fn fault(&self) -> Option<String> {
-        let astray = |i: &usize| self.grid.at(self.cell[*i]) != *i as i32 || !self.has_seat(*i);
+        let alone = |i: usize| self.cells(i).all(|cell| self.grid.at(cell) == i as i32);
+        let well = |i: usize| self.fits(self.cell[i]) && alone(i) && (!self.resting[i] || self.stands(i));
         (0..self.balls())
-            .find(astray)
-            .map(|i| format!("the cell of ball {i} belongs to {}", self.grid.at(self.cell[i])))
+            .find(|i| !well(*i))
+            .map(|i| format!("ball {i} is not alone in its cells, or rests on nothing"))
     }
 
-    /// Whether a ball is inside the box, and in the stack of its column if it rests.
-    fn has_seat(&self, i: usize) -> bool {
-        let (column, row) = self.grid.column_and_row(self.cell[i]);
-        if !(1..=self.place.columns).contains(&column) || row < self.place.floor() {
-            return false;
-        }
-        row - self.place.floor() < if self.resting[i] { self.rest.height[column] } else { self.place.rows }
+    /// Whether a ball with its middle in a cell is inside the box.
+    pub(crate) fn fits(&self, cell: usize) -> bool {
+        let (column, row) = self.grid.column_and_row(cell);
+        self.place.holds(&self.shape, column, row as i64 - self.place.floor() as i64)
+    }
+
+    /// The cells of a ball.
+    fn cells(&self, i: usize) -> impl Iterator<Item = usize> {
+        self.stencil.points[self.odd[i]].iter().map(move |&offset| self.cell[i].wrapping_add_signed(offset))
+    }
+
+    /// The cells that a move of a ball takes.
+    #[inline]
+    fn ahead(&self, i: usize, direction: Direction) -> impl Iterator<Item = usize> + Clone {
+        let ahead = &self.stencil.ahead[self.odd[i]][direction as usize];
+        ahead.iter().map(move |&offset| self.cell[i].wrapping_add_signed(offset))
+    }
+
+    /// One of these cells.
+    fn goal(&self, i: usize, direction: Direction, k: usize) -> usize {
+        self.cell[i].wrapping_add_signed(self.stencil.ahead[self.odd[i]][direction as usize][k])
+    }
+
+    /// The balls in these cells; one that has several of them comes as often.
+    #[inline]
+    fn balls_ahead(&self, i: usize, direction: Direction) -> impl Iterator<Item = usize> {
+        self.ahead(i, direction).filter_map(|cell| usize::try_from(self.grid.at(cell)).ok())
+    }
+
+    /// Whether a ball touches a wall there.
+    #[inline]
+    fn meets_wall(&self, i: usize, direction: Direction) -> bool {
+        self.ahead(i, direction).any(|cell| self.grid.at(cell) == WALL)
+    }
+
+    /// Whether the floor or a ball at rest is below a ball.
+    fn stands(&self, i: usize) -> bool {
+        self.meets_wall(i, Direction::S) || self.balls_ahead(i, Direction::S).any(|below| self.resting[below])
     }
 
     /// Sets direction and speed of a ball that does not rest.
@@ -269,7 +316,7 @@ impl Damper {
         self.direction[i] = direction;
         self.speed[i] = speed;
         self.pull[i] = self.pull_of[direction as usize];
-        self.ahead[i] = self.grid.neighbour(self.cell[i], self.odd[i], direction);
+        self.near.insert(i);
         if !direction.is_vertical() {
             self.oblique.insert(i);
             self.oblique_count[direction as usize] += 1;
@@ -308,9 +355,11 @@ impl Damper {
         }
         self.stale.insert(i);
         for direction in Direction::ALL {
-            let other = self.grid.at(self.grid.neighbour(self.cell[i], self.odd[i], direction));
-            if other >= 0 {
-                self.stale.insert(other as usize);
+            for &offset in &self.stencil.ahead[self.odd[i]][direction as usize] {
+                let other = self.grid.at(self.cell[i].wrapping_add_signed(offset));
+                if other >= 0 {
+                    self.stale.insert(other as usize);
+                }
             }
         }
     }
@@ -318,22 +367,34 @@ impl Damper {
     /// Recomputes everything that follows from cells, directions, speeds, stored distances, rest flags and the box.
     pub(crate) fn rebuild(&mut self) {
         let n = self.balls();
-        self.grid.paint_box(self.place.columns, self.place.floor(), self.place.rows);
-        self.rest.height.fill(0);
         self.rest.count = 0;
         self.oblique = BallSet::new(n);
         self.oblique_count = [0; 6];
         for i in 0..n {
-            self.grid.set(self.cell[i], i as i32);
-            let column = self.grid.column_and_row(self.cell[i]).0;
-            self.odd[i] = column % 2;
+            self.odd[i] = self.grid.column_and_row(self.cell[i]).0 % 2;
             self.point(i, self.direction[i], self.speed[i]);
             if self.resting[i] {
                 self.pull[i] = 0;
-                self.rest.height[column] += 1;
                 self.rest.count += 1;
             }
         }
-        self.stale.fill(n);
+        self.paint();
+    }
+
+    /// Paints the box and the balls anew, and has all looked at again.
+    fn paint(&mut self) {
+        self.grid.paint_box(self.place.columns, self.place.floor(), self.place.rows);
+        for i in 0..self.cell.len() {
+            self.put(i, i as i32);
+        }
+        self.stale.fill(self.cell.len());
+        self.near.fill(self.cell.len());
+    }
+
+    /// Puts something into all cells of a ball.
+    fn put(&mut self, i: usize, content: i32) {
+        for &offset in &self.stencil.points[self.odd[i]] {
+            self.grid.set(self.cell[i].wrapping_add_signed(offset), content);
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Movement: S += v; a ball whose stored distance has reached a cell moves into the cell ahead.
+//! Movement: S += v; a ball whose stored distance has reached a cell moves by one cell.
 //!
 //! A cell that its owner leaves in the same step counts as free, so balls in line move together and a falling bed keeps
 //! its shape. If several balls want one cell, each has the same chance and the others stay.
@@ -44,31 +44,38 @@ impl Damper {
         }
     }
 
-    /// Among movers with the same goal one is picked.
+    /// Among movers that want a cell of the first one is picked.
     fn draw_lots(&mut self) {
         for first in 0..self.movers.len() {
-            let goal = self.ahead[self.movers[first]];
-            if self.claims[self.movers[first]] != WANTS {
+            let i = self.movers[first];
+            if self.claims[i] != WANTS {
                 continue;
             }
-            let rivals =
-                self.movers[first..].iter().filter(|&&i| self.ahead[i] == goal && self.claims[i] == WANTS).count();
+            let rivals = self.movers[first..].iter().filter(|&&other| self.are_rivals(i, other)).count();
             if rivals < 2 {
                 continue;
             }
+            let goal = self.grid.neighbour(self.cell[i], self.odd[i], self.direction[i]);
             let word = words(self.rules.seed, Purpose::Lottery, goal as u32, self.step)[0];
             let winner = (u64::from(word) * rivals as u64) >> 32;
             let mut number = 0;
             for place in first..self.movers.len() {
-                let i = self.movers[place];
-                if self.ahead[i] == goal && self.claims[i] == WANTS {
+                let other = self.movers[place];
+                if self.are_rivals(i, other) {
                     if number != winner {
-                        self.claims[i] = STAYS;
+                        self.claims[other] = STAYS;
                     }
                     number += 1;
                 }
             }
         }
+    }
+
+    /// Whether a mover still wants a cell that the first one takes; it does itself.
+    fn are_rivals(&self, first: usize, other: usize) -> bool {
+        let mut goals = self.ahead(other, self.direction[other]);
+        self.claims[other] == WANTS
+            && goals.any(|goal| self.ahead(first, self.direction[first]).any(|cell| cell == goal))
     }
 
     /// Moves a ball, first whoever sits in its goal and moves too. Returns whether it moved.
@@ -78,29 +85,40 @@ impl Damper {
         }
         // Asked twice means a ring of balls that wait for each other: nobody moves.
         self.claims[i] = ASKED;
-        let goal = self.ahead[i];
-        let owner = self.grid.at(goal);
-        let free = owner == EMPTY || usize::try_from(owner).is_ok_and(|owner| self.try_move(owner));
+        let direction = self.direction[i];
+        let free = (0..self.stencil.ahead[self.odd[i]][direction as usize].len()).all(|k| {
+            let goal = self.goal(i, direction, k);
+            let owner = self.grid.at(goal);
+            // Who has moved may still have a part of it.
+            owner == EMPTY
+                || usize::try_from(owner).is_ok_and(|owner| self.try_move(owner) && self.grid.at(goal) == EMPTY)
+        });
+        // One that has moved since may have come into a cell that was free.
+        let free = free && self.ahead(i, direction).all(|goal| self.grid.at(goal) == EMPTY);
         if free {
-            self.step_into(i, goal);
+            self.step_ahead(i);
         }
         free
     }
 
-    fn step_into(&mut self, i: usize, goal: usize) {
-        let direction = self.direction[i];
-        self.grid.set(self.cell[i], EMPTY);
-        self.grid.set(goal, i as i32);
-        self.cell[i] = goal;
+    fn step_ahead(&mut self, i: usize) {
+        let (cell, odd, direction) = (self.cell[i], self.odd[i], self.direction[i]);
+        for &offset in &self.stencil.behind[odd][direction as usize] {
+            self.grid.set(cell.wrapping_add_signed(offset), EMPTY);
+        }
+        for &offset in &self.stencil.ahead[odd][direction as usize] {
+            self.grid.set(cell.wrapping_add_signed(offset), i as i32);
+        }
+        self.cell[i] = self.grid.neighbour(cell, odd, direction);
         if !direction.is_vertical() {
             self.odd[i] ^= 1;
         }
-        self.ahead[i] = self.grid.neighbour(goal, self.odd[i], direction);
         self.stored[i] -= self.scale.cell;
         if !self.rules.keep_remainder {
             self.forget(i, 0);
         }
         self.disturb(i);
+        self.near.insert(i);
     }
 
     /// The way was blocked: the stored distance is forgotten, or kept no larger than lets the ball go as soon as it can.

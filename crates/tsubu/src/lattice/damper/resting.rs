@@ -1,14 +1,14 @@
 //! Resting contacts: balls that lie on the floor, or on balls that do.
 //!
-//! A ball that meets the floor, or the top of a resting stack in its own column, at no more than the resting speed
-//! (`lattice.resting-threshold` times g dt) joins the stack: it has the speed of the box from then on. The stacks of all
-//! columns are one body, so a settled bed costs one addition a step whatever its size.
+//! A ball that straight from above meets the floor, or a ball at rest, at no more than the resting speed
+//! (`lattice.resting-threshold` times g dt) comes to rest: it has the speed of the box from then on. All that rest are one body,
+//! so a settled bed costs little a step whatever its size.
 //!
 //! Each step gravity makes the body approach the floor at r = g dt + (old - new speed of the box), that is (g + a) dt. As
 //! long as r > 0 the floor takes m r from every ball. With resting impulses that is handed to the box: weight and
 //! inertia, the impulse m (g + a) dt that the literal automaton leaves out. Without, it goes to the rules' account
 //! ("force only from balls that are moving"). When r <= 0 the floor falls away faster than the balls: all fly. Without
-//! resting impulses r above the resting speed is a collision like any other, and the stacks are let go.
+//! resting impulses r above the resting speed is a collision like any other, and all are let go.
 
 use super::Damper;
 use crate::lattice::direction::{Direction, Vector};
@@ -25,7 +25,7 @@ impl Damper {
         let too_fast = !self.rules.resting_impulses && approach > self.rules.resting_speed;
         if approach <= 0 || too_fast {
             self.rest.speed = pulled;
-            self.release_all();
+            self.release_all(false);
             self.rest.speed = wall;
             return;
         }
@@ -33,7 +33,7 @@ impl Damper {
         self.rest.speed = wall;
         self.post_resting(Vector { h: 0, k: 2 * pulled }, wall, count);
         if self.rules.reset_when_blocked {
-            // The stack stays in its cells although it has a speed; whole cells come back when the box moves by one.
+            // The bed stays in its cells although it has a speed; whole cells come back when the box moves by one.
             self.tally.rules += count * self.scale.gravity * 2 * wall;
         } else {
             self.rest.risen += wall;
@@ -55,8 +55,8 @@ impl Damper {
         }
     }
 
-    /// A ball lies down on the stack of its column.
-    pub(super) fn join(&mut self, i: usize, column: usize, wall: i64) {
+    /// A ball lies down on what is below it.
+    pub(super) fn join(&mut self, i: usize, wall: i64) {
         self.post_resting(self.velocity(i), wall, 1);
         let stored = self.stored[i] * self.direction[i].k() / 2;
         let kept = if self.rules.reset_when_blocked { 0 } else { stored };
@@ -72,39 +72,36 @@ impl Damper {
         self.pull[i] = 0;
         self.resting[i] = true;
         self.stored[i] = kept + rise - self.rest.risen;
-        self.rest.height[column] += 1;
         self.rest.count += 1;
         self.stale.remove(i);
     }
 
-    /// Lets a resting ball and all above it in its column go, with the velocity they have.
+    /// Lets a resting ball and all that stand on nothing else go, with the velocity they have.
     pub(super) fn release_above(&mut self, i: usize) {
-        let (column, row) = self.grid.column_and_row(self.cell[i]);
-        let keep = row - self.place.floor();
-        let first = self.cell[i];
-        let count = self.rest.height[column] - keep;
-        self.rest.height[column] = keep;
-        self.rest.count -= count as i64;
-        for cell in first..first + count {
-            self.release(self.grid.at(cell) as usize, true);
+        let mut next = vec![i];
+        while let Some(i) = next.pop() {
+            if self.resting[i] {
+                self.release(i, true);
+                next.extend(
+                    self.balls_ahead(i, Direction::N).filter(|&above| self.resting[above] && !self.stands(above)),
+                );
+            }
         }
     }
 
-    /// Lets everything go.
-    pub(super) fn release_all(&mut self) {
+    /// Lets everything go. `carried`: this step's rise has been given to the resting balls; phase 4 will give it to a flying ball again.
+    pub(super) fn release_all(&mut self, carried: bool) {
         for i in 0..self.balls() {
             if self.resting[i] {
-                self.release(i, false);
+                self.release(i, carried);
             }
         }
-        self.rest.height.fill(0);
-        self.rest.count = 0;
         self.rest.risen = 0;
     }
 
-    /// `carried`: this step's rise has been given to the resting balls; phase 4 will give it to a flying ball again.
     fn release(&mut self, i: usize, carried: bool) {
         self.resting[i] = false;
+        self.rest.count -= 1;
         let speed = self.rest.speed;
         let mut offset = self.stored[i] + self.rest.risen;
         if carried {

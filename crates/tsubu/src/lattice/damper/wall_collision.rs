@@ -9,56 +9,70 @@
 //! A contact at no more than the resting speed is a resting one: the ball takes the velocity of the box.
 
 use super::Damper;
+use super::ball_set::BallSet;
 use crate::lattice::direction::{Direction, Vector};
-use crate::lattice::grid::WALL;
 use tsubu_scene::plan::Collision;
 
 impl Damper {
-    /// The lowest ball above the floor or the resting stack of every column that flies vertically.
+    /// The balls that fly vertically above the floor or a ball at rest.
     pub(super) fn meet_floor(&mut self, wall: i64) {
-        let floor = self.place.floor();
-        for column in 1..=self.place.columns {
-            let mut cell = self.grid.index(column, floor) + self.rest.height[column];
-            while let Ok(i) = usize::try_from(self.grid.at(cell)) {
-                if !self.direction[i].is_vertical() {
-                    break;
-                }
-                let approach = 2 * wall - self.velocity(i).k;
-                if approach <= 0 || self.looks_away(i, Direction::S) {
-                    break;
-                }
-                if approach <= 2 * self.rules.resting_speed {
-                    self.join(i, column, wall);
-                    cell += 1;
-                    continue;
-                }
-                if self.rest.height[column] == 0 {
-                    self.hit_floor(i, wall, true);
-                } else {
-                    let top = self.grid.at(cell - 1) as usize;
-                    self.strike(i, top, approach, Direction::S);
-                }
-                break;
+        for word in 0..self.near.0.len() {
+            for i in BallSet::members(word, self.near.0[word]) {
+                self.meet_floor_with(i, wall);
             }
+        }
+    }
+
+    fn meet_floor_with(&mut self, i: usize, wall: i64) {
+        if self.resting[i] || !self.direction[i].is_vertical() {
+            self.near.remove(i);
+            return;
+        }
+        let floor = self.meets_wall(i, Direction::S);
+        let below = self.balls_ahead(i, Direction::S).find(|below| self.resting[*below]);
+        if !floor && below.is_none() {
+            if !self.meets_wall(i, Direction::N) {
+                self.near.remove(i);
+            }
+            return;
+        }
+        let approach = 2 * wall - self.velocity(i).k;
+        if approach <= 0 || self.hit.contains(i) || self.looks_away(i, Direction::S) {
+            return;
+        }
+        if approach <= 2 * self.rules.resting_speed {
+            self.join(i, wall);
+            // Who is above has something to lie down on.
+            for k in 0..self.stencil.ahead[self.odd[i]][Direction::N as usize].len() {
+                if let Ok(above) = usize::try_from(self.grid.at(self.goal(i, Direction::N, k))) {
+                    self.near.insert(above);
+                    self.meet_floor_with(above, wall);
+                }
+            }
+        } else if floor {
+            self.hit_floor(i, wall, true);
+        } else if let Some(below) = below {
+            self.strike(i, below, approach, Direction::S);
         }
     }
 
     /// The balls under the ceiling that fly vertically.
     pub(super) fn meet_ceiling(&mut self, wall: i64) {
-        let top = self.place.floor() + self.place.rows - 1;
-        for column in 1..=self.place.columns {
-            let Ok(i) = usize::try_from(self.grid.at(self.grid.index(column, top))) else { continue };
-            let free = !self.resting[i] && self.direction[i].is_vertical() && !self.hit.contains(i);
-            if free && self.velocity(i).k > 2 * wall && !self.looks_away(i, Direction::N) {
-                self.hit_floor(i, wall, false);
+        for word in 0..self.near.0.len() {
+            for i in BallSet::members(word, self.near.0[word]) {
+                let free = !self.resting[i] && self.direction[i].is_vertical() && !self.hit.contains(i);
+                let rises = free && self.velocity(i).k > 2 * wall && !self.looks_away(i, Direction::N);
+                if rises && self.meets_wall(i, Direction::N) {
+                    self.hit_floor(i, wall, false);
+                }
             }
         }
     }
 
-    /// An oblique ball looks into a wall.
+    /// An oblique ball looks into a wall; in a corner the side comes first.
     pub(super) fn hit_wall_ahead(&mut self, i: usize, wall: i64) {
-        let (column, _) = self.grid.column_and_row(self.ahead[i]);
-        if column == 0 || column > self.place.columns {
+        let beside = |cell: usize| !(1..=self.place.columns).contains(&self.grid.column_and_row(cell).0);
+        if self.ahead(i, self.direction[i]).any(beside) {
             self.hit_side(i, wall);
         } else {
             self.hit_floor(i, wall, self.direction[i].k() < 0);
@@ -70,12 +84,6 @@ impl Damper {
     #[inline]
     fn looks_away(&self, i: usize, wall_side: Direction) -> bool {
         self.rules.collision == Collision::Literal && self.direction[i] != wall_side
-    }
-
-    /// Whether the cell ahead of a ball is a wall.
-    #[inline]
-    pub(super) fn faces_wall(&self, i: usize) -> bool {
-        self.grid.at(self.ahead[i]) == WALL
     }
 
     /// `floor`: else the ceiling.

@@ -4,8 +4,8 @@
 //! the points that a move takes (`ahead`) and those that it leaves (`behind`): only these, a part of the outline, are
 //! looked at in a collision test.
 
-use crate::lattice::direction::{Direction, Vector};
-use crate::lattice::grid::Grid;
+use super::direction::{Direction, Vector};
+use super::grid::Grid;
 use std::collections::BTreeSet;
 use tsubu_scene::Cells;
 
@@ -37,6 +37,15 @@ impl Shape {
     /// The points, column by column from below.
     pub fn points(&self) -> &[Vector] {
         &self.points
+    }
+
+    /// Columns and rows of its points for a reference point in a column and row.
+    pub fn seen_from(&self, column: usize, row: i64) -> impl Iterator<Item = [i64; 2]> {
+        let odd = (column % 2) as i64;
+        self.points.iter().map(move |point| {
+            let shifted = (odd + point.h).rem_euclid(2);
+            [column as i64 + point.h, row + (odd + point.k - shifted) / 2]
+        })
     }
 
     /// The same as cells.
@@ -101,8 +110,28 @@ impl Stencil {
 
 #[cfg(test)]
 mod tests {
-    use super::Shape;
+    use super::{Shape, Stencil};
     use crate::lattice::direction::{Direction, Vector};
+    use crate::lattice::grid::Grid;
+
+    /// Columns and rows that a shape is told to have are those that its stencil has on the grid, from both kinds of column.
+    #[test]
+    fn shapes_lie_where_their_stencil_does() {
+        let (shape, grid) = (Shape::hexagon(2), Grid::new(15, 15));
+        let stencil = Stencil::new(&shape, &grid);
+        for column in [6, 7] {
+            let middle = grid.index(column, 7);
+            let told = shape.seen_from(column, 7).map(|[column, row]| grid.index(column as usize, row as usize));
+            let drawn = stencil.points[column % 2].iter().map(|offset| middle.wrapping_add_signed(*offset));
+            assert!(told.eq(drawn), "column {column}");
+            for direction in Direction::ALL {
+                // A move takes as much as it leaves: one side of the hexagon.
+                let [ahead, behind] =
+                    [&stencil.ahead, &stencil.behind].map(|edge| edge[column % 2][direction as usize].len());
+                assert_eq!([ahead, behind], [5, 5]);
+            }
+        }
+    }
 
     /// 3 r^2 + 3 r + 1 points, and the same shape after a turn; a rod is another shape after a turn and itself after three.
     #[test]
