@@ -206,7 +206,7 @@ pub static CASES: &[Case] = &[
     gap(case(
         "chute-stopping",
         "dem-benchmarks",
-        10800,
+        14400,
         "where layers on a slope come to rest, at full size",
         chute::stopping,
     )),

@@ -174,15 +174,17 @@ fn fill(count: usize, seed: u64, geometry: &Geometry, taken: &mut Taken, balls: 
     let mut left = count;
     for row in 0..place.rows {
         let mut free = Vec::new();
-        let mut in_row = taken.clone();
         for column in 1..=place.columns {
             let mut cells = shape.seen_from(column, row as i64);
-            if place.holds(shape, column, row as i64) && cells.all(|cell| !in_row.contains_key(&cell)) {
-                in_row.extend(shape.seen_from(column, row as i64).map(|cell| (cell, balls.len())));
+            if place.holds(shape, column, row as i64) && cells.all(|cell| !taken.contains_key(&cell)) {
+                taken.extend(shape.seen_from(column, row as i64).map(|cell| (cell, balls.len() + free.len())));
                 free.push(column);
             }
         }
         if left < free.len() {
+            for cell in free.iter().flat_map(|column| shape.seen_from(*column, row as i64)) {
+                taken.remove(&cell);
+            }
             // Fisher-Yates from the end; the drawn columns are put in order so that ids run from left to right.
             for last in (1..free.len()).rev() {
                 let word = words(seed, Purpose::Placement, last as u32, 0)[0];
