@@ -23,6 +23,7 @@ const RUNS: &[(&str, f64, &[&str])] = &[
     ("hops", 0.001, &[]),
     ("saltation", 0.01, &[]),
     ("damper", 0.05, &["method=\"lattice\""]),
+    ("damper", 0.05, &["method=\"lattice\"", "lattice.ball-radius=2"]),
     ("collapse", 0.02, &["method=\"cl-ca\""]),
     ("voids", 0.5, &[]),
     ("gas-pipe", 0.02, &[]),
