@@ -282,7 +282,7 @@ impl Damper {
 
     /// The cells that a move of a ball takes.
     #[inline]
-    fn ahead(&self, i: usize, direction: Direction) -> impl Iterator<Item = usize> + Clone {
+    fn ahead(&self, i: usize, direction: Direction) -> impl Iterator<Item = usize> {
         let ahead = &self.stencil.ahead[self.odd[i]][direction as usize];
         ahead.iter().map(move |&offset| self.cell[i].wrapping_add_signed(offset))
     }
