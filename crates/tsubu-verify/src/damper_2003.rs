@@ -38,7 +38,7 @@ fn peak(cases: &[CaseResult], count: usize) -> (f64, f64) {
     case.and_then(|c| c.peak).map_or((f64::NAN, f64::NAN), |p| (p.ratio, p.rms))
 }
 
-/// What every response by grains of a shape of their own must show: lower peaks with more balls, at the place of the added mass.
+/// What every response must show: lower peaks with more balls, at the place of the added mass.
 fn response_claims(name: &str, cases: &[CaseResult], lumps: &[(usize, f64)], source: Source<'_>) -> Vec<Claim> {
     let mut claims = Vec::new();
     let counts: Vec<usize> = lumps.iter().map(|(count, _)| *count).collect();
@@ -91,7 +91,7 @@ fn heavy(text: &str, changes: &[&str]) -> Result<Claim, String> {
 /// Fillings of the box that a response is drawn from.
 const FILLINGS: RangeInclusive<u64> = 1..=5;
 
-/// What every response must show, of all fillings, and that heavy balls do not show it.
+/// The same of all fillings, and that heavy balls do not show it.
 fn of_fillings(name: &str, text: &str, changes: &[&str], source: Source<'_>, perturbation: f64) -> Judged {
     let mut claims = ensemble::drawn("fillings", FILLINGS, |seed| {
         let drawn = format!("seed={seed}");

@@ -1,4 +1,4 @@
-//! A-F11: response by the automaton, with its literal rules and with resting impulses.
+//! A-F11: response by the automaton, with its literal rules and with resting impulses; and by balls of several cells.
 
 use super::{FIGURE_11, LUMP, of_fillings, peak, respond, response_claims, shaken};
 use crate::bench::within;

@@ -1,7 +1,8 @@
 //! Ball-ball collisions (A9): v_a' = ((v_a + v_b) - e (v_a - v_b)) / 2 along the direction of a.
 //!
-//! A ball looks into the cells ahead. If a ball is there and they approach, of several the one that it approaches fastest, the one
-//! that looks gives up the speed j = (1 + e) (v_a - v_b) / 2. With `pairwise` the other gets it, so that a head-on collision conserves momentum exactly;
+//! A ball looks into the cells ahead. If a ball is there and they approach, the one that looks gives up the speed
+//! j = (1 + e) (v_a - v_b) / 2; of several ahead the one that it approaches fastest counts. With `pairwise` the other gets it, so that a
+//! head-on collision conserves momentum exactly;
 //! if it moved another way, it takes the lattice direction nearest to the vector sum. With `literal` every ball updates
 //! only itself. A ball whose speed changes sign rebounds: straight back with probability 1/2, to each neighbour of that
 //! direction with probability 1/4 (`rebound-scatter`).
