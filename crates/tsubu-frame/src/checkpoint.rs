@@ -15,12 +15,13 @@
 //! "END." + crc32 of the whole file        4 bytes + u32
 //! ```
 
-use std::io::{Read, Write};
+use std::io::{self, Read, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::FileError;
 use crate::state::{Section, State};
-use crate::whole::write_atomically;
+use crate::whole::{Out, write_atomically};
+use crc32fast::Hasher;
 
 const MAGIC: &[u8; 8] = b"TSUBU\r\n\x1a";
 const VERSION: u32 = 4;
@@ -106,13 +107,9 @@ pub fn read(path: &Path) -> Result<(Header, State<'static>), CheckpointError> {
     decode(&bytes).map_err(|damage| damage.at(path))
 }
 
-/// Section by section: in memory there is never more than one of them beside the state.
-fn encode(state: &State, header: &Header, out: &mut dyn Write) -> std::io::Result<()> {
-    let mut whole = crc32fast::Hasher::new();
-    let mut put = |part: &[u8]| {
-        whole.update(part);
-        out.write_all(part)
-    };
+/// Section by section, each packed into the file as it comes: how long that makes it is filled in afterwards, and checksums of parts make that of
+/// the whole.
+fn encode(state: &State, header: &Header, out: &mut dyn Out) -> io::Result<()> {
     let mut part = MAGIC.to_vec();
     part.extend_from_slice(&VERSION.to_le_bytes());
     put_text(&mut part, &header.tsubu_version);
@@ -120,38 +117,80 @@ fn encode(state: &State, header: &Header, out: &mut dyn Write) -> std::io::Resul
     part.extend_from_slice(&header.step.to_le_bytes());
     part.extend_from_slice(&header.time.to_bits().to_le_bytes());
     part.extend_from_slice(&(state.sections().count() as u32).to_le_bytes());
-    put(&part)?;
-    put(&crc32fast::hash(&part).to_le_bytes())?;
+    let mut whole = Hasher::new();
+    put_checked(&part, &Hasher::new(), &mut whole, out)?;
     for (name, section) in state.sections() {
-        let (kind, count, packed) = match section {
-            Section::Real(v) => (0u8, v.len(), pack(v, |x| x.to_bits().to_le_bytes())),
-            Section::Integer(v) => (1, v.len(), pack(v, |x| x.to_le_bytes())),
-            Section::Text(t) => (2, t.len(), pack(t.as_bytes(), |x| [*x])),
+        let (kind, count) = match section {
+            Section::Real(v) => (0u8, v.len()),
+            Section::Integer(v) => (1, v.len()),
+            Section::Index(v) => (1, v.len()),
+            Section::Text(t) => (2, t.len()),
         };
-        let packed = packed?;
         part.clear();
         put_text(&mut part, name);
         part.push(kind);
         part.extend_from_slice(&(count as u64).to_le_bytes());
-        part.extend_from_slice(&(packed.len() as u64).to_le_bytes());
-        let mut crc = crc32fast::Hasher::new();
-        for piece in [&part, &packed] {
-            crc.update(piece);
-            put(piece)?;
-        }
-        put(&crc.finalize().to_le_bytes())?;
+        let begin = out.stream_position()?;
+        out.seek_relative(part.len() as i64 + 8)?;
+        let packed = Summed { crc: Hasher::new(), out: &mut *out };
+        let crc = match section {
+            Section::Real(v) => pack(v, |x| x.to_bits().to_le_bytes(), packed),
+            Section::Integer(v) => pack(v, |x| x.to_le_bytes(), packed),
+            Section::Index(v) => pack(v, |x| i64::from(*x).to_le_bytes(), packed),
+            Section::Text(t) => pack(t.as_bytes(), |x| [*x], packed),
+        }?;
+        let length = out.stream_position()? - begin - part.len() as u64 - 8;
+        part.extend_from_slice(&length.to_le_bytes());
+        out.seek(SeekFrom::Start(begin))?;
+        put_checked(&part, &crc, &mut whole, out)?;
     }
-    put(END)?;
+    whole.update(END);
+    out.write_all(END)?;
     out.write_all(&whole.finalize().to_le_bytes())
 }
 
-/// Values as packed bytes.
-fn pack<T, const N: usize>(values: &[T], bytes: impl Fn(&T) -> [u8; N]) -> std::io::Result<Vec<u8>> {
-    let mut packed = zstd::stream::write::Encoder::new(Vec::new(), LEVEL)?;
+/// Writes a part, and behind what follows it already, of the checksum `rest`, the checksum of both.
+fn put_checked(part: &[u8], rest: &Hasher, whole: &mut Hasher, out: &mut dyn Out) -> io::Result<()> {
+    let mut both = Hasher::new();
+    both.update(part);
+    both.combine(rest);
+    let sum = both.clone().finalize().to_le_bytes();
+    whole.combine(&both);
+    whole.update(&sum);
+    out.write_all(part)?;
+    out.seek(SeekFrom::End(0))?;
+    out.write_all(&sum)
+}
+
+/// Values as packed bytes; gives their checksum.
+fn pack<T, W: Write, const N: usize>(
+    values: &[T],
+    bytes: impl Fn(&T) -> [u8; N],
+    out: Summed<W>,
+) -> io::Result<Hasher> {
+    let mut packed = zstd::stream::write::Encoder::new(out, LEVEL)?;
     for some in values.chunks(4096) {
         packed.write_all(some.iter().map(&bytes).collect::<Vec<_>>().as_flattened())?;
     }
-    packed.finish()
+    Ok(packed.finish()?.crc)
+}
+
+/// Writes on, and sums up what it writes.
+struct Summed<W> {
+    crc: Hasher,
+    out: W,
+}
+
+impl<W: Write> Write for Summed<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.out.write(bytes)?;
+        self.crc.update(&bytes[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
 }
 
 fn put_text(out: &mut Vec<u8>, text: &str) {

@@ -7,13 +7,15 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// The numbers of one section. Floats are most of a state: they may lie where they are saved from.
+/// The numbers of one section. Floats and numbers of things are most of a state: they may lie where they are saved from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Section<'a> {
     /// 64-bit floats, kept bit by bit.
     Real(Cow<'a, [f64]>),
     /// 64-bit integers.
     Integer(Vec<i64>),
+    /// Numbers of things. A checkpoint has them as integers, and gives them back so.
+    Index(Cow<'a, [u32]>),
     /// Text.
     Text(String),
 }
@@ -45,6 +47,11 @@ impl<'a> State<'a> {
         self.sections.insert(name.to_owned(), Section::Integer(values.into()));
     }
 
+    /// Stores numbers of things.
+    pub fn put_index(&mut self, name: &str, values: impl Into<Cow<'a, [u32]>>) {
+        self.sections.insert(name.to_owned(), Section::Index(values.into()));
+    }
+
     /// Stores text.
     pub fn put_text(&mut self, name: &str, text: impl Into<String>) {
         self.sections.insert(name.to_owned(), Section::Text(text.into()));
@@ -63,6 +70,16 @@ impl<'a> State<'a> {
         match self.sections.get(name) {
             Some(Section::Integer(v)) => Ok(v),
             _ => Err(MissingSection { name: name.to_owned(), kind: "integer" }),
+        }
+    }
+
+    /// Numbers of things of a section; integers that can be none are refused.
+    pub fn index(&self, name: &str) -> Result<Cow<'_, [u32]>, MissingSection> {
+        let missing = || MissingSection { name: name.to_owned(), kind: "integer" };
+        match self.sections.get(name) {
+            Some(Section::Index(v)) => Ok(Cow::Borrowed(v)),
+            Some(Section::Integer(v)) => v.iter().map(|n| u32::try_from(*n).map_err(|_| missing())).collect(),
+            _ => Err(missing()),
         }
     }
 
@@ -89,6 +106,7 @@ impl<'a> State<'a> {
         let owned = |section| match section {
             Section::Real(v) => Section::Real(Cow::Owned(v.into_owned())),
             Section::Integer(v) => Section::Integer(v),
+            Section::Index(v) => Section::Index(Cow::Owned(v.into_owned())),
             Section::Text(t) => Section::Text(t),
         };
         State { sections: self.sections.into_iter().map(|(name, section)| (name, owned(section))).collect() }
@@ -96,6 +114,13 @@ impl<'a> State<'a> {
 
     /// Hash of names, kinds and bits of every section, in hex.
     pub fn hash(&self) -> String {
+        let whole = |hasher: &mut blake3::Hasher, numbers: &mut dyn ExactSizeIterator<Item = i64>| {
+            hasher.update(b"\0i");
+            hasher.update(&(numbers.len() as u64).to_le_bytes());
+            for x in numbers {
+                hasher.update(&x.to_le_bytes());
+            }
+        };
         let mut hasher = blake3::Hasher::new();
         for (name, section) in self.sections() {
             hasher.update(name.as_bytes());
@@ -107,13 +132,8 @@ impl<'a> State<'a> {
                         hasher.update(&x.to_bits().to_le_bytes());
                     }
                 }
-                Section::Integer(v) => {
-                    hasher.update(b"\0i");
-                    hasher.update(&(v.len() as u64).to_le_bytes());
-                    for x in v {
-                        hasher.update(&x.to_le_bytes());
-                    }
-                }
+                Section::Integer(v) => whole(&mut hasher, &mut v.iter().copied()),
+                Section::Index(v) => whole(&mut hasher, &mut v.iter().map(|x| i64::from(*x))),
                 Section::Text(t) => {
                     hasher.update(b"\0t");
                     hasher.update(&(t.len() as u64).to_le_bytes());

@@ -151,6 +151,7 @@ fn forge(draw: &mut Draw, section: &mut Section) {
     match section {
         Section::Real(numbers) => list(draw, numbers.to_mut(), REAL),
         Section::Integer(numbers) => list(draw, numbers, WHOLE),
+        Section::Index(numbers) => list(draw, numbers.to_mut(), &[0, 1, u32::MAX]),
         Section::Text(text) => text.push('x'),
     }
 }

@@ -44,6 +44,21 @@ fn comes_back_bit_by_bit() {
     assert_eq!(left, ["state.tsubu"], "no temporary file stays");
 }
 
+/// Numbers of things are in a file as integers are, and come back as either.
+#[test]
+fn numbers_of_things_are_integers() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut state = State::default();
+    state.put_index("id", vec![3, u32::MAX]);
+    state.put_integer("wrong", vec![0, -1]);
+    assert_eq!(&*state.index("id").unwrap(), [3, u32::MAX]);
+    checkpoint::write(folder.path(), &state, &sample().0).unwrap();
+    let (_, back) = checkpoint::read(&checkpoint::path(folder.path())).unwrap();
+    assert_eq!(back.integer("id").unwrap(), [3, i64::from(u32::MAX)]);
+    assert_eq!(&*back.index("id").unwrap(), [3, u32::MAX]);
+    assert!(back.index("wrong").is_err() && back.index("none").is_err());
+}
+
 #[test]
 fn every_truncation_is_seen() {
     let bytes = bytes_of_sample();
@@ -103,6 +118,7 @@ fn section() -> impl Strategy<Value = Section<'static>> {
     prop_oneof![
         prop::collection::vec(any::<f64>(), 0..50).prop_map(|reals| Section::Real(reals.into())),
         prop::collection::vec(any::<i64>(), 0..50).prop_map(Section::Integer),
+        prop::collection::vec(any::<u32>(), 0..50).prop_map(|numbers| Section::Index(numbers.into())),
         ".{0,40}".prop_map(Section::Text),
     ]
 }

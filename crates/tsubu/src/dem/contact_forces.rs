@@ -18,7 +18,6 @@ use super::bonds::Bonds;
 use super::contact_batch::{self, ContactBatch};
 use super::contact_history::{ContactHistory, FRESH, WallKey};
 use super::features::PairFeatures;
-use super::history_transfer::HistorySnapshot;
 use super::immersion::{BlockImmersion, WaterAtTime};
 use super::narrow_phase::{Spheres, TouchingPairs};
 use super::outside::Outside;
@@ -158,8 +157,6 @@ pub(super) struct ContactForces {
     pub bonds: Bonds,
     /// Forces on grains that no contact exerts.
     pub outside: Outside,
-    /// The snapshot of the last rebuild, kept for its memory.
-    pub(super) snapshot: HistorySnapshot,
     /// A batch for every thread.
     scratch: Vec<Mutex<Scratch>>,
 }
@@ -222,10 +219,6 @@ impl ContactForces {
         let laws = input.laws.all();
         let (lists, own) = (&input.neighbours.lists, input.neighbours.own());
         self.blocks.resize_with(lists.len(), BlockContacts::default);
-        // Blocks pass their history on, so each is as large as the largest; and a few contacts more come before lists are made again. In
-        // steps, so that memory is not asked for each time.
-        let contacts = self.blocks.iter().map(|block| block.sums.contacts).max().unwrap_or_default();
-        let contacts = (contacts + contacts / 8).next_multiple_of(128);
         let blocks = self.blocks.par_iter_mut().zip(lists).with_min_len(blocks_at_once(input.grains.len()));
         blocks.for_each(|(block, list)| {
             block.walls.resize(input.walls.len(), WallLoad::default());
@@ -241,9 +234,6 @@ impl ContactForces {
             block.near.forget(if input.bodies.faceted() { list.pairs.len() } else { 0 });
             if block.history.is_empty() {
                 block.history.extend(laws.iter().map(|law| ContactHistory::new(law.width())));
-            }
-            for (history, _) in block.history.iter_mut().zip(laws).filter(|(_, law)| law.width() > 0) {
-                history.pairs.reserve(contacts);
             }
         });
     }
@@ -324,7 +314,7 @@ impl BlockContacts {
         features::evaluate(input, list, history, scratch, sums, |batch| pairs::scatter(batch, loads, rotation));
         walls::evaluate(input, list, history, scratch, sums, |batch| walls::scatter(input, list, batch, loads, walls));
         std::mem::swap(near, &mut scratch.features.near);
-        history.swap_with_slice(&mut scratch.next);
+        history.iter_mut().zip(&scratch.next).for_each(|(history, next)| history.keep(next));
         scratch.forget(input.laws.all());
         // The grains are in the cache now.
         if let Some(water) = &input.water {

@@ -2,8 +2,8 @@
 //!
 //! Every block has the contacts of the last step in the order of its neighbour list. A step walks pairs and contacts side
 //! by side, takes along what goes on and leaves what has opened; nothing is looked up. What it writes goes into memory that
-//! the thread has at hand from the block before, and changes places with what it has read: so a step fetches and stores
-//! every history once.
+//! the thread has at hand, and from there into the place of what it has read: so a step fetches and stores every history
+//! once, and a block has room for its own contacts alone.
 
 use crate::contact::Law;
 use crate::contact::chunk::Column;
@@ -40,15 +40,34 @@ impl<K> HistoryColumns<K> {
         }
     }
 
-    /// Makes room, so that a step need not.
-    pub fn reserve(&mut self, contacts: usize) {
-        self.keys.reserve_exact(contacts.saturating_sub(self.keys.len()));
+    /// Makes room for so many contacts; where there is less, for a few that come later, too.
+    fn reserve(&mut self, contacts: usize) {
+        if self.keys.capacity() >= contacts {
+            return;
+        }
+        let room = (contacts + contacts / 8).next_multiple_of(32);
+        self.keys.reserve_exact(room.saturating_sub(self.keys.len()));
         for column in &mut self.columns {
-            column.reserve_exact((contacts + 1).saturating_sub(column.len()));
+            column.reserve_exact((room + 1).saturating_sub(column.len()));
+        }
+    }
+
+    /// Takes a copy of others.
+    pub fn keep(&mut self, others: &Self)
+    where
+        K: Copy,
+    {
+        self.keys.clear();
+        self.columns.iter_mut().for_each(Vec::clear);
+        self.reserve(others.keys.len());
+        self.keys.extend_from_slice(&others.keys);
+        for (to, from) in self.columns.iter_mut().zip(&others.columns) {
+            to.extend_from_slice(from);
         }
     }
 
     pub fn push(&mut self, key: K, history: &[f64]) {
+        self.reserve(self.keys.len() + 1);
         self.keys.push(key);
         for (column, value) in self.columns.iter_mut().zip(history) {
             column.push(*value);
@@ -180,5 +199,44 @@ impl ContactHistory {
         self.pairs.clear(width);
         self.features.clear(width);
         self.walls.clear(width);
+    }
+
+    /// How many contacts there are.
+    pub fn len(&self) -> usize {
+        self.pairs.keys.len() + self.features.keys.len() + self.walls.keys.len()
+    }
+
+    /// Takes a copy of others.
+    pub fn keep(&mut self, others: &Self) {
+        self.pairs.keep(&others.pairs);
+        self.features.keep(&others.features);
+        self.walls.keep(&others.walls);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Blocks were given as much room as the fullest of them took: a bed that is full below and loose above took five times what it had to remember.
+    #[test]
+    fn a_block_has_room_for_its_own_contacts_alone() {
+        let mut at_hand = HistoryColumns::<u32>::default();
+        at_hand.clear(1);
+        (0..3000).for_each(|key| at_hand.push(key, &[f64::from(key)]));
+        let mut block = HistoryColumns::default();
+        block.clear(1);
+        block.keep(&at_hand);
+        let room = block.keys.capacity();
+        assert!((3000..3500).contains(&room), "{room}");
+        at_hand.clear(1);
+        (0..3100).for_each(|key| at_hand.push(key, &[f64::from(key)]));
+        block.keep(&at_hand);
+        assert_eq!(
+            (block.keys.capacity(), block.columns[0].capacity()),
+            (room, room + 1),
+            "a few more ask for nothing"
+        );
+        assert!(block.keys.len() == 3100 && block.history(3099).eq([3099.0]));
     }
 }

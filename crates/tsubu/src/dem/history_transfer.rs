@@ -3,7 +3,7 @@
 //! Every block hands over its own contacts, and is filled from what belongs to it: both on many threads.
 
 use super::contact_forces::{BlockContacts, ContactForces, ForceInput};
-use super::contact_history::{FeatureKey, WallKey};
+use super::contact_history::{ContactHistory, FeatureKey, WallKey};
 use super::ranks::Ranks;
 use super::sweep::{Direction, sweep};
 use crate::contact::Law;
@@ -43,13 +43,9 @@ impl ContactId {
 }
 
 /// The contact history of all blocks by ids.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct HistorySnapshot {
     pub blocks: Vec<BlockHistory>,
-    /// Index of the grain with each id; [`REMOVED`] where there is none.
-    index: Vec<AtomicU32>,
-    /// Destinations that follow one another in a block's history and are in one block; by that block, then by the other.
-    runs: Vec<Run>,
     /// Whether every rank has all contacts, as from a checkpoint.
     whole: bool,
 }
@@ -105,24 +101,22 @@ struct Lookup<'a> {
 
 impl ContactForces {
     /// Snapshot of every contact's history, in the order of blocks.
-    pub fn snapshot_history(&mut self, input: &ForceInput) -> HistorySnapshot {
-        let mut snapshot = std::mem::take(&mut self.snapshot);
+    pub fn snapshot_history(&self, input: &ForceInput) -> HistorySnapshot {
         let width = input.laws.history_width();
         let own = if width == 0 { 0..0 } else { input.neighbours.own() };
         let lists = &input.neighbours.lists[own.clone()];
-        snapshot.blocks.resize_with(lists.len(), BlockHistory::default);
-        snapshot.whole = false;
+        let mut histories = vec![BlockHistory::default(); lists.len()];
         let (id, blocks) = (&input.grains.id, &self.blocks);
-        let range = (&mut snapshot.blocks[..], lists);
+        let range = (&mut histories[..], lists);
         sweep(range, Direction::Forward, shares(id.len()), &|(of, lists): (&mut [BlockHistory], &[BlockList])| {
             of[0].record(&blocks[lists[0].first / BLOCK], &lists[0], id, width);
         });
-        snapshot
+        HistorySnapshot { blocks: histories, whole: false }
     }
 
     /// The contacts of all ranks by ids, in the order of blocks, on the first of them: of each the bodies, whether the second is a wall, and the
     /// patch; and what they remember.
-    pub fn by_id(&self, input: &ForceInput, ranks: &Ranks) -> (Vec<i64>, Vec<f64>) {
+    pub fn by_id(&self, input: &ForceInput, ranks: &Ranks) -> (Vec<u32>, Vec<f64>) {
         let width = input.laws.history_width();
         if width == 0 {
             return Default::default();
@@ -135,15 +129,15 @@ impl ContactForces {
             |blocks, message| {
                 for number in blocks {
                     block.record(&self.blocks[number], &input.neighbours.lists[number], &input.grains.id, width);
-                    for (k, history) in block.contacts.iter().zip(block.history.chunks_exact(width)) {
-                        message.extend([k.first, k.second, u32::from(k.wall), k.patch].map(f64::from));
-                        message.extend(history);
+                    for (contact, history) in block.contacts.iter().zip(block.history.chunks_exact(width)) {
+                        contact.put(history, message);
                     }
                 }
             },
             |message| {
                 while !message.is_at_end() {
-                    ids.extend(message.numbers(4).iter().map(|id| *id as i64));
+                    let ContactId { first, second, wall, patch, law: _ } = ContactId::take(message);
+                    ids.extend([first, second, u32::from(wall), patch]);
                     histories.extend(message.numbers(width));
                 }
             },
@@ -153,28 +147,31 @@ impl ContactForces {
 
     /// Gives the pairs of new neighbour lists the histories they had; a pair whose bodies have changed places gets its turned.
     /// Returns the stored energy of contacts whose body is gone, or whose pair is in no list any more [J].
-    pub fn restore_history(&mut self, input: &ForceInput, mut snapshot: HistorySnapshot, ranks: &mut Ranks) -> f64 {
+    pub fn restore_history(&mut self, input: &ForceInput, snapshot: HistorySnapshot, ranks: &mut Ranks) -> f64 {
         let width = input.laws.history_width();
         if width == 0 {
             return 0.0;
         }
         let (laws, ids) = (input.laws.all(), &input.grains.id);
         let shares = shares(ids.len());
-        let HistorySnapshot { blocks: parts, index, runs, whole } = &mut snapshot;
+        let HistorySnapshot { blocks: mut parts, whole } = snapshot;
         let piece = piece(ids.len());
+        // Index of the grain with each id.
+        let mut index = Vec::new();
         index.resize_with(ids.par_iter().with_min_len(piece).max().map_or(0, |m| *m as usize + 1), AtomicU32::default);
         index.par_iter_mut().with_min_len(piece).for_each(|i| *i.get_mut() = REMOVED);
         if !left_out(Mutation::HistoryTransfer) {
             let ids = ids.par_iter().enumerate().with_min_len(piece);
             ids.for_each(|(i, id)| index[*id as usize].store(i as u32, Ordering::Relaxed));
         }
-        let lookup = Lookup { index, neighbours: input.neighbours, walls: input.walls, laws, width };
-        threads::each(parts, shares, |part| part.locate(&lookup));
+        let lookup = Lookup { index: &index, neighbours: input.neighbours, walls: input.walls, laws, width };
+        threads::each(&mut parts, shares, |part| part.locate(&lookup));
         let here = parts.len();
-        if !*whole {
-            pass_on(parts, &lookup, ranks);
+        if !whole {
+            pass_on(&mut parts, &lookup, ranks);
         }
-        runs.clear();
+        // Destinations that follow one another in a block's history and are in one block; by that block, then by the other.
+        let mut runs: Vec<Run> = Vec::new();
         let from = parts.par_iter().enumerate().with_min_len(blocks_at_once(ids.len()));
         runs.par_extend(from.flat_map_iter(|(from, part)| part.runs(from)));
         runs.par_sort_by_key(|run| run.block);
@@ -184,13 +181,12 @@ impl ContactForces {
             let block = (lists[0].first / BLOCK) as u32;
             let first = runs.partition_point(|run| run.block < block);
             let runs = runs[first..].iter().take_while(|run| run.block == block);
-            refill(&mut blocks[0], parts, runs, laws, width);
+            refill(&mut blocks[0], &parts, runs, laws, width);
         });
         parts.truncate(here);
         let mut lost = ranks.letters();
         lost.resize(lost.len().max(1), Vec::new());
         lost.fill(parts.iter().map(|part| part.lost(&lookup)).collect());
-        self.snapshot = snapshot;
         ranks.pass(&mut lost);
         lost.iter().flatten().sum()
     }
@@ -200,7 +196,7 @@ impl HistorySnapshot {
     /// Contacts that are not known by block.
     pub fn of(contacts: Vec<ContactId>, history: Vec<f64>) -> Self {
         let all = BlockHistory { contacts, history, ..BlockHistory::default() };
-        Self { blocks: vec![all], whole: true, ..Self::default() }
+        Self { blocks: vec![all], whole: true }
     }
 }
 
@@ -216,6 +212,9 @@ impl BlockHistory {
     fn record(&mut self, block: &BlockContacts, list: &BlockList, id: &[u32], width: usize) {
         self.contacts.clear();
         self.history.clear();
+        let contacts = block.history.iter().map(ContactHistory::len).sum();
+        self.contacts.reserve_exact(contacts);
+        self.history.reserve_exact(contacts * width);
         for (law, of) in (0..).zip(&block.history) {
             for (c, &k) in of.pairs.keys.iter().enumerate() {
                 let pair = list.pairs[k as usize];
@@ -274,6 +273,7 @@ impl BlockHistory {
     fn locate(&mut self, lookup: &Lookup) {
         let Self { contacts, history, destinations, missing } = self;
         destinations.clear();
+        destinations.reserve_exact(contacts.len());
         missing.clear();
         for (from, (contact, history)) in (0..).zip(contacts.iter().zip(history.chunks_exact_mut(lookup.width))) {
             let law = &lookup.laws[contact.law as usize];

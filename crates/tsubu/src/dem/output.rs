@@ -16,7 +16,8 @@ impl DemEngine {
     pub(super) fn picture(&self, told: bool) -> Frame {
         let summed = !self.acceleration_tells();
         let mut force = vec![DVec3::ZERO; if summed { self.grains.len() } else { 0 }];
-        let mut contacts = ContactColumns::default();
+        let room = if told && self.ranks.is_first() { self.contacts.sums.contacts } else { 0 };
+        let mut contacts = ContactColumns::with_room(room);
         if told || summed {
             self.each_contact(|contact| {
                 if told {
@@ -207,7 +208,7 @@ impl DemEngine {
         for wall in &self.walls {
             wall.save(state);
         }
-        state.put_integer("dem.contacts", contacts);
+        state.put_index("dem.contacts", contacts);
         state.put_real("dem.history", history);
     }
 
@@ -271,19 +272,20 @@ impl DemEngine {
             wall.follow(time, &hosts);
         }
         let width = self.laws.history_width();
-        let ids = state.integer("dem.contacts")?.as_chunks::<4>().0;
+        let ids = state.index("dem.contacts")?;
+        let ids = ids.as_chunks::<4>().0;
         let history = state.real("dem.history")?;
         if history.len() != ids.len() * width {
             return Err(missing("dem.history"));
         }
         let of: BTreeMap<u32, u32> = self.grains.id.iter().copied().zip(self.grains.material.iter().copied()).collect();
-        let contact = |n: &[i64; 4]| {
-            let (first, second, wall) = (n[0] as u32, n[1] as u32, n[2] != 0);
+        let contact = |&[first, second, wall, patch]: &[u32; 4]| {
+            let wall = wall != 0;
             let other =
                 if wall { self.walls.get(second as usize).map(|w| w.material) } else { of.get(&second).copied() };
             let pair = of.get(&first).zip(other.as_ref());
             let law = pair.map_or(0, |(a, b)| self.laws.table.law(self.laws.table.index(*a, *b)) as u32);
-            ContactId { first, second, wall, patch: n[3] as u32, law }
+            ContactId { first, second, wall, patch, law }
         };
         self.restore_history(HistorySnapshot::of(ids.iter().map(contact).collect(), history.to_vec()));
         Ok(())
@@ -299,7 +301,7 @@ fn add_force(force: &mut [DVec3], contact: &Contact) {
 }
 
 /// The contacts of a frame.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct ContactColumns {
     first: Vec<i64>,
     second: Vec<i64>,
@@ -310,6 +312,18 @@ struct ContactColumns {
 }
 
 impl ContactColumns {
+    /// For so many contacts: columns that grew side by side would leave as much memory in pieces as they take.
+    fn with_room(contacts: usize) -> Self {
+        Self {
+            first: Vec::with_capacity(contacts),
+            second: Vec::with_capacity(contacts),
+            position: Vec::with_capacity(contacts),
+            force: Vec::with_capacity(contacts),
+            normal: Vec::with_capacity(contacts),
+            overlap: Vec::with_capacity(contacts),
+        }
+    }
+
     fn push(&mut self, contact: &Contact, id: &[u32]) {
         let id = |i: usize| i64::from(id[i]);
         self.first.push(id(contact.first));

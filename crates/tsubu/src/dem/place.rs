@@ -21,7 +21,9 @@ type Wrong = (String, String);
 /// All grains of a plan that are there at time 0, in the order of groups and numbers, and how long some of them may
 /// settle first [s]. Those at random places come last: they look for room among all others.
 pub(super) fn grains(plan: &Plan, table: &Table, walls: &[Wall]) -> Result<(Grains, f64), Wrong> {
-    let mut placing = Placing { plan, table, walls, grains: Grains::default(), room: room(plan, walls), floor: 0.0 };
+    let placed = plan.particles.values().filter(|group| !matches!(group.start, Start::Stream { .. }));
+    let grains = Grains::with_room(placed.map(|group| group.count).sum());
+    let mut placing = Placing { plan, table, walls, grains, room: room(plan, walls), floor: 0.0 };
     let mut settle: f64 = 0.0;
     let random = |group: &Particles| matches!(group.start, Start::Random { .. });
     let groups = || plan.particles.iter().enumerate();

@@ -91,7 +91,9 @@ pub(super) fn find_incoming(lists: &mut [BlockList], own: Range<usize>, shares: 
     let mut all: Vec<(Vec<Incoming>, usize)> = lists[own.clone()].iter_mut().map(taken).collect();
     threads::each(&mut all, shares, |(incoming, home)| {
         let here = runs.partition_point(|run| (run.home as usize) < *home);
-        for run in runs[here..].iter().take_while(|run| run.home as usize == *home) {
+        let here = runs[here..].iter().take_while(|run| run.home as usize == *home);
+        incoming.reserve_exact(here.clone().map(|run| (run.halo[1] - run.halo[0]) as usize).sum());
+        for run in here {
             let BlockList { own, halo, .. } = &lists[run.block as usize];
             let grains = (run.halo[0]..run.halo[1]).map(|h| (h, halo[h as usize].grain));
             incoming.extend(grains.map(|(h, grain)| Incoming {
@@ -114,6 +116,8 @@ pub(super) struct Finder {
     pub nearby: Nearby,
     /// Second grains of all pairs of the block.
     pub seconds: Vec<Image>,
+    /// Those of them that are not in the block.
+    halo: Vec<Image>,
     /// Local index of every grain in the halo of the block; [`NOT_IN_HALO`] between blocks.
     pub local_of: Vec<u32>,
     /// Wall elements near a grain.
@@ -158,30 +162,36 @@ impl BlockList {
 
     /// Gives every second grain its local index.
     pub(super) fn number_locally(&mut self, finder: &mut Finder) {
-        let Finder { seconds, local_of, .. } = finder;
+        let Finder { seconds, halo, local_of, .. } = finder;
+        halo.clear();
         let inside = self.first as u32..(self.first + self.own) as u32;
         let own = |c: &Image| c.image == PRIMARY_IMAGE && inside.contains(&c.grain);
         for second in seconds.iter().filter(|c| !own(c)) {
             // What is nearby across a periodic end is rare, and may be nearby as several images.
             if second.image != PRIMARY_IMAGE {
-                self.halo.push(*second);
+                halo.push(*second);
             } else if local_of[second.grain as usize] == NOT_IN_HALO {
-                self.halo.push(*second);
+                halo.push(*second);
                 local_of[second.grain as usize] = 0;
             }
         }
-        self.halo.sort_unstable();
-        self.halo.dedup();
+        halo.sort_unstable();
+        halo.dedup();
+        // Room for what there is: memory that grows by itself doubles.
+        self.halo.reserve_exact(halo.len());
+        self.halo.extend_from_slice(halo);
         for (local, h) in (self.own as u32..).zip(&self.halo).filter(|(_, h)| h.image == PRIMARY_IMAGE) {
             local_of[h.grain as usize] = local;
         }
         self.grain_at.clear();
+        self.grain_at.reserve_exact(self.own + halo.len());
         self.grain_at.extend(inside.clone().chain(self.halo.iter().map(|h| h.grain)));
         let local = |c: &Image| match c {
             c if own(c) => c.grain - inside.start,
             c if c.image == PRIMARY_IMAGE => local_of[c.grain as usize],
             c => self.own as u32 + self.halo.partition_point(|h| h < c) as u32,
         };
+        self.pairs.reserve_exact(seconds.len());
         for (grain, ends) in (0..).zip(self.start.windows(2)) {
             let seconds = &seconds[ends[0] as usize..ends[1] as usize];
             self.pairs.extend(seconds.iter().map(|second| Pair { first: grain, second: local(second) }));

@@ -190,6 +190,7 @@ impl NeighbourLists {
             let finder = &mut *finder;
             finder.seconds.clear();
             finder.local_of.resize(n, NOT_IN_HALO);
+            list.start.reserve_exact(list.own);
             for own in 0..list.own {
                 let i = list.first + own;
                 if small {
@@ -209,6 +210,8 @@ impl NeighbourLists {
         });
         find_incoming(&mut lists, own, shares(n));
         self.lists = lists;
+        // Steps do not look at grids, whose memory comes to that of a column or two.
+        self.levels = Vec::new();
         self.drifts.reset(&self.lists, &self.reference, grains, walls, search.skin, &search.periodic);
     }
 

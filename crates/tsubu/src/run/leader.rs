@@ -221,6 +221,10 @@ fn written(state: &State) -> Vec<f64> {
                 message.extend([1.0, values.len() as f64]);
                 message.extend(values.iter().map(|value| f64::from_bits(*value as u64)));
             }
+            Section::Index(values) => {
+                message.extend([1.0, values.len() as f64]);
+                message.extend(values.iter().map(|value| f64::from_bits(u64::from(*value))));
+            }
             Section::Text(value) => {
                 message.push(2.0);
                 text(&mut message, value);

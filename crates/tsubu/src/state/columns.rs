@@ -49,10 +49,10 @@ impl Value for u32 {
         &mut spares.integer
     }
     fn put<'a>(state: &mut State<'a>, name: &str, values: &'a [Self]) {
-        state.put_integer(name, values.iter().map(|&v| i64::from(v)).collect::<Vec<_>>());
+        state.put_index(name, values);
     }
     fn take(state: &State, name: &str) -> Result<Vec<Self>, MissingSection> {
-        Ok(state.integer(name)?.iter().map(|&v| v as Self).collect())
+        Ok(state.index(name)?.into_owned())
     }
 }
 
@@ -80,6 +80,11 @@ macro_rules! columns {
         pub struct $row { $($(#[$doc])* pub $column: $type,)+ }
 
         impl $name {
+            /// With room for so many rows.
+            pub fn with_room(rows: usize) -> Self {
+                Self { $($column: Vec::with_capacity(rows),)+ }
+            }
+
             /// Adds a row.
             pub fn push(&mut self, row: $row) { $(self.$column.push(row.$column);)+ }
 

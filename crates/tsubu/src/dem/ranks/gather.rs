@@ -5,7 +5,7 @@ use crate::ranks::Reader;
 use std::ops::Range;
 
 /// Blocks that are told of at once.
-const AT_ONCE: usize = 64;
+const AT_ONCE: usize = 16;
 
 impl Ranks {
     /// What all ranks have, in the order of the ranks; `mine` alone where there is but one.
