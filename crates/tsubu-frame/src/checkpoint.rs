@@ -149,7 +149,8 @@ fn encode(state: &State, header: &Header, out: &mut dyn Out) -> io::Result<()> {
     out.write_all(&whole.finalize().to_le_bytes())
 }
 
-/// Writes a part, and behind what follows it already, of the checksum `rest`, the checksum of both.
+/// Writes a part here, and at the end of the file the checksum of the part and of what follows it, which sums up to `rest`; `whole` goes on by
+/// both and their checksum.
 fn put_checked(part: &[u8], rest: &Hasher, whole: &mut Hasher, out: &mut dyn Out) -> io::Result<()> {
     let mut both = Hasher::new();
     both.update(part);
