@@ -78,7 +78,7 @@ impl Moving {
         }
         let mut moving = Self::of_plan(&plan, scene)?;
         let missing = |error: tsubu_frame::state::MissingSection| Error::new(error.to_string());
-        moving.engine.load(&moment.state).map_err(missing)?;
+        moving.engine.load(&mut moment.state.clone()).map_err(missing)?;
         moving.hosts.load(&moment.state).map_err(missing)?;
         moving.ledger = Ledger::load(&moment.state).map_err(missing)?;
         [moving.force, moving.mean_force] = moment.forces.clone();

@@ -15,12 +15,13 @@
 //! "END." + crc32 of the whole file        4 bytes + u32
 //! ```
 
-use std::io::{self, Read, SeekFrom, Write};
+use std::fs::File;
+use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::FileError;
 use crate::state::{Section, State};
-use crate::whole::{Out, write_atomically};
+use crate::whole::write_atomically;
 use crc32fast::Hasher;
 
 const MAGIC: &[u8; 8] = b"TSUBU\r\n\x1a";
@@ -79,7 +80,7 @@ pub enum CheckpointError {
         /// The file.
         path: PathBuf,
         /// Bytes there are.
-        length: usize,
+        length: u64,
     },
     /// A checksum does not fit.
     #[error("the checkpoint {} was altered ({part} does not match its checksum); remove it and start again without --resume", path.display())]
@@ -101,15 +102,19 @@ pub fn write(run_folder: &Path, state: &State, header: &Header) -> Result<(), Fi
     write_atomically(&path(run_folder), |out| encode(state, header, out))
 }
 
-/// Reads a checkpoint file.
+/// Reads a checkpoint file, section by section: it is never whole in memory beside the state.
 pub fn read(path: &Path) -> Result<(Header, State<'static>), CheckpointError> {
-    let bytes = std::fs::read(path).map_err(|source| CheckpointError::Unreadable { path: path.to_owned(), source })?;
-    decode(&bytes).map_err(|damage| damage.at(path))
+    let open = || {
+        let file = File::open(path)?;
+        let length = file.metadata()?.len();
+        Ok(Input { file: BufReader::new(file), length, at: 0, part: Hasher::new(), whole: Hasher::new() })
+    };
+    open().map_err(Damage::Unreadable).and_then(|mut input| decode(&mut input)).map_err(|damage| damage.at(path))
 }
 
 /// Section by section, each packed into the file as it comes: how long that makes it is filled in afterwards, and checksums of parts make that of
 /// the whole.
-fn encode(state: &State, header: &Header, out: &mut dyn Out) -> io::Result<()> {
+fn encode(state: &State, header: &Header, out: &mut BufWriter<File>) -> io::Result<()> {
     let mut part = MAGIC.to_vec();
     part.extend_from_slice(&VERSION.to_le_bytes());
     put_text(&mut part, &header.tsubu_version);
@@ -122,8 +127,7 @@ fn encode(state: &State, header: &Header, out: &mut dyn Out) -> io::Result<()> {
     for (name, section) in state.sections() {
         let (kind, count) = match section {
             Section::Real(v) => (0u8, v.len()),
-            Section::Integer(v) => (1, v.len()),
-            Section::Index(v) => (1, v.len()),
+            Section::Integer(_) | Section::Index(_) => (1, section.integers().len()),
             Section::Text(t) => (2, t.len()),
         };
         part.clear();
@@ -134,10 +138,9 @@ fn encode(state: &State, header: &Header, out: &mut dyn Out) -> io::Result<()> {
         out.seek_relative(part.len() as i64 + 8)?;
         let packed = Summed { crc: Hasher::new(), out: &mut *out };
         let crc = match section {
-            Section::Real(v) => pack(v, |x| x.to_bits().to_le_bytes(), packed),
-            Section::Integer(v) => pack(v, |x| x.to_le_bytes(), packed),
-            Section::Index(v) => pack(v, |x| i64::from(*x).to_le_bytes(), packed),
-            Section::Text(t) => pack(t.as_bytes(), |x| [*x], packed),
+            Section::Real(v) => pack(v.iter().map(|x| x.to_bits().to_le_bytes()), packed),
+            Section::Integer(_) | Section::Index(_) => pack(section.integers().map(i64::to_le_bytes), packed),
+            Section::Text(t) => pack(t.bytes().map(|x| [x]), packed),
         }?;
         let length = out.stream_position()? - begin - part.len() as u64 - 8;
         part.extend_from_slice(&length.to_le_bytes());
@@ -151,7 +154,7 @@ fn encode(state: &State, header: &Header, out: &mut dyn Out) -> io::Result<()> {
 
 /// Writes a part here, and at the end of the file the checksum of the part and of what follows it, which sums up to `rest`; `whole` goes on by
 /// both and their checksum.
-fn put_checked(part: &[u8], rest: &Hasher, whole: &mut Hasher, out: &mut dyn Out) -> io::Result<()> {
+fn put_checked(part: &[u8], rest: &Hasher, whole: &mut Hasher, out: &mut BufWriter<File>) -> io::Result<()> {
     let mut both = Hasher::new();
     both.update(part);
     both.combine(rest);
@@ -164,25 +167,26 @@ fn put_checked(part: &[u8], rest: &Hasher, whole: &mut Hasher, out: &mut dyn Out
 }
 
 /// Values as packed bytes; gives their checksum.
-fn pack<T, W: Write, const N: usize>(
-    values: &[T],
-    bytes: impl Fn(&T) -> [u8; N],
-    out: Summed<W>,
-) -> io::Result<Hasher> {
+fn pack<const N: usize>(mut values: impl Iterator<Item = [u8; N]>, out: Summed) -> io::Result<Hasher> {
     let mut packed = zstd::stream::write::Encoder::new(out, LEVEL)?;
-    for some in values.chunks(4096) {
-        packed.write_all(some.iter().map(&bytes).collect::<Vec<_>>().as_flattened())?;
+    let mut some = Vec::with_capacity(4096);
+    loop {
+        some.extend(values.by_ref().take(4096));
+        if some.is_empty() {
+            return Ok(packed.finish()?.crc);
+        }
+        packed.write_all(some.as_flattened())?;
+        some.clear();
     }
-    Ok(packed.finish()?.crc)
 }
 
 /// Writes on, and sums up what it writes.
-struct Summed<W> {
+struct Summed<'a> {
     crc: Hasher,
-    out: W,
+    out: &'a mut BufWriter<File>,
 }
 
-impl<W: Write> Write for Summed<W> {
+impl Write for Summed<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let written = self.out.write(bytes)?;
         self.crc.update(&bytes[..written]);
@@ -202,9 +206,10 @@ fn put_text(out: &mut Vec<u8>, text: &str) {
 /// What is wrong with the bytes, before the file's name is known.
 #[derive(Debug)]
 enum Damage {
+    Unreadable(io::Error),
     NotOurs,
     OtherFormat(u32, String),
-    Truncated(usize),
+    Truncated(u64),
     Altered(String),
 }
 
@@ -212,6 +217,7 @@ impl Damage {
     fn at(self, path: &Path) -> CheckpointError {
         let path = path.to_owned();
         match self {
+            Self::Unreadable(source) => CheckpointError::Unreadable { path, source },
             Self::NotOurs => CheckpointError::NotOurs { path },
             Self::OtherFormat(found, writer) => CheckpointError::OtherFormat { path, found, writer },
             Self::Truncated(length) => CheckpointError::Truncated { path, length },
@@ -220,25 +226,31 @@ impl Damage {
     }
 }
 
-struct Cursor<'a> {
-    bytes: &'a [u8],
-    at: usize,
+/// A file that is read from its begin to its end.
+struct Input {
+    file: BufReader<File>,
+    length: u64,
+    at: u64,
+    /// Checksum of the part that is read, and of all parts before it.
+    part: Hasher,
+    whole: Hasher,
 }
 
-impl<'a> Cursor<'a> {
-    fn take(&mut self, length: u64) -> Result<&'a [u8], Damage> {
-        let left = self.bytes.len() - self.at;
-        if length > left as u64 {
-            return Err(Damage::Truncated(self.bytes.len()));
+impl Input {
+    fn take(&mut self, length: u64) -> Result<Vec<u8>, Damage> {
+        if length > self.length - self.at {
+            return Err(Damage::Truncated(self.length));
         }
-        let taken = &self.bytes[self.at..self.at + length as usize];
-        self.at += length as usize;
-        Ok(taken)
+        let mut bytes = vec![0; length as usize];
+        self.file.read_exact(&mut bytes).map_err(Damage::Unreadable)?;
+        self.part.update(&bytes);
+        self.at += length;
+        Ok(bytes)
     }
 
     fn array<const N: usize>(&mut self) -> Result<[u8; N], Damage> {
         let mut array = [0; N];
-        array.copy_from_slice(self.take(N as u64)?);
+        array.copy_from_slice(&self.take(N as u64)?);
         Ok(array)
     }
 
@@ -253,75 +265,73 @@ impl<'a> Cursor<'a> {
     fn text(&mut self) -> Result<String, Damage> {
         let length = self.u32()?;
         let bytes = self.take(u64::from(length))?;
-        String::from_utf8(bytes.to_vec()).map_err(|_| Damage::Altered("a name".into()))
+        String::from_utf8(bytes).map_err(|_| Damage::Altered("a name".into()))
     }
 
-    fn check(&mut self, from: usize, part: impl FnOnce() -> String) -> Result<(), Damage> {
-        let seen = crc32fast::hash(&self.bytes[from..self.at]);
-        if seen == self.u32()? { Ok(()) } else { Err(Damage::Altered(part())) }
+    /// The part ends here, with its checksum.
+    fn check(&mut self, part: impl FnOnce() -> String) -> Result<(), Damage> {
+        let seen = self.part.clone().finalize();
+        let same = seen == self.u32()?;
+        self.whole.combine(&std::mem::take(&mut self.part));
+        if same { Ok(()) } else { Err(Damage::Altered(part())) }
     }
 }
 
-fn decode(bytes: &[u8]) -> Result<(Header, State<'static>), Damage> {
-    let mut cursor = Cursor { bytes, at: 0 };
-    let magic = &bytes[..bytes.len().min(MAGIC.len())];
-    if magic != &MAGIC[..magic.len()] || bytes.is_empty() {
+fn decode(input: &mut Input) -> Result<(Header, State<'static>), Damage> {
+    let magic = input.take(input.length.min(MAGIC.len() as u64))?;
+    if magic.is_empty() || magic != MAGIC[..magic.len()] {
         return Err(Damage::NotOurs);
     }
-    cursor.take(MAGIC.len() as u64)?;
-    let version = cursor.u32()?;
+    let version = input.u32()?;
     if version != VERSION {
         // All formats have begun alike so far; what is no name of a version is not shown.
         let plain = |text: &String| !text.is_empty() && text.len() < 40 && text.chars().all(|c| c.is_ascii_graphic());
-        let writer = cursor.text().ok().filter(plain).unwrap_or_else(|| "of unknown version".to_owned());
+        let writer = input.text().ok().filter(plain).unwrap_or_else(|| "of unknown version".to_owned());
         return Err(Damage::OtherFormat(version, writer));
     }
-    // A length that was altered mostly points past the end. The checksum of the whole file tells that from a file
-    // that is really cut short, so the message names the right cause.
-    let whole = is_whole(bytes);
-    let read = decode_rest(&mut cursor);
-    match read {
-        Ok(_) if !whole => Err(Damage::Altered("the file".into())),
-        Err(Damage::Truncated(_)) if ends_with_marker(bytes) => Err(Damage::Altered("the file".into())),
+    match decode_rest(input) {
+        // A length that was altered mostly points past the end. A file that is really cut short has no end marker.
+        Err(Damage::Truncated(_)) if ends_with_marker(input) => Err(Damage::Altered("the file".into())),
         other => other,
     }
 }
 
-fn ends_with_marker(bytes: &[u8]) -> bool {
-    bytes.len() >= 8 && &bytes[bytes.len() - 8..bytes.len() - 4] == END
+fn ends_with_marker(input: &mut Input) -> bool {
+    let mut marker = [0; 4];
+    let read = input.file.seek(SeekFrom::End(-8)).and_then(|_| input.file.read_exact(&mut marker));
+    read.is_ok() && &marker == END
 }
 
-fn is_whole(bytes: &[u8]) -> bool {
-    ends_with_marker(bytes) && crc32fast::hash(&bytes[..bytes.len() - 4]).to_le_bytes() == bytes[bytes.len() - 4..]
-}
-
-fn decode_rest(cursor: &mut Cursor<'_>) -> Result<(Header, State<'static>), Damage> {
+fn decode_rest(input: &mut Input) -> Result<(Header, State<'static>), Damage> {
     let header = Header {
-        tsubu_version: cursor.text()?,
-        scene_hash: cursor.text()?,
-        step: cursor.u64()?,
-        time: f64::from_bits(cursor.u64()?),
+        tsubu_version: input.text()?,
+        scene_hash: input.text()?,
+        step: input.u64()?,
+        time: f64::from_bits(input.u64()?),
     };
-    let sections = cursor.u32()?;
-    cursor.check(0, || "the header".into())?;
+    let sections = input.u32()?;
+    input.check(|| "the header".into())?;
     let mut state = State::default();
     for _ in 0..sections {
-        let start = cursor.at;
-        let name = cursor.text()?;
-        let [kind] = cursor.array()?;
-        let count = cursor.u64()?;
-        let length = cursor.u64()?;
-        let packed = cursor.take(length)?;
-        cursor.check(start, || format!("section `{name}`"))?;
-        let section = unpack(kind, count, packed).ok_or_else(|| Damage::Altered(format!("section `{name}`")))?;
+        let name = input.text()?;
+        let [kind] = input.array()?;
+        let count = input.u64()?;
+        let length = input.u64()?;
+        let packed = input.take(length)?;
+        input.check(|| format!("section `{name}`"))?;
+        let section = unpack(kind, count, &packed).ok_or_else(|| Damage::Altered(format!("section `{name}`")))?;
         state.insert(name, section);
     }
-    if &cursor.array::<4>()? != END {
+    if &input.array::<4>()? != END {
         return Err(Damage::Altered("the end marker".into()));
     }
-    cursor.take(4)?;
-    if cursor.at != cursor.bytes.len() {
+    input.whole.combine(&input.part);
+    let sum = input.u32()?;
+    if input.at != input.length {
         return Err(Damage::Altered("the end of the file".into()));
+    }
+    if sum != input.whole.clone().finalize() {
+        return Err(Damage::Altered("the file".into()));
     }
     Ok((header, state))
 }

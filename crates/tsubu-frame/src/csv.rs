@@ -1,6 +1,7 @@
 //! Tables of numbers and text as CSV: header cells are `name [unit]`, floats in their shortest exact form.
 
 use std::fmt::Write as _;
+use std::io::Write as _;
 use std::path::Path;
 
 use crate::FileError;

@@ -1,7 +1,7 @@
 //! The run folder: what in it is tsubu's, and who may write.
 
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 

@@ -3,6 +3,7 @@
 //! Numbers of atoms begin with 1, as LAMMPS wants it: an atom is the grain of the number below. The type of an atom is
 //! the number of its group and begins with 1 too.
 
+use std::io::Write as _;
 use std::path::Path;
 
 use crate::FileError;

@@ -1,6 +1,8 @@
 //! The `frames/` folder: numbered snapshots and the `.pvd` indices that tell `ParaView` their times.
 
+use std::borrow::Borrow;
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::frame::{Frame, Kind};
@@ -111,7 +113,13 @@ impl FrameWriter {
 
     /// Writes one snapshot, or nothing of it: a disk that is full has room then for what is said of it.
     pub fn write(&mut self, frame: &Frame) -> Result<(), FileError> {
-        if let Err(error) = self.write_files(frame) {
+        self.write_parts([frame])
+    }
+
+    /// The same of a snapshot that comes in parts, each of which has all columns of its kinds: a large one is never whole in memory.
+    pub fn write_parts(&mut self, parts: impl IntoIterator<Item = impl Borrow<Frame>>) -> Result<(), FileError> {
+        let written = parts.into_iter().try_for_each(|part| self.write_files(part.borrow()));
+        if let Err(error) = written {
             for index in &mut self.indices {
                 index.entries.retain(|(_, name)| number_of(name) != Some(self.next));
             }
@@ -135,12 +143,14 @@ impl FrameWriter {
                 self.unsynced.push(path);
             }
         }
-        if self.formats.xyz {
+        // These files are of grains alone.
+        let grains = frame.column(Kind::Grain, "position").is_some();
+        if grains && self.formats.xyz {
             let path = self.folder.join(format!("grains_{number:06}.xyz"));
             xyz::write(&path, frame)?;
             self.unsynced.push(path);
         }
-        if self.formats.lammps {
+        if grains && self.formats.lammps {
             let path = self.folder.join(format!("grains_{number:06}.lammpstrj"));
             lammps::write(&path, frame)?;
             self.unsynced.push(path);

@@ -20,6 +20,17 @@ pub enum Section<'a> {
     Text(String),
 }
 
+impl Section<'_> {
+    /// The integers of a section, however wide it keeps them; none where it has floats or text.
+    pub fn integers(&self) -> Box<dyn ExactSizeIterator<Item = i64> + '_> {
+        match self {
+            Self::Integer(v) => Box::new(v.iter().copied()),
+            Self::Index(v) => Box::new(v.iter().map(|n| i64::from(*n))),
+            Self::Real(_) | Self::Text(_) => Box::new(std::iter::empty()),
+        }
+    }
+}
+
 /// Named sections, in the order of their names.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State<'a> {
@@ -65,6 +76,14 @@ impl<'a> State<'a> {
         }
     }
 
+    /// Floats of a section, which the state has no longer.
+    pub fn take_real(&mut self, name: &str) -> Result<Vec<f64>, MissingSection> {
+        match self.sections.remove(name) {
+            Some(Section::Real(v)) => Ok(v.into_owned()),
+            _ => Err(MissingSection { name: name.to_owned(), kind: "real" }),
+        }
+    }
+
     /// Integers of a section.
     pub fn integer(&self, name: &str) -> Result<&[i64], MissingSection> {
         match self.sections.get(name) {
@@ -81,6 +100,13 @@ impl<'a> State<'a> {
             Some(Section::Integer(v)) => v.iter().map(|n| u32::try_from(*n).map_err(|_| missing())).collect(),
             _ => Err(missing()),
         }
+    }
+
+    /// Numbers of things of a section, which the state has no longer.
+    pub fn take_index(&mut self, name: &str) -> Result<Vec<u32>, MissingSection> {
+        let numbers = self.index(name)?.into_owned();
+        self.sections.remove(name);
+        Ok(numbers)
     }
 
     /// Text of a section.
@@ -114,13 +140,6 @@ impl<'a> State<'a> {
 
     /// Hash of names, kinds and bits of every section, in hex.
     pub fn hash(&self) -> String {
-        let whole = |hasher: &mut blake3::Hasher, numbers: &mut dyn ExactSizeIterator<Item = i64>| {
-            hasher.update(b"\0i");
-            hasher.update(&(numbers.len() as u64).to_le_bytes());
-            for x in numbers {
-                hasher.update(&x.to_le_bytes());
-            }
-        };
         let mut hasher = blake3::Hasher::new();
         for (name, section) in self.sections() {
             hasher.update(name.as_bytes());
@@ -132,8 +151,14 @@ impl<'a> State<'a> {
                         hasher.update(&x.to_bits().to_le_bytes());
                     }
                 }
-                Section::Integer(v) => whole(&mut hasher, &mut v.iter().copied()),
-                Section::Index(v) => whole(&mut hasher, &mut v.iter().map(|x| i64::from(*x))),
+                Section::Integer(_) | Section::Index(_) => {
+                    let numbers = section.integers();
+                    hasher.update(b"\0i");
+                    hasher.update(&(numbers.len() as u64).to_le_bytes());
+                    for x in numbers {
+                        hasher.update(&x.to_le_bytes());
+                    }
+                }
                 Section::Text(t) => {
                     hasher.update(b"\0t");
                     hasher.update(&(t.len() as u64).to_le_bytes());

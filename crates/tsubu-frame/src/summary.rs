@@ -2,6 +2,7 @@
 //!
 //! A not-a-number is written as `null` and read back as not-a-number.
 
+use std::io::Write as _;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};

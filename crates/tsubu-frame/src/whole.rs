@@ -7,7 +7,7 @@
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Seek, Write};
+use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 use std::thread;
 
@@ -15,11 +15,6 @@ use crate::FileError;
 
 /// Files that the disk is waited for at once.
 const AT_ONCE: usize = 8;
-
-/// What a file is written through.
-pub trait Out: Write + Seek {}
-
-impl<T: Write + Seek> Out for T {}
 
 /// The name under which a file is written before it is whole.
 pub(crate) fn temporary(path: &Path) -> Option<PathBuf> {
@@ -32,14 +27,17 @@ pub(crate) fn temporary(path: &Path) -> Option<PathBuf> {
 /// Writes a file that is never seen half-written, and waits until it is on the disk.
 ///
 /// Folders on the way are made. After an error the temporary file is gone and an older file of that name is untouched.
-pub fn write_atomically(path: &Path, fill: impl FnOnce(&mut dyn Out) -> io::Result<()>) -> Result<(), FileError> {
+pub fn write_atomically(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), FileError> {
     replace(path, fill, true)?;
     sync_folder(folder_of(path));
     Ok(())
 }
 
 /// The same without waiting for the disk: after a power cut the file may be empty, unless [`sync`] was called.
-pub fn write_beside(path: &Path, fill: impl FnOnce(&mut dyn Out) -> io::Result<()>) -> Result<(), FileError> {
+pub fn write_beside(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), FileError> {
     replace(path, fill, false)
 }
 
@@ -57,7 +55,11 @@ pub fn sync(files: &[PathBuf]) -> Result<(), FileError> {
     Ok(())
 }
 
-fn replace(path: &Path, fill: impl FnOnce(&mut dyn Out) -> io::Result<()>, wait: bool) -> Result<(), FileError> {
+fn replace(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    wait: bool,
+) -> Result<(), FileError> {
     let temporary = temporary(path).ok_or_else(|| FileError::content(path, "it has no file name"))?;
     let written = write_to(&temporary, fill, wait);
     let done = written.and_then(|()| fs::rename(&temporary, path));
@@ -68,7 +70,7 @@ fn replace(path: &Path, fill: impl FnOnce(&mut dyn Out) -> io::Result<()>, wait:
     })
 }
 
-fn write_to(path: &Path, fill: impl FnOnce(&mut dyn Out) -> io::Result<()>, wait: bool) -> io::Result<()> {
+fn write_to(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>, wait: bool) -> io::Result<()> {
     let file = match File::create(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             fs::create_dir_all(folder_of(path))?;

@@ -1,5 +1,6 @@
 //! Extended XYZ, one snapshot a file, for `OVITO`.
 
+use std::io::Write as _;
 use std::path::Path;
 
 use crate::FileError;

@@ -43,8 +43,8 @@ fn race(path: &Path, changes: &[String], [warm, steps]: [u64; 2], ranks: Option<
     let mut hosts = Hosts::new(&scene.plan().hosts);
     let mut engine = methods::open_on_ranks(scene.plan(), &hosts, ranks.cloned()).unwrap_or_else(|e| panic!("{e}"));
     if let Some(folder) = &scene.plan().start_from {
-        let (_, state) = checkpoint::read(&checkpoint::path(Path::new(folder))).unwrap_or_else(|e| panic!("{e}"));
-        engine.load(&state).unwrap_or_else(|e| panic!("{e}"));
+        let (_, mut state) = checkpoint::read(&checkpoint::path(Path::new(folder))).unwrap_or_else(|e| panic!("{e}"));
+        engine.load(&mut state).unwrap_or_else(|e| panic!("{e}"));
     }
     let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     let mut go = |steps: u64| {

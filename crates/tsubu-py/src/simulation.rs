@@ -194,7 +194,7 @@ impl Simulation {
     /// Names and units of the columns of grains.
     fn grain_columns(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, &'static str)>> {
         self.with(py, |core| {
-            let frame = core.opened.engine.frame(&core.opened.hosts);
+            let frame = core.opened.engine.grain_frame(&core.opened.hosts);
             Ok(frame.of(Kind::Grain).map(|column| (column.name, column.unit)).collect())
         })
     }
@@ -205,7 +205,7 @@ impl Simulation {
             if COLUMNS.contains(&name) {
                 return seen(py, core, column(name)?);
             }
-            let frame = core.opened.engine.frame(&core.opened.hosts);
+            let frame = core.opened.engine.grain_frame(&core.opened.hosts);
             let found = frame.of(Kind::Grain).find(|column| column.name == name);
             let Some(found) = found else { return Err(PyKeyError::new_err(name.to_owned())) };
             let ids = core.opened.engine.view(Wants::GRAINS).grains.id.into_owned();

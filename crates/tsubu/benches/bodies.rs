@@ -41,7 +41,7 @@ fn bed(name: &str, folder: Option<&Path>, steps: u64) {
     let begun = seconds();
     let kept = folder.and_then(|folder| checkpoint::read(&checkpoint::path(folder)).ok());
     if let Some((_, state)) = &kept {
-        engine.load(state).unwrap_or_else(|e| panic!("{e}"));
+        engine.load(&mut state.clone()).unwrap_or_else(|e| panic!("{e}"));
     }
     let mut ledger = Ledger::open(engine::energies(&*engine, &hosts), engine.momentum());
     if kept.is_none() {

@@ -8,7 +8,7 @@ use crate::view::{View, Wants};
 use crate::wall::{Velocity, Wall};
 use std::any::Any;
 use tsubu_frame::state::MissingSection;
-use tsubu_frame::{Advise, Frame, Hint, State};
+use tsubu_frame::{Advise, Frame, Hint, Kind, State};
 use tsubu_scene::Plan;
 
 /// What an engine did with one entry of the scene.
@@ -294,11 +294,19 @@ pub trait Engine: Send {
     fn contacts(&self) -> usize;
 
     /// The answer of this moment.
-    fn frame(&self, hosts: &Hosts) -> Frame;
+    fn frame(&self, hosts: &Hosts) -> Frame {
+        let mut frame = self.grain_frame(hosts);
+        let contacts = self.contact_frame().columns.into_iter().filter(|column| column.kind == Kind::Contact);
+        frame.columns.extend(contacts);
+        frame
+    }
 
-    /// The same without the list of contacts, where that costs less.
-    fn glimpse(&self, hosts: &Hosts) -> Frame {
-        self.frame(hosts)
+    /// The same without the list of contacts.
+    fn grain_frame(&self, hosts: &Hosts) -> Frame;
+
+    /// The list of contacts, and what is said of the world in every file; nothing where a method has no such list.
+    fn contact_frame(&self) -> Frame {
+        Frame::default()
     }
 
     /// What the busiest of so many ranks would have; `None` where a method runs on one rank alone.
@@ -339,8 +347,8 @@ pub trait Engine: Send {
     /// Writes everything that the next step depends on.
     fn save<'a>(&'a self, state: &mut State<'a>);
 
-    /// Takes the state back; the engine was built from the same plan.
-    fn load(&mut self, state: &State) -> Result<(), MissingSection>;
+    /// Takes the state back; the engine was built from the same plan. What is large may be taken out of `state`, so that it is never twice in memory.
+    fn load(&mut self, state: &mut State) -> Result<(), MissingSection>;
 }
 
 /// Energy of grains and hosts together.

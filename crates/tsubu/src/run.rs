@@ -37,6 +37,7 @@ use measured::Measured;
 use outputs::Outputs;
 use stages::Stages;
 use start::Start;
+use std::iter;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use tsubu_frame::{
@@ -203,9 +204,11 @@ impl Run<'_> {
         error
     }
 
-    /// What frames get, without what is not written.
-    fn picture(&self) -> Frame {
-        if self.plan.output.contacts { self.engine.frame(&self.hosts) } else { self.engine.glimpse(&self.hosts) }
+    /// What is written of this moment, part by part: the list of contacts is given back before grains are asked for.
+    fn picture(&self) -> impl Iterator<Item = Frame> {
+        let wanted = self.plan.output.contacts;
+        let contacts = iter::once_with(move || if wanted { self.engine.contact_frame() } else { Frame::default() });
+        contacts.chain(iter::once_with(|| self.engine.grain_frame(&self.hosts)))
     }
 
     /// One stage to its end; a summary where the run was interrupted before it.
@@ -220,7 +223,7 @@ impl Run<'_> {
             self.watches.look(&*self.engine, &self.hosts)?;
             out.history.append(&self.row())?;
             if pictures.is_some() {
-                out.frames.write(&self.picture())?;
+                out.frames.write_parts(self.picture())?;
             }
         }
         let mut block = 1;
@@ -262,7 +265,7 @@ impl Run<'_> {
             }
             let last = self.last;
             if target == next_picture {
-                out.frames.write(&self.picture())?;
+                out.frames.write_parts(self.picture())?;
             }
             let share = (target - begin) as f64 / (last - begin).max(1) as f64;
             let share = self.stages.share_done(share);

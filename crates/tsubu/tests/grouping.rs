@@ -43,9 +43,9 @@ fn run(open: &(dyn Fn() -> Opened + Sync), grouping: &Grouping) -> State<'static
         let mut opened = open();
         for (index, &steps) in grouping.calls.iter().enumerate() {
             if index == grouping.cut {
-                let kept = state(&opened);
+                let mut kept = state(&opened);
                 opened = open();
-                opened.0.load(&kept).unwrap();
+                opened.0.load(&mut kept).unwrap();
                 opened.1.load(&kept).unwrap();
                 opened.2 = Ledger::load(&kept).unwrap();
             }

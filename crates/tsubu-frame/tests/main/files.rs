@@ -1,6 +1,7 @@
 //! Folders, whole files, the summary.
 
 use std::fs;
+use std::io::Write as _;
 
 use tsubu_frame::whole::write_atomically;
 use tsubu_frame::{Claim, Existing, FileError, Named, ResultValue, RunFolder, Source, Status, Summary};

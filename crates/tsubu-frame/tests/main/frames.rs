@@ -50,6 +50,31 @@ fn a_snapshot_comes_back() {
     same(&sample(0.25), &read_frame(&found[1].path).unwrap());
 }
 
+/// A snapshot of which contacts come first and grains later is the same, file by file; with the files of grains written once.
+#[test]
+fn parts_make_the_files_of_the_whole() {
+    let [at_once, in_parts] = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+    let whole = sample(0.25);
+    let part = |of: fn(Kind) -> bool| {
+        let mut part = whole.clone();
+        part.columns.retain(|column| of(column.kind) || column.kind == Kind::Global);
+        part
+    };
+    FrameWriter::create(at_once.path(), ALL).write(&whole).unwrap();
+    let parts = [part(|kind| kind == Kind::Contact), part(|kind| kind != Kind::Contact)];
+    let mut writer = FrameWriter::create(in_parts.path(), ALL);
+    writer.write_parts(&parts).unwrap();
+    assert_eq!(writer.count(), 1);
+    drop(writer);
+    let files = |folder: &Path| {
+        let entries = std::fs::read_dir(folder.join("frames")).unwrap().map(|entry| entry.unwrap().path());
+        let file = |path: std::path::PathBuf| (path.file_name().unwrap().to_owned(), std::fs::read(path).unwrap());
+        entries.map(file).collect::<std::collections::BTreeMap<_, _>>()
+    };
+    assert_eq!(files(in_parts.path()), files(at_once.path()));
+    assert_eq!(files(at_once.path()).len(), 8);
+}
+
 /// The unit of the time, which stands in every file of a moment, was taken for that of the last column that had been read before:
 /// where nothing else stands beside the time, positions came back in seconds.
 #[test]

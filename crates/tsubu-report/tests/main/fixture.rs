@@ -1,5 +1,6 @@
 //! Folders as runs leave them, with motion made up from sines.
 
+use std::io::Write as _;
 use std::path::Path;
 
 use tsubu_frame::summary::write_json;

@@ -115,7 +115,7 @@ fn turned(rig: &Rig, degrees: f64) -> Result<Rig, String> {
     let mut plan = rig.plan.clone();
     plan.gravity = [sin, 0.0, -cos];
     let mut turned = Rig::of(plan, 1.0)?;
-    turned.engine.load(&state).map_err(|e| e.to_string())?;
+    turned.engine.load(&mut state).map_err(|e| e.to_string())?;
     Ok(turned)
 }
 

@@ -244,7 +244,7 @@ impl Engine for ClCaEngine {
         self.pairs().len()
     }
 
-    fn frame(&self, _hosts: &Hosts) -> Frame {
+    fn grain_frame(&self, _hosts: &Hosts) -> Frame {
         let mut frame = Frame { time: self.time(), step: self.steps(), columns: Vec::new() };
         let mut present: Vec<usize> = self.bed.present().collect();
         present.sort_by_key(|&grain| self.bed.grains.id[grain]);
@@ -304,7 +304,7 @@ impl Engine for ClCaEngine {
         state.put_integer("cl-ca.clock", vec![self.bed.step as i64, self.bed.moves as i64]);
     }
 
-    fn load(&mut self, state: &State) -> Result<(), MissingSection> {
+    fn load(&mut self, state: &mut State) -> Result<(), MissingSection> {
         let wrong = |name: &str| MissingSection { name: name.to_owned(), kind: "integer" };
         let id = state.integer("cl-ca.id")?;
         let column = |name: &str, fits: &dyn Fn(i64) -> bool| -> Result<Vec<i64>, MissingSection> {

@@ -11,8 +11,7 @@ use tsubu_frame::{Frame, Kind};
 const WATER: i64 = -1;
 
 impl DemEngine {
-    /// Adds lines and faces of all walls and of the water's surface to a frame, the cell of periodic axes, gravity [m/s^2], and the
-    /// way of the water as a unit vector.
+    /// Adds lines and faces of all walls and of the water's surface to a frame.
     pub(super) fn draw_surroundings(&self, frame: &mut Frame) {
         let bounded = self.walls.iter().enumerate().filter(|(_, wall)| wall.lone_plane().is_none());
         let outlines: Vec<(usize, Outline)> = bounded.map(|(number, wall)| (number, wall.outline())).collect();
@@ -44,6 +43,11 @@ impl DemEngine {
         frame.integer(Kind::Surface, "face", "-", drawn.face);
         frame.integer(Kind::Surface, "wall", "-", drawn.wall);
         frame.integer(Kind::Surface, "endless", "-", drawn.endless);
+    }
+
+    /// Adds the cell of periodic axes to a frame, gravity [m/s^2], and the way of the water as a unit vector.
+    pub(super) fn tell_world(&self, frame: &mut Frame) {
+        let water = self.immersion.as_ref().map(|immersion| &immersion.water);
         let gravity = self.integration.gravity;
         let flow = water.and_then(Water::direction);
         if gravity != DVec3::ZERO {

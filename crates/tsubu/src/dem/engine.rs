@@ -326,12 +326,12 @@ impl Engine for DemEngine {
         self.contacts.sums.contacts
     }
 
-    fn frame(&self, _hosts: &Hosts) -> Frame {
-        self.picture(true)
+    fn grain_frame(&self, _hosts: &Hosts) -> Frame {
+        self.drawn_grains()
     }
 
-    fn glimpse(&self, _hosts: &Hosts) -> Frame {
-        self.picture(false)
+    fn contact_frame(&self) -> Frame {
+        self.drawn_contacts()
     }
 
     fn offers(&self) -> Wants {
@@ -367,7 +367,7 @@ impl Engine for DemEngine {
         self.write_state(state);
     }
 
-    fn load(&mut self, state: &State) -> Result<(), MissingSection> {
+    fn load(&mut self, state: &mut State) -> Result<(), MissingSection> {
         self.read_state(state)
     }
 }

@@ -5,30 +5,36 @@ use super::history_transfer::{ContactId, HistorySnapshot};
 use crate::partner::Hosts;
 use crate::sections;
 use crate::state::Grains;
+use crate::state::columns::Value;
 use crate::view::{Columns, Contact, Contacts, View, Wants};
 use glam::{DQuat, DVec3};
-use std::collections::BTreeMap;
 use tsubu_frame::state::MissingSection;
 use tsubu_frame::{Frame, Kind, State};
 
 impl DemEngine {
-    /// Grains in the order of their ids, and the walls; with `told` the contacts too. Of several ranks the first draws it; the others tell it their contacts.
-    pub(super) fn picture(&self, told: bool) -> Frame {
+    /// The contacts. Of several ranks the first has them; the others tell it theirs.
+    pub(super) fn drawn_contacts(&self) -> Frame {
+        let room = if self.ranks.is_first() { self.contacts.sums.contacts } else { 0 };
+        let mut contacts = ContactColumns::with_room(room);
+        self.each_contact(|contact| contacts.push(&contact, &self.grains.id));
+        let mut frame = self.empty_frame();
+        contacts.put(&mut frame);
+        self.tell_world(&mut frame);
+        frame
+    }
+
+    fn empty_frame(&self) -> Frame {
+        Frame { time: self.clock.time(), step: self.clock.step, columns: Vec::new() }
+    }
+
+    /// Grains in the order of their ids, and the walls. Of several ranks the first draws it; the others tell it of their contacts where it needs them.
+    pub(super) fn drawn_grains(&self) -> Frame {
         let summed = !self.acceleration_tells();
         let mut force = vec![DVec3::ZERO; if summed { self.grains.len() } else { 0 }];
-        let room = if told && self.ranks.is_first() { self.contacts.sums.contacts } else { 0 };
-        let mut contacts = ContactColumns::with_room(room);
-        if told || summed {
-            self.each_contact(|contact| {
-                if told {
-                    contacts.push(&contact, &self.grains.id);
-                }
-                if summed {
-                    add_force(&mut force, &contact);
-                }
-            });
+        if summed {
+            self.each_contact(|contact| add_force(&mut force, &contact));
         }
-        let mut frame = Frame { time: self.clock.time(), step: self.clock.step, columns: Vec::new() };
+        let mut frame = self.empty_frame();
         if !self.ranks.is_first() {
             return frame;
         }
@@ -73,10 +79,8 @@ impl DemEngine {
         if self.immersion.is_some() {
             frame.vector(Kind::Grain, "water force", "N", vectors(&self.water_forces(&force)));
         }
-        if told {
-            contacts.put(&mut frame);
-        }
         self.draw_surroundings(&mut frame);
+        self.tell_world(&mut frame);
         frame
     }
 
@@ -212,8 +216,8 @@ impl DemEngine {
         state.put_real("dem.history", history);
     }
 
-    /// Takes back what [`DemEngine::write_state`] wrote.
-    pub(super) fn read_state(&mut self, state: &State) -> Result<(), MissingSection> {
+    /// Takes back what [`DemEngine::write_state`] wrote; columns and contacts are taken out of the state.
+    pub(super) fn read_state(&mut self, state: &mut State) -> Result<(), MissingSection> {
         let missing = |name: &str| MissingSection { name: name.to_owned(), kind: "real" };
         let &[step, grain_steps, contacts, grains] = state.integer("dem.step")? else {
             return Err(missing("dem.step"));
@@ -241,12 +245,12 @@ impl DemEngine {
         sections::load("dem.powers", self.books.last.named(), state)?;
         let &[stored] = state.real("dem.stored")? else { return Err(missing("dem.stored")) };
         self.contacts.sums.stored = stored;
-        let reference = state.real("dem.reference")?;
+        let reference = DVec3::take(state, "dem.reference")?;
         let places = state.real("dem.wall-reference")?;
-        if reference.len() != 3 * self.grains.len() || places.len() != 7 * self.walls.len() {
+        if reference.len() != self.grains.len() || places.len() != 7 * self.walls.len() {
             return Err(missing("dem.reference"));
         }
-        self.neighbours.reference = reference.chunks_exact(3).map(DVec3::from_slice).collect();
+        self.neighbours.reference = reference;
         for (wall, place) in self.walls.iter_mut().zip(places.as_chunks::<7>().0) {
             wall.load(state)?;
             // The lists are made with the walls where they stood then; the next step puts them where they belong.
@@ -272,22 +276,25 @@ impl DemEngine {
             wall.follow(time, &hosts);
         }
         let width = self.laws.history_width();
-        let ids = state.index("dem.contacts")?;
+        let ids = state.take_index("dem.contacts")?;
         let ids = ids.as_chunks::<4>().0;
-        let history = state.real("dem.history")?;
+        let history = state.take_real("dem.history")?;
         if history.len() != ids.len() * width {
             return Err(missing("dem.history"));
         }
-        let of: BTreeMap<u32, u32> = self.grains.id.iter().copied().zip(self.grains.material.iter().copied()).collect();
+        let mut material_of = vec![None; self.sources.numbers as usize];
+        for (id, material) in self.grains.id.iter().zip(&self.grains.material) {
+            material_of[*id as usize] = Some(*material);
+        }
+        let of_grain = |id: u32| material_of.get(id as usize).copied().flatten();
         let contact = |&[first, second, wall, patch]: &[u32; 4]| {
             let wall = wall != 0;
-            let other =
-                if wall { self.walls.get(second as usize).map(|w| w.material) } else { of.get(&second).copied() };
-            let pair = of.get(&first).zip(other.as_ref());
-            let law = pair.map_or(0, |(a, b)| self.laws.table.law(self.laws.table.index(*a, *b)) as u32);
+            let other = if wall { self.walls.get(second as usize).map(|w| w.material) } else { of_grain(second) };
+            let pair = of_grain(first).zip(other);
+            let law = pair.map_or(0, |(a, b)| self.laws.table.law(self.laws.table.index(a, b)) as u32);
             ContactId { first, second, wall, patch, law }
         };
-        self.restore_history(HistorySnapshot::of(ids.iter().map(contact).collect(), history.to_vec()));
+        self.restore_history(HistorySnapshot::of(ids.iter().map(contact).collect(), history));
         Ok(())
     }
 }

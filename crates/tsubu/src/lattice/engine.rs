@@ -224,7 +224,7 @@ impl Engine for LatticeEngine {
         self.damper.contacts()
     }
 
-    fn frame(&self, _hosts: &Hosts) -> Frame {
+    fn grain_frame(&self, _hosts: &Hosts) -> Frame {
         let n = self.grains();
         let mut frame = Frame { time: self.time(), step: self.steps(), columns: Vec::new() };
         frame.integer(Kind::Grain, "id", "-", (0..n as i64).collect());
@@ -270,7 +270,7 @@ impl Engine for LatticeEngine {
         state.put_integer("lattice.box", vec![d.place.level, d.rest.speed, d.rest.risen, d.step as i64]);
     }
 
-    fn load(&mut self, state: &State) -> Result<(), MissingSection> {
+    fn load(&mut self, state: &mut State) -> Result<(), MissingSection> {
         let n = self.grains();
         let column = |name: &str| -> Result<&[i64], MissingSection> {
             let values = state.integer(name)?;

@@ -27,7 +27,7 @@ macro_rules! orders {
         const ORDERS: &[Order] = &[$(Order::$order),*];
     };
 }
-orders! { Advance AdvanceUnseen Change Frame Glimpse Places Forces Save Load End }
+orders! { Advance AdvanceUnseen Change GrainFrame ContactFrame Places Forces Save Load End }
 
 /// The engine of rank 0.
 pub(super) struct Leader {
@@ -78,14 +78,14 @@ pub fn follow(scene: &Scene, communicator: &Arc<dyn Communicator>, interrupt: &I
                 _ = stages::change(&mut *engine, &mut hosts, [&plans[stage], &plans[stage + 1]]);
                 stage += 1;
             }
-            Order::Frame => _ = engine.frame(&hosts),
-            Order::Glimpse => _ = engine.glimpse(&hosts),
+            Order::GrainFrame => _ = engine.grain_frame(&hosts),
+            Order::ContactFrame => _ = engine.contact_frame(),
             Order::Places => _ = engine.view(Wants::TOUCHES),
             Order::Forces => _ = engine.view(Wants::CONTACTS),
             Order::Save => engine.save(&mut State::default()),
             Order::Load => {
-                let state = read_state(&mut message);
-                engine.load(&state)?;
+                let mut state = receive_state(message.number() as usize, communicator);
+                engine.load(&mut state)?;
                 hosts.load(&state)?;
             }
             Order::End => return Ok(()),
@@ -161,14 +161,14 @@ impl Engine for Leader {
         self.engine.contacts()
     }
 
-    fn frame(&self, hosts: &Hosts) -> Frame {
-        self.tell(Order::Frame, None);
-        self.engine.frame(hosts)
+    fn grain_frame(&self, hosts: &Hosts) -> Frame {
+        self.tell(Order::GrainFrame, None);
+        self.engine.grain_frame(hosts)
     }
 
-    fn glimpse(&self, hosts: &Hosts) -> Frame {
-        self.tell(Order::Glimpse, None);
-        self.engine.glimpse(hosts)
+    fn contact_frame(&self) -> Frame {
+        self.tell(Order::ContactFrame, None);
+        self.engine.contact_frame()
     }
 
     fn offers(&self) -> Wants {
@@ -197,64 +197,66 @@ impl Engine for Leader {
         self.engine.save(state);
     }
 
-    fn load(&mut self, state: &State) -> Result<(), MissingSection> {
-        self.tell(Order::Load, written(state));
+    fn load(&mut self, state: &mut State) -> Result<(), MissingSection> {
+        self.tell(Order::Load, [state.sections().count() as f64]);
+        // One by one: all in one message would be in memory twice, on every rank.
+        for (name, section) in state.sections() {
+            self.communicator.broadcast(&mut written(name, section));
+        }
         self.engine.load(state)
     }
 }
 
-/// A state as numbers.
-fn written(state: &State) -> Vec<f64> {
+/// A section of a state as numbers.
+fn written(name: &str, section: &Section) -> Vec<f64> {
     let mut message = Vec::new();
     let text = |message: &mut Vec<f64>, text: &str| {
         message.push(text.len() as f64);
         message.extend(text.bytes().map(f64::from));
     };
-    for (name, section) in state.sections() {
-        text(&mut message, name);
-        match section {
-            Section::Real(values) => {
-                message.extend([0.0, values.len() as f64]);
-                message.extend(values.iter());
-            }
-            Section::Integer(values) => {
-                message.extend([1.0, values.len() as f64]);
-                message.extend(values.iter().map(|value| f64::from_bits(*value as u64)));
-            }
-            Section::Index(values) => {
-                message.extend([1.0, values.len() as f64]);
-                message.extend(values.iter().map(|value| f64::from_bits(u64::from(*value))));
-            }
-            Section::Text(value) => {
-                message.push(2.0);
-                text(&mut message, value);
-            }
+    text(&mut message, name);
+    match section {
+        Section::Real(values) => {
+            message.push(0.0);
+            message.extend(values.iter());
+        }
+        Section::Integer(_) | Section::Index(_) => {
+            message.push(1.0);
+            message.extend(section.integers().map(|value| f64::from_bits(value as u64)));
+        }
+        Section::Text(value) => {
+            message.push(2.0);
+            message.extend(value.bytes().map(f64::from));
         }
     }
     message
 }
 
-/// The state that was written, with its floats where they came.
-fn read_state<'a>(message: &mut Reader<'a>) -> State<'a> {
-    let text = |message: &mut Reader| {
-        let length = message.number() as usize;
-        let bytes: Vec<u8> = message.numbers(length).iter().map(|byte| *byte as u8).collect();
+/// The section that was written, with its name.
+fn read(message: &[f64]) -> (String, Section<'static>) {
+    let text = |bytes: &[f64]| {
+        let bytes: Vec<u8> = bytes.iter().map(|byte| *byte as u8).collect();
         String::from_utf8_lossy(&bytes).into_owned()
     };
-    let mut state = State::default();
-    while !message.is_at_end() {
-        let name = text(message);
-        let section = match message.number() {
-            0.0 => {
-                let length = message.number() as usize;
-                Section::Real(message.numbers(length).into())
-            }
-            1.0 => {
-                let length = message.number() as usize;
-                Section::Integer(message.numbers(length).iter().map(|value| value.to_bits() as i64).collect())
-            }
-            _ => Section::Text(text(message)),
-        };
+    let mut message = Reader::new(message);
+    let length = message.number() as usize;
+    let name = text(message.numbers(length));
+    let kind = message.number();
+    let values = message.numbers(usize::MAX);
+    let section = match kind {
+        0.0 => Section::Real(values.to_vec().into()),
+        1.0 => Section::Integer(values.iter().map(|value| value.to_bits() as i64).collect()),
+        _ => Section::Text(text(values)),
+    };
+    (name, section)
+}
+
+/// The state that the first rank tells, with so many sections.
+fn receive_state(sections: usize, communicator: &Arc<dyn Communicator>) -> State<'static> {
+    let (mut state, mut message) = (State::default(), Vec::new());
+    for _ in 0..sections {
+        communicator.broadcast(&mut message);
+        let (name, section) = read(&message);
         state.insert(name, section);
     }
     state
@@ -269,8 +271,14 @@ mod tests {
         let mut state = State::default();
         state.put_real("real", vec![0.1, f64::NAN, -0.0]);
         state.put_integer("integer", vec![i64::MIN, -1, 0, i64::MAX]);
+        state.put_index("index", vec![0, u32::MAX]);
         state.put_text("text", "粒");
-        let message = written(&state);
-        assert_eq!(read_state(&mut Reader::new(&message)).hash(), state.hash());
+        state.put_text("", "");
+        let mut back = State::default();
+        for (name, section) in state.sections() {
+            let (name, section) = read(&written(name, section));
+            back.insert(name, section);
+        }
+        assert_eq!(back.hash(), state.hash());
     }
 }

@@ -71,7 +71,7 @@ impl Run<'_> {
         let begun = Instant::now();
         let frame = match wish {
             Wish::Nothing => return,
-            Wish::Grains => self.engine.glimpse(&self.hosts),
+            Wish::Grains => self.engine.grain_frame(&self.hosts),
             Wish::Contacts => self.engine.frame(&self.hosts),
         };
         onlooker.frame(frame, begun.elapsed());

@@ -18,7 +18,7 @@ pub(super) fn scene(scene: &Scene, folder: &Path) -> Scene {
 impl Run<'_> {
     /// Takes the state of the checkpoint, and gives how far the history was then.
     pub(super) fn resume(&mut self, scene: &Scene, folder: &Path) -> Result<Mark, RunError> {
-        let (header, state) = checkpoint::read(&checkpoint::path(folder))?;
+        let (header, mut state) = checkpoint::read(&checkpoint::path(folder))?;
         let refuse =
             |text: String| Err(RunError::NotThisScene(format!("the checkpoint in {} {text}", folder.display())));
         if let Some(why) = of_another_version(&header) {
@@ -29,7 +29,7 @@ impl Run<'_> {
         }
         self.enter_stage(&state)?;
         let dt = self.engine.time_step();
-        self.engine.load(&state)?;
+        self.engine.load(&mut state)?;
         self.place_stage()?;
         if self.engine.time() != header.time {
             let before = header.time / header.step as f64;

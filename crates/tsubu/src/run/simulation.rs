@@ -39,7 +39,7 @@ impl Simulation {
 
     /// Opens a scene where the checkpoint in `folder` left it: one of this scene, from a run or from a simulation.
     pub fn resume(scene: &Scene, folder: &Path) -> Result<Self, RunError> {
-        let (header, state) = checkpoint::read(&checkpoint::path(folder))?;
+        let (header, mut state) = checkpoint::read(&checkpoint::path(folder))?;
         let refuse = |text: &str| RunError::NotThisScene(format!("the checkpoint in {} {text}", folder.display()));
         if let Some(why) = resume::of_another_version(&header) {
             return Err(refuse(&why));
@@ -47,7 +47,7 @@ impl Simulation {
         if header.scene_hash != scene_hash(&scene.steps_toml()) {
             return Err(refuse("belongs to another scene"));
         }
-        let (Start { engine, hosts, ledger }, stage) = Start::at(scene, &state, None)?;
+        let (Start { engine, hosts, ledger }, stage) = Start::at(scene, &mut state, None)?;
         Ok(Self { scene: scene.clone(), engine, hosts, ledger, stage })
     }
 

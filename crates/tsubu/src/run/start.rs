@@ -35,7 +35,7 @@ impl Start {
     /// A scene where the checkpoint of such a state left it, and the stage that this is.
     pub(super) fn at(
         scene: &Scene,
-        state: &State,
+        state: &mut State,
         communicator: Option<&Arc<dyn Communicator>>,
     ) -> Result<(Self, usize), RunError> {
         let Self { mut engine, mut hosts, .. } = Self::of(scene, communicator)?;
@@ -56,14 +56,14 @@ impl Start {
         if !obstacles.is_empty() {
             return Err(refuse(format!("what no stage may change differs:{}", resume::lines(&obstacles))));
         }
-        let (header, state) = checkpoint::read(&checkpoint::path(folder))?;
+        let (header, mut state) = checkpoint::read(&checkpoint::path(folder))?;
         if let Some(why) = resume::of_another_version(&header) {
             return Err(refuse(format!("its checkpoint {why}")));
         }
         let earlier = Scene::read(&folder.join("scene.toml"), &[])
             .map_err(|complaints| refuse(complaints.titles().collect::<Vec<_>>().join("; ")))?;
         let plans = earlier.plans();
-        let (Self { mut engine, mut hosts, mut ledger }, at) = Self::at(&earlier, &state, communicator)?;
+        let (Self { mut engine, mut hosts, mut ledger }, at) = Self::at(&earlier, &mut state, communicator)?;
         if scene.plan().start_at_zero == Some(true) {
             hosts.begin_anew();
             engine.restart_clock(&plans[at], &hosts)?;

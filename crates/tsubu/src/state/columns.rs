@@ -28,8 +28,8 @@ pub trait Value: Copy + Send + Sync {
     fn spare(spares: &mut Spares) -> &mut Vec<Self>;
     /// Stores a column; floats where they lie.
     fn put<'a>(state: &mut State<'a>, name: &str, values: &'a [Self]);
-    /// Takes a column back.
-    fn take(state: &State, name: &str) -> Result<Vec<Self>, MissingSection>;
+    /// Takes a column back, out of the state.
+    fn take(state: &mut State, name: &str) -> Result<Vec<Self>, MissingSection>;
 }
 
 impl Value for f64 {
@@ -39,8 +39,8 @@ impl Value for f64 {
     fn put<'a>(state: &mut State<'a>, name: &str, values: &'a [Self]) {
         state.put_real(name, values);
     }
-    fn take(state: &State, name: &str) -> Result<Vec<Self>, MissingSection> {
-        Ok(state.real(name)?.to_vec())
+    fn take(state: &mut State, name: &str) -> Result<Vec<Self>, MissingSection> {
+        state.take_real(name)
     }
 }
 
@@ -51,8 +51,8 @@ impl Value for u32 {
     fn put<'a>(state: &mut State<'a>, name: &str, values: &'a [Self]) {
         state.put_index(name, values);
     }
-    fn take(state: &State, name: &str) -> Result<Vec<Self>, MissingSection> {
-        Ok(state.index(name)?.into_owned())
+    fn take(state: &mut State, name: &str) -> Result<Vec<Self>, MissingSection> {
+        state.take_index(name)
     }
 }
 
@@ -63,8 +63,8 @@ impl Value for DVec3 {
     fn put<'a>(state: &mut State<'a>, name: &str, values: &'a [Self]) {
         state.put_real(name, bytemuck::cast_slice(values));
     }
-    fn take(state: &State, name: &str) -> Result<Vec<Self>, MissingSection> {
-        Ok(state.real(name)?.chunks_exact(3).map(Self::from_slice).collect())
+    fn take(state: &mut State, name: &str) -> Result<Vec<Self>, MissingSection> {
+        Ok(state.take_real(name)?.chunks_exact(3).map(Self::from_slice).collect())
     }
 }
 
@@ -117,8 +117,8 @@ macro_rules! columns {
                     state, &format!("{prefix}.{}", stringify!($column)), &self.$column);)+
             }
 
-            /// Takes every column back; all must have `rows` rows.
-            pub fn load(prefix: &str, rows: usize, state: &tsubu_frame::State)
+            /// Takes every column back, out of the state; all must have `rows` rows.
+            pub fn load(prefix: &str, rows: usize, state: &mut tsubu_frame::State)
                 -> Result<Self, tsubu_frame::state::MissingSection> {
                 let loaded = Self { $($column: $crate::state::columns::Value::take(
                     state, &format!("{prefix}.{}", stringify!($column)))?,)+ };

@@ -104,7 +104,7 @@ fn the_same_bits_at_any_number_of_threads_and_after_resume() {
         let mut first = Run::new(text, &[]);
         first.advance(77);
         let mut second = Run::new(text, &[]);
-        second.engine.load(&first.state()).unwrap();
+        second.engine.load(&mut first.state()).unwrap();
         second.ledger = tsubu::ledger::Ledger::load(&first.state()).unwrap();
         second.advance(123);
         assert_eq!(second.state().hash(), hash, "{text}");

@@ -75,9 +75,9 @@ pub fn hash<R: Send>(
         let (mut engine, mut hosts, mut ledger) = open();
         engine.advance(steps[0], &mut hosts, &mut ledger).unwrap();
         if resume {
-            let state = checkpoint(&*engine, &ledger);
+            let mut state = checkpoint(&*engine, &ledger);
             (engine, hosts, _) = open();
-            engine.load(&state).unwrap();
+            engine.load(&mut state).unwrap();
             ledger = Ledger::load(&state).unwrap();
         }
         // What keeps threads awake must not matter either.

@@ -52,7 +52,7 @@ fn orientations_go_through_a_checkpoint_and_are_not_there_unasked() {
     let mut state = tsubu_frame::State::default();
     engine.save(&mut state);
     let (mut other, ..) = open_text(SCENE, &[]);
-    other.load(&state).unwrap();
+    other.load(&mut state).unwrap();
     assert_eq!(turned(&engine.frame(&hosts)), turned(&other.frame(&hosts)));
     let (without, hosts, _) = open_text(SCENE, &["dem.orientation=false"]);
     assert!(without.frame(&hosts).column(Kind::Grain, "orientation").is_none());

@@ -118,7 +118,7 @@ fn resumed_run_has_the_same_bits() {
         first.hosts.save(&mut state);
         first.ledger.save(&mut state);
         let mut second = Run::new(&plan);
-        second.engine.load(&state).expect("it was just saved");
+        second.engine.load(&mut state).expect("it was just saved");
         second.hosts.load(&state).expect("it was just saved");
         second.ledger = tsubu::ledger::Ledger::load(&state).expect("it was just saved");
         second.advance(30_000 - 12_345).expect("as before");

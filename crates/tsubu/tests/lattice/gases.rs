@@ -165,7 +165,7 @@ proptest! {
         let missing = run.ledger.momentum_residual(run.engine.momentum());
         prop_assert!(missing.iter().all(|p| p.abs() < 1e-15 * count as f64), "{:?}", missing);
         let mut again = Run::new(&plan);
-        again.engine.load(&half).unwrap();
+        again.engine.load(&mut half.clone()).unwrap();
         prop_assert_eq!(again.state().hash(), half.hash());
         again.steps(20);
         prop_assert_eq!(again.state().hash(), run.state().hash());

@@ -67,7 +67,7 @@ fn sites_resume_with_the_same_bits() {
             let begun = half.hash();
             whole.steps(steps);
             let mut again = Run::new(&plan);
-            again.engine.load(&half).unwrap();
+            again.engine.load(&mut half.clone()).unwrap();
             assert_eq!(again.state().hash(), begun, "{}", method.name());
             again.steps(steps);
             assert_eq!(again.state().hash(), whole.state().hash(), "{}", method.name());
@@ -156,7 +156,7 @@ fn an_outlet_below_a_gate_opens_with_it() {
         assert_eq!(run.engine.grains(), 60, "{method}");
         let mut again = Run::new(&plan(&text));
         run.steps((0.03 / step) as u64);
-        again.engine.load(&run.state()).unwrap();
+        again.engine.load(&mut run.state()).unwrap();
         for run in [&mut run, &mut again] {
             run.steps((0.6 / step) as u64);
             assert!(run.engine.grains() < 10, "{method}: {} grains are left", run.engine.grains());

@@ -95,7 +95,7 @@ fn refuse_states(plan: &Plan) {
     let mut whole = State::default();
     run.engine.save(&mut whole);
     let whole = whole.into_owned();
-    run.engine.load(&whole).expect("its own state");
+    run.engine.load(&mut whole.clone()).expect("its own state");
     for (name, value) in
         [("lattice.speed", i64::MAX), ("lattice.stored", i64::MIN), ("lattice.cell", 0), ("lattice.resting", 1)]
     {
@@ -104,7 +104,7 @@ fn refuse_states(plan: &Plan) {
         let last = numbers.len() - 1;
         numbers[last] = value;
         forged.put_integer(name, numbers);
-        assert!(run.engine.load(&forged).is_err(), "{name}");
+        assert!(run.engine.load(&mut forged).is_err(), "{name}");
     }
 }
 

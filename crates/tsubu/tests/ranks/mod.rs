@@ -126,7 +126,7 @@ impl Job<'_> {
         };
         let load = |saved: &State| {
             let (mut engine, mut hosts, _) = self.opened(communicator);
-            engine.load(saved).unwrap();
+            engine.load(&mut saved.clone()).unwrap();
             hosts.load(saved).unwrap();
             (engine, hosts, Ledger::load(saved).unwrap())
         };

@@ -199,7 +199,7 @@ impl Engine for SiteEngine {
         self.model.contacts()
     }
 
-    fn frame(&self, _hosts: &Hosts) -> Frame {
+    fn grain_frame(&self, _hosts: &Hosts) -> Frame {
         let mut frame = Frame { time: self.time(), step: self.steps(), columns: Vec::new() };
         let bodies = self.bodies();
         let real = |of: &dyn Fn(&Body) -> f64| bodies.iter().map(of).collect::<Vec<_>>();
@@ -261,7 +261,7 @@ impl Engine for SiteEngine {
         }
     }
 
-    fn load(&mut self, state: &State) -> Result<(), MissingSection> {
+    fn load(&mut self, state: &mut State) -> Result<(), MissingSection> {
         self.model.load(state)?;
         if !self.scene.streams.is_empty() {
             let placed = section(state, "sites.placed", self.scene.streams.len())?;

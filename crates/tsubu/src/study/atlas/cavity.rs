@@ -96,7 +96,7 @@ pub(super) fn measure(
     let mut hosts = Hosts::new(&plan.hosts);
     let host = hosts.index(&atlas.host).unwrap_or_default();
     let mut engine = methods::open(&plan, &hosts)?;
-    engine.load(bed).map_err(|error| engine::OpenError::Bed(error.to_string()))?;
+    engine.load(&mut bed.clone()).map_err(|error| engine::OpenError::Bed(error.to_string()))?;
     hosts.list[host].shake(sine(frequency, acceleration));
     let velocity = glam::DVec3::from_array(hosts.list[host].direction) * hosts.list[host].velocity();
     // At rest where they cannot be set in motion: it takes a little longer until all is steady.

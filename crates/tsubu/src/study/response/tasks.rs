@@ -213,7 +213,7 @@ fn open(
     let host = hosts.index(&wanted.host).unwrap_or_default();
     hosts.list[host].set_frequency(frequency, wanted.keep);
     let mut engine = methods::open(&plan, &hosts)?;
-    engine.load(bed).map_err(|e| OpenError::Bed(e.to_string()))?;
+    engine.load(&mut bed.clone()).map_err(|e| OpenError::Bed(e.to_string()))?;
     if discard(&plan, wanted).is_none() {
         transient::begin(&plan, known, frequency, &mut *engine, &mut hosts, host);
     }
