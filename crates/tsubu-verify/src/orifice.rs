@@ -15,8 +15,9 @@ use tsubu_frame::Claim;
 const OPENS: f64 = 16.0;
 /// From the opening of the hole to when the flow has become steady.
 const STARTS: f64 = 3.0;
-/// How long grains are counted, in two halves.
-const COUNTED: f64 = 14.0;
+/// How many grains are counted at each hole, in two halves; and for how long at least.
+const COUNTED: f64 = 1500.0;
+const SHORTEST: f64 = 10.0;
 /// Grains a unit of volume.
 const PACKED: f64 = 1.1;
 /// The silo is wider than the hole by so much: from there on its width does not matter (Mankoc et al. 2007).
@@ -30,7 +31,7 @@ const EDGE: f64 = 2.0;
 const HOLES: [f64; 4] = [6.0, 8.0, 10.0, 14.0];
 
 /// Draws of all silos.
-const DRAWS: RangeInclusive<u64> = 1..=3;
+const DRAWS: RangeInclusive<u64> = 1..=4;
 
 /// What is in a silo.
 #[derive(Clone, Copy)]
@@ -49,9 +50,19 @@ impl Bed {
     fn count(&self, hole: f64) -> usize {
         let width = hole + WIDER;
         let rests = self.depth * width * std::f64::consts::FRAC_PI_4 * width * width;
-        let flows = 0.6 * (hole - 1.4).powf(2.5) * (STARTS + COUNTED);
+        let flows = expected(hole) * (STARTS + counted(hole));
         ((rests + flows) * PACKED / self.grain.powi(3)) as usize
     }
+}
+
+/// Grains a unit of time through a hole, by Beverloo's law.
+fn expected(hole: f64) -> f64 {
+    0.6 * (hole - 1.4).powf(2.5)
+}
+
+/// How long grains are counted at a hole.
+fn counted(hole: f64) -> f64 {
+    (COUNTED / expected(hole)).max(SHORTEST)
 }
 
 /// A flat-bottomed cylinder. Its hole is closed by a plate that vanishes; grains below it vanish.
@@ -117,7 +128,7 @@ fn run(hole: f64, bed: &Bed, seed: u64) -> Result<Run, String> {
     let mut rates = [0.0; 2];
     for rate in &mut rates {
         let (count, time) = (rig.engine.grains(), rig.engine.time());
-        rig.until(time + 0.5 * COUNTED)?;
+        rig.until(time + 0.5 * counted(hole))?;
         *rate = (count - rig.engine.grains()) as f64 / (rig.engine.time() - time);
     }
     Ok(Run { density, rates })

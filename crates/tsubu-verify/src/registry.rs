@@ -200,7 +200,7 @@ pub static CASES: &[Case] = &[
     gap(case("vertical-chute", "gdr-midi-2004", 600, "down between two rough walls", gdr_midi_2004::vertical_chute)),
     gap(case("apparent-mass", "masmoudi-2016", 300, "a measured particle damper", apparent_mass::measured)),
     gap(case("beverloo", "dem-benchmarks", 1800, "discharge through a slot, in the plane", outlet::beverloo)),
-    gap(case("beverloo-3d", "dem-benchmarks", 3600, "discharge through a round hole", orifice::beverloo)),
+    gap(case("beverloo-3d", "dem-benchmarks", 4800, "discharge through a round hole", orifice::beverloo)),
     gap(case("janssen", "dem-benchmarks", 1800, "pressure in a silo, in the plane", silo::janssen)),
     gap(case("chute", "dem-benchmarks", 1800, "flow down a rough slope", chute::bagnold)),
     gap(case(
