@@ -35,11 +35,11 @@ pub(crate) fn of(plan: &Plan, places: usize) -> f64 {
 /// Bytes that each of several ranks takes, the first and another.
 ///
 /// Every rank has the columns of all grains; lists, contacts and what these remember are with the rank that has the block. The first makes checkpoints and pictures
-/// with all contacts, too. Measured with a quarter of a million and ten million spheres on two ranks, 1.3 contacts each.
+/// with all contacts, too. Measured with a quarter of a million to ten million spheres on two ranks, 1.3 to 1.5 contacts each.
 pub(crate) fn on_ranks(plan: &Plan, ranks: usize) -> [f64; 2] {
     let grains = plan.grains() as f64;
     let other = 25e6 + meshes(plan) + (280.0 + 440.0 / ranks as f64) * grains;
-    [other + 250.0 * grains, other]
+    [other + 100.0 * grains, other]
 }
 
 fn meshes(plan: &Plan) -> f64 {
