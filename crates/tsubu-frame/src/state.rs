@@ -92,21 +92,14 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Numbers of things of a section; integers that can be none are refused.
-    pub fn index(&self, name: &str) -> Result<Cow<'_, [u32]>, MissingSection> {
+    /// Numbers of things of a section, which the state has no longer; integers that can be none are refused.
+    pub fn take_index(&mut self, name: &str) -> Result<Vec<u32>, MissingSection> {
         let missing = || MissingSection { name: name.to_owned(), kind: "integer" };
-        match self.sections.get(name) {
-            Some(Section::Index(v)) => Ok(Cow::Borrowed(v)),
-            Some(Section::Integer(v)) => v.iter().map(|n| u32::try_from(*n).map_err(|_| missing())).collect(),
+        match self.sections.remove(name) {
+            Some(Section::Index(v)) => Ok(v.into_owned()),
+            Some(Section::Integer(v)) => v.into_iter().map(|n| u32::try_from(n).map_err(|_| missing())).collect(),
             _ => Err(missing()),
         }
-    }
-
-    /// Numbers of things of a section, which the state has no longer.
-    pub fn take_index(&mut self, name: &str) -> Result<Vec<u32>, MissingSection> {
-        let numbers = self.index(name)?.into_owned();
-        self.sections.remove(name);
-        Ok(numbers)
     }
 
     /// Text of a section.

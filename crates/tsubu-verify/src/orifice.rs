@@ -15,8 +15,9 @@ use tsubu_frame::Claim;
 const OPENS: f64 = 16.0;
 /// From the opening of the hole to when the flow has become steady.
 const STARTS: f64 = 3.0;
-/// How many grains are counted at each hole, in two halves; and for how long at least.
+/// How many grains are counted at each hole, in two halves, by Beverloo's law.
 const COUNTED: f64 = 1500.0;
+/// For how long they are counted at least.
 const SHORTEST: f64 = 10.0;
 /// Grains a unit of volume.
 const PACKED: f64 = 1.1;
