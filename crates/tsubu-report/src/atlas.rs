@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use tsubu_frame::Table;
 
-use crate::claims::claims_table;
 use crate::figure::{Axis, Figure, Series, Style};
-use crate::page::{Block, Report, Tone};
-use crate::source::{Source, card, ended, folded, results_table, shown, spoken, summary_cards, versions};
+use crate::page::{Block, Report, Tone, card, folded};
+use crate::quantity::spoken;
+use crate::source::{Source, shown};
+use crate::summary::{claims_and_results, ended, versions, wall_time_card};
 use crate::text::short;
 
 /// Figures that are seen without unfolding.
@@ -51,7 +52,7 @@ impl Cavity {
 }
 
 pub(crate) fn build(source: &mut Source) -> Report {
-    let summary = if source.has("summary.json") { source.summary() } else { None };
+    let summary = source.summary_of_study();
     let table = source.table("atlas.csv").unwrap_or_default();
     let cavities = cavities(&table);
     if cavities.is_empty() {
@@ -72,22 +73,15 @@ pub(crate) fn build(source: &mut Source) -> Report {
         report.cards.push(card(&label, short(loss), "", note, Tone::Plain));
     }
     if let Some(summary) = &summary {
-        report.cards.extend(summary_cards(summary).into_iter().filter(|card| card.label == "Computed in"));
+        report.cards.push(wall_time_card(summary));
         report.verdict = Some(ended(summary));
     }
     let charts = charts(source, &cavities);
-    let mut remarks = source.note_blocks();
-    remarks.extend(summary.iter().flat_map(|s| &s.warnings).map(|text| Block::Note(Tone::Warning, text.clone())));
-    report.section("To be noted", remarks);
+    report.section("To be noted", source.note_blocks());
     report.section("What the cavities show", charts);
     report.section("Points", vec![folded("All points", vec![shown(&table)])]);
     if let Some(summary) = &summary {
-        if !summary.claims.is_empty() {
-            let claims: Vec<_> = summary.claims.iter().collect();
-            report.section("Claims", vec![claims_table(&claims, |name| summary.unit(name))]);
-        }
-        let results = results_table(summary).map(|table| folded("All results", vec![table]));
-        report.section("Results", results.into_iter().collect());
+        claims_and_results(&mut report, summary);
     }
     source.scene_and_verdict(&mut report);
     report

@@ -4,8 +4,10 @@ use tsubu_frame::Table;
 use tsubu_frame::csv::split_unit;
 
 use crate::figure::{Axis, Figure, Mark, Series, Style};
-use crate::page::{Block, Grid, Report, Tone};
-use crate::source::{Source, card, ended, folded, results_table, shown, spoken, summary_cards, versions};
+use crate::page::{Block, Grid, Report, Tone, card, folded};
+use crate::quantity::spoken;
+use crate::source::{Source, shown};
+use crate::summary::{claims_and_results, ended, versions, wall_time_card};
 use crate::text::short;
 
 /// Bars of a histogram.
@@ -14,7 +16,7 @@ const BINS: usize = 40;
 const PAIRS: usize = 3;
 
 pub(crate) fn build(source: &mut Source) -> Report {
-    let summary = if source.has("summary.json") { source.summary() } else { None };
+    let summary = source.summary_of_study();
     let [parameters, posterior, measured, correlations] =
         ["parameters.csv", "posterior.csv", "measured.csv", "correlations.csv"]
             .map(|name| source.table(name).unwrap_or_default());
@@ -37,23 +39,20 @@ pub(crate) fn build(source: &mut Source) -> Report {
         report.cards.push(card(&keys.names[row], short(keys.mean[row]), &keys.units[row], note, Tone::Plain));
     }
     if let Some(summary) = &summary {
-        report.cards.extend(summary_cards(summary).into_iter().filter(|card| card.label == "Computed in"));
+        report.cards.push(wall_time_card(summary));
         report.verdict = Some(ended(summary));
     }
     let densities = densities(source, &keys, &posterior);
     let scattered = scattered(source, &posterior, &correlations);
     let compared = [curve(source), compared(&measured)].concat();
     let runs = source.table("runs.csv");
-    let mut remarks = source.note_blocks();
-    remarks.extend(summary.iter().flat_map(|s| &s.warnings).map(|text| Block::Note(Tone::Warning, text.clone())));
-    report.section("To be noted", remarks);
+    report.section("To be noted", source.note_blocks());
     report.section("What was measured, and what fresh runs gave", compared);
     report.section("What is known of each key", densities);
     report.section("What is told apart", scattered);
     report.section("Runs", runs.iter().map(|runs| folded("All runs", vec![shown(runs)])).collect());
     if let Some(summary) = &summary {
-        let results = results_table(summary).map(|table| folded("All results", vec![table]));
-        report.section("Results", results.into_iter().collect());
+        claims_and_results(&mut report, summary);
     }
     source.scene_and_verdict(&mut report);
     report

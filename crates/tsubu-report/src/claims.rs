@@ -2,7 +2,7 @@
 
 use crate::page::{Block, Grid, Tone};
 use crate::text::short;
-use tsubu_frame::{Claim, Verdict, unit::for_people};
+use tsubu_frame::{Claim, Summary, Verdict, unit::for_people};
 
 /// The accepted range of a claim, as people read numbers of its unit.
 pub(crate) fn range(claim: &Claim, unit: &str) -> String {
@@ -34,4 +34,10 @@ pub(crate) fn claims_table<'a>(claims: &[&'a Claim], unit: impl Fn(&'a str) -> &
         grid.push(tone, [word, &claim.name, &value, &range(claim, si), &claim.source]);
     }
     Block::Table(grid)
+}
+
+/// The claims of a run or study, if it makes any.
+pub(crate) fn claims_of(summary: &Summary) -> Option<Block> {
+    let claims: Vec<&Claim> = summary.claims.iter().collect();
+    (!claims.is_empty()).then(|| claims_table(&claims, |name| summary.unit(name)))
 }

@@ -5,9 +5,10 @@ use tsubu_frame::{Cell, Summary, Table, csv::split_unit, read_frame, snapshots, 
 use crate::balls::{Balls, ColourBy, Look};
 use crate::figure::{Axis, Bars, Figure, Series, Style};
 use crate::moments;
-use crate::page::{Block, Grid, Report, Tone};
-use crate::source::{Source, card, cost_table, energy_blocks, method_name, shown, versions};
+use crate::page::{Block, Grid, Report, Tone, card, folded};
+use crate::source::{Source, shown};
 use crate::strip::{Panel, strip};
+use crate::summary::{cost_table, energy_blocks, method_name, versions};
 use crate::text::{duration, short};
 
 /// What stands in `compare.json`.
@@ -222,7 +223,7 @@ fn motion_blocks(source: &mut Source, methods: &[Method]) -> Vec<Block> {
         return inside;
     }
     if !inside.is_empty() {
-        blocks.push(crate::source::folded("More over time", inside));
+        blocks.push(folded("More over time", inside));
     }
     blocks
 }

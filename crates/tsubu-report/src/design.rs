@@ -2,10 +2,11 @@
 
 use tsubu_frame::{ResultValue, Summary, Table};
 
-use crate::claims::claims_table;
 use crate::figure::{Axis, Figure, Series, Style};
-use crate::page::{Block, Report, Tone};
-use crate::source::{Source, card, ended, folded, quantity, results_table, shown, spoken, summary_cards, versions};
+use crate::page::{Block, Report, Tone, card, folded};
+use crate::quantity::{quantity, spoken};
+use crate::source::{Source, shown};
+use crate::summary::{claims_and_results, ended, versions, wall_time_card};
 use crate::text::short;
 
 /// The candidates of `design.csv`, column by column.
@@ -46,7 +47,7 @@ impl Candidates {
 }
 
 pub(crate) fn build(source: &mut Source) -> Report {
-    let summary = if source.has("summary.json") { source.summary() } else { None };
+    let summary = source.summary_of_study();
     let table = source.table("design.csv").unwrap_or_default();
     let candidates = Candidates::read(&table);
     let mut report = Report {
@@ -74,7 +75,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     }
     report.headline += summary.as_ref().map_or("", ended_by);
     if let Some(summary) = &summary {
-        report.cards.extend(summary_cards(summary).into_iter().filter(|card| card.label == "Computed in"));
+        report.cards.push(wall_time_card(summary));
         report.verdict = Some(ended(summary));
     }
     let curves = before_and_after(source);
@@ -82,9 +83,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     let course = course(source, &candidates);
     let cheap = cheap(source, &candidates);
     let steps = if source.has("steps.csv") { source.table("steps.csv") } else { None };
-    let mut remarks = source.note_blocks();
-    remarks.extend(summary.iter().flat_map(|s| &s.warnings).map(|text| Block::Note(Tone::Warning, text.clone())));
-    report.section("To be noted", remarks);
+    report.section("To be noted", source.note_blocks());
     report.section("Before and after", curves);
     report.section("One step from the best", steps.iter().map(shown).collect());
     report.section("What was tried", tried);
@@ -92,12 +91,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     report.section("What the cheap method told", cheap);
     report.section("Candidates", vec![folded("All that were measured", vec![shown(&table)])]);
     if let Some(summary) = &summary {
-        if !summary.claims.is_empty() {
-            let claims: Vec<_> = summary.claims.iter().collect();
-            report.section("Claims", vec![claims_table(&claims, |name| summary.unit(name))]);
-        }
-        let results = results_table(summary).map(|table| folded("All results", vec![table]));
-        report.section("Results", results.into_iter().collect());
+        claims_and_results(&mut report, summary);
     }
     source.scene_and_verdict(&mut report);
     report

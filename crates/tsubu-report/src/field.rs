@@ -3,9 +3,10 @@
 use std::fmt::Write as _;
 
 use crate::colour;
-use crate::figure::{Axis, prefix};
+use crate::figure::Axis;
 use crate::legend::colour_bar;
 use crate::plot::{AXIS, INK};
+use crate::quantity::prefix;
 use crate::text::short;
 
 /// More points than this make a file that is too heavy to open.

@@ -194,37 +194,3 @@ pub(crate) fn on_white(svg: &str) -> String {
         None => svg.to_owned(),
     }
 }
-
-/// The factor and prefix with which values up to `largest` read as short numbers. Only units that take prefixes in
-/// practice get one; angles are read in degrees.
-pub fn prefix(unit: &str, largest: f64) -> (f64, String) {
-    let (factor, found) = prefixed(unit, largest);
-    (factor, crate::text::unit(&found))
-}
-
-fn prefixed(unit: &str, largest: f64) -> (f64, String) {
-    let (angle, degrees) = tsubu_frame::unit::for_people(unit);
-    if degrees != unit {
-        return (angle, degrees.to_owned());
-    }
-    let takes = matches!(unit, "m" | "s" | "J" | "N" | "W" | "m/s" | "Pa" | "J/s" | "Hz");
-    if !takes || !largest.is_finite() || largest <= 0.0 {
-        return (1.0, unit.to_owned());
-    }
-    // Long times are told in seconds, great lengths in metres.
-    let steps: &[(f64, f64, &str)] = match unit {
-        "m" | "s" | "m/s" => &[(0.1, 1.0, ""), (0.5e-4, 1e3, "m"), (0.5e-7, 1e6, "µ")],
-        _ => &[
-            (1e9, 1e-9, "G"),
-            (1e6, 1e-6, "M"),
-            (1e3, 1e-3, "k"),
-            (0.5, 1.0, ""),
-            (0.5e-3, 1e3, "m"),
-            (0.5e-6, 1e6, "µ"),
-        ],
-    };
-    steps
-        .iter()
-        .find(|(from, _, _)| largest >= *from)
-        .map_or((1e9, format!("n{unit}")), |(_, factor, sign)| (*factor, format!("{sign}{unit}")))
-}

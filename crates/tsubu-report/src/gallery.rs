@@ -8,10 +8,11 @@ use crate::balls::{Balls, ColourBy, Look};
 use crate::compare::Refused;
 use crate::legend::time_label;
 use crate::moments;
-use crate::page::{Block, Grid, Tone};
+use crate::page::{Block, Grid, Tone, folded};
 use crate::plot::INK;
-use crate::source::{Source, folded, method_name};
+use crate::source::Source;
 use crate::strip::{Panel, strip};
+use crate::summary::method_name;
 use crate::text::{escape, short};
 
 /// What stands in a scene's `gallery.json`.

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::colour;
-use crate::figure::prefix;
+use crate::quantity::prefix;
 use crate::text::{escape, short};
 
 /// Time as a reader writes it: all times of a series, up to `last` [s], in one unit with as many digits.

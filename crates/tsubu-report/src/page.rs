@@ -46,6 +46,11 @@ pub struct Card {
     pub tone: Tone,
 }
 
+/// A card in one line.
+pub(crate) fn card(label: &str, value: String, unit: &str, note: String, tone: Tone) -> Card {
+    Card { label: label.to_owned(), value, unit: unit.to_owned(), note, tone }
+}
+
 /// A table as it is shown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grid {
@@ -108,6 +113,11 @@ pub enum Block {
         /// What is inside.
         inside: Vec<Block>,
     },
+}
+
+/// What is shown once it is unfolded.
+pub(crate) fn folded(summary: &str, inside: Vec<Block>) -> Block {
+    Block::Folded { summary: summary.to_owned(), inside }
 }
 
 /// A titled part of the page.

@@ -8,7 +8,8 @@ use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::theme::Theme;
 
-use crate::figure::{Axis, Bars, Figure, Series, Style, on_white, prefix};
+use crate::figure::{Axis, Bars, Figure, Series, Style, on_white};
+use crate::quantity::prefix;
 use crate::text::{short, superscript};
 
 /// Okabe and Ito's colours, told apart by colour-blind readers too; the order puts dark ones first.

@@ -3,8 +3,10 @@
 use tsubu_frame::Table;
 
 use crate::figure::{Axis, Figure, Series, Style};
-use crate::page::{Block, Report, Tone};
-use crate::source::{Source, card, ended, folded, quantity, shown, spoken, summary_cards, versions};
+use crate::page::{Block, Report, Tone, card, folded};
+use crate::quantity::{quantity, spoken};
+use crate::source::{Source, shown};
+use crate::summary::{ended, versions, wall_time_card};
 use crate::text::short;
 
 /// What is predicted of a case.
@@ -17,7 +19,7 @@ struct Curve {
 }
 
 pub(crate) fn build(source: &mut Source) -> Report {
-    let summary = if source.has("summary.json") { source.summary() } else { None };
+    let summary = source.summary_of_study();
     let table = source.table("prediction.csv").unwrap_or_default();
     let cases = source.table("cases.csv").unwrap_or_default();
     let curves = curves(&table);
@@ -45,13 +47,11 @@ pub(crate) fn build(source: &mut Source) -> Report {
         report.cards.push(card("Predicted peak rms", value, &unit, note, tone));
     }
     if let Some(summary) = &summary {
-        report.cards.extend(summary_cards(summary).into_iter().filter(|card| card.label == "Computed in"));
+        report.cards.push(wall_time_card(summary));
         report.verdict = Some(ended(summary));
     }
     let chart = chart(source, &curves, &cases);
-    let mut remarks = source.note_blocks();
-    remarks.extend(summary.iter().flat_map(|s| &s.warnings).map(|text| Block::Note(Tone::Warning, text.clone())));
-    report.section("To be noted", remarks);
+    report.section("To be noted", source.note_blocks());
     report.section("Response", chart);
     report.section("Cases", vec![shown(&cases), folded("All motions", vec![shown(&table)])]);
     source.scene_and_verdict(&mut report);

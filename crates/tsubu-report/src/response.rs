@@ -2,13 +2,12 @@
 
 use tsubu_frame::{Table, csv::split_unit};
 
-use crate::claims::claims_table;
 use crate::figure::{Axis, Bars, Figure, Mark, Series, Style};
 use crate::moments;
-use crate::page::{Block, Card, Report, Tone};
-use crate::source::{
-    Source, card, ended, method_name, quantity, result_cards, results_table, shown, spoken, summary_cards, versions,
-};
+use crate::page::{Block, Card, Report, Tone, card, folded};
+use crate::quantity::{quantity, spoken};
+use crate::source::{Source, shown};
+use crate::summary::{claims_and_results, ended, method_name, residual_card, result_cards, versions, wall_time_card};
 use crate::text::short;
 
 mod cost;
@@ -28,7 +27,7 @@ impl Curve {
 }
 
 pub(crate) fn build(source: &mut Source) -> Report {
-    let summary = if source.has("summary.json") { source.summary() } else { None };
+    let summary = source.summary_of_study();
     let response = source.table("response.csv");
     let cases = source.table("cases.csv");
     let causes = source.table("energy_by_cause.csv");
@@ -49,9 +48,7 @@ pub(crate) fn build(source: &mut Source) -> Report {
     };
     report.cards = key_cards(&listed);
     if let Some(s) = &summary {
-        report
-            .cards
-            .extend(summary_cards(s).into_iter().filter(|c| c.label == "Computed in" || c.label == "Energy residual"));
+        report.cards.extend([wall_time_card(s), residual_card(s)]);
         if curves.is_empty() {
             report.cards.extend(result_cards(s, 4));
         }
@@ -61,23 +58,14 @@ pub(crate) fn build(source: &mut Source) -> Report {
     let watches = response.map(|table| watched::blocks(source, &table, by_ratio)).unwrap_or_default();
     let energy = causes.map(|t| cause_blocks(source, &t)).unwrap_or_default();
     let pictures = picture_blocks(source, &listed);
-    let mut remarks = source.note_blocks();
-    for warning in summary.iter().flat_map(|s| &s.warnings) {
-        remarks.push(Block::Note(Tone::Warning, warning.clone()));
-    }
-    report.section("To be noted", remarks);
+    report.section("To be noted", source.note_blocks());
     report.section("Response", charts);
     report.section("Watches", watches);
     report.section("Cases", cases.as_ref().map(|c| shown(&told_once(c))).into_iter().collect());
     report.section("Energy by cause", energy);
     report.section("Grains", pictures);
     if let Some(s) = &summary {
-        if !s.claims.is_empty() {
-            report.section("Claims", vec![claims_table(&s.claims.iter().collect::<Vec<_>>(), |name| s.unit(name))]);
-        }
-        // The table of cases shows them already, in better order.
-        let results = results_table(s).map(|table| crate::source::folded("All results", vec![table]));
-        report.section("Results", results.into_iter().collect());
+        claims_and_results(&mut report, s);
         report.section("Cost", cost::blocks(&listed, &curves, s));
     }
     source.scene_and_verdict(&mut report);
@@ -302,7 +290,7 @@ fn charts(source: &mut Source, curves: &[Curve], cases: Option<&Table>, by_ratio
     let mut blocks = Vec::new();
     blocks.extend(source.figure("response_rms", &rms, &caption));
     if let Some(chart) = source.figure("response_peak", &peak, "The largest displacement at each frequency.") {
-        blocks.push(crate::source::folded("Peak displacement", vec![chart]));
+        blocks.push(folded("Peak displacement", vec![chart]));
     }
     blocks
 }
@@ -363,7 +351,7 @@ fn cause_blocks(source: &mut Source, table: &Table) -> Vec<Block> {
     figure.height = if horizontal { 130 + 34 * count } else { 400 };
     let mut blocks = Vec::new();
     blocks.extend(source.figure("energy_by_cause", &figure, "Energy taken out of the host in a cycle, by cause."));
-    blocks.push(crate::source::folded("Energy per cycle in numbers", vec![shown(table)]));
+    blocks.push(folded("Energy per cycle in numbers", vec![shown(table)]));
     blocks
 }
 

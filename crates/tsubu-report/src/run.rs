@@ -4,15 +4,14 @@ use std::fmt::Write as _;
 
 use tsubu_frame::{ResultValue, Status, Summary, Table, csv::split_unit};
 
-use crate::claims::claims_table;
+use crate::claims::claims_of;
 use crate::figure::{Axis, Figure, Series};
 use crate::moments;
 use crate::moving;
-use crate::page::{Block, Report, Tone};
-use crate::source::{
-    Source, card, cost_table, energy_blocks, method_name, quantity, result_cards, results_table, spoken, summary_cards,
-    versions,
-};
+use crate::page::{Block, Report, Tone, card, folded};
+use crate::quantity::{quantity, spoken};
+use crate::source::Source;
+use crate::summary::{cost_table, energy_blocks, method_name, result_cards, results_table, summary_cards, versions};
 use crate::text::{count, duration, short};
 use crate::watch::Watches;
 
@@ -47,23 +46,14 @@ pub(crate) fn build(source: &mut Source) -> Report {
     if let Some(summary) = &summary {
         energy.extend(energy_blocks(source, &[(summary.method.as_str(), summary)]));
     }
-    let mut remarks = source.note_blocks();
-    for warning in summary.iter().flat_map(|s| &s.warnings) {
-        remarks.push(Block::Note(Tone::Warning, warning.clone()));
-    }
-    report.section("To be noted", remarks);
+    report.section("To be noted", source.note_blocks());
     // What happened is seen before it is drawn over time.
     report.section("Grains", pictures);
     report.section("Motion", motion);
     report.section("Watches", watched);
     report.section("Energy", energy);
     if let Some(summary) = &summary {
-        if !summary.claims.is_empty() {
-            report.section(
-                "Claims",
-                vec![claims_table(&summary.claims.iter().collect::<Vec<_>>(), |name| summary.unit(name))],
-            );
-        }
+        report.section("Claims", claims_of(summary).into_iter().collect());
         report.section("Results", results_table(summary).into_iter().collect());
         let mut cost = vec![cost_table(&[(method_name(&summary.method), summary)])];
         cost.extend(machine(source));
@@ -215,7 +205,7 @@ fn motion_blocks(source: &mut Source, history: &Table, watches: &Watches) -> Vec
         if hosts.is_empty() && !name.contains("residual") { blocks.extend(drawn) } else { inside.extend(drawn) }
     }
     if !inside.is_empty() {
-        blocks.push(crate::source::folded("More over time", inside));
+        blocks.push(folded("More over time", inside));
     }
     blocks
 }

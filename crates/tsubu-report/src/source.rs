@@ -2,16 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use tsubu_frame::summary::mean_beside;
-use tsubu_frame::{FileError, ResultValue, Summary, Table, csv::split_unit, unit::for_people};
+use tsubu_frame::{FileError, Summary, Table, csv::split_unit};
 
-use crate::claims::range;
-use crate::figure::{Axis, Bars, Figure, Mark};
-use crate::page::{Block, Card, Grid, Report, Tone};
-use crate::text::{count, duration, short};
-
-/// Lists up to this length are told in numbers.
-const FEW: usize = 6;
+use crate::figure::{Figure, Mark};
+use crate::page::{Block, Grid, Report, Tone, folded};
+use crate::quantity::prefix;
+use crate::text::short;
 
 /// A folder, what went amiss in reading it, and the figures made on the way.
 #[derive(Debug, Default)]
@@ -23,6 +19,8 @@ pub(crate) struct Source {
     /// The notes that stand on the page already.
     pub damage: Vec<String>,
     pub files: Vec<(String, Vec<u8>)>,
+    /// What the run warned of.
+    warnings: Vec<String>,
     /// When the stages of the run began [s], for figures against time.
     stages: Vec<(f64, String)>,
 }
@@ -65,6 +63,7 @@ impl Source {
         self.dir.join(name).exists()
     }
 
+    /// The summary of a run, which must have one.
     pub fn summary(&mut self) -> Option<Summary> {
         if !self.has("summary.json") {
             self.notes.push("There is no summary.json: the run has not ended, or was killed.".into());
@@ -73,7 +72,13 @@ impl Source {
         let read = Summary::read(&self.dir.join("summary.json"));
         let summary = self.told(read)?;
         self.stages = summary.stages.iter().map(|stage| (stage.begin, stage.name.clone())).collect();
+        self.warnings.clone_from(&summary.warnings);
         Some(summary)
+    }
+
+    /// The summary of a study, which has none before its runs are done.
+    pub fn summary_of_study(&mut self) -> Option<Summary> {
+        if self.has("summary.json") { self.summary() } else { None }
     }
 
     /// The value, or a note on why there is none. A report is mailed, its folder is not: the note leaves out where
@@ -128,10 +133,10 @@ impl Source {
         Block::Drawing { svg, caption: caption.to_owned() }
     }
 
-    /// The notes as blocks, for the head of the page.
+    /// The notes and what the run warned of, as blocks for the head of the page.
     pub fn note_blocks(&mut self) -> Vec<Block> {
         self.damage.extend_from_slice(&self.notes);
-        let all = self.notes.drain(..).chain(self.nothing_seen.drain(..));
+        let all = self.notes.drain(..).chain(self.nothing_seen.drain(..)).chain(self.warnings.drain(..));
         all.map(|n| Block::Note(Tone::Warning, n)).collect()
     }
 
@@ -151,201 +156,6 @@ impl Source {
     }
 }
 
-pub(crate) fn folded(summary: &str, inside: Vec<Block>) -> Block {
-    Block::Folded { summary: summary.to_owned(), inside }
-}
-
-pub(crate) fn card(label: &str, value: String, unit: &str, note: String, tone: Tone) -> Card {
-    Card { label: label.to_owned(), value, unit: unit.to_owned(), note, tone }
-}
-
-/// A quantity with the prefix that makes it short.
-pub(crate) fn quantity(x: f64, unit: &str) -> (String, String) {
-    let (factor, unit) = crate::figure::prefix(unit, x.abs());
-    (short(x * factor), if unit == "-" { String::new() } else { unit })
-}
-
-/// The same as one text.
-pub(crate) fn spoken(x: f64, unit: &str) -> String {
-    let (value, unit) = quantity(x, unit);
-    if unit.is_empty() { value } else { format!("{value} {unit}") }
-}
-
-/// Cards that every summary gives.
-/// How a study of many runs ended, for the head of its page.
-pub(crate) fn ended(summary: &Summary) -> (Tone, String) {
-    let failed = summary.claims.iter().filter(|claim| !claim.pass).count();
-    match (summary.status, failed) {
-        (tsubu_frame::Status::Finished, 0) => (Tone::Good, "finished".into()),
-        (tsubu_frame::Status::Finished, n) => (Tone::Bad, format!("{n} claims failed")),
-        (status, _) => (Tone::Warning, status.word().into()),
-    }
-}
-
-pub(crate) fn summary_cards(summary: &Summary) -> Vec<Card> {
-    let residual = summary.energy.residual_relative;
-    let closes = if residual.abs() < 1e-3 { Tone::Good } else { Tone::Warning };
-    vec![
-        card(
-            "Grains",
-            count(summary.particles),
-            "",
-            format!("{}, {}-D", method_name(&summary.method), summary.dimension),
-            Tone::Plain,
-        ),
-        card(
-            "Simulated",
-            short(summary.simulated_seconds),
-            "s",
-            format!("{} steps of {}", count(summary.steps), spoken(summary.time_step, "s")),
-            Tone::Plain,
-        ),
-        card(
-            "Computed in",
-            duration(summary.wall_seconds),
-            "",
-            // A response counts no steps of its own.
-            if summary.particle_steps_per_second > 0.0 {
-                format!("{} grain-steps/s", short(summary.particle_steps_per_second))
-            } else {
-                format!("on {} threads", summary.threads)
-            },
-            Tone::Plain,
-        ),
-        card("Energy residual", short(residual), "", "of the energy turned over".into(), closes),
-    ]
-}
-
-/// Name and SI unit of a result; a name may carry its unit itself.
-fn named<'a>(summary: &'a Summary, result: &'a str) -> (&'a str, &'a str) {
-    match split_unit(result) {
-        (name, Some(unit)) => (name, unit),
-        (name, None) => (name, summary.unit(result)),
-    }
-}
-
-/// Results that are single numbers, as cards, in the order in which the scene asks for them. The mean of a watch and its
-/// value at the end share a card.
-pub(crate) fn result_cards(summary: &Summary, most: usize) -> Vec<Card> {
-    let mut cards = Vec::new();
-    for (result, value) in summary.results_in_order() {
-        // The energy residual is no result to be proud of; the energy has its own card. What came to no number is none.
-        let ResultValue::Number(x) = value else { continue };
-        if result.contains("residual") || !x.is_finite() {
-            continue;
-        }
-        let claim = summary.claims.iter().find(|claim| claim.name == result);
-        if claim.is_none() && mean_beside(result).is_some_and(|mean| summary.results.get(mean).is_some()) {
-            continue;
-        }
-        let (name, unit) = named(summary, result);
-        let (value, shown) = quantity(*x, unit);
-        let (tone, note) = match (claim, summary.results.get(&format!("{result} final"))) {
-            (Some(claim), _) => {
-                let tone = if claim.pass { Tone::Good } else { Tone::Bad };
-                (tone, format!("claimed: {}", range(claim, unit)))
-            }
-            (None, Some(ResultValue::Number(last))) => {
-                (Tone::Plain, format!("mean; {} at the end", spoken(*last, unit)))
-            }
-            _ => (Tone::Plain, String::new()),
-        };
-        cards.push(card(name, value, &shown, note, tone));
-    }
-    cards.truncate(most);
-    cards
-}
-
-/// All results as a table. A list is a profile, which a figure shows.
-pub(crate) fn results_table(summary: &Summary) -> Option<Block> {
-    if summary.results.is_empty() {
-        return None;
-    }
-    let mut grid = Grid::new(["result", "value", "unit"]);
-    for (result, value) in summary.results_in_order() {
-        let (name, unit) = named(summary, result);
-        let (factor, unit) = for_people(unit);
-        let value = match value {
-            ResultValue::Number(x) => short(x * factor),
-            ResultValue::List(list) if list.len() <= FEW => {
-                list.iter().map(|x| short(x * factor)).collect::<Vec<_>>().join(", ")
-            }
-            ResultValue::List(list) => format!("{} values, see figure", list.len()),
-        };
-        let unit = if unit == "-" { String::new() } else { crate::text::unit(unit) };
-        grid.push(Tone::Plain, [name, value.as_str(), unit.as_str()]);
-    }
-    Some(Block::Table(grid))
-}
-
-/// What the run cost.
-pub(crate) fn cost_table(runs: &[(&str, &Summary)]) -> Block {
-    let mut grid = Grid::new([
-        "method",
-        "grains",
-        "steps",
-        "time step [s]",
-        "threads",
-        "wall time [s]",
-        "grain-steps [1/s]",
-        "wall / simulated",
-    ]);
-    for (name, s) in runs {
-        grid.push(
-            Tone::Plain,
-            [
-                (*name).to_owned(),
-                count(s.particles),
-                count(s.steps),
-                short(s.time_step),
-                s.threads.to_string(),
-                short(s.wall_seconds),
-                short(s.particle_steps_per_second),
-                short(s.wall_seconds / s.simulated_seconds),
-            ],
-        );
-    }
-    Block::Table(grid)
-}
-
-/// Energy by cause: bars for the eye, the table for the books. Several runs stand side by side.
-pub(crate) fn energy_blocks(source: &mut Source, runs: &[(&str, &Summary)]) -> Vec<Block> {
-    let mut names: Vec<&str> = Vec::new();
-    for (_, summary) in runs {
-        for (name, _) in summary.energy.terms.iter() {
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
-    }
-    if names.is_empty() {
-        return Vec::new();
-    }
-    let value = |s: &Summary, name: &str| s.energy.terms.get(name).map_or(f64::NAN, |j| j.0);
-    // A bar too short to be seen stands in the table only.
-    let largest = names.iter().flat_map(|n| runs.iter().map(|(_, s)| value(s, n).abs())).fold(0.0, f64::max);
-    let moved = |name: &&str| runs.iter().any(|(_, s)| value(s, name).abs() > 1e-3 * largest);
-    let drawn: Vec<&str> = names.iter().copied().filter(moved).collect();
-    let parts = runs.iter().map(|(run, s)| ((*run).to_owned(), drawn.iter().map(|n| value(s, n)).collect())).collect();
-    let bars =
-        Bars { categories: drawn.iter().map(|n| (*n).to_owned()).collect(), parts, stacked: false, horizontal: true };
-    let mut figure = Figure::of_bars("", Axis::new("energy at the end", "J"), bars);
-    figure.height = (90 + 30 * drawn.len() as u32 * runs.len().max(1) as u32).clamp(180, 700);
-    let mut blocks = Vec::new();
-    blocks.extend(source.figure("energy_by_cause", &figure, "Where the energy went, by cause."));
-    let mut grid = Grid::new(std::iter::once("cause".to_owned()).chain(
-        runs.iter().map(|(run, _)| if runs.len() == 1 { "energy [J]".to_owned() } else { format!("{run} [J]") }),
-    ));
-    for name in &names {
-        let cells = runs.iter().map(|(_, s)| short(value(s, name)));
-        grid.push(Tone::Plain, std::iter::once((*name).to_owned()).chain(cells));
-    }
-    let residuals = runs.iter().map(|(_, s)| short(s.energy.residual_relative));
-    grid.push(Tone::Plain, std::iter::once("residual, relative".to_owned()).chain(residuals));
-    blocks.push(folded("Energy terms in numbers", vec![Block::Table(grid)]));
-    blocks
-}
-
 /// A CSV table for the eye: numbers rounded to what can be read.
 pub(crate) fn shown(table: &Table) -> Block {
     let scales: Vec<(f64, String)> = table
@@ -358,7 +168,7 @@ pub(crate) fn shown(table: &Table) -> Block {
                 (name, Some("text")) => (1.0, name.to_owned()),
                 (name, Some("kg")) if largest < 0.1 => (1e3, format!("{name} [g]")),
                 (name, Some(unit @ ("m" | "J" | "rad"))) => {
-                    let (factor, unit) = crate::figure::prefix(unit, largest);
+                    let (factor, unit) = prefix(unit, largest);
                     (factor, format!("{name} [{unit}]"))
                 }
                 _ => (1.0, header.clone()),
@@ -374,27 +184,4 @@ pub(crate) fn shown(table: &Table) -> Block {
         grid.push(Tone::Plain, cells);
     }
     Block::Table(grid)
-}
-
-/// Versions for the foot of the page.
-pub(crate) fn versions(summary: Option<&Summary>) -> Vec<(String, String)> {
-    let mut versions = Vec::new();
-    if let Some(s) = summary {
-        versions.push(("tsubu".to_owned(), s.tsubu_version.clone()));
-        if !s.state_hash.is_empty() {
-            versions.push(("state hash".to_owned(), s.state_hash.clone()));
-        }
-    }
-    versions.push(("report".to_owned(), env!("CARGO_PKG_VERSION").to_owned()));
-    versions
-}
-
-/// A method as readers call it.
-pub(crate) fn method_name(method: &str) -> &str {
-    match method {
-        "dem" => "DEM",
-        "lattice" => "lattice automaton",
-        "cl-ca" => "CL-CA",
-        other => other,
-    }
 }

@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 use crate::balls::{Balls, Look, common};
 use crate::colour;
 use crate::compass;
-use crate::figure::prefix;
 use crate::legend::{colour_bar, time_label};
 use crate::plot::{AXIS, FAINT, INK};
+use crate::quantity::prefix;
 use crate::raster;
 use crate::text::{escape, short};
 

@@ -7,10 +7,12 @@ use serde::Deserialize;
 use tsubu_frame::summary::{mean_beside, read_json};
 use tsubu_frame::{Summary, Table, csv::split_unit};
 
-use crate::figure::{Axis, Figure, Series, Style, prefix};
+use crate::figure::{Axis, Figure, Series, Style};
 use crate::moments;
-use crate::page::{Block, Grid, Report, Tone};
-use crate::source::{Source, folded, shown, versions};
+use crate::page::{Block, Grid, Report, Tone, folded};
+use crate::quantity::{of_one_unit, prefix};
+use crate::source::{Source, shown};
+use crate::summary::versions;
 use crate::text::{duration, short};
 
 /// Figures that are seen without unfolding, and columns of results in the first table.
@@ -314,52 +316,4 @@ fn picture_blocks(source: &mut Source, table: &Table) -> Vec<Block> {
         source.notes.extend(case.notes.into_iter().map(|n| format!("{name}: {n}")));
     }
     blocks
-}
-
-/// Prefixes of units that scenes know.
-const PREFIXES: [(&str, f64); 9] =
-    [("", 1.0), ("n", 1e-9), ("u", 1e-6), ("µ", 1e-6), ("m", 1e-3), ("c", 1e-2), ("k", 1e3), ("M", 1e6), ("G", 1e9)];
-
-/// Values as a scene writes them in the unit of the first of them; nothing where one is no number, or of another unit than by its prefix.
-fn of_one_unit(values: &[String]) -> Option<(Vec<f64>, String)> {
-    let parts = |text: &String| {
-        let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
-        Some((number.parse::<f64>().ok()?, unit.trim().to_owned()))
-    };
-    let values: Vec<(f64, String)> = values.iter().map(parts).collect::<Option<_>>()?;
-    let unit = values.first()?.1.clone();
-    let numbers = values.iter().map(|(x, other)| Some(x * times(other, &unit)?)).collect::<Option<_>>()?;
-    Some((numbers, if unit.is_empty() { "-".to_owned() } else { unit }))
-}
-
-/// How many of another unit one is, where they differ by their prefixes alone.
-fn times(one: &str, other: &str) -> Option<f64> {
-    if one == other {
-        return Some(1.0);
-    }
-    let base =
-        |unit: &'_ str, prefix: &str| unit.strip_prefix(prefix).filter(|base| !base.is_empty()).map(str::to_owned);
-    let pairs = PREFIXES.iter().flat_map(|of_one| PREFIXES.iter().map(move |of_other| (of_one, of_other)));
-    let mut same = pairs.filter(|(of_one, of_other)| base(one, of_one.0) == base(other, of_other.0));
-    // A thousandth of a length is a millionth of its square.
-    let ((_, factor), (_, divisor)) = same.find(|pair| base(one, pair.0.0).is_some() && !one.contains('^'))?;
-    Some(factor / divisor)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::of_one_unit;
-
-    /// 0.6 cm stood at 0.6 of an axis in mm.
-    #[test]
-    fn values_are_told_in_one_unit() {
-        let read = |values: &[&str]| of_one_unit(&values.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>());
-        let (numbers, unit) = read(&["2 mm", "0.6 cm", "0.008 m"]).expect("lengths");
-        assert!(numbers.iter().zip([2.0, 6.0, 8.0]).all(|(a, b)| (a - b).abs() < 1e-9) && unit == "mm", "{numbers:?}");
-        assert_eq!(read(&["20 us", "2 ms"]).map(|found| found.0[1].round()), Some(2000.0));
-        assert_eq!(read(&["0.5", "1"]), Some((vec![0.5, 1.0], "-".to_owned())));
-        for other in [["2 mm", "3"], ["2 mm", "3 s"], ["2 mm^2", "3 m^2"], ["2 mm", "steel"]] {
-            assert_eq!(read(&other), None, "{other:?}");
-        }
-    }
 }

@@ -6,8 +6,9 @@ use crate::claims::claims_table;
 use crate::ensemble;
 use crate::figure::{Axis, Figure, Series, Style};
 use crate::gallery;
-use crate::page::{Block, Report, Tone};
-use crate::source::{Source, card, versions};
+use crate::page::{Block, Report, Tone, card};
+use crate::source::Source;
+use crate::summary::versions;
 
 /// What the last column of a claim says.
 const SOURCES: &str = "A claim holds if its value lies in the accepted range. The source says where the range comes from: an \

@@ -5,9 +5,10 @@ use tsubu_frame::summary::read_json;
 use tsubu_frame::{Table, csv::split_unit};
 
 use crate::field;
-use crate::figure::{Axis, Figure, Series, Style, prefix};
-use crate::page::{Block, Grid, Tone};
-use crate::source::{Source, folded};
+use crate::figure::{Axis, Figure, Series, Style};
+use crate::page::{Block, Grid, Tone, folded};
+use crate::quantity::prefix;
+use crate::source::Source;
 use crate::steady::Steady;
 use crate::text::short;
 

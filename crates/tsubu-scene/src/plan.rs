@@ -9,9 +9,9 @@
 
 #![allow(rustdoc::broken_intra_doc_links, reason = "[s] is a unit, not a link")]
 
+mod body;
 mod bonds;
 mod cells;
-mod clumps;
 mod contact;
 mod gases;
 mod grains;
@@ -19,6 +19,7 @@ mod hosts;
 mod methods;
 pub(crate) mod polyhedron;
 mod region;
+mod shapes;
 mod share;
 mod sites;
 mod stage;
@@ -29,10 +30,10 @@ mod walls;
 pub mod watch;
 mod water;
 
+pub use body::{Clump, ClumpOrientation};
 pub use bonds::Bond;
 pub use cells::CellError;
 pub(crate) use cells::planes as planes_of_cells;
-pub use clumps::{Clump, ClumpOrientation, Packing, PackingError};
 pub use contact::{
     Cohesion, Contact, Damping, Film, Material, MaterialPair, MindlinForm, Normal, Rolling, SlipLever, Strength,
     Tangential, Twisting,
@@ -47,6 +48,7 @@ pub use methods::{
 };
 pub use polyhedron::{Polyhedron, PolyhedronFace};
 pub use region::{Ball, Cylinder, Region};
+pub use shapes::{Packing, PackingError};
 pub use sites::{GuttHaff, Heap, Savage, Split, Voids};
 pub use stage::{Stage, Until};
 pub use study::{

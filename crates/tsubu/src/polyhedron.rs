@@ -7,6 +7,7 @@
 
 pub mod at_wall;
 pub mod awake;
+pub mod contact;
 mod crossing;
 mod cut;
 pub mod near;

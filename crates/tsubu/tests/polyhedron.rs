@@ -3,8 +3,9 @@
 use glam::{DMat3, DQuat, DVec3};
 use std::f64::consts::TAU;
 use tsubu::polyhedron::awake::{Awake, Couple};
+use tsubu::polyhedron::contact::Contact;
 use tsubu::polyhedron::near::Near;
-use tsubu::polyhedron::touch::{Contact, Search, touch};
+use tsubu::polyhedron::touch::{Search, touch};
 use tsubu::polyhedron::{Faceted, Polyhedron, Turned, with_round};
 use tsubu::random::{Purpose, unit, words};
 use tsubu::superellipsoid::Superellipsoid;

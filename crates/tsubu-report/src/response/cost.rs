@@ -6,7 +6,8 @@ use tsubu_frame::Summary;
 
 use super::{Case, Curve};
 use crate::page::{Block, Grid, Tone};
-use crate::source::{method_name, spoken};
+use crate::quantity::spoken;
+use crate::summary::method_name;
 use crate::text::{count, duration, short};
 
 /// What each case took, and all of them side by side.

@@ -3,7 +3,8 @@
 use tsubu_frame::Kind;
 use tsubu_report::animation::{apng, gif};
 use tsubu_report::balls::{Balls, ColourBy, Look, View, common};
-use tsubu_report::figure::{Axis, Bars, Figure, Mark, Series, Style, prefix};
+use tsubu_report::figure::{Axis, Bars, Figure, Mark, Series, Style};
+use tsubu_report::quantity::prefix;
 use tsubu_report::raster::{Image, from_svg, picture, spheres};
 use tsubu_report::strip::{Panel, strip};
 use tsubu_report::text::{count, duration, escape, short};

@@ -1,6 +1,6 @@
 //! Grains of cells as bodies of DEM: polygons where the outline has no bays, discs otherwise.
 
-use super::clumps::scaled;
+use super::body::scaled;
 use super::polyhedron::with_mass;
 use super::{Clump, ClumpOrientation, GrainShape};
 use crate::cells::{AREA, Cells, place};

@@ -1,6 +1,6 @@
 //! A chunk: up to 128 touching pairs as plain columns, small enough to stay in the cache.
 
-use super::table::Constants;
+use super::pair::Constants;
 use glam::DVec3;
 
 /// Rows of a chunk.

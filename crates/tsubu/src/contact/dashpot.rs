@@ -1,9 +1,9 @@
 //! Dashpots told by their strength, whatever the restitution.
 
 use super::chunk::{Chunk, ROWS};
+use super::pair::Pair;
 use super::part::{About, Part, Stage};
 use super::root::{least, most};
-use super::table::Pair;
 use multiversion::multiversion;
 
 pub(super) const RATE: About = About {

@@ -1,9 +1,9 @@
 //! Elastic spheres: Hertz.
 
 use super::chunk::{Chunk, Column};
+use super::pair::{Constants, Pair};
 use super::part::{About, Part, Stage};
 use super::root::most;
-use super::table::{Constants, Pair};
 use multiversion::multiversion;
 
 pub(super) const ABOUT: About = About {

@@ -1,9 +1,9 @@
 //! Linear spring: Hooke.
 
 use super::chunk::Chunk;
+use super::pair::{Constants, Pair};
 use super::part::{About, Part, Stage};
 use super::root::most;
-use super::table::{Constants, Pair};
 use multiversion::multiversion;
 
 pub(super) const ABOUT: About = About {

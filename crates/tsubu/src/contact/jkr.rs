@@ -8,9 +8,9 @@
 
 use super::chunk::{Chunk, Column};
 use super::hertz::secant;
+use super::pair::Pair;
 use super::part::{About, Part, Slot, Stage};
 use super::root::{cube_root, most};
-use super::table::Pair;
 use multiversion::multiversion;
 use std::f64::consts::PI;
 

@@ -1,9 +1,9 @@
 //! A law: an ordered stack of parts.
 
 use super::chunk::{Chunk, Column, ZERO};
+use super::pair::{Constants, Pair};
 use super::part::{Needs, Part, Slot, Stage};
 use super::root::most;
-use super::table::{Constants, Pair};
 use multiversion::multiversion;
 use tsubu_scene::plan::Contact;
 

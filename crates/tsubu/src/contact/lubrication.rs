@@ -9,8 +9,8 @@
 //! one h_1 that takes 6 pi mu R*^2 ln(h_0/h_1) of the momentum, however fast the way.
 
 use super::chunk::Chunk;
+use super::pair::Pair;
 use super::part::{About, Part, Stage};
-use super::table::Pair;
 use std::f64::consts::PI;
 
 pub(super) const ABOUT: About = About {

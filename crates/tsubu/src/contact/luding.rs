@@ -6,9 +6,9 @@
 //! depth of the dent has changed.
 
 use super::chunk::{Chunk, Column};
+use super::pair::{Constants, Pair};
 use super::part::{About, Part, Slot, Stage};
 use super::root::{least, most};
-use super::table::{Constants, Pair};
 use multiversion::multiversion;
 
 pub(super) const ABOUT: About = About {

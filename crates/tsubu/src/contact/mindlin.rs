@@ -1,9 +1,9 @@
 //! Tangential spring with history: Mindlin.
 
 use super::chunk::Chunk;
+use super::pair::Constants;
 use super::part::{About, Part, Slot, Stage};
 use super::slider::{self, Held, Strength, bearable, slide, touched};
-use super::table::Constants;
 use crate::mutation::{Mutation, left_out};
 use glam::DVec3;
 use multiversion::multiversion;

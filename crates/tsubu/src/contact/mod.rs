@@ -22,6 +22,7 @@
 pub mod calibrate;
 pub mod chunk;
 pub mod law;
+pub mod pair;
 pub mod part;
 pub mod table;
 
@@ -52,8 +53,9 @@ use crate::about::About;
 use crate::mutation::{Mutation, mutated};
 pub use chunk::Chunk;
 pub use law::Law;
+pub use pair::Pair;
 use part::Part;
-pub use table::{Pair, Table};
+pub use table::Table;
 use tsubu_scene::plan::{Cohesion, Contact, Damping, Film, Normal, Rolling, Tangential, Twisting};
 
 /// A part, where a scene asks for one.

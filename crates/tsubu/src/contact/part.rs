@@ -1,7 +1,7 @@
 //! A part: one ingredient of a contact law.
 
 use super::chunk::{Chunk, Column};
-use super::table::{Constants, Pair};
+use super::pair::{Constants, Pair};
 pub use crate::about::About;
 
 /// When a part acts within its law; parts are sorted by it, so a scene cannot misorder them.

@@ -2,9 +2,9 @@
 
 use super::chunk::Chunk;
 use super::mindlin::tangential;
+use super::pair::Constants;
 use super::part::{About, Part, Slot, Stage};
 use super::slider::{self, Held, Strength};
-use super::table::Constants;
 use multiversion::multiversion;
 
 pub(super) const ABOUT: About = About {

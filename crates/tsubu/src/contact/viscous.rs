@@ -4,9 +4,9 @@ use super::calibrate;
 use super::chunk::Chunk;
 use super::dashpot::{damp, root_onset};
 use super::hertz::secant;
+use super::pair::{Constants, Pair};
 use super::part::{About, Part, Stage};
 use super::root::fifth_root;
-use super::table::{Constants, Pair};
 use crate::mutation::{Mutation, mutated};
 use multiversion::multiversion;
 

@@ -3,7 +3,7 @@
 use super::narrow_phase::{Spheres, TouchingPair};
 use crate::contact::Table;
 use crate::contact::chunk::{Chunk, Column, ROWS, ZERO};
-use crate::neighbours::lists::BlockList;
+use crate::neighbours::block::BlockList;
 use crate::state::Grains;
 use glam::DVec3;
 use multiversion::multiversion;

@@ -29,7 +29,7 @@ use crate::check;
 use crate::contact::chunk::ROWS;
 use crate::contact::{Law, Table};
 use crate::neighbours::NeighbourLists;
-use crate::neighbours::lists::{BLOCK, BlockList, blocks_at_once};
+use crate::neighbours::block::{BLOCK, BlockList, blocks_at_once};
 use crate::partner::Hosts;
 use crate::polyhedron::near::Near;
 use crate::ranks::Reader;

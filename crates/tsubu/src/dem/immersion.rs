@@ -5,7 +5,7 @@ use super::contact_forces::{BlockContacts, Load};
 use super::engine::DemEngine;
 use crate::contact::chunk::{Chunk, ROWS};
 use crate::ledger::{Account, Ledger};
-use crate::neighbours::lists::BLOCK;
+use crate::neighbours::block::BLOCK;
 use crate::ranks::Reader;
 use crate::state::Grains;
 use crate::water::{EVERY, Gust, LayerReaction, Parcel, Stream, Submerged, Water, WaterPowers};

@@ -5,8 +5,8 @@
 //! would have to guess (guessing wrong took a third of the time of a settled bed).
 
 use crate::contact::Table;
+use crate::neighbours::block::{BlockList, Pair};
 use crate::neighbours::grid::PRIMARY_IMAGE;
-use crate::neighbours::lists::{BlockList, Pair};
 use crate::state::Grains;
 use glam::DVec3;
 use multiversion::multiversion;

@@ -4,7 +4,7 @@ use super::books::Powers;
 use super::contact_forces::{BlockContacts, ContactForces};
 use super::engine::DemEngine;
 use crate::engine::{Note, Refusal, Verdict};
-use crate::neighbours::lists::BLOCK;
+use crate::neighbours::block::BLOCK;
 use crate::outside::{Action, Heed, Moment, Push};
 use crate::state::Grains;
 use crate::wall::Velocity;

@@ -12,7 +12,7 @@ mod share;
 pub(super) use share::Halves;
 
 use crate::neighbours::NeighbourLists;
-use crate::neighbours::lists::{BLOCK, Incoming};
+use crate::neighbours::block::{BLOCK, Incoming};
 use crate::ranks::{Communicator, Reader};
 use std::ops::Range;
 use std::sync::Arc;

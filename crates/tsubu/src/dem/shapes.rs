@@ -10,7 +10,7 @@ use super::contact_forces::ForceInput;
 use super::narrow_phase::{Spheres, TouchingPair, TouchingPairs};
 use crate::contact::Law;
 use crate::contact::chunk::{Chunk, Column};
-use crate::neighbours::lists::{BlockList, Pair};
+use crate::neighbours::block::{BlockList, Pair};
 use crate::polyhedron::with_round;
 use crate::superellipsoid::ellipsoids::{Ellipsoid, Pairs};
 use crate::superellipsoid::touch::{Rounding, Touch, touch};

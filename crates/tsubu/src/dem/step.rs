@@ -8,7 +8,7 @@ use super::overlaps::overlaps;
 use super::ranks::Ranks;
 use crate::engine::Fault;
 use crate::ledger::{Account, Ledger};
-use crate::neighbours::lists::BLOCK;
+use crate::neighbours::block::BLOCK;
 use crate::partner::Hosts;
 use crate::ranks::Reader;
 use crate::state::Grains;

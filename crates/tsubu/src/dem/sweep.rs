@@ -4,7 +4,7 @@
 //! so that what it has written stays in its own cache; and the second sweep goes back, so that it begins with what the first has
 //! left in the cache. A thread that is done early takes blocks of others, from where they would come to last.
 
-use crate::neighbours::lists::BlockList;
+use crate::neighbours::block::BlockList;
 use crate::threads::both;
 
 /// What a sweep goes over: one thing or several for every neighbour list.

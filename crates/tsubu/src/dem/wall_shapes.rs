@@ -9,7 +9,7 @@ use super::contact_batch::ContactBatch;
 use super::contact_forces::ForceInput;
 use super::shapes::add;
 use crate::contact::Law;
-use crate::neighbours::lists::BlockList;
+use crate::neighbours::block::BlockList;
 use crate::wall::{self, Wall};
 use glam::DVec3;
 
@@ -26,7 +26,7 @@ pub(super) struct WallShape {
     pub shift: DVec3,
     /// The wall's name for the place; above [`PLACES`] what of a polyhedron it is.
     pub patch: u32,
-    /// How much the overlap grows as the body comes nearer, see [`crate::polyhedron::touch::Contact`].
+    /// How much the overlap grows as the body comes nearer, see [`crate::polyhedron::contact::Contact`].
     pub share: f64,
     /// Force on the body, and torque about its centre, for each unit of the slope of energy over radius, see [`crate::superellipsoid::touch::Rounding`].
     pub rounding: [DVec3; 2],

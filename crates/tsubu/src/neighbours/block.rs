@@ -1,12 +1,19 @@
 //! The neighbour list of one block of grains.
 
 use super::grid::{Image, Nearby, PRIMARY_IMAGE};
-use super::lists::BLOCK;
 use crate::threads;
 use crate::wall::Wall;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::ops::Range;
+
+/// Grains of a block.
+pub const BLOCK: usize = 512;
+
+/// How many blocks of so many grains a thread takes at once, at least.
+pub fn blocks_at_once(grains: usize) -> usize {
+    threads::piece(grains).div_ceil(BLOCK)
+}
 
 /// Two grains that may touch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

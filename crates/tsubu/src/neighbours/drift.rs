@@ -10,8 +10,8 @@
 //! apart than a margin must only have kept that distance. In a chute 26 degrees steep the lists of this kind are made five
 //! times less often than those that count from where each grain was.
 
+use super::block::{BLOCK, BlockList, blocks_at_once};
 use super::grid::PeriodicBounds;
-use super::lists::{BLOCK, BlockList, blocks_at_once};
 use crate::state::Grains;
 use crate::threads::piece;
 use crate::wall::{Pose, Wall};

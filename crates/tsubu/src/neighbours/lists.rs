@@ -8,8 +8,7 @@
 //! very different sizes are searched on several grids, one for each factor of two in size: a small grain looks for small
 //! ones near it and for large ones farther away, never the other way round.
 
-pub use super::block::{BlockList, Incoming, Pair};
-use super::block::{Finder, NOT_IN_HALO, find_incoming};
+use super::block::{BLOCK, BlockList, Finder, NOT_IN_HALO, find_incoming};
 use super::drift::Drifts;
 use super::grid::{Grid, Image, Numbering, PRIMARY_IMAGE, PeriodicBounds, shift};
 use super::joined::Joined;
@@ -20,14 +19,6 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
-
-/// Grains of a block.
-pub const BLOCK: usize = 512;
-
-/// How many blocks of so many grains a thread takes at once, at least.
-pub fn blocks_at_once(grains: usize) -> usize {
-    piece(grains).div_ceil(BLOCK)
-}
 
 /// Below this many grains all pairs are looked at: a grid would cost more than it saves, and nothing needs sorting.
 const SMALL: usize = 96;

@@ -1,8 +1,8 @@
 //! Where a body touches surfaces with sharp edges, and surfaces that bulge towards it. What of a wall is flat or hollow is touched by corners, as spheres of the rounding radius.
 
 use super::Turned;
+use super::contact::Contact;
 use super::crossing::{CROWN, Crossing, Edge};
-use super::touch::Contact;
 use glam::DVec3;
 
 /// Rounds of a search along an edge.
@@ -19,7 +19,7 @@ pub struct AtWall {
     pub overlap: f64,
     /// Unit normal from the body to the wall.
     pub normal: DVec3,
-    /// How much the overlap grows as the points come nearer, see [`super::touch::Contact`].
+    /// How much the overlap grows as the points come nearer, see [`Contact`].
     pub share: f64,
 }
 

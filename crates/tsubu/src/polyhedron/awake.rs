@@ -3,9 +3,10 @@
 //! Corners are looked at one by one. Edges that cross are many of a kind, and go side by side, see `crossing.rs`.
 
 use super::Turned;
+use super::contact::{Contact, edges_of};
 use super::crossing::Crossings;
 use super::near::{Near, Sleeper};
-use super::touch::{Contact, Cut, edges_of};
+use super::touch::Cut;
 use glam::DVec3;
 
 /// Two bodies.

@@ -12,7 +12,7 @@
 
 #![allow(clippy::inline_always, reason = "a call inside a row would end the vector code of its loop")]
 
-use super::touch::Contact;
+use super::contact::Contact;
 use crate::superellipsoid::symmetric::{Column, Columns, ROWS, ZERO, set, vector};
 use glam::DVec3;
 use multiversion::multiversion;

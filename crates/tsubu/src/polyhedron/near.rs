@@ -6,7 +6,8 @@
 
 use super::Turned;
 use super::awake::{Awake, Couple};
-use super::touch::{Contact, Search, touch};
+use super::contact::Contact;
+use super::touch::{Search, touch};
 use glam::DVec3;
 
 /// Gaps are slept through but for this share, for rounding.

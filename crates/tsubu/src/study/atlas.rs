@@ -90,7 +90,7 @@ pub fn cavities(scene: &Scene) -> Result<Vec<Cavity>, CasesError> {
         Shown { mass: point.complex(), error, harmonics: point.harmonics }
     };
     let rows = |case| of_case(case).map(|(key, point)| (key.seed, [key.frequency.0, key.acceleration.0], shown(point)));
-    let all = write::names(&task.cases).into_iter().zip(plans).enumerate();
+    let all = chart::names(&task.cases).into_iter().zip(plans).enumerate();
     Ok(all.map(|(case, (name, plan))| Cavity::new(name, plan, &task.wanted, rows(case))).collect())
 }
 

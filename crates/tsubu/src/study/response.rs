@@ -7,6 +7,7 @@
 
 mod apart;
 mod curve;
+mod point;
 pub(super) mod refine;
 mod rounds;
 pub(super) mod tasks;
@@ -15,7 +16,8 @@ mod write;
 
 pub use apart::Runs;
 pub use curve::{CaseResult, Hysteresis, Peak, peak};
-pub use tasks::{Point, bed, measure};
+pub use point::Point;
+pub use tasks::{bed, measure};
 
 use super::cases::{Case, CasesError, case_plans, cases};
 use super::journal::{self, Exact, Journal};

@@ -28,7 +28,7 @@ mod step;
 pub use level::Top;
 
 use super::Layers;
-use super::stream::{CONSTANT, PER_DECADE};
+use super::log_law::{CONSTANT, karman};
 use crate::about::About;
 use glam::DVec3;
 use tsubu_frame::State;
@@ -114,11 +114,6 @@ pub struct Setting {
     pub top: Top,
     /// Whether it begins at rest.
     pub still: bool,
-}
-
-/// Karman's constant in the log law 8.5 + 5.75 log10(Z/k).
-fn karman() -> f64 {
-    std::f64::consts::LN_10 / PER_DECADE
 }
 
 impl Coupled {

@@ -12,6 +12,7 @@ mod drag;
 mod fluctuation;
 mod hindrance;
 mod layers;
+mod log_law;
 mod logarithm;
 mod magnus;
 mod parcel;

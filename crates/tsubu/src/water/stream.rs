@@ -1,7 +1,7 @@
 //! How the water moves: a velocity that depends on the height.
 
 use super::coupled::{Coupled, Setting, Top};
-use super::logarithm::ln;
+use super::log_law::{PER_DECADE, log_law};
 use super::{Layers, Parcel};
 use crate::about::About;
 use glam::DVec3;
@@ -10,10 +10,6 @@ use std::f64::consts::LN_10;
 use tsubu_frame::State;
 use tsubu_frame::state::MissingSection;
 use tsubu_scene::plan::{Flow, Lid, StreamStart, Water};
-
-/// Slope and constant of the log law, U = U* (8.5 + 5.75 log10(Z/k)).
-pub(super) const CONSTANT: f64 = 8.5;
-pub(super) const PER_DECADE: f64 = 5.75;
 
 pub(super) const STILL: About = About {
     key: "water.flow.still",
@@ -274,14 +270,6 @@ fn between(height: &[f64], velocity: &[f64], z: f64) -> (f64, f64) {
         let shear = (velocity[k] - velocity[k - 1]) / (height[k] - height[k - 1]);
         (velocity[k - 1] + (z - height[k - 1]) * shear, shear)
     }
-}
-
-/// The log law at a height above its zero level.
-#[inline(always)]
-fn log_law(height: f64, shear_velocity: f64, per_roughness: f64) -> f64 {
-    // A height below zero has no logarithm; the velocity is zero well above it already.
-    let depth = (height * per_roughness).max(1e-3);
-    (shear_velocity * (CONSTANT + PER_DECADE / LN_10 * ln(depth))).max(0.0)
 }
 
 #[multiversion(targets = "simd")]

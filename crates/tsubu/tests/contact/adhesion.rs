@@ -3,7 +3,7 @@
 use super::{Subject, constants, stack};
 use std::f64::consts::PI;
 use tsubu::contact::Chunk;
-use tsubu::contact::table::Constants;
+use tsubu::contact::pair::Constants;
 use tsubu_scene::plan::{Cohesion, Contact, Damping, Tangential};
 
 const RADIUS: f64 = 1.5e-3;

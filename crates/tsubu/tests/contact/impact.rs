@@ -3,7 +3,7 @@
 use super::two::{Ball, Two};
 use super::{Subject, constants, stack};
 use glam::DVec3;
-use tsubu::contact::table::Constants;
+use tsubu::contact::pair::Constants;
 use tsubu_scene::plan::{Contact, Damping};
 
 /// Two spheres that meet head on at `speed`; the second may be the plane.

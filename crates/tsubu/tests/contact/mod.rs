@@ -15,7 +15,7 @@ mod text;
 mod two;
 
 use tsubu::contact::chunk::Chunk;
-use tsubu::contact::table::Constants;
+use tsubu::contact::pair::Constants;
 use tsubu::contact::{Law, Pair};
 use tsubu_scene::plan::Contact;
 

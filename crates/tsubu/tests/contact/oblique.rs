@@ -3,7 +3,7 @@
 use super::two::{Ball, Two};
 use super::{Subject, constants, stack};
 use glam::DVec3;
-use tsubu::contact::table::Constants;
+use tsubu::contact::pair::Constants;
 use tsubu_scene::plan::{Contact, Damping, MindlinForm, Tangential};
 
 /// A sphere that meets the plane with a velocity (along x, downward) and no spin; returns its velocity along x and its spin

@@ -4,7 +4,7 @@ use super::{ContactSums, ForceInput, Scratch, apply_law, power};
 use crate::contact::chunk::ROWS;
 use crate::dem::contact_batch::ContactBatch;
 use crate::dem::contact_history::{ContactHistory, Walk};
-use crate::neighbours::lists::BlockList;
+use crate::neighbours::block::BlockList;
 
 /// Walks the contacts that [`super::pairs::evaluate`] has left for here, law by law; `visit` sees every finished batch.
 pub(super) fn evaluate(

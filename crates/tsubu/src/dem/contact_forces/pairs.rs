@@ -5,7 +5,7 @@ use crate::contact::chunk::{Chunk, ROWS};
 use crate::dem::contact_batch::ContactBatch;
 use crate::dem::contact_history::{ContactHistory, Walk};
 use crate::mutation::{Mutation, mutated};
-use crate::neighbours::lists::BlockList;
+use crate::neighbours::block::BlockList;
 
 /// Walks the grain-grain pairs of a block, law by law; `visit` sees every finished batch.
 pub(super) fn evaluate(

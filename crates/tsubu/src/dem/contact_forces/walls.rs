@@ -5,7 +5,7 @@ use crate::contact::chunk::{Chunk, ROWS};
 use crate::dem::contact_batch::ContactBatch;
 use crate::dem::contact_history::{ContactHistory, FRESH, HistoryColumns, Walk, WallKey};
 use crate::dem::wall_shapes::WallShape;
-use crate::neighbours::lists::BlockList;
+use crate::neighbours::block::BlockList;
 use crate::view::WallLoad;
 use crate::wall::Wall;
 

@@ -2,7 +2,7 @@
 
 use super::{Ranks, cost, cuts};
 use crate::neighbours::NeighbourLists;
-use crate::neighbours::lists::BLOCK;
+use crate::neighbours::block::BLOCK;
 use crate::ranks::RankShare;
 
 /// Bytes of a number in a message.

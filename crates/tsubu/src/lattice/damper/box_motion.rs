@@ -158,13 +158,10 @@ impl Damper {
         let cell = self.scale.cell;
         for place in 0..self.cluster.len() {
             let i = self.cluster[place];
-            if self.resting[i] {
-                if forget {
-                    self.tally.rules -= self.scale.gravity * 2 * cell * sign;
-                }
+            if self.resting[i] && !forget {
                 continue;
             }
-            if !self.direction[i].is_vertical() {
+            if self.resting[i] || !self.direction[i].is_vertical() {
                 self.tally.rules -= self.scale.gravity * 2 * cell * sign;
                 continue;
             }

@@ -6,7 +6,7 @@
 use super::bits::WIDE;
 use super::chance::Odds;
 use super::collide::{Rules, SLOTS};
-use super::step::{BLOCK, Spec};
+use super::step::{BLOCK, Spec, at, close};
 use super::sweep::{Field, Sweep};
 use crate::lattice::direction::{Direction, Vector};
 use crate::random::{Purpose, unit, words};
@@ -253,31 +253,6 @@ impl Gas {
 /// Momentum of so many particles in each slot, in the basis (h, k).
 pub fn momentum(counts: &[u64; SLOTS]) -> Vector {
     Direction::ALL.iter().zip(counts).fold(Vector::default(), |sum, (d, n)| sum.plus(d.times(*n as i64)))
-}
-
-/// Where a word of a slot's plane is in its column.
-#[inline]
-fn at(slot: usize, word: usize) -> usize {
-    (1 + word / WIDE) * BLOCK + slot * WIDE + word % WIDE
-}
-
-/// Empties what lies beyond the last row and, where the ends of a column meet, shows each end what waits at the other.
-pub(super) fn close(column: &mut [u64], blocks: usize, rows: usize, periodic: bool) {
-    for slot in 0..SLOTS {
-        let end = rows / 64;
-        if !rows.is_multiple_of(64) {
-            column[at(slot, end)] &= (1 << (rows % 64)) - 1;
-        }
-        // The word after the last block too, where a row of before may still wait.
-        for word in rows.div_ceil(64)..=blocks * WIDE {
-            column[at(slot, word)] = 0;
-        }
-        if periodic {
-            let top = column[at(slot, (rows - 1) / 64)] >> ((rows - 1) % 64) & 1;
-            column[slot * WIDE + WIDE - 1] = top << 63;
-            column[at(slot, end)] |= (column[at(slot, 0)] & 1) << (rows % 64);
-        }
-    }
 }
 
 #[cfg(test)]

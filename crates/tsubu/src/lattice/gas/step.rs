@@ -49,6 +49,31 @@ pub fn column(spec: &Spec, number: usize, from: [&[u64]; 3], walls: Walls, next:
 /// Words of a block: [`WIDE`] of every slot.
 pub const BLOCK: usize = SLOTS * WIDE;
 
+/// Where a word of a slot's plane is in its column.
+#[inline]
+pub fn at(slot: usize, word: usize) -> usize {
+    (1 + word / WIDE) * BLOCK + slot * WIDE + word % WIDE
+}
+
+/// Empties what lies beyond the last row and, where the ends of a column meet, shows each end what waits at the other.
+pub fn close(column: &mut [u64], blocks: usize, rows: usize, periodic: bool) {
+    for slot in 0..SLOTS {
+        let end = rows / 64;
+        if !rows.is_multiple_of(64) {
+            column[at(slot, end)] &= (1 << (rows % 64)) - 1;
+        }
+        // The word after the last block too, where a row of before may still wait.
+        for word in rows.div_ceil(64)..=blocks * WIDE {
+            column[at(slot, word)] = 0;
+        }
+        if periodic {
+            let top = column[at(slot, (rows - 1) / 64)] >> ((rows - 1) % 64) & 1;
+            column[slot * WIDE + WIDE - 1] = top << 63;
+            column[at(slot, end)] |= (column[at(slot, 0)] & 1) << (rows % 64);
+        }
+    }
+}
+
 #[inline(always)]
 fn pass(spec: &Spec, rules: Rules, number: usize, from: [&[u64]; 3], walls: Walls, next: &mut [u64]) {
     // Who comes from where, in the order of slots: N, S and rest from the column itself, the others from left and right.

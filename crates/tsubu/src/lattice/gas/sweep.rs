@@ -7,7 +7,6 @@
 
 use super::bits::WIDE;
 use super::chance::Odds;
-use super::planes::close;
 use super::step::{self, BLOCK, Spec, Walls};
 use rayon::prelude::*;
 
@@ -71,7 +70,7 @@ impl Field<'_> {
             let turned = step::force(&spec, number, walls.solid, next);
             (0..2).for_each(|axis| turns[axis] += turned[axis]);
         }
-        close(next, spec.blocks, self.rows, self.periodic[1]);
+        step::close(next, spec.blocks, self.rows, self.periodic[1]);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Done;
 use super::shown::{Column, Shown, at, between};
-use crate::study::cases::{CasesError, case_plans, cases};
+use crate::study::cases::{Case, CasesError, case_plans, cases};
 use crate::study::journal::Exact;
 use nalgebra::Complex;
 use std::collections::BTreeMap;
@@ -45,6 +45,11 @@ pub enum AtlasError {
         /// What is wrong with it.
         what: String,
     },
+}
+
+/// What the cases are called in tables.
+pub(super) fn names(cases: &[Case]) -> Vec<String> {
+    cases.iter().map(|case| if case.name.is_empty() { "scene".to_owned() } else { case.name.clone() }).collect()
 }
 
 /// The table of all points.
@@ -174,15 +179,15 @@ pub fn read(folder: &Path) -> Result<Vec<Cavity>, AtlasError> {
     let plans = case_plans(&scene, &cases).map_err(|error: CasesError| unusable(&error.to_string()))?;
     let table = Table::read(&file)?;
     let column = |name: &str| table.numbers(name).ok_or_else(|| unusable(&format!("atlas.csv has no `{name}`")));
-    let names = table.texts("case").ok_or_else(|| unusable("atlas.csv has no `case`"))?;
+    let of_rows = table.texts("case").ok_or_else(|| unusable("atlas.csv has no `case`"))?;
     let [frequency, acceleration, seed, mass, lossy, error, harmonics] =
         ["frequency", "acceleration", "seed", "effective mass", "lossy mass", "error", "higher harmonics"].map(column);
     let (frequency, acceleration, seed, error) = (frequency?, acceleration?, seed?, error?);
     let (mass, lossy, harmonics) = (mass?, lossy?, harmonics?);
     let mut cavities = Vec::new();
-    for (plan, name) in plans.into_iter().zip(super::write::names(&cases)) {
+    for (plan, name) in plans.into_iter().zip(names(&cases)) {
         let mut rows = Vec::new();
-        for row in (0..names.len()).filter(|row| names[*row] == name) {
+        for row in (0..of_rows.len()).filter(|row| of_rows[*row] == name) {
             let numbers = [frequency[row], acceleration[row], mass[row], lossy[row], harmonics[row]];
             if !numbers.iter().all(|number| number.is_finite()) || frequency[row] <= 0.0 || acceleration[row] <= 0.0 {
                 return Err(unusable(&format!("line {} of atlas.csv says no numbers that can be", row + 2)));

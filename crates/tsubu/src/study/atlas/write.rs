@@ -1,14 +1,8 @@
 //! The files of an atlas.
 
 use super::{Done, Task, chart};
-use crate::study::cases::Case;
 use crate::study::summary::{begun, judge};
 use tsubu_frame::{FileError, RunFolder, Status, Summary};
-
-/// What the cases are called in tables.
-pub(super) fn names(cases: &[Case]) -> Vec<String> {
-    cases.iter().map(|case| if case.name.is_empty() { "scene".to_owned() } else { case.name.clone() }).collect()
-}
 
 /// Writes `atlas.csv`, `check.txt` and `summary.json`.
 pub(super) fn write(
@@ -23,7 +17,7 @@ pub(super) fn write(
     let mut summary = begun(plan, status, wall_seconds);
     summary.particles = task.plans.iter().map(|plan| plan.grains() as u64).max().unwrap_or_default();
     summary.warnings = failures;
-    let names = names(&task.cases);
+    let names = chart::names(&task.cases);
     for (case, name) in names.iter().enumerate() {
         let found = task.found(points, case);
         let Some((place, best)) = found.iter().min_by(|a, b| a.1.mass.im.total_cmp(&b.1.mass.im)) else { continue };

@@ -1,6 +1,6 @@
 //! From the points of a case to its curve, its peak and its damping.
 
-use super::tasks::Point;
+use super::point::Point;
 use crate::ledger::Account;
 use crate::partner::Hosts;
 use crate::student::interval_of_mean;

@@ -1,6 +1,6 @@
 //! How a run of a response begins, and when its transient has died away.
 
-use super::tasks::Point;
+use super::point::Point;
 use crate::engine::Engine;
 use crate::interrupt::Interrupt;
 use crate::ledger::{Account, Ledger};

@@ -1,7 +1,8 @@
 //! One step of the stream: the stresses between layers, turbulent or viscous, and the momentum that they carry, solved at the end of
 //! the step.
 
-use super::{Coupled, Top, Turnover, karman};
+use super::{Coupled, Top, Turnover};
+use crate::water::log_law::karman;
 
 /// Solid fraction at which nothing mixes any more.
 const PACKED: f64 = 0.61;
