@@ -17,6 +17,8 @@ const STIFFNESS: f64 = 2e3;
 const RESTITUTION: f64 = 0.1;
 /// Friction of grains on grains, as there.
 const FRICTION: f64 = 0.4;
+/// Time between two looks, about that of a contact: the forces on a plate change as fast.
+const PAUSE: f64 = 0.05;
 
 /// The published law of plane shear, from memory: friction and share of the area at an inertial number.
 fn published(inertial: f64) -> [f64; 2] {
@@ -114,7 +116,7 @@ impl Flow {
         let frame = rig.frame();
         let radii = scalars(&frame, Kind::Grain, "radius");
         let mass = scalars(&frame, Kind::Grain, "mass").iter().sum::<f64>() / self.length;
-        let looks = sampled(&mut rig, [span[0], span[1], 0.5], |rig| {
+        let looks = sampled(&mut rig, [span[0], span[1], PAUSE], |rig| {
             let frame = rig.frame();
             let places = vectors(&frame, Kind::Grain, "position").into_iter();
             let grains: Vec<[f64; 3]> = places

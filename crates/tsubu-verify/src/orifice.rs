@@ -14,7 +14,7 @@ use tsubu_frame::Claim;
 /// When the hole opens: the bed, which falls by some 25 diameters, has come to rest.
 const OPENS: f64 = 16.0;
 /// From the opening of the hole to when the flow has become steady.
-const STARTS: f64 = 3.0;
+const STARTS: f64 = 10.0;
 /// How many grains are counted at each hole, in two halves, by Beverloo's law.
 const COUNTED: f64 = 1500.0;
 /// For how long they are counted at least.

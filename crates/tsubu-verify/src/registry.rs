@@ -127,7 +127,7 @@ pub static CASES: &[Case] = &[
     case("pushed-plate", "cl-ca-2001", 30, "a plate pushed into a bed", cl_ca_2001::plate),
     case("cl-ca-invariants", "cl-ca-2001", 2, "what holds after every step", cl_ca_2001::invariants),
     case("turning", "cl-ca-2001", 12, "the collapse of triangles that may turn", cl_ca_2001::turning),
-    gap(case("plate-twin", "cl-ca-2001", 240, "the network of the plate beside forces of DEM", cl_ca_2001::plate_twin)),
+    gap(case("plate-twin", "cl-ca-2001", 480, "the network of the plate beside forces of DEM", cl_ca_2001::plate_twin)),
     gap(case(
         "collapse-twin",
         "cl-ca-2001",
@@ -143,11 +143,11 @@ pub static CASES: &[Case] = &[
     },
     Case {
         kept: Some(|folder| common_test::heap(1.0, Some(folder))),
-        ..gap(case("common-heap", "common-test", 300, "a heap grows, by every model", |s| common_test::heap(s, None)))
+        ..case("common-heap", "common-test", 900, "a heap grows, by every model", |s| common_test::heap(s, None))
     },
     Case {
         kept: Some(|folder| common_test::shaken(1.0, Some(folder))),
-        ..gap(case("common-shaken", "common-test", 60, "two sizes are shaken, by every model", |s| {
+        ..gap(case("common-shaken", "common-test", 300, "two sizes are shaken, by every model", |s| {
             common_test::shaken(s, None)
         }))
     },
@@ -197,7 +197,7 @@ pub static CASES: &[Case] = &[
     gap(case("drum-regimes", "dem-benchmarks", 300, "rolling, cascading, cataracting", drum_regimes::regimes)),
     case("rheology", "dem-benchmarks", 1800, "friction against inertial number", rheology::friction),
     gap(case("plane-shear", "gdr-midi-2004", 600, "plane shear under a constant pressure", gdr_midi_2004::plane_shear)),
-    gap(case("vertical-chute", "gdr-midi-2004", 600, "down between two rough walls", gdr_midi_2004::vertical_chute)),
+    case("vertical-chute", "gdr-midi-2004", 600, "down between two rough walls", gdr_midi_2004::vertical_chute),
     gap(case("apparent-mass", "masmoudi-2016", 300, "a measured particle damper", apparent_mass::measured)),
     gap(case("beverloo", "dem-benchmarks", 1800, "discharge through a slot, in the plane", outlet::beverloo)),
     gap(case("beverloo-3d", "dem-benchmarks", 4800, "discharge through a round hole", orifice::beverloo)),
@@ -224,7 +224,7 @@ pub static CASES: &[Case] = &[
     gap(case(
         "mobile-bed",
         "sediment-2004",
-        150,
+        300,
         "a mobile bed, rotation locked and free (figure 22)",
         sediment_2004::mobile_bed,
     )),

@@ -127,7 +127,7 @@ fn chains(discs: &Network) -> Vec<Claim> {
 
 /// C-x4 beside DEM: the forces of a bed of discs into which the same plate has been pushed as far.
 pub(in super::super) fn plate_twin(perturbation: f64) -> Judged {
-    ensemble::drawn("plate in discs", 1..=5, |seed| {
+    ensemble::drawn("plate in discs", 1..=15, |seed| {
         let drawn = format!("seed={seed}");
         let pressed = perturbation == 1.0;
         let mut hexagons = bed("cl-ca", pressed, std::slice::from_ref(&drawn))?;

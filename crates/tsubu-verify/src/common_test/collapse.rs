@@ -20,6 +20,7 @@ pub(super) const TEST: Test = Test {
     name: "collapse",
     title: "collapse",
     scene: include_str!("../../../../studies/common-test/collapse.toml"),
+    draws: 5,
     more: "",
     controls: "stays=cl-ca:walls.right.until=100",
     spoil: |plan| {

@@ -19,6 +19,7 @@ pub(super) const TEST: Test = Test {
     name: "hopper",
     title: "silo, 40 % out",
     scene: include_str!("../../../../studies/common-test/hopper.toml"),
+    draws: 5,
     more: "",
     controls: "",
     spoil: |plan| {

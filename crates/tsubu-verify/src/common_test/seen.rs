@@ -4,7 +4,6 @@ use super::super::bench::Rig;
 use super::super::ensemble;
 use crate::case::Judged;
 use glam::DVec3;
-use std::ops::RangeInclusive;
 use std::path::Path;
 use std::time::Instant;
 use tsubu::study::compare::{self, Refused};
@@ -22,6 +21,8 @@ pub(super) struct Test {
     /// One line for the figure.
     pub title: &'static str,
     pub scene: &'static str,
+    /// How often it is drawn; pictures and tables are of the first draw.
+    pub draws: u64,
     /// Variants that run this test alone; empty for none.
     pub more: &'static str,
     /// Variants that must not show the effect; empty for none.
@@ -143,14 +144,11 @@ impl Measured {
     }
 }
 
-/// Draws of each test; pictures and tables are of the first.
-const SEEDS: RangeInclusive<u64> = 1..=5;
-
 /// Runs a test and judges it; into a folder also pictures and tables.
 pub(super) fn judged(test: &Test, perturbation: f64, folder: Option<&RunFolder>) -> Judged {
-    ensemble::drawn(test.name, SEEDS, |seed| {
+    ensemble::drawn(test.name, 1..=test.draws, |seed| {
         let measured = run(test, seed, perturbation)?;
-        if let Some(folder) = folder.filter(|_| seed == *SEEDS.start()) {
+        if let Some(folder) = folder.filter(|_| seed == 1) {
             keep(test, &measured, folder).map_err(|error| error.to_string())?;
         }
         Ok((test.judge)(&measured))

@@ -23,6 +23,7 @@ pub(super) const TEST: Test = Test {
     name: "shaken",
     title: "shaken box, 40 periods",
     scene: include_str!("../../../../studies/common-test/shaken.toml"),
+    draws: 15,
     // CL-CA also in its own way: the box stands, and gravity points up for 20 steps of the 70 that a period has.
     more: concat!("switched=cl-ca:", switched!()),
     controls: concat!(

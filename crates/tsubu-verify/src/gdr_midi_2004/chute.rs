@@ -14,7 +14,7 @@ const LAYERS: f64 = 20.0;
 /// Weight of half the discs over the force on a wall: friction there, where the flow is steady.
 const AT_WALLS: f64 = 0.42;
 /// Draws.
-const SEEDS: RangeInclusive<u64> = 1..=6;
+const SEEDS: RangeInclusive<u64> = 1..=12;
 /// When the flow has become steady, and until when it is looked at.
 const SPAN: [f64; 2] = [250.0, 450.0];
 /// Before that.

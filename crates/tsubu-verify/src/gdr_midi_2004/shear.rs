@@ -17,7 +17,7 @@ const EDGE: f64 = 3.0;
 /// Inertial numbers that the speeds of the plate are chosen for.
 const INERTIAL: [f64; 3] = [0.05, 0.1, 0.2];
 /// Draws of each.
-const SEEDS: RangeInclusive<u64> = 1..=4;
+const SEEDS: RangeInclusive<u64> = 1..=24;
 /// When the lid has come down.
 const PRESSED: f64 = 70.0;
 

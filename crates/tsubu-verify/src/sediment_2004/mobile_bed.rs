@@ -49,7 +49,7 @@ fn bed(slope: f64, rotation: bool, seed: u64, perturbation: f64) -> Result<Bed, 
 
 /// B-F22: the slope at which the bed begins to move, locked and free, and how rows of locked grains move above it.
 pub(in super::super) fn mobile_bed(perturbation: f64) -> Judged {
-    ensemble::drawn("beds", 1..=5, |seed| {
+    ensemble::drawn("beds", 1..=15, |seed| {
         let source = own("grains that do not turn cannot climb over one another (Osada 2004, figure 22)").after();
         let lies = |bed: &Bed, what: &str| {
             let name = format!("mobile bed, {what}: share of grains that move");
