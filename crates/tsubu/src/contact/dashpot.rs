@@ -123,6 +123,7 @@ pub(super) fn damp(
     let ceiling = if attraction { f64::NEG_INFINITY } else { 0.0 };
     let completion = chunk.completion;
     let mut ratios = [0.0; ROWS];
+    let mut near_touch = 0;
     for i in 0..chunk.rows() {
         let coefficient = if chunk.contact_radius[i] > 0.0 { local(chunk, i) } else { 0.0 };
         let (elastic, closing) = (chunk.normal_force[i], chunk.closing[i]);
@@ -134,12 +135,14 @@ pub(super) fn damp(
         let leaving = if attraction { 2.0 * share * total - rate } else { 0.0 };
         let disc = chunk.contact_radius[i] * chunk.contact_radius[i];
         ratios[i] = most(closing, leaving) * completion * chunk.effective_radius[i] / most(disc, f64::MIN_POSITIVE);
+        near_touch += u64::from(ratios[i] > 0.5);
         chunk.damping_coefficient[i] = coefficient;
         chunk.normal_force[i] = total;
         chunk.damping_force[i] = total - elastic;
     }
-    // Rows within a step of touch are few: they come after the others, one by one.
-    for (i, ratio) in ratios.iter().enumerate().take(chunk.rows()).filter(|(_, ratio)| **ratio > 0.5) {
+    // Rows within a step of touch are few, in most chunks none: they come after the others, one by one.
+    let rows = if near_touch > 0 { chunk.rows() } else { 0 };
+    for (i, ratio) in ratios.iter().enumerate().take(rows).filter(|(_, ratio)| **ratio > 0.5) {
         let elastic = chunk.normal_force[i] - chunk.damping_force[i];
         let ratio = least(*ratio, 1e12);
         let share = completion / chunk.effective_mass[i];

@@ -84,7 +84,8 @@ impl ContactBatch {
     pub fn constants(&mut self, table: &Table) {
         let n = self.chunk.rows();
         let Some(&first) = self.material_pair[..n].first() else { return };
-        if self.material_pair[..n].iter().all(|&m| m == first) {
+        // To look at all of them is faster than to stop at the first that differs.
+        if self.material_pair[..n].iter().fold(0, |others, &m| others | (m ^ first)) == 0 {
             if self.filled_with != Some(first) {
                 self.chunk.set_constants(0..ROWS, table.constants(first));
                 self.filled_with = Some(first);

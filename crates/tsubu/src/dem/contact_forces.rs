@@ -16,7 +16,7 @@ pub(super) use sums::{ContactLosses, ContactSums};
 use super::bodies::Bodies;
 use super::bonds::Bonds;
 use super::contact_batch::{self, ContactBatch};
-use super::contact_history::{ContactHistory, FRESH, WallKey};
+use super::contact_history::{ContactHistory, FRESH, HistoryColumns, WallKey};
 use super::features::PairFeatures;
 use super::immersion::{BlockImmersion, WaterAtTime};
 use super::narrow_phase::{Spheres, TouchingPairs};
@@ -166,9 +166,9 @@ pub(super) struct ContactForces {
 struct Scratch {
     /// Of each law: what no part of a law writes stays zero in its chunk.
     batches: Vec<ContactBatch>,
-    /// What the contacts of the block will remember, of each law.
-    next: Vec<ContactHistory>,
-    /// Contact of the last step that each row goes on from.
+    /// What contacts with walls remember from the last step.
+    wall_history: HistoryColumns<WallKey>,
+    /// Of them, which one each row of a chunk goes on from.
     old: [u32; ROWS],
     /// Keys of wall rows.
     keys: Vec<WallKey>,
@@ -186,7 +186,7 @@ impl Scratch {
     fn new(laws: &[Law]) -> Self {
         Self {
             batches: laws.iter().map(|law| ContactBatch::new(law.width())).collect(),
-            next: laws.iter().map(|law| ContactHistory::new(law.width())).collect(),
+            wall_history: HistoryColumns::default(),
             old: [FRESH; ROWS],
             keys: Vec::with_capacity(ROWS),
             spheres: Spheres::default(),
@@ -197,13 +197,6 @@ impl Scratch {
             elements: Vec::with_capacity(64),
             went_on: Vec::with_capacity(64),
             parcel: Parcel::default(),
-        }
-    }
-
-    /// Makes room for what the contacts of the next block will remember.
-    fn forget(&mut self, laws: &[Law]) {
-        for (next, law) in self.next.iter_mut().zip(laws) {
-            next.clear(law.width());
         }
     }
 }
@@ -314,8 +307,6 @@ impl BlockContacts {
         features::evaluate(input, list, history, scratch, sums, |batch| pairs::scatter(batch, loads, rotation));
         walls::evaluate(input, list, history, scratch, sums, |batch| walls::scatter(input, list, batch, loads, walls));
         std::mem::swap(near, &mut scratch.features.near);
-        history.iter_mut().zip(&scratch.next).for_each(|(history, next)| history.keep(next));
-        scratch.forget(input.laws.all());
         // The grains are in the cache now.
         if let Some(water) = &input.water {
             water.apply_forces((input.grains, input.bodies), list.first, loads, immersion, &mut scratch.parcel);

@@ -142,12 +142,12 @@ impl PairFeatures {
         &self.of_law[range]
     }
 
-    fn rows(&self, range: Range<usize>) -> impl Iterator<Item = &Contact> {
+    fn rows(&self, range: Range<usize>) -> impl ExactSizeIterator<Item = &Contact> + Clone {
         self.rows[range].iter().map(|row| &self.contacts[*row as usize])
     }
 
     /// What their histories go by.
-    pub fn keys(&self, range: Range<usize>) -> impl Iterator<Item = FeatureKey> {
+    pub fn keys(&self, range: Range<usize>) -> impl ExactSizeIterator<Item = FeatureKey> + Clone {
         let pairs = self.of_law[range.clone()].iter();
         pairs.zip(self.rows(range)).map(|(pair, row)| FeatureKey { pair: pair.pair, feature: row.feature })
     }

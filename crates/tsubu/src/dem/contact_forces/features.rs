@@ -10,7 +10,7 @@ use crate::neighbours::block::BlockList;
 pub(super) fn evaluate(
     input: &ForceInput,
     list: &BlockList,
-    history: &[ContactHistory],
+    history: &mut [ContactHistory],
     scratch: &mut Scratch,
     sums: &mut ContactSums,
     mut visit: impl FnMut(&ContactBatch),
@@ -19,11 +19,9 @@ pub(super) fn evaluate(
         return;
     }
     let ForceInput { grains, laws, .. } = *input;
-    let Scratch { spheres, features, batches, old, next, .. } = scratch;
-    for (number, (law, ((history, next), batch))) in
-        laws.all().iter().zip(history.iter().zip(next).zip(batches)).enumerate()
-    {
-        let (history, next, remembers) = (&history.features, &mut next.features, law.width() > 0);
+    let Scratch { spheres, features, batches, .. } = scratch;
+    for (number, (law, (history, batch))) in laws.all().iter().zip(history.iter_mut().zip(batches)).enumerate() {
+        let (history, remembers) = (&mut history.features, law.width() > 0);
         let mut walk = Walk::default();
         let count = features.under(number, input, list);
         for start in (0..count).step_by(ROWS) {
@@ -34,19 +32,17 @@ pub(super) fn evaluate(
             features.lie_back(batch);
             features.show_mass(batch, input, list);
             if remembers {
-                history.follow(features.keys(range.clone()), old, &mut walk, law);
-                history.gather(&old[..range.len()], &mut batch.chunk.history);
+                history.recall(features.keys(range.clone()), &mut walk, law, &mut batch.chunk.history);
             }
             apply_law(input, number, batch, sums);
             features.push_less(batch);
             if remembers {
-                next.keys.extend(features.keys(range.clone()));
-                next.append(range.len(), &batch.chunk.history);
+                history.remember(features.keys(range), &mut walk, &batch.chunk.history);
             }
             visit(batch);
         }
         if remembers {
-            history.open(&mut walk, law, |_| true);
+            history.end(&mut walk, law);
             sums.lost.sliding += power(walk.released, input.dt);
         }
     }

@@ -38,9 +38,9 @@ pub(in crate::dem) fn each_contact(
         };
         let mut sums = ContactSums::default();
         scratch.features.near.forget(list.pairs.len());
-        pairs::evaluate(&input, list, &block.history, &mut scratch, &mut sums, |batch| take(batch, false));
-        features::evaluate(&input, list, &block.history, &mut scratch, &mut sums, |batch| take(batch, false));
-        walls::evaluate(&input, list, &block.history, &mut scratch, &mut sums, |batch| take(batch, true));
-        scratch.forget(input.laws.all());
+        let mut history = block.history.clone();
+        pairs::evaluate(&input, list, &mut history, &mut scratch, &mut sums, |batch| take(batch, false));
+        features::evaluate(&input, list, &mut history, &mut scratch, &mut sums, |batch| take(batch, false));
+        walls::evaluate(&input, list, &mut history, &mut scratch, &mut sums, |batch| take(batch, true));
     }
 }

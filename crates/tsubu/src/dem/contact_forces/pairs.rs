@@ -11,13 +11,13 @@ use crate::neighbours::block::BlockList;
 pub(super) fn evaluate(
     input: &ForceInput,
     list: &BlockList,
-    history: &[ContactHistory],
+    history: &mut [ContactHistory],
     scratch: &mut Scratch,
     sums: &mut ContactSums,
     mut visit: impl FnMut(&ContactBatch),
 ) {
     let ForceInput { grains, laws, .. } = *input;
-    let Scratch { spheres, touching_pairs, shapes, features, batches, old, next, .. } = scratch;
+    let Scratch { spheres, touching_pairs, shapes, features, batches, .. } = scratch;
     spheres.load(grains, list, &input.neighbours.shifts);
     touching_pairs.find(list, spheres, laws.reach());
     features.take(touching_pairs, input, list, spheres);
@@ -26,31 +26,27 @@ pub(super) fn evaluate(
         touching_pairs.group_by_law(grains, list, spheres, &laws.table, &laws.reaches);
         shapes.part(touching_pairs, &laws.reaches);
     }
-    for (number, (law, ((history, next), batch))) in
-        laws.all().iter().zip(history.iter().zip(next).zip(batches)).enumerate()
-    {
-        let width = law.width();
+    for (number, (law, (history, batch))) in laws.all().iter().zip(history.iter_mut().zip(batches)).enumerate() {
+        let (history, remembers) = (&mut history.pairs, law.width() > 0);
         let mut walk = Walk::default();
         for touching in touching_pairs.under(number).chunks(ROWS) {
             batch.gather(touching, grains, list, spheres, &laws.table, laws.rotation);
             shapes.gather(batch, touching);
             batch.sphere_geometry(laws.rotation, laws.lever_share);
             shapes.show_mass(input.bodies, batch, list);
-            if width > 0 {
-                let pairs = touching.iter().map(|touching| touching.pair);
-                history.pairs.follow(pairs, old, &mut walk, law);
-                history.pairs.gather(&old[..touching.len()], &mut batch.chunk.history);
+            let keys = touching.iter().map(|touching| touching.pair);
+            if remembers {
+                history.recall(keys.clone(), &mut walk, law, &mut batch.chunk.history);
             }
             apply_law(input, number, batch, sums);
             shapes.round(batch, law);
-            if width > 0 {
-                next.pairs.keys.extend(touching.iter().map(|touching| touching.pair));
-                next.pairs.append(touching.len(), &batch.chunk.history);
+            if remembers {
+                history.remember(keys, &mut walk, &batch.chunk.history);
             }
             visit(batch);
         }
-        if width > 0 {
-            history.pairs.open(&mut walk, law, |_| true);
+        if remembers {
+            history.end(&mut walk, law);
             sums.lost.sliding += power(walk.released, input.dt);
         }
     }

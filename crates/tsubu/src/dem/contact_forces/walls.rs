@@ -13,13 +13,13 @@ use crate::wall::Wall;
 pub(super) fn evaluate(
     input: &ForceInput,
     list: &BlockList,
-    history: &[ContactHistory],
+    history: &mut [ContactHistory],
     scratch: &mut Scratch,
     sums: &mut ContactSums,
     mut visit: impl FnMut(&ContactBatch),
 ) {
-    for (law, history) in history.iter().enumerate() {
-        evaluate_law(input, law, list, history, scratch, sums, &mut visit);
+    for (law, history) in history.iter_mut().enumerate() {
+        evaluate_law(input, law, list, &mut history.walls, scratch, sums, &mut visit);
     }
 }
 
@@ -28,7 +28,7 @@ fn evaluate_law(
     input: &ForceInput,
     number: usize,
     list: &BlockList,
-    history: &ContactHistory,
+    history: &mut HistoryColumns<WallKey>,
     scratch: &mut Scratch,
     sums: &mut ContactSums,
     visit: &mut impl FnMut(&ContactBatch),
@@ -38,9 +38,16 @@ fn evaluate_law(
     let several = input.laws.reaches.len() > 1;
     let remembers = law.width() > 0;
     let shaped = input.bodies.shaped() || input.bodies.faceted();
+    if list.walls.is_empty() && history.keys.is_empty() {
+        return;
+    }
     let mut walk = Walk::default();
     scratch.batches[number].chunk.len = 0;
     scratch.keys.clear();
+    // Contacts with walls are few, and not read in the order in which they are written.
+    let mut before = std::mem::take(&mut scratch.wall_history);
+    before.keep(history);
+    history.clear(law.width());
     // NeighbourLists of one grain on one wall are looked at together: on a mesh some touch only as the edge of another.
     for near in list.walls.chunk_by(|a, b| (a.own, a.wall) == (b.own, b.wall)) {
         let (own, k) = (near[0].own, near[0].wall);
@@ -56,13 +63,13 @@ fn evaluate_law(
         let reach = input.laws.reaches[number];
         wall_shapes.find(input, list, (own, k), elements, reach);
         if remembers {
-            let before = WallKey { own, wall: k, patch: 0 };
-            history.walls.open(&mut walk, law, |key| *key < before);
-            let old = history.walls.pass(&mut walk, |key| (key.own, key.wall) == (own, k));
-            match_up(wall, &history.walls.keys, &old, (&wall_shapes.found, shaped), &mut scratch.went_on);
+            let first = WallKey { own, wall: k, patch: 0 };
+            before.open(&mut walk, law, |key| *key < first);
+            let old = before.pass(&mut walk, |key| (key.own, key.wall) == (own, k));
+            match_up(wall, &before.keys, &old, (&wall_shapes.found, shaped), &mut scratch.went_on);
             let went_on = &scratch.went_on;
             let ended = old.filter(|c| !went_on.contains(&slot(*c)));
-            walk.released += ended.map(|c| history.walls.stored_energy(c..c + 1, law)).sum::<f64>();
+            walk.released += ended.map(|c| before.stored_energy(c..c + 1, law)).sum::<f64>();
         }
         for t in 0..scratch.wall_shapes.found.len() {
             let shape = scratch.wall_shapes.found[t];
@@ -92,15 +99,16 @@ fn evaluate_law(
             Chunk::set(&mut batch.spin[1], r, wall.pose.spin);
             batch.chunk.len = r + 1;
             if r + 1 == ROWS {
-                finish(input, number, list, history, scratch, sums, visit);
+                finish(input, number, list, (&before, history), scratch, sums, visit);
             }
         }
     }
-    finish(input, number, list, history, scratch, sums, visit);
+    finish(input, number, list, (&before, history), scratch, sums, visit);
     if remembers {
-        history.walls.open(&mut walk, law, |_| true);
+        before.open(&mut walk, law, |_| true);
         sums.lost.sliding += power(walk.released, input.dt);
     }
+    scratch.wall_history = before;
 }
 
 /// For every place where a grain touches a wall, which of its `old` contacts with that wall goes on there. What has rolled
@@ -139,26 +147,25 @@ fn finish(
     input: &ForceInput,
     number: usize,
     list: &BlockList,
-    history: &ContactHistory,
+    (before, history): (&HistoryColumns<WallKey>, &mut HistoryColumns<WallKey>),
     scratch: &mut Scratch,
     sums: &mut ContactSums,
     visit: &mut impl FnMut(&ContactBatch),
 ) {
-    let Scratch { batches, next, old, keys, wall_shapes, .. } = scratch;
-    let (batch, next) = (&mut batches[number], &mut next[number]);
+    let Scratch { batches, old, keys, wall_shapes, .. } = scratch;
+    let batch = &mut batches[number];
     let remembers = input.laws.all()[number].width() > 0;
     let n = batch.chunk.rows();
     batch.relative_motion(input.laws.rotation);
     wall_shapes.lie_back(batch);
     input.bodies.show_mass(batch, list, true, |_| true);
     if remembers {
-        history.walls.gather(&old[..n], &mut batch.chunk.history);
+        before.gather(&old[..n], &mut batch.chunk.history);
     }
     apply_law(input, number, batch, sums);
     wall_shapes.round(batch, &input.laws.all()[number]);
     if remembers {
-        next.walls.keys.extend_from_slice(keys);
-        next.walls.append(n, &batch.chunk.history);
+        history.append(keys, &batch.chunk.history);
     }
     visit(batch);
     keys.clear();
