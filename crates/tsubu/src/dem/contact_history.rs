@@ -107,18 +107,6 @@ impl<K> HistoryColumns<K> {
             }
         }
     }
-
-    /// Adds contacts with the histories of the first rows of a chunk.
-    pub fn append(&mut self, keys: &[K], columns: &[Column])
-    where
-        K: Copy,
-    {
-        self.reserve(self.keys.len() + keys.len());
-        self.keys.extend_from_slice(keys);
-        for (to, from) in self.columns.iter_mut().zip(columns) {
-            to.extend_from_slice(&from[..keys.len()]);
-        }
-    }
 }
 
 /// How far a step has come through the contacts of the last one.
@@ -144,7 +132,7 @@ impl<K: Ord + Copy + Default> HistoryColumns<K> {
         law: &Law,
         columns: &mut [Column],
     ) {
-        let rows = keys.len().min(ROWS);
+        let rows = keys.len();
         // Most often all go on as they were. To look at all of them is faster than to stop at the first that differs.
         let before = self.keys.get(walk.at..walk.at + rows).unwrap_or_default();
         let same = before.iter().zip(keys.clone()).fold(0, |same, (before, key)| same + usize::from(*before == key));
@@ -167,7 +155,7 @@ impl<K: Ord + Copy + Default> HistoryColumns<K> {
         self.gather(&old[..rows], columns);
     }
 
-    /// Puts what the rows of a chunk remember from now on into the place of what has been read.
+    /// Puts what the rows of a chunk remember from now on into the place of what has been read, or behind it where all has.
     pub fn remember(&mut self, keys: impl ExactSizeIterator<Item = K>, walk: &mut Walk, columns: &[Column]) {
         let (begin, end) = (walk.written, walk.written + keys.len());
         if end > walk.at {

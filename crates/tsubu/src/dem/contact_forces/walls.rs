@@ -48,6 +48,7 @@ fn evaluate_law(
     let mut before = std::mem::take(&mut scratch.wall_history);
     before.keep(history);
     history.clear(law.width());
+    let mut written = Walk::default();
     // NeighbourLists of one grain on one wall are looked at together: on a mesh some touch only as the edge of another.
     for near in list.walls.chunk_by(|a, b| (a.own, a.wall) == (b.own, b.wall)) {
         let (own, k) = (near[0].own, near[0].wall);
@@ -99,11 +100,11 @@ fn evaluate_law(
             Chunk::set(&mut batch.spin[1], r, wall.pose.spin);
             batch.chunk.len = r + 1;
             if r + 1 == ROWS {
-                finish(input, number, list, (&before, history), scratch, sums, visit);
+                finish(input, number, list, (&before, history, &mut written), scratch, sums, visit);
             }
         }
     }
-    finish(input, number, list, (&before, history), scratch, sums, visit);
+    finish(input, number, list, (&before, history, &mut written), scratch, sums, visit);
     if remembers {
         before.open(&mut walk, law, |_| true);
         sums.lost.sliding += power(walk.released, input.dt);
@@ -147,7 +148,7 @@ fn finish(
     input: &ForceInput,
     number: usize,
     list: &BlockList,
-    (before, history): (&HistoryColumns<WallKey>, &mut HistoryColumns<WallKey>),
+    (before, history, written): (&HistoryColumns<WallKey>, &mut HistoryColumns<WallKey>, &mut Walk),
     scratch: &mut Scratch,
     sums: &mut ContactSums,
     visit: &mut impl FnMut(&ContactBatch),
@@ -165,7 +166,7 @@ fn finish(
     apply_law(input, number, batch, sums);
     wall_shapes.round(batch, &input.laws.all()[number]);
     if remembers {
-        history.append(keys, &batch.chunk.history);
+        history.remember(keys.iter().copied(), written, &batch.chunk.history);
     }
     visit(batch);
     keys.clear();
