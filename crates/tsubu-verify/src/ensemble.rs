@@ -38,6 +38,14 @@ pub(super) fn drawn(of: &str, seeds: RangeInclusive<u64>, run: impl Fn(u64) -> J
     })?;
     // Values alone are kept of a run that was done before.
     let first = first.into_inner().map_or_else(|| run(seeds[0]), Ok)?;
+    if let Some(odd) = found.iter().position(|values| values.len() != first.len()) {
+        return Err(format!(
+            "draw {} of {of} makes {} claims, the first {}",
+            seeds[odd],
+            found[odd].len(),
+            first.len()
+        ));
+    }
     Ok(of_draws(first, &seeds, &found))
 }
 
@@ -105,6 +113,16 @@ mod tests {
         assert!(claims[1].ensemble.is_none() && claims[1].pass);
         assert!(claims[2].ensemble.is_none() && !claims[2].pass && claims[2].value == 0.0);
         assert!(drawn("case", 1..=1, case).expect("claims").iter().all(|claim| claim.ensemble.is_none()));
+    }
+
+    /// A silo that jams in one draw of fifteen made a claim less there, and the program stopped with a message of its own language.
+    #[test]
+    fn draws_that_make_other_claims_are_told() {
+        let case = |seed: u64| {
+            let claim = |seed: u64| Claim::judge("n", seed as f64, None, None, Source::new(Origin::Own, ""));
+            Ok((0..if seed == 8 { 1 } else { 2 }).map(|_| claim(seed)).collect())
+        };
+        assert_eq!(drawn("silo", 7..=9, case).err().as_deref(), Some("draw 8 of silo makes 1 claims, the first 2"));
     }
 
     #[test]

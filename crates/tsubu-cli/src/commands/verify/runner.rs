@@ -202,8 +202,7 @@ fn outcome(case: &Case, how: &How, hear: Arc<dyn Fn() + Send + Sync>) -> Outcome
 
 /// What is said of an interrupted verification; `untold` are the claims of cases that were done before others ahead of them.
 fn so_far(done: usize, all: usize, untold: &str, hint: &str) -> String {
-    let told = if done == 0 { "" } else { "; their claims were told" };
-    let mut text = format!(": {done} of {all} cases were done{told}");
+    let mut text = format!(": {done} of {all} cases were done");
     if !untold.is_empty() {
         text = format!("{text}, the last of them here:\n{}", untold.trim_end());
     }
