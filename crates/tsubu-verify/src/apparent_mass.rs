@@ -26,7 +26,7 @@ const LOOKS: u32 = 40;
 const AT_REST: f64 = 0.5;
 const LEVELS: [f64; 6] = [1.5, 2.2, 3.3, 5.0, 8.0, 12.0];
 /// Draws.
-const SEEDS: RangeInclusive<u64> = 1..=5;
+const SEEDS: RangeInclusive<u64> = 1..=15;
 
 /// Beads in a high box that a sine shakes up and down.
 fn shaken(level: f64, restitution: f64, gravity: f64, seed: u64, perturbation: f64) -> Result<Rig, String> {

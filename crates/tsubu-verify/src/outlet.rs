@@ -23,7 +23,7 @@ const SPANS: usize = 6;
 const SLOTS: [(f64, u32); 5] = [(6.0, 2), (8.0, 1), (10.0, 1), (14.0, 1), (20.0, 1)];
 
 /// Draws of all silos.
-const DRAWS: RangeInclusive<u64> = 1..=5;
+const DRAWS: RangeInclusive<u64> = 1..=15;
 
 /// Seeds of so many silos of a draw.
 fn seeds(draw: u64, silos: u32) -> impl Iterator<Item = u64> {

@@ -241,7 +241,7 @@ const HEAPS: u64 = 5;
 
 /// R-5, point 5: the automaton beside DEM.
 pub(super) fn twin(perturbation: f64) -> Judged {
-    ensemble::drawn("heaps", 0..=9, |set| {
+    ensemble::drawn("heaps", 0..=29, |set| {
         let tangent = 0.5 * DISC[1] / (DISC[0] * DISC[0] - 0.25 * DISC[1] * DISC[1]).sqrt();
         let mut claims = flat("the same pile by DEM", &same(0.0)?, tangent);
         claims.push(refused("discs that rub", &flat("", &same(0.5)?, tangent), 2));

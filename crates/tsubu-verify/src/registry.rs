@@ -108,7 +108,13 @@ pub static CASES: &[Case] = &[
     gap(case("saltation-softest", "sediment-2004", 20, "the softest contacts (figure 6)", sediment_2004::softest)),
     case("saltation-spin", "sediment-2004", 120, "the same with spin (figures 20 and 21)", sediment_2004::spinning),
     case("saltation-space", "sediment-2004", 30, "leaping grains in space", sediment_2004::saltation_space),
-    gap(case("dam-break-space", "sediment-2004", 500, "a dam break in space: run-out", sediment_2004::dam_break_space)),
+    gap(case(
+        "dam-break-space",
+        "sediment-2004",
+        1000,
+        "a dam break in space: run-out",
+        sediment_2004::dam_break_space,
+    )),
     case("fhp-collisions", "lattice-review", 1, "what collisions make of a stress", lattice_review::collisions),
     case("fhp-viscosity", "lattice-review", 10, "viscosity of the lattice gases FHP", lattice_review::viscosity),
     case("fhp-sound", "lattice-review", 6, "speed of sound of the lattice gases", lattice_review::sound),
@@ -137,7 +143,7 @@ pub static CASES: &[Case] = &[
     )),
     Case {
         kept: Some(|folder| common_test::hopper(1.0, Some(folder))),
-        ..gap(case("common-hopper", "common-test", 120, "a silo runs out, by every model", |s| {
+        ..gap(case("common-hopper", "common-test", 2400, "a silo runs out, by every model", |s| {
             common_test::hopper(s, None)
         }))
     },
@@ -160,7 +166,7 @@ pub static CASES: &[Case] = &[
     gap(case(
         "common-shapes",
         "common-test",
-        200,
+        2400,
         "beds of hexagons and rods lose a wall, by CL-CA and DEM",
         common_test::shapes,
     )),
@@ -170,7 +176,7 @@ pub static CASES: &[Case] = &[
     case("gutt-haff", "lattice-review", 1, "free fall, rebounds, momentum", lattice_grain::drop),
     case("gutt-haff-silo", "lattice-review", 20, "load on the floor of a silo", lattice_grain::janssen),
     case("hemmingsson-herrmann", "lattice-review", 1, "forces in a pile, row by row", pile_stress::pile),
-    gap(case("pile-twin", "lattice-review", 400, "forces of a pile beside those of DEM", pile_twin::twin)),
+    gap(case("pile-twin", "lattice-review", 2400, "forces of a pile beside those of DEM", pile_twin::twin)),
     case("pipe-limit", "lattice-review", 1, "grains that lose no energy are FHP-II", lattice_review::pipe_limit),
     case("pipe-waves", "lattice-review", 25, "when density waves run through a pipe", lattice_review::pipe_waves),
     case("hopper-order", "lattice-review", 20, "elongated grains line up in a hopper", lattice_review::hopper_order),
@@ -198,8 +204,8 @@ pub static CASES: &[Case] = &[
     case("rheology", "dem-benchmarks", 1800, "friction against inertial number", rheology::friction),
     gap(case("plane-shear", "gdr-midi-2004", 600, "plane shear under a constant pressure", gdr_midi_2004::plane_shear)),
     case("vertical-chute", "gdr-midi-2004", 600, "down between two rough walls", gdr_midi_2004::vertical_chute),
-    gap(case("apparent-mass", "masmoudi-2016", 300, "a measured particle damper", apparent_mass::measured)),
-    gap(case("beverloo", "dem-benchmarks", 1800, "discharge through a slot, in the plane", outlet::beverloo)),
+    gap(case("apparent-mass", "masmoudi-2016", 900, "a measured particle damper", apparent_mass::measured)),
+    case("beverloo", "dem-benchmarks", 2400, "discharge through a slot, in the plane", outlet::beverloo),
     gap(case("beverloo-3d", "dem-benchmarks", 4800, "discharge through a round hole", orifice::beverloo)),
     gap(case("janssen", "dem-benchmarks", 1800, "pressure in a silo, in the plane", silo::janssen)),
     gap(case("chute", "dem-benchmarks", 1800, "flow down a rough slope", chute::bagnold)),

@@ -20,7 +20,7 @@ const STILL: f64 = 0.44;
 /// The end [s].
 const END: f64 = 0.9;
 /// Draws of places and of how grains are turned at first.
-const SEEDS: u64 = 6;
+const SEEDS: u64 = 18;
 
 /// Changes of the scene that make a bed of one shape.
 const HEXAGONS: [&str; 1] = ["particles.hexagons.count=100"];
