@@ -292,7 +292,7 @@ const REASONS: &[(&str, &str, &str)] = &[
     (
         "pile-twin",
         "",
-        "fifty heaps of discs poured from a point make no dip for the arching to explain, and small discs between large ones carry next to nothing, which a lattice of equal grains cannot show",
+        "150 heaps of discs poured from a point make no dip for the arching to explain, and small discs between large ones carry next to nothing, which a lattice of equal grains cannot show",
     ),
     (
         "fhp-viscosity-plain",
