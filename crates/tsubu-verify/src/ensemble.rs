@@ -38,21 +38,16 @@ pub(super) fn drawn(of: &str, seeds: RangeInclusive<u64>, run: impl Fn(u64) -> J
     })?;
     // Values alone are kept of a run that was done before.
     let first = first.into_inner().map_or_else(|| run(seeds[0]), Ok)?;
-    if let Some(odd) = found.iter().position(|values| values.len() != first.len()) {
-        return Err(format!(
-            "draw {} of {of} makes {} claims, the first {}",
-            seeds[odd],
-            found[odd].len(),
-            first.len()
-        ));
-    }
-    Ok(of_draws(first, &seeds, &found))
+    of_draws(first, &seeds, &found)
 }
 
-/// The claims of the first draw as those of all, by the values that each draw found.
-pub(super) fn of_draws(first: Vec<Claim>, seeds: &[u64], values: &[Vec<f64>]) -> Vec<Claim> {
+/// The claims of the first draw as those of all, by the values that each draw found: all make the same claims.
+pub(super) fn of_draws(first: Vec<Claim>, seeds: &[u64], values: &[Vec<f64>]) -> Judged {
+    if let Some((seed, odd)) = seeds.iter().zip(values).find(|(_, values)| values.len() != first.len()) {
+        return Err(format!("draw {seed} makes {} claims, the first {}", odd.len(), first.len()));
+    }
     let of_claim = |i: usize| values.iter().map(|values| values[i]).collect();
-    first.into_iter().enumerate().map(|(i, claim)| of_all(claim, seeds, of_claim(i))).collect()
+    Ok(first.into_iter().enumerate().map(|(i, claim)| of_all(claim, seeds, of_claim(i))).collect())
 }
 
 /// The claim of the first draw as one of all draws.
@@ -122,7 +117,7 @@ mod tests {
             let claim = |seed: u64| Claim::judge("n", seed as f64, None, None, Source::new(Origin::Own, ""));
             Ok((0..if seed == 8 { 1 } else { 2 }).map(|_| claim(seed)).collect())
         };
-        assert_eq!(drawn("silo", 7..=9, case).err().as_deref(), Some("draw 8 of silo makes 1 claims, the first 2"));
+        assert_eq!(drawn("silo", 7..=9, case).err().as_deref(), Some("draw 8 makes 1 claims, the first 2"));
     }
 
     #[test]

@@ -232,7 +232,7 @@ pub fn stopping(perturbation: f64) -> Judged {
     let values: Vec<Vec<f64>> = all.iter().map(|claims| claims.iter().map(|claim| claim.value).collect()).collect();
     let seeds: Vec<u64> = DRAWS.take(draws.len()).collect();
     let first = all.into_iter().next().ok_or("no draw")?;
-    let mut claims = ensemble::of_draws(first, &seeds, &values);
+    let mut claims = ensemble::of_draws(first, &seeds, &values)?;
     claims.extend(wrong_flows(draws[0].layer())?);
     Ok(claims)
 }
