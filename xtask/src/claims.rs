@@ -27,9 +27,13 @@ pub fn claims(words: &[&str]) -> Result<(), String> {
             (folder, done)
         }
         names => {
+            let named = |case: &Listed, name: &str| [case.name, case.study].contains(&name);
+            if let Some(name) = names.iter().find(|name| !cases.iter().any(|case| named(case, name))) {
+                return Err(format!("no case and no study is named `{name}`: `tsubu verify --list` shows them"));
+            }
             let wanted = |case: &&Listed| match names {
                 [] => case.short,
-                names => names.contains(&case.name) || names.contains(&case.study),
+                names => names.iter().any(|name| named(case, name)),
             };
             let chosen: Vec<&str> = cases.iter().filter(wanted).map(|case| case.name).collect();
             (run(&tsubu, &chosen)?, chosen)

@@ -54,17 +54,6 @@ const REASONS: &[(&str, &str, &str)] = &[
          how far the powers hang on the levels and on the lid that is not there is not known",
     ),
     (
-        "plane-shear",
-        "plane shear, I about 0.2: drag",
-        "the plates are held back alike within 3 %, and a strain of six leaves an interval from 0.94 to 0.99 about the end of the range",
-    ),
-    (
-        "plane-shear",
-        "",
-        "friction rises by 1.49 I where the remembered law has 1.1, from 0.27 at rest: 0.035 to 0.084 above it, in layers of 16 grains between planes; on the \
-         incline the same discs lie 0.01 above it. Plates are held back alike, areas are as they are to be; why it rises faster is not known",
-    ),
-    (
         "dam-break-space",
         "dam break in space: power",
         "of five fillings of each height it is 0.7 to 1.6, for the two heights are near each other: the mean is 1.26 and its interval reaches from 0.8 to 1.7",

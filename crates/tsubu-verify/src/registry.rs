@@ -196,7 +196,7 @@ pub static CASES: &[Case] = &[
     case("pipe-spectrum", "lattice-review", 90, "spectrum of the density in a pipe", lattice_review::pipe_spectrum),
     gap(case("drum-regimes", "dem-benchmarks", 300, "rolling, cascading, cataracting", drum_regimes::regimes)),
     case("rheology", "dem-benchmarks", 1800, "friction against inertial number", rheology::friction),
-    gap(case("plane-shear", "gdr-midi-2004", 600, "plane shear under a constant pressure", gdr_midi_2004::plane_shear)),
+    case("plane-shear", "gdr-midi-2004", 900, "plane shear under a constant pressure", gdr_midi_2004::plane_shear),
     case("vertical-chute", "gdr-midi-2004", 600, "down between two rough walls", gdr_midi_2004::vertical_chute),
     gap(case("apparent-mass", "masmoudi-2016", 900, "a measured particle damper", apparent_mass::measured)),
     case("beverloo", "dem-benchmarks", 2400, "discharge through a slot, in the plane", outlet::beverloo),

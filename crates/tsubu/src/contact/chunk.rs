@@ -57,6 +57,8 @@ pub struct Chunk {
     pub completion: f64,
     /// Whether the bodies turn.
     pub rotation: bool,
+    /// Whether this is a moment and no step: springs are looked at and not stretched.
+    pub moment: bool,
     /// Effective radius R* = 1/(1/R1 + 1/R2) [m].
     pub effective_radius: Column,
     /// Effective mass m* = 1/(1/m1 + 1/m2) [kg].
@@ -128,6 +130,7 @@ impl Chunk {
             twist: ZERO,
             completion: 0.0,
             rotation: true,
+            moment: false,
             effective_radius: ZERO,
             effective_mass: ZERO,
             effective_modulus: ZERO,

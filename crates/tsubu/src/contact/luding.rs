@@ -61,8 +61,7 @@ impl Part for Luding {
     }
 
     fn apply(&self, chunk: &mut Chunk, at: usize, dt: f64) {
-        let rate = if dt > 0.0 { 1.0 / dt } else { 0.0 };
-        chunk.with_history(at, |chunk, history| rows(chunk, history, rate, *self));
+        chunk.with_history(at, |chunk, history| rows(chunk, history, 1.0 / dt, *self));
     }
 
     fn held(&self, history: &[f64]) -> f64 {

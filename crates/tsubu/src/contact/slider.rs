@@ -109,9 +109,10 @@ pub(super) fn slide(
 }
 
 /// How long the bodies of row `i` have touched in a step [s]: all of it, or since their surfaces met, where the spring held nothing
-/// before (`was`, one over its stiffness, is zero).
+/// before (`was`, one over its stiffness, is zero). No time in a moment.
 #[inline(always)]
 pub(super) fn touched(chunk: &Chunk, i: usize, was: f64, dt: f64) -> f64 {
+    let dt = if chunk.moment { 0.0 } else { dt };
     let since = least(most(chunk.overlap[i], 0.0) / most(chunk.closing[i], TINY), dt);
     if was > 0.0 { dt } else { since }
 }

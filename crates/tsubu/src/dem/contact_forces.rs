@@ -100,8 +100,10 @@ pub(super) struct ForceInput<'a> {
     pub walls: &'a [Wall],
     pub neighbours: &'a NeighbourLists,
     pub laws: &'a ContactLaws,
-    /// Time step [s]; with 0 springs and dashpots act, but no tangential spring is stretched.
+    /// Time step [s].
     pub dt: f64,
+    /// Whether this is a moment and no step: see [`Chunk::moment`].
+    pub moment: bool,
     /// See [`Chunk::completion`] [s].
     pub completion: f64,
     pub water: Option<WaterAtTime<'a>>,
@@ -314,9 +316,9 @@ impl BlockContacts {
     }
 }
 
-/// Power [W] at which an energy [J] goes within a step; without time there is none.
-fn power(energy: f64, dt: f64) -> f64 {
-    if dt > 0.0 { energy / dt } else { 0.0 }
+/// Power [W] at which an energy [J] goes within a step; in a moment there is none.
+fn power(energy: f64, input: &ForceInput) -> f64 {
+    if input.moment { 0.0 } else { energy / input.dt }
 }
 
 /// Law `number` on a filled batch, and its sums.
@@ -327,6 +329,7 @@ fn apply_law(input: &ForceInput, number: usize, batch: &mut ContactBatch, sums: 
         batch.relative_spin();
     }
     (batch.chunk.completion, batch.chunk.rotation) = (input.completion, input.laws.rotation);
+    batch.chunk.moment = input.moment;
     law.apply(&mut batch.chunk, input.dt);
     batch.forces_and_torques(input.laws.rotation);
     let c = &batch.chunk;
@@ -364,7 +367,7 @@ mod tests {
         assert!(energy(&engine) > 0.0, "the tangential spring is stretched");
         engine.grains.position[1].x += 1e-3;
         let (mut contacts, input) = (std::mem::take(&mut engine.contacts), engine.force_input());
-        contacts.evaluate(&ForceInput { dt: 0.0, ..input }, &mut Ranks::default());
+        contacts.evaluate(&ForceInput { moment: true, ..input }, &mut Ranks::default());
         contacts.add_up();
         assert_eq!(contacts.sums.contacts, 0);
         assert_eq!(contacts.sums.lost, ContactLosses::default());

@@ -188,10 +188,10 @@ impl DemEngine {
 
     /// Forces, energies and powers of a moment that no step has led to: at time 0, and after grains or walls have gone.
     pub(super) fn evaluate_at_rest(&mut self) {
-        // Without time, bodies that adhere take hold of each other and springs stay as they are. Powers have no meaning then:
+        // In a moment bodies that adhere take hold of each other and springs stay as they are. Powers have no meaning then:
         // what snapping together sets free has gone before the ledger opens.
         let (contacts, ranks, input) = self.contacts_and_input();
-        contacts.evaluate(&ForceInput { dt: 0.0, water: None, ..input }, ranks);
+        contacts.evaluate(&ForceInput { moment: true, water: None, ..input }, ranks);
         ranks.share_sums(&mut contacts.blocks);
         contacts.add_up();
         let stored = contacts.sums.stored;
@@ -224,6 +224,7 @@ impl DemEngine {
                 neighbours,
                 laws,
                 dt: clock.dt,
+                moment: false,
                 completion: 0.0,
                 water,
             },
@@ -240,6 +241,7 @@ impl DemEngine {
             neighbours,
             laws,
             dt: clock.dt,
+            moment: false,
             completion: 0.0,
             water: None,
         }

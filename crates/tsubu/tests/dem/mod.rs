@@ -23,6 +23,7 @@ mod same_bits;
 mod seams;
 mod search;
 pub mod shapes_at_walls;
+mod shown;
 mod start;
 mod superellipsoid;
 

@@ -13,8 +13,7 @@ pub(in crate::dem) fn each_contact(
     blocks: Range<usize>,
     mut show: impl FnMut(Contact),
 ) {
-    // A step of length zero leaves the tangential springs as they are.
-    let input = ForceInput { dt: 0.0, ..*input };
+    let input = ForceInput { moment: true, ..*input };
     let mut scratch = Scratch::new(input.laws.all());
     for (block, list) in forces.blocks[blocks.clone()].iter().zip(&input.neighbours.lists[blocks]) {
         let mut take = |batch: &ContactBatch, wall: bool| {

@@ -47,7 +47,7 @@ pub(super) fn evaluate(
         }
         if remembers {
             history.end(&mut walk, law);
-            sums.lost.sliding += power(walk.released, input.dt);
+            sums.lost.sliding += power(walk.released, input);
         }
     }
 }

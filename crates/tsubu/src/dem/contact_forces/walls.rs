@@ -107,7 +107,7 @@ fn evaluate_law(
     finish(input, number, list, (&before, history, &mut written), scratch, sums, visit);
     if remembers {
         before.open(&mut walk, law, |_| true);
-        sums.lost.sliding += power(walk.released, input.dt);
+        sums.lost.sliding += power(walk.released, input);
     }
     scratch.wall_history = before;
 }
