@@ -65,7 +65,7 @@ pub static CASES: &[Case] = &[
     case("prediction", "damper", 600, "three structures by an atlas of their cavity", prediction::three_structures),
     case("window", "damper", 600, "a periodic slice of a large cavity for the whole", window::window),
     case("ring-down", "damper", 10, "loss factor with balls, driven and ringing down", host::loss_factor_with_grains),
-    case("figure-9", "damper-2003", 20, "shaken box, landing and lift-off (figures 9 and 10)", damper_2003::figure_9),
+    case("figure-9", "damper-2003", 60, "shaken box, landing and lift-off (figures 9 and 10)", damper_2003::figure_9),
     case(
         "contact-time",
         "sediment-2004",
@@ -95,7 +95,7 @@ pub static CASES: &[Case] = &[
     case("wet-rebound", "water", 1, "a film on the way in, and restitution in a liquid", film::rebounds),
     case("packed-column", "water", 20, "Ergun's loss of pressure", water::packed),
     case("fluidised", "water", 20, "water that carries its bed", water::fluidised),
-    case("expansion", "water", 30, "how far a carried bed expands", expansion::balance),
+    case("expansion", "water", 60, "how far a carried bed expands", expansion::balance),
     gap(case("expansion-exponent", "water", 60, "by which power of the void fraction", expansion::exponents)),
     gap(case("bedload", "water", 3600, "transport rates of a coupled stream", bedload::rates)),
     case(

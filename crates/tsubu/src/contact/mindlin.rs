@@ -89,6 +89,7 @@ pub(super) fn tangential(
 ) {
     // A force at the surface of a solid sphere moves that by 1 + R^2 m/I = 7/2 as much as the centre.
     let push = chunk.completion * if chunk.rotation { 3.5 } else { 1.0 };
+    let passing = chunk.passing(dt);
     for i in 0..chunk.rows() {
         let mut s = strength(chunk, i);
         if left_out(Mutation::UnloadingRescale) && c[i] > 0.0 {
@@ -97,7 +98,7 @@ pub(super) fn tangential(
         s.dashpot = bearable(s.dashpot, chunk.effective_mass[i], dt);
         let (normal, slip) = (Chunk::vector(&chunk.normal, i), Chunk::vector(&chunk.slip, i));
         let rates = [DVec3::new(u[i], v[i], w[i]), slip];
-        let times = [touched(chunk, i, c[i], dt), 1.0 / dt];
+        let times = [touched(chunk, i, c[i], passing), 1.0 / dt];
         let slid = slide((DVec3::new(x[i], y[i], z[i]), c[i]), normal, rates, s, push / chunk.effective_mass[i], times);
         (x[i], y[i], z[i], c[i]) = (slid.spring.x, slid.spring.y, slid.spring.z, slid.compliance);
         (u[i], v[i], w[i]) = (slid.rate.x, slid.rate.y, slid.rate.z);

@@ -109,10 +109,9 @@ pub(super) fn slide(
 }
 
 /// How long the bodies of row `i` have touched in a step [s]: all of it, or since their surfaces met, where the spring held nothing
-/// before (`was`, one over its stiffness, is zero). No time in a moment.
+/// before (`was`, one over its stiffness, is zero).
 #[inline(always)]
 pub(super) fn touched(chunk: &Chunk, i: usize, was: f64, dt: f64) -> f64 {
-    let dt = if chunk.moment { 0.0 } else { dt };
     let since = least(most(chunk.overlap[i], 0.0) / most(chunk.closing[i], TINY), dt);
     if was > 0.0 { dt } else { since }
 }
@@ -131,12 +130,13 @@ pub(super) fn roll(
     dt: f64,
     strength: impl Fn(&Chunk, usize) -> Strength,
 ) {
+    let passing = chunk.passing(dt);
     for i in 0..chunk.rows() {
         let mut s = strength(chunk, i);
         s.dashpot = bearable(s.dashpot, inertia(chunk, i), dt);
         let (normal, roll) = (Chunk::vector(&chunk.normal, i), Chunk::vector(&chunk.roll, i));
         let rates = [DVec3::new(u[i], v[i], w[i]), roll];
-        let times = [touched(chunk, i, c[i], dt), 1.0 / dt];
+        let times = [touched(chunk, i, c[i], passing), 1.0 / dt];
         let slid = slide((DVec3::new(x[i], y[i], z[i]), c[i]), normal, rates, s, 0.0, times);
         (x[i], y[i], z[i], c[i]) = (slid.spring.x, slid.spring.y, slid.spring.z, slid.compliance);
         (u[i], v[i], w[i]) = (slid.rate.x, slid.rate.y, slid.rate.z);

@@ -48,7 +48,7 @@ impl Part for TwistingSpring {
 /// The step of `slider::slide` along one direction that never turns.
 #[multiversion(targets = "simd")]
 fn rows(chunk: &mut Chunk, [held, was, rate]: &mut [Column; 3], dt: f64) {
-    let rates = 1.0 / dt;
+    let (passing, rates) = (chunk.passing(dt), 1.0 / dt);
     for i in 0..chunk.rows() {
         let (twist, cap) = (chunk.twist[i], limit(chunk, i));
         let half = 0.5 * (chunk.contact_radius[i] * chunk.contact_radius[i]);
@@ -62,7 +62,7 @@ fn rows(chunk: &mut Chunk, [held, was, rate]: &mut [Column; 3], dt: f64) {
         let followed = least(stiffened, 1.0);
         let share = if stiffened > 0.0 { 0.5 + 0.5 * followed / stiffened } else { 1.0 };
         let past = if was[i] > 0.0 { 0.5 } else { 0.0 };
-        let turned = (rate[i] * past + twist * (1.0 - past)) * touched(chunk, i, was[i], dt);
+        let turned = (rate[i] * past + twist * (1.0 - past)) * touched(chunk, i, was[i], passing);
         let spring = within(held[i] * followed - turned * (share * stiffness));
         let total = within(spring - twist * dashpot);
         let compliance = inverse(stiffness);
