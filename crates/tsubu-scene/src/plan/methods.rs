@@ -68,6 +68,14 @@ pub struct Lattice {
     pub ball_radius: usize,
 }
 
+impl Lattice {
+    /// Distance of lattice points [m] for balls of a diameter [m]: as many balls fit into an area as where each has one cell.
+    pub fn spacing(&self, diameter: f64) -> f64 {
+        let cells = 3 * self.ball_radius * (self.ball_radius + 1) + 1;
+        diameter / (cells as f64).sqrt()
+    }
+}
+
 /// Preset of lattice rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

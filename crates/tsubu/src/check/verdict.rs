@@ -325,7 +325,8 @@ fn stiffness_key(plan: &Plan, material: &str, other: &str) -> String {
 }
 
 fn lattice(verdict: &mut Verdict, plan: &Plan, dt: f64, speed: f64) {
-    let Some(cell) = plan.particles.values().map(|p| p.diameter).reduce(f64::min) else { return };
+    let Some(diameter) = plan.particles.values().map(|p| p.diameter).reduce(f64::min) else { return };
+    let cell = plan.lattice.spacing(diameter);
     let limit = cell / dt;
     verdict.judge(
         speed < 0.5 * limit,

@@ -98,8 +98,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
     };
     check_carrier(&casing, &kind, hosts, lattice, &mut remarks);
     let shape = Shape::hexagon(lattice.ball_radius);
-    // As many balls fit into an area as where each has one cell.
-    let spacing = kind.diameter / (shape.points().len() as f64).sqrt();
+    let spacing = lattice.spacing(kind.diameter);
     let place = place(&casing, &kind, spacing, lattice, &mut remarks);
     let scale = scale(spacing, -gravity[2], lattice, &mut remarks);
     let rules = rules(plan, &casing, &kind, *seed, &scale);

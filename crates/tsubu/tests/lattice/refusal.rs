@@ -79,6 +79,19 @@ fn what_whole_numbers_cannot_hold_is_refused() {
     assert!(message(&fine).contains("lattice.time-step: "), "{}", message(&fine));
 }
 
+/// The cell that the verdict tells is the lattice's: a ball of 19 cells had been taken for one.
+#[test]
+fn the_verdict_tells_the_lattices_own_cell() {
+    let cell = |radius: usize| {
+        let mut plan = plan(20, LatticeMode::Extended);
+        plan.lattice.ball_radius = radius;
+        let verdict = tsubu::trial::check(&plan, tsubu::trial::Target::default(), &mut |_, _| {}).unwrap();
+        verdict.lines.iter().map(|line| line.text.clone()).find(|text| text.starts_with("lattice: cell")).unwrap()
+    };
+    assert!(cell(0).starts_with("lattice: cell 6.000 mm"), "{}", cell(0));
+    assert!(cell(2).starts_with("lattice: cell 1.376 mm"), "{}", cell(2));
+}
+
 /// Checkpoints with right checksums and made-up numbers: speeds beyond whole numbers, two balls in a cell, a ball that rests
 /// on nothing. They were gone on from.
 #[test]
