@@ -143,7 +143,8 @@ pub(super) fn invariants(perturbation: f64) -> Judged {
         bed.grains.last.fill(None);
         let gate = |bed: &Bed, broken: u32| {
             let broken = broken + u32::from(bed.fault(owned, &cells).is_some());
-            let what = "steps with a point shared or on a wall, or a grain lost or moved by more than one spacing";
+            let place = if owned { "shared or on a wall" } else { "on a wall" };
+            let what = format!("steps with a point {place}, or a grain lost or moved by more than one spacing");
             between(format!("{name}: of {STEPS}, {what}"), f64::from(broken), 0.0, 0.0, source)
         };
         let Some(free) = bed.present().find(|&grain| bed.kind(grain).free) else { return Err("no grain".to_owned()) };

@@ -154,8 +154,8 @@ pub(in super::super) fn twin(perturbation: f64) -> Judged {
     })
 }
 
-/// The collapse of triangles that may turn by 60 degrees, against those that may not (C-7). DEM has no triangles; what turning
-/// does to discs says [`twin`].
+/// The collapse of triangles that may turn by 60 degrees, against those that may not (C-7). What turning
+/// does to discs says [`twin`], to hexagons and rods the case `common-shapes`.
 pub(in super::super) fn turning(perturbation: f64) -> Judged {
     ensemble::drawn("triangles that turn", 1..=24, |seed| {
         // 6 and 21 points, for the 7 and 19 of the hexagons.

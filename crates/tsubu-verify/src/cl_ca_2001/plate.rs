@@ -13,7 +13,7 @@ use tsubu_scene::Scene;
 /// When the plate has gone 1 mm into the bed of hexagons [s].
 pub(super) const PUSHED: f64 = 1.46;
 
-/// C-x4: shared points of a bed into which a plate has been pushed by 1 mm: some grains carry, most of them below the plate.
+/// C-x4: shared points of a bed into which a plate has been pushed by 1 mm: some grains carry, more of them below the plate than if all carried alike.
 pub(in super::super) fn plate(perturbation: f64) -> Judged {
     ensemble::drawn("plate", 1..=10, |seed| {
         let pushed = |plate: bool| -> Result<_, String> {

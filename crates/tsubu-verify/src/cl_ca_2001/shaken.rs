@@ -6,42 +6,24 @@ use super::super::ensemble;
 use crate::case::Judged;
 use crate::origin::own;
 use glam::DVec3;
+use std::path::Path;
+use tsubu::lattice::shape::Shape;
+use tsubu_scene::Scene;
 
-/// A box of hexagons and triangles, mixed so that they do not crystallise, shaken by gravity that points up for 20 steps.
-fn shaken(more: &str, seed: u64, perturbation: f64) -> Result<Rig, String> {
-    let text = format!(
-        r#"
-        title = "shaken"
-        method = "cl-ca"
-        duration = 1e3
-        seed = {seed}
-        [materials.m]
-        density = 2700
-        young-modulus = 1e6
-        [particles.hexagons]
-        material = "m"
-        count = 200
-        diameter = 2.778e-3
-        start.random.region = {{ low = [4e-3, 18e-3], high = [56e-3, 115e-3] }}
-        [particles.triangles]
-        material = "m"
-        count = 200
-        diameter = 1.819e-3
-        start.random.region = {{ low = [4e-3, 18e-3], high = [56e-3, 115e-3] }}
-        [walls.box]
-        material = "m"
-        shape.box = {{ width = 60.6e-3, height = 140e-3, depth = 5e-3, floor-centre = [30.3e-3, 0] }}
-        [cl-ca]
-        spacing = 1e-3
-        shapes.triangles.points.at = [[0, 0], [0, 2], [1, 1]]
-        {more}
-        "#
-    );
-    Rig::new(&text, perturbation)
+const RISE: &str = include_str!("../../../../studies/cl-ca-2001/rise.toml");
+const CONVECTION: &str = include_str!("../../../../studies/cl-ca-2001/convection.toml");
+
+/// A scene of the study with changes, to be looked at here, and steps of a cycle of its shaking.
+fn shaken(scene: &str, changes: &[String], less: &[&str]) -> Result<(Rig, u64), String> {
+    let scene = Scene::parse("shaken", scene, Path::new("."), changes).map_err(|c| c.to_string())?;
+    let mut plan = scene.plan().clone();
+    plan.watch.clear();
+    for group in less {
+        plan.particles.remove(*group);
+    }
+    let switch = plan.cl_ca.gravity_switch.ok_or("a shaken box without a switch")?;
+    Ok((Rig::of(plan, 1.0)?, u64::from(switch.up + switch.down)))
 }
-
-/// Steps of a cycle of shaking: gravity up, and down.
-const CYCLE: [u64; 2] = [20, 200];
 
 /// C-x1: how high a grain of some radius rises, and in how many cycles.
 pub(in super::super) fn rise(perturbation: f64) -> Judged {
@@ -54,24 +36,13 @@ pub(in super::super) fn rise(perturbation: f64) -> Judged {
         let drawn = if perturbation == 1.0 { radius } else { 1 };
         let (mut height, mut time) = (0.0, 0.0);
         for seed in 1..=SEEDS {
-            let more = format!(
-                r#"
-                gravity-switch = {{ up = {}, down = {} }}
-                shapes.intruder.hexagon.radius = {drawn}
-                [particles.intruder]
-                material = "m"
-                diameter = {:.6e}
-                start.at.position = [[30e-3, 8e-3]]
-                "#,
-                CYCLE[0],
-                CYCLE[1],
-                1e-3 * tsubu::lattice::shape::Shape::hexagon(drawn).diameter()
-            );
-            let mut rig = shaken(&more, seed, 1.0)?;
+            let diameter = 1e-3 * Shape::hexagon(drawn).diameter();
+            let changes = [format!("particles.intruder.diameter={diameter:e}"), format!("seed={seed}")];
+            let (mut rig, cycle_steps) = shaken(RISE, &changes, &[])?;
             let mut reached = CYCLES;
             let mut share = 0.0;
             for cycle in 0..CYCLES {
-                rig.steps(CYCLE[0] + CYCLE[1])?;
+                rig.steps(cycle_steps)?;
                 let places = rig.vectors("position");
                 // Groups come in the order of their names: hexagons, then the intruder.
                 let intruder = places[200].z;
@@ -102,21 +73,15 @@ pub(in super::super) fn rise(perturbation: f64) -> Judged {
 /// Mean rise per cycle [mm] in seven slices between the side walls, in the middle of the bed's height.
 fn rolls(rough: bool, seed: u64) -> Result<[f64; 7], String> {
     const CYCLES: usize = 300;
-    let heights = (0..24).map(|k| 3e-3 + 5e-3 * f64::from(k));
-    let places = heights.flat_map(|z| [format!("[1.4e-3, {z:.4e}]"), format!("[58.4e-3, {z:.4e}]")]);
-    let bumps = format!(
-        "[particles.bumps]\nmaterial = \"m\"\ndiameter = 2.778e-3\nmotion.frozen = {{}}\nstart.at.position = [{}]\n",
-        places.collect::<Vec<_>>().join(", ")
-    );
-    let more = ["gravity-switch = { up = 60, down = 200 }\n", if rough { &bumps } else { "" }].concat();
-    let mut rig = shaken(&more, seed, 1.0)?;
+    let smooth: &[&str] = if rough { &[] } else { &["bumps"] };
+    let (mut rig, cycle_steps) = shaken(CONVECTION, &[format!("seed={seed}")], smooth)?;
     let first = if rough { 48 } else { 0 };
     let (mut sum, mut count) = ([0.0; 7], [0.0; 7]);
     let free = |rig: &Rig| -> Vec<DVec3> { rig.vectors("position").split_off(first) };
     // Bumps come first: groups are in the order of their names.
     for cycle in 0..CYCLES {
         let before = free(&rig);
-        rig.steps(260)?;
+        rig.steps(cycle_steps)?;
         for (a, b) in before.iter().zip(free(&rig)) {
             let slice = (a.x / 60.7e-3 * 7.0) as usize;
             if cycle > CYCLES / 10 && (8e-3..28e-3).contains(&a.z) && slice < 7 {

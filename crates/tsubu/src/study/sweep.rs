@@ -239,3 +239,28 @@ pub(super) fn failed(scene: &Scene, folder: &Path, fault: &str) -> Result<Summar
     folder.sync()?;
     Ok(summary)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that panics is a test that fails")]
+mod tests {
+    use super::*;
+
+    /// What the studies vary, their methods take: a case that is refused ends a sweep before its first run.
+    #[test]
+    fn sweeps_of_the_studies_can_begin() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
+        let folders = std::fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_dir());
+        let files = folders.flat_map(|folder| std::fs::read_dir(folder).unwrap()).map(|entry| entry.unwrap().path());
+        let mut cases = 0;
+        for file in files.filter(|file| file.extension().is_some_and(|extension| extension == "toml")) {
+            let scene = Scene::read(&file, &[]).unwrap();
+            if scene.plan().sweep.is_some() {
+                let into = tempfile::tempdir().unwrap();
+                let sweep = Sweep::new(&scene, &into.path().join("out")).unwrap();
+                sweep.open(false).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+                cases += sweep.cases.len();
+            }
+        }
+        assert!(cases > 8, "only {cases} cases were found");
+    }
+}
