@@ -89,7 +89,7 @@ fn race_table(race: &Value, name: &str) -> String {
 }
 
 /// Pages of studies with what is kept of their claims. The marks name the studies: `<!-- generated: claims STUDY ... -->` is a table
-/// case by case, `<!-- generated: values CASE -->` one claim by claim, `<!-- generated: standing STUDY ... -->` how the study stands, `<!-- generated: open STUDY ... -->` why what does not hold does not.
+/// case by case, `<!-- generated: values CASE -->` one claim by claim, `<!-- generated: results STUDY -->` what was measured by every model, `<!-- generated: standing STUDY ... -->` how the study stands, `<!-- generated: open STUDY ... -->` why what does not hold does not.
 fn studies(tsubu: &str) -> Result<Vec<(String, String)>, String> {
     let kept = crate::claims::read()?;
     let mut pages = Vec::new();
@@ -100,6 +100,7 @@ fn studies(tsubu: &str) -> Result<Vec<(String, String)>, String> {
             let table = match mark.split_once(' ') {
                 Some(("claims", names)) => claim_table(&kept, names),
                 Some(("values", case)) => value_table(&kept, case),
+                Some(("results", study)) => result_tables(study)?,
                 Some(("standing" | "open", _)) => printed(tsubu, &mark)?,
                 _ => return Err(format!("{page}: nobody makes the table `{mark}`")),
             };
@@ -176,6 +177,43 @@ fn value_table(kept: &[Value], case: &str) -> String {
         let _ = writeln!(table, "| {name} | {} | {interval} | {} | {verdict} |", number(&claim["value"]), range(claim));
     }
     table
+}
+
+/// What every model of a study gave, a table a scene, of `results/STUDY.csv`; models that gave nothing are left out.
+fn result_tables(study: &str) -> Result<String, String> {
+    let path = root().join(format!("studies/{study}/results/{study}.csv"));
+    let wrong = |error: csv::Error| format!("{}: {error}", path.display());
+    let mut reader = csv::Reader::from_path(&path).map_err(wrong)?;
+    // Scene, quantity, and a column a model.
+    let header = reader.headers().map_err(wrong)?.clone();
+    let models = header.iter().map(|cell| cell.split(" [").next().unwrap_or(cell)).skip(2);
+    let mut scenes: BTreeMap<String, (Vec<String>, Vec<Vec<f64>>)> = BTreeMap::new();
+    for row in reader.records() {
+        let row = row.map_err(wrong)?;
+        let (quantities, values) = scenes.entry(row[0].to_owned()).or_default();
+        quantities.push(row[1].to_owned());
+        values.push(row.iter().skip(2).map(|cell| cell.parse().unwrap_or(f64::NAN)).collect());
+    }
+    let mut text = String::new();
+    for (scene, (quantities, values)) in scenes {
+        let _ = writeln!(text, "| {scene} | {} |\n|---|{}", quantities.join(" | "), "---|".repeat(quantities.len()));
+        for (place, model) in models.clone().enumerate() {
+            let given: Vec<f64> = values.iter().map(|values| values[place]).collect();
+            if !given.iter().all(|value| value.is_nan()) {
+                let told: Vec<String> = given.into_iter().map(three_figures).collect();
+                let _ = writeln!(text, "| {model} | {} |", told.join(" | "));
+            }
+        }
+        text.push('\n');
+    }
+    Ok(text.trim_end().to_owned() + "\n")
+}
+
+fn three_figures(value: f64) -> String {
+    match format!("{value:.2e}").parse::<f64>() {
+        Ok(short) if short.is_finite() => short.to_string(),
+        _ => "–".to_owned(),
+    }
 }
 
 /// Whether the interval of a claim that does not hold lies neither in its range nor outside.

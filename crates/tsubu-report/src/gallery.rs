@@ -90,7 +90,9 @@ fn panel(source: &mut Source, study: &str, scene: &Scene, name: &str) -> Panel {
         ColourBy::Column("radius".into())
     };
     let balls = Balls::of(&last, &Look { colour, ..Look::default() });
-    Panel { balls, label: time_label(last.time, last.time), arrow: None }
+    // Many columns have no room for "t =".
+    let label = time_label(last.time, last.time).trim_start_matches("t = ").to_owned();
+    Panel { balls, label, arrow: None }
 }
 
 /// A strip with what stands over it.
@@ -103,7 +105,7 @@ struct Row {
 
 /// Strips below each other, titles and names over each.
 fn stacked(rows: &[Row]) -> String {
-    const TITLE: f64 = 40.0;
+    const TITLE: f64 = 44.0;
     let size = |svg: &str, name: &str| -> f64 {
         let value = svg.split_once(&format!(" {name}=\"")).and_then(|(_, rest)| rest.split('"').next());
         value.and_then(|value| value.parse().ok()).unwrap_or(0.0)
@@ -121,12 +123,17 @@ fn stacked(rows: &[Row]) -> String {
         for (index, name) in names.iter().enumerate() {
             let middle = width * (index as f64 + 0.5) / names.len() as f64;
             // Whether a model is "after" its authors the table says; here it has no room.
-            let name = escape(method_name(name).trim_start_matches("after-"));
-            let _ = write!(
-                out,
-                "<text x=\"{middle:.1}\" y=\"{:.1}\" font-size=\"9\" text-anchor=\"middle\">{name}</text>",
-                top + 32.0
-            );
+            let name = method_name(name).trim_start_matches("after-");
+            // Two authors stand below each other.
+            let lines = if name.len() > 8 { 2 } else { 1 };
+            for (line, word) in name.rsplitn(lines, '-').enumerate() {
+                let _ = write!(
+                    out,
+                    "<text x=\"{middle:.1}\" y=\"{:.1}\" font-size=\"9\" text-anchor=\"middle\">{}</text>",
+                    top + 38.0 - 10.0 * line as f64,
+                    escape(word)
+                );
+            }
         }
         out.push_str(&svg.replacen("<svg ", &format!("<svg y=\"{:.1}\" ", top + TITLE), 1));
         top += TITLE + size(svg, "height");

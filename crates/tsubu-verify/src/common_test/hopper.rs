@@ -25,7 +25,7 @@ const RUN_OUT: [&str; 9] = [
     "after-baxter-behringer",
 ];
 
-/// When the slide opens [s], and grains at the start.
+/// When the slide opens [s].
 const OPENS: f64 = 0.8;
 
 pub(super) const TEST: Test = Test {
