@@ -41,7 +41,7 @@ fn bed(size: f64, height: f64, seed: u64, perturbation: f64) -> Result<Rig, Stri
         shape.box = {{ width = 20, height = 50 }}
         motion.signal.sine = {{ amplitude = 1, frequency = {frequency} }}
         "#,
-        // Discs of one density.
+        // The mass of a disc of the bed's density; all are spheres held in the plane.
         mass = size * size,
         above = size + 0.04,
         frequency = 1.0 / period(),

@@ -35,6 +35,8 @@ pub(super) fn attach(claims: &mut [Claim]) {
     for claim in claims.iter_mut().filter(|claim| claim.origin != Origin::Control) {
         let refuse = controls.iter().filter(|(_, gates)| gates.iter().any(|gate| copies(gate, &claim.name)));
         claim.controls.extend(refuse.map(|(what, _)| what.clone()));
+        // The same may be done wrong to two models.
+        claim.controls.dedup();
     }
 }
 

@@ -19,7 +19,7 @@ const PACKED: f64 = 1.04;
 /// Spans of equal numbers of grains in which the rate of one silo is measured.
 const SPANS: usize = 6;
 
-/// Width of a slot, and how many silos with it in a draw: as many as it takes for a thousand grains or more.
+/// Width of a slot, and how many silos with it in a draw: the narrowest lets out the fewest grains and has two.
 const SLOTS: [(f64, u32); 5] = [(6.0, 2), (8.0, 1), (10.0, 1), (14.0, 1), (20.0, 1)];
 
 /// Draws of all silos.

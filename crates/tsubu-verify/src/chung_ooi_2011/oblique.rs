@@ -121,7 +121,7 @@ fn test_5(m: &Material, x: f64, law: &str, perturbation: f64) -> Result<(f64, f6
 mod tests {
     use super::*;
 
-    /// The tables of the study's README: `cargo test -p tsubu chung_ooi -- --ignored --nocapture`.
+    /// The tables of the study's README: `cargo test -p tsubu-verify chung_ooi -- --ignored --nocapture`.
     #[test]
     #[ignore = "prints tables for the study's README"]
     fn tables() {

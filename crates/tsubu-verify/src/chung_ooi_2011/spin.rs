@@ -154,7 +154,7 @@ pub(crate) fn no_slip(perturbation: f64) -> Judged {
 mod tests {
     use super::*;
 
-    /// The table of the study's README: `cargo test -p tsubu chung_ooi -- --ignored --nocapture`.
+    /// The table of the study's README: `cargo test -p tsubu-verify chung_ooi -- --ignored --nocapture`.
     #[test]
     #[ignore = "prints tables for the study's README"]
     fn tables() {

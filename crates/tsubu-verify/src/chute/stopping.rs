@@ -46,7 +46,7 @@ const LOOKED: [f64; 2] = [80.0, 200.0];
 /// Slope and layers of flows of wrong models.
 const WRONG: [[f64; 2]; 4] = [[17.0, 12.0], [22.0, 12.0], [25.0, 12.0], [25.0, 24.0]];
 
-/// What is said of these grains: slopes that no layer stops above and below [degrees], a height [d], and the rise of the law of flows.
+/// What is said of these grains: slopes below which none flows and above which none rests [degrees], a height [d], and the rise of the law of flows.
 const SOURCE: &str = "Weinhart et al. 2012, Granular Matter 14: 17.56 and 32.26 degrees, 3.84 d, 0.191";
 const PUBLISHED: Stopping = Stopping { gentlest: 0.316_46, steepest: 0.631_06, height: 3.836 };
 const RISE: f64 = 0.191;
@@ -54,9 +54,9 @@ const RISE: f64 = 0.191;
 /// Heights at which layers come to rest: h_stop = A (tan t2 - tan t) / (tan t - tan t1).
 #[derive(Clone, Copy, Debug)]
 struct Stopping {
-    /// tan t1: no layer rests on a steeper slope for ever, however thin; none flows on a gentler one.
+    /// tan t1: no layer flows on a gentler slope, however high.
     gentlest: f64,
-    /// tan t2.
+    /// tan t2: no layer rests on a steeper slope, however thin.
     steepest: f64,
     /// A, in diameters.
     height: f64,

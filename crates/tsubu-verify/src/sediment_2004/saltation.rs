@@ -189,7 +189,7 @@ fn measured(found: &Leaps) -> [Claim; 3] {
     })
 }
 
-/// B-F6 at its softest: in a contact of 1 ms the grain goes on by half a diameter, so that the bed's grain lets it go early.
+/// B-F6 at its softest: in a contact of 1 ms the grain goes on by more than a third of a diameter, so that the bed's grain lets it go early.
 pub(in super::super) fn softest(perturbation: f64) -> Judged {
     ensemble::drawn("leaping grains", DRAWS, |draw| {
         let begins = begins(draw);
