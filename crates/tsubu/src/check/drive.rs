@@ -60,6 +60,8 @@ pub(super) fn shaken_speed(signal: &Signal, w: f64, ratio: f64) -> f64 {
             let gained = gained(*acceleration, *duration);
             gained + gained.min(1.77 * acceleration.abs() / w)
         }
+        // From rest it swings about what it follows, up to twice as fast.
+        Signal::Steady { rate } => 2.0 * rate.abs(),
         _ => usual(signal, transmitted).unwrap_or_else(|| 0.5 / ratio * w * at_resonance(signal, w)),
     }
 }
@@ -70,6 +72,9 @@ pub(super) fn pushed_speed(signal: &Signal, w: f64, ratio: f64, stiffness: f64) 
         let r = driven / w;
         driven / ((1.0 - r * r).powi(2) + (2.0 * ratio * r).powi(2)).sqrt()
     };
+    if let Signal::Steady { rate } = signal {
+        return 2.0 * rate.abs() / stiffness;
+    }
     usual(signal, answered).unwrap_or_else(|| 0.5 / ratio * w * at_resonance(signal, w)) / stiffness
 }
 
@@ -100,4 +105,18 @@ fn usual(signal: &Signal, gain: impl Fn(f64) -> f64) -> Option<f64> {
 /// Speed that a half-sine pulse of acceleration gives [m/s].
 fn gained(acceleration: f64, duration: f64) -> f64 {
     2.0 / PI * acceleration.abs() * duration
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A base or a force that goes on at one rate had no largest value at resonance: the speed scale was infinite, the step nothing, and the run had
+    /// no end. From rest, y = r t moves an undamped oscillator by r t - r sin(w t) / w, at most at twice the rate.
+    #[test]
+    fn what_goes_on_at_one_rate_drives_at_twice_it() {
+        let signal = Signal::Steady { rate: -1e-3 };
+        assert!((shaken_speed(&signal, 40.0, 0.01) - 2e-3).abs() < 1e-15);
+        assert!((pushed_speed(&signal, 40.0, 0.01, 100.0) - 2e-5).abs() < 1e-17);
+    }
 }
