@@ -43,7 +43,7 @@ Examples:
   tsubu response damper.toml      its frequency response, with figures and report.html
 
 Exit codes: 0 done, 1 a claim failed, 2 the scene or the command line is wrong, 3 the run failed,
-130 interrupted and ready for --resume. `tsubu help COMMAND` has more examples.";
+130 interrupted: a run, and studies of many runs, go on with --resume. `tsubu help COMMAND` has more examples.";
 
 const BRIEF: &str = "\
 tsubu simulates granular matter from one scene file.

@@ -101,9 +101,9 @@ impl WorkOptions {
         self.threads.or(self.jobs)
     }
 
-    /// Whether the user has named one.
-    pub fn is_told(&self) -> bool {
-        self.told().is_some()
+    /// The option by which the user has named it.
+    pub fn told_by(&self) -> Option<&'static str> {
+        self.threads.map(|_| "--threads").or(self.jobs.map(|_| "--jobs"))
     }
 
     /// The threads to work with.

@@ -1,7 +1,7 @@
 //! What the commands that run things share: a scene and its folder, threads, progress, Ctrl-C, and how they end.
 
 use crate::failure::Failure;
-use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume};
+use crate::options::{FolderOptions, SceneOptions, WorkOptions, command_to_resume, quoted};
 use crate::progress::Progress;
 use crate::{output, stop};
 use rayon::ThreadPool;
@@ -71,9 +71,9 @@ impl Session {
     /// Prints the results, and where they are; without a page of them, how to make one.
     pub fn show(&self, results: &str, page: Option<&Path>) -> Result<(), Failure> {
         output::print(results)?;
-        let folder = self.folder.display();
+        let folder = quoted(&self.folder.to_string_lossy());
         output::tell(&match page {
-            Some(page) => format!("results in {folder}; open {}\n", page.display()),
+            Some(page) => format!("results in {folder}; open {}\n", quoted(&page.to_string_lossy())),
             None => format!("results in {folder}; figures and a page: tsubu report {folder}\n"),
         });
         Ok(())

@@ -102,6 +102,15 @@ pub fn write(run_folder: &Path, state: &State, header: &Header) -> Result<(), Fi
     write_atomically(&path(run_folder), |out| encode(state, header, out))
 }
 
+/// Removes the run folder's checkpoint, where there is one.
+pub fn remove(run_folder: &Path) -> Result<(), FileError> {
+    let path = path(run_folder);
+    match std::fs::remove_file(&path) {
+        Err(source) if source.kind() != io::ErrorKind::NotFound => Err(FileError::Write { path, source }),
+        _ => Ok(()),
+    }
+}
+
 /// Reads a checkpoint file, section by section: it is never whole in memory beside the state.
 pub fn read(path: &Path) -> Result<(Header, State<'static>), CheckpointError> {
     let open = || {

@@ -42,6 +42,8 @@ mod _tsubu {
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         // Texts of errors end in exceptions, wherever stderr leads to.
         tsubu_cli::allow_colour(false);
+        // Of errors that Python raises; the program's have their own.
+        module.py().get_type::<Error>().setattr("code", 2)?;
         module.add("__version__", tsubu::VERSION)
     }
 }

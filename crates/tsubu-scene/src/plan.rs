@@ -239,9 +239,14 @@ impl Plan {
         })
     }
 
-    /// Number of all grains, those that come later included: grains are numbered below it.
+    /// Number of all grains, those that come later included; a clump is one.
     pub fn grains(&self) -> usize {
         self.particles.values().map(|group| group.count).sum()
+    }
+
+    /// The same with each sphere of a clump for one: grains are numbered below it.
+    pub fn numbered(&self) -> usize {
+        self.particles.values().map(Particles::numbered).sum()
     }
 
     /// Mass of all grains, those that come later included [kg].
@@ -267,7 +272,7 @@ impl Plan {
             .particles
             .iter()
             .filter(|(name, other)| (comes_later(other), name.as_str()) < (comes_later(wanted), group));
-        before.map(|(_, other)| other.count).sum()
+        before.map(|(_, other)| other.numbered()).sum()
     }
 
     /// The contact law of two materials.

@@ -35,6 +35,7 @@ pub(crate) fn enter(root: &mut Node, number: usize) -> Vec<Complaint> {
         if let Err(complaint) = length(table, &stage.place) {
             complaints.push(complaint);
         }
+        complaints.extend(table.entry("until").and_then(condition));
         let Some(set) = table.get("set").and_then(Node::table) else { continue };
         complaints.extend(pieces(set, &[]).into_iter().filter_map(|piece| put(root, piece, index).err()));
     }
@@ -66,6 +67,31 @@ fn name(stage: &Table, names: &mut BTreeSet<String>) -> Option<Complaint> {
     }
     let again = !names.insert(name.clone());
     again.then(|| Complaint::new(format!("two stages are called `{name}`")).at(&entry.node.place, "here again"))
+}
+
+/// What is wrong with what ends a stage.
+fn condition(until: &Entry) -> Option<Complaint> {
+    let asked = until.node.table()?;
+    if asked.entries.is_empty() {
+        return Some(
+            Complaint::new("`until` is empty")
+                .at(&until.place, "nothing is to come true")
+                .hint("say what ends the stage, for example until.kinetic-energy = \"1 nJ\", or give it a `duration`"),
+        );
+    }
+    let bounds = ["above", "below"].map(|key| asked.entry(key));
+    match (asked.entry("result"), bounds) {
+        (Some(result), [None, None]) => Some(
+            Complaint::new("a `result` ends a stage where it is `above` or `below` something")
+                .at(&result.place, "neither is given"),
+        ),
+        (None, [Some(bound), _] | [None, Some(bound)]) => Some(
+            Complaint::new(format!("`{}` needs a `result`", bound.key))
+                .at(&bound.place, "of what?")
+                .hint("`result`: the name of a column of the history, without its unit"),
+        ),
+        _ => None,
+    }
 }
 
 /// How long a stage lasts, or lasts at most.

@@ -35,6 +35,10 @@ fn what_is_wrong_is_said_with_its_place() {
     refused("[[stage]]\nname = \"a\"\n", "a stage needs `duration`, or `until` and `at-most`");
     refused("[[stage]]\nname = \"a\"\nuntil.inserted = 3\n", "needs `at-most`");
     refused("[[stage]]\nname = \"a\"\nduration = 1\nat-most = 2\n", "`duration` excludes `until` and `at-most`");
+    let ends = |until: &str| format!("[[stage]]\nname = \"a\"\nuntil = {until}\nat-most = 1\n");
+    refused(&ends("{}"), "`until` is empty");
+    refused(&ends("{ result = \"kinetic energy\" }"), "where it is `above` or `below` something");
+    refused(&ends("{ above = 1 }"), "`above` needs a `result`");
     refused(&TWO.replace("move", "rest"), "two stages are called `rest`");
     refused(&TWO.replace("move", "to and fro"), "is no name of a stage");
     refused(&format!("{TWO}set = 3\n"), "needs a table of scene keys");

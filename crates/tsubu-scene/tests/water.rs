@@ -151,6 +151,9 @@ fn a_free_surface_and_its_reach() {
     let beyond = text.replace("[water]", "[water]\nsurface = \"3 cm\"").replace("slope = \"3 deg\"", "");
     insta::assert_snapshot!(complaint(&beyond.replace("[periodic]\nx = [0, \"10 mm\"]\n", ""), &[]));
     insta::assert_snapshot!(complaint(&beyond, &[]));
+    let closed =
+        complaint(&coupled("coupled = { bottom = 0, top = \"2 cm\", area = \"1 cm^2\", reach = \"1 m\" }"), &[]);
+    assert!(closed.contains("a `reach` is fed by a `discharge` under a free surface"), "{closed}");
 }
 
 #[test]

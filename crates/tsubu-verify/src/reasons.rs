@@ -92,7 +92,8 @@ const REASONS: &[(&str, &str, &str)] = &[
     (
         "chute",
         "chute at 25 degrees: inertial number",
-        "the upper half has an inertial number a tenth lower, 0.89 to 0.92 in five beds, where the range ends, which is ours; why is not known",
+        "the upper half has an inertial number a tenth lower, 0.89 to 0.92 in five beds, where the range ends, which is ours; 40 layers in a world of 20 by 10 have 0.98 at 24 degrees and 0.97 at 26, \
+         so it is the size of this one",
     ),
     (
         "chute",

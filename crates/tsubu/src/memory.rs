@@ -12,7 +12,7 @@ const TRIANGLE: f64 = 800.0;
 /// Meshes of 200,000 and 2,000,000 triangles took 840 and 740 bytes each. Measured for DEM: beds of 1,000 to 1,000,000 spheres with friction springs, whole program with its checkpoints; a bed that
 /// has yet to settle will have two contacts a grain. For lattices: 1000 grains on a million sites, the whole program.
 pub(crate) fn of(plan: &Plan, places: usize) -> f64 {
-    let grains = plan.grains() as f64;
+    let grains = plan.numbered() as f64;
     let places = places as f64;
     meshes(plan)
         + match plan.method {
@@ -37,7 +37,7 @@ pub(crate) fn of(plan: &Plan, places: usize) -> f64 {
 /// Every rank has the columns of all grains; lists, contacts and what these remember are with the rank that has the block. The first makes checkpoints and pictures
 /// with all contacts, too. Measured with a quarter of a million to ten million spheres on two ranks, 1.3 to 1.5 contacts each.
 pub(crate) fn on_ranks(plan: &Plan, ranks: usize) -> [f64; 2] {
-    let grains = plan.grains() as f64;
+    let grains = plan.numbered() as f64;
     let other = 25e6 + meshes(plan) + (280.0 + 440.0 / ranks as f64) * grains;
     [other + 100.0 * grains, other]
 }
@@ -54,7 +54,7 @@ fn meshes(plan: &Plan) -> f64 {
 pub(crate) fn refuse_more_than_there_is(plan: &Plan, places: usize) -> Result<(), Refusal> {
     let needed = of(plan, places);
     let Some((free, whose)) = free().filter(|(free, _)| needed > *free) else { return Ok(()) };
-    let grains = plan.grains();
+    let grains = plan.numbered();
     let what = if places > 0 { format!("{grains} grains on {places} places") } else { format!("{grains} grains") };
     let text = format!(
         "{what} take about {} of memory, more than the {} that {whose}; take fewer, or another machine",

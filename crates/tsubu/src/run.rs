@@ -299,6 +299,9 @@ impl Run<'_> {
         folder.write_json("summary.json", &summary)?;
         if self.alone {
             folder.sync()?;
+        } else {
+            // One of many keeps none once it is done; that of an earlier moment would be taken for its end.
+            checkpoint::remove(folder.path())?;
         }
         Ok(summary)
     }

@@ -101,6 +101,9 @@ fn times(
 ) {
     let total = plan.duration / engine.time_step();
     let [low, high] = cost.map(|cost| cost * total);
+    if high <= 0.0 {
+        return verdict.say("time: less than can be measured on this machine for one run".to_owned());
+    }
     let shorter = || format!("a shorter `duration`, fewer grains, or a longer `{}`", engine.step_key());
     verdict.judge(
         high <= LONGEST,

@@ -234,6 +234,12 @@ impl View<'_> {
         overlapping
     }
 
+    /// How far a grain reaches along an axis, from its position to its low and its high end [m].
+    pub fn ends(&self, i: usize, axis: usize) -> [f64; 2] {
+        let radius = self.grains.radius[i];
+        self.shapes.and_then(|shapes| shapes.ends(i, axis)).unwrap_or([-radius, radius])
+    }
+
     /// Centre of a grain between the periodic ends.
     pub fn position(&self, i: usize) -> DVec3 {
         self.put(self.grains.position[i])

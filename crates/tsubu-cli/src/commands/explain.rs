@@ -7,6 +7,7 @@ use crate::table;
 use clap::Args;
 use std::fmt::Write as _;
 use tsubu::explain::{self, Entry, Kind};
+use tsubu_frame::{Origin, Verdict};
 use tsubu_verify::{CASES, Case, recorded};
 
 /// How far text runs.
@@ -108,7 +109,11 @@ fn single(case: &Case) -> String {
     }
     let mut rows = vec![["claim", "value", "accepted", ""].map(str::to_owned).to_vec()];
     rows.extend(kept.iter().map(|claim| {
-        let verdict = if claim.pass { "pass" } else { "FAIL" };
+        let verdict = match claim.verdict() {
+            Verdict::Pass => "pass",
+            Verdict::Fail => "FAIL",
+            Verdict::Undecided => "undecided",
+        };
         let range = table::range(claim.low, claim.high);
         vec![claim.name.clone(), table::number(claim.value), range, verdict.to_owned()]
     }));
@@ -196,7 +201,9 @@ fn claims() -> String {
             "\n## `{study}`\n\n| case | what it checks | claims that hold | budget |\n|---|---|---|---|\n"
         );
         for case in CASES.iter().filter(|case| case.study == study) {
-            let kept = recorded(case.name);
+            // Controls are no claims.
+            let mut kept = recorded(case.name);
+            kept.retain(|claim| claim.origin != Origin::Control);
             let hold = kept.iter().filter(|claim| claim.pass).count();
             let kept = if kept.is_empty() { "not kept yet".to_owned() } else { format!("{hold} of {}", kept.len()) };
             let _ = writeln!(page, "| `{}` | {} | {kept} | {} |", case.name, case.about, case.budget_text());

@@ -1,6 +1,7 @@
 //! `tsubu new`: a commented example scene.
 
 use crate::failure::Failure;
+use crate::options::quoted;
 use crate::{output, table};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -42,7 +43,8 @@ pub fn run(options: &Options) -> Result<(), Failure> {
             return Err(failure);
         }
     }
-    output::tell(&format!("wrote {0}; judge it: tsubu check {0}, run it: tsubu run {0}\n", file.display()));
+    let file = quoted(&file.to_string_lossy());
+    output::tell(&format!("wrote {file}; judge it: tsubu check {file}, run it: tsubu run {file}\n"));
     Ok(())
 }
 

@@ -56,7 +56,8 @@ pub fn run(
     let summary = done.map_err(|error| Failure::of_cases(&error, scene, folder))?;
     if summary.status == Status::Interrupted {
         let message = format!("interrupted; the finished {points} are in {}", folder.display());
-        return Err(Failure::interrupted(message).hint(resume()));
+        let hint = if folder.is_dir() { resume() } else { "nothing was done yet: start it again".to_owned() };
+        return Err(Failure::interrupted(message).hint(hint));
     }
     let again = format!("runs that are done are kept; `{}` tries those again that failed", command_to_resume());
     tell(&session, &summary, table, again)

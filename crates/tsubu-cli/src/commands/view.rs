@@ -53,7 +53,8 @@ impl ForScene {
             (folder.is_told(), "--output"),
             (folder.overwrite, "--overwrite"),
             (*resume, "--resume"),
-            (work.is_told(), "--threads"),
+            (work.told_by().is_some(), work.told_by().unwrap_or_default()),
+            (work.quiet, "--quiet"),
         ];
         told.into_iter().find_map(|(told, name)| told.then_some(name))
     }

@@ -26,7 +26,8 @@ pub fn cases(runs: &mut dyn Runs, names: &[String]) -> Result<(), Failure> {
     }
     match (names, wrong.pop()) {
         (_, None) => Ok(()),
-        ([_], Some(only)) => Err(only),
+        // It has been told above.
+        ([_], Some(only)) => Err(only.quiet()),
         (_, Some(_)) => Err(Failure::failed(format!("{} of {} cases failed", wrong.len() + 1, names.len()))),
     }
 }

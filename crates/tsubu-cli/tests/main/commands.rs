@@ -74,6 +74,24 @@ fn a_law_a_watch_and_a_case_are_explained() {
     assert!(desk.done("explain rolling").stdout.contains("slide-to-roll"), "a study");
 }
 
+/// A claim whose ensemble leaves it open was said to fail.
+#[test]
+fn an_undecided_claim_is_called_so() {
+    let shown = Desk::empty().done("explain haff-inelastic").stdout;
+    assert!(shown.contains("undecided") && !shown.contains("FAIL"), "{shown}");
+}
+
+/// Whoever reads the results may go away: the claims are judged all the same. The exit code was 0.
+#[test]
+fn a_reader_that_goes_away_changes_no_exit_code() {
+    let desk =
+        Desk::with(&format!("{SCENE}\n[[claim]]\nresult = \"momentum residual\"\nhigh = -1\nsource = \"never\"\n"));
+    let mut child = desk.command("run balls.toml -q").stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+    drop(child.stdout.take());
+    assert_eq!(child.wait().unwrap().code(), Some(1));
+    assert!(desk.path("out/balls/summary.json").exists());
+}
+
 /// A name that is almost one gets the one that is meant, and nothing is explained.
 #[test]
 fn what_has_no_explanation_is_told() {

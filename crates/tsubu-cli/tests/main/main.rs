@@ -27,3 +27,4 @@ mod scenes;
 mod studies;
 /// A place to work in, and small scenes.
 mod support;
+mod sweeps;

@@ -106,85 +106,6 @@ fn an_atlas_tells_the_response_of_a_structure() {
 }
 
 #[test]
-fn a_sweep_runs_every_case_and_keeps_what_is_done() {
-    let desk = Desk::new();
-    let shown = desk.done("sweep balls.toml -q --jobs 2").stdout;
-    assert!(shown.contains("restitution = 0.5"), "{shown}");
-    assert_eq!(desk.read("out/balls-sweep/sweep.csv").lines().count(), 5);
-    let hash = |case: &str| desk.hash(&format!("out/balls-sweep/cases/{case}"));
-    assert_ne!(hash("restitution=0.5"), hash("restitution=0.8"));
-    let before = desk.read("out/balls-sweep/cases/restitution=0.7/summary.json");
-    std::fs::remove_dir_all(desk.path("out/balls-sweep/cases/restitution=0.6")).unwrap();
-    desk.done("sweep balls.toml -q --jobs 1");
-    assert_eq!(
-        desk.read("out/balls-sweep/cases/restitution=0.7/summary.json"),
-        before,
-        "a finished case was run again"
-    );
-    assert!(desk.path("out/balls-sweep/cases/restitution=0.6/summary.json").exists());
-}
-
-/// Results stood in the order of the alphabet, in the unit `[SI]`: a calibration showed eight densities, and no heap angle.
-#[test]
-fn a_sweep_tells_results_as_the_scene_asks_for_them() {
-    let asked = "[watch.zone]\nslope.touching = false\n[watch.bed]\ncoordination = {}\n\
-                 [[claim]]\nresult = \"bed rattlers final\"\nhigh = 1\nsource = \"here\"\n";
-    let desk = Desk::with(&format!("{SCENE}\n{asked}"));
-    let shown = desk.done("sweep balls.toml -q --jobs 2").stdout;
-    let header = desk.read("out/balls-sweep/sweep.csv").lines().next().unwrap().to_owned();
-    let at = |name: &str| header.find(name).unwrap_or_else(|| panic!("{name}: {header}"));
-    let order =
-        ["status [text]", "bed rattlers final [-]", "zone heap angle [rad]", "bed mean [-]", "momentum residual [N.s]"];
-    assert!(order.map(at).is_sorted(), "{header}");
-    assert!(!header.contains("[SI]"), "{header}");
-    let first = shown.lines().next().unwrap();
-    assert!(first.contains("bed rattlers final") && first.contains("zone angle [°]"), "{shown}");
-    let summary = desk.summary("out/balls-sweep/cases/restitution=0.5");
-    assert_eq!(summary["units"]["zone angle final"], "rad");
-    assert_eq!(summary["units"]["host spring rms displacement"], "m");
-    assert!(desk.read("out/balls-sweep/sweep.json").contains("wall_seconds"));
-}
-
-/// A case whose grains would not settle ended the sweep, with no table and no results of the others.
-#[test]
-fn a_case_that_does_not_settle_is_told_beside_the_others() {
-    let scene =
-        SCENE.replace("start.rows = { spacing = 1.1, jitter = 0.5, speed = 0.3 }", "start.settled = {}").replace(
-            "\"materials.acrylic.restitution\" = [0.5, 0.6, 0.7, 0.8]",
-            "\"particles.balls.start.settled.time\" = [\"10 ms\", \"2 s\"]",
-        );
-    let desk = Desk::with(&scene);
-    let ended = desk.run("sweep balls.toml -q --jobs 2");
-    assert_eq!(ended.code, Some(3), "{}", ended.stderr);
-    let table = desk.read("out/balls-sweep/sweep.csv");
-    assert!(table.contains("failed") && table.contains("finished"), "{table}");
-}
-
-/// One case that blew up ended the whole sweep: what the others gave was on the disk and in no table.
-#[test]
-fn a_case_that_fails_is_told_beside_the_others() {
-    let vary = SCENE
-        .replace("\"materials.acrylic.restitution\" = [0.5, 0.6, 0.7, 0.8]", "\"dem.largest-overlap\" = [0.1, 1e-9]");
-    let desk = Desk::with(&vary);
-    let ended = desk.run("sweep balls.toml -q --jobs 2");
-    assert_eq!(ended.code, Some(3), "{}", ended.stderr);
-    assert!(
-        ended.stdout.contains("failed") && ended.stdout.contains("case `largest-overlap = 0.000000001`: "),
-        "{}",
-        ended.stdout
-    );
-    assert!(ended.stderr.contains("1 of 2 cases failed"), "{}", ended.stderr);
-    let table = desk.read("out/balls-sweep/sweep.csv");
-    assert!(
-        table.lines().nth(1).unwrap().contains("finished") && table.lines().nth(2).unwrap().contains("overlap"),
-        "{table}"
-    );
-    desk.done("report out/balls-sweep");
-    let page = desk.read("out/balls-sweep/report.html");
-    assert!(page.contains("1 case failed") && page.contains("overlaps"), "the page does not say it");
-}
-
-#[test]
 fn two_methods_side_by_side() {
     let desk = Desk::new();
     let shown = desk.done("compare balls.toml --methods dem,lattice -q").stdout;
@@ -241,6 +162,12 @@ fn a_verification_prints_a_line_a_claim() {
     assert_eq!(desk.done("verify restitution -q -o out --resume").stdout, shown);
     let compared = desk.done("verify restitution -q --against stored").stdout;
     assert!(compared.ends_with(&format!("{claims} stored claims of 1 cases, none moved\n")), "{compared}");
+    // Controls are no claims.
+    let shown = desk.done("verify three-spheres -q").stdout;
+    let controls = shown.lines().filter(|line| line.contains("wrong on purpose: ")).count();
+    let claims = shown.lines().filter(|line| line.starts_with("pass  ")).count() - controls;
+    let counted = format!("{claims} claims, all pass\n{controls} controls, each is refused\n");
+    assert!(controls > 0 && shown.ends_with(&counted), "{shown}");
 }
 
 /// The scenes of the comparison of open-source codes run in the reduced size that their head names, close their books, and

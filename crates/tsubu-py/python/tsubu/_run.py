@@ -157,7 +157,9 @@ class Run:
     def claims(self) -> pd.DataFrame:
         """The claims with their values, ranges and sources."""
         pandas = _tables.need("pandas", "tables")
-        return pandas.DataFrame(self.summary.get("claims", []))
+        verified = self.folder / "verify.json"
+        kept = json.loads(verified.read_text(encoding="utf-8")) if verified.is_file() else self.summary
+        return pandas.DataFrame(kept.get("claims", []))
 
     @property
     def warnings(self) -> list[str]:

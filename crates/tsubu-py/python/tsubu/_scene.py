@@ -37,7 +37,7 @@ class Verdict:
     """What `tsubu check` says of a scene, a line a judgement."""
 
     lines: tuple[Line, ...]
-    """The judgements, the most important first."""
+    """The judgements, in the order in which `tsubu check` prints them."""
     fails: bool
     """Whether the run would be refused, or would fail."""
 

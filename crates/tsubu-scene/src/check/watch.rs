@@ -130,6 +130,16 @@ fn where_it_looks(
     }
 }
 
+/// Whether a wall turns, by itself or with the host that carries it.
+fn turns(parts: &Parts<'_>, wall: &plan::Wall) -> bool {
+    let host = wall.host.as_ref().and_then(|host| parts.hosts.get(host));
+    let tilts = host.is_some_and(|host| match wall.interface.as_ref().map(|name| host.interface.get(name)) {
+        Some(point) => point.is_some_and(|point| point.rotation.iter().any(|turn| *turn != [0.0; 3])),
+        None => host.turns(),
+    });
+    tilts || wall.rotation.is_some() || wall.body.is_some()
+}
+
 fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Vec<Complaint>) {
     let kind = measure.name();
     let at = |key: &str| parts.root.locate(&["watch", name, kind, key]);
@@ -185,9 +195,8 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
                 .hint("give an `area`, or leave `direction` out: forces are given along all axes"),
         ),
         Measure::WallLoad(WallLoad { wall, face: Some(face), .. }) => {
-            let turns = |wall: &plan::Wall| wall.rotation.is_some() || wall.body.is_some();
             let known = parts.walls.get(wall);
-            if known.is_some_and(|wall| !matches!(wall.shape, plan::Shape::Box { .. }) || turns(wall)) {
+            if known.is_some_and(|wall| !matches!(wall.shape, plan::Shape::Box { .. }) || turns(parts, wall)) {
                 complaints.push(
                     Complaint::new(format!("the wall `{wall}` has no `face` of its own"))
                         .at(&at("face"), "asks for one face of a box that does not turn")
@@ -210,7 +219,7 @@ fn measure(parts: &Parts<'_>, name: &str, measure: &Measure, complaints: &mut Ve
         }
         Measure::Track(Track { ids, group }) => {
             let counted = parts.particles.iter().filter(|(name, _)| group.as_ref().is_none_or(|only| only == *name));
-            let grains: usize = counted.map(|(_, group)| group.count).sum();
+            let grains: usize = counted.map(|(_, group)| group.numbered()).sum();
             let whose = group.as_ref().map_or_else(|| "the scene".to_owned(), |name| format!("the group `{name}`"));
             let beyond = ids.iter().find(|id| **id as usize >= grains);
             if let Some(id) = beyond.filter(|_| !parts.incomplete && !counts_vary(parts)) {

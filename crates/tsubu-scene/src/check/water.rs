@@ -33,7 +33,14 @@ pub(super) fn check(parts: &Parts<'_>, complaints: &mut Vec<Complaint>) {
     crowd(&water, parts, complaints);
     match &water.flow {
         Flow::Still {} => {}
-        Flow::Coupled { bottom, top, shear_velocity, discharge, lid: ends, .. } => {
+        Flow::Coupled { bottom, top, shear_velocity, discharge, lid: ends, reach, .. } => {
+            if reach.is_some() && (*ends != Lid::Free || discharge.is_none()) {
+                complaints.push(
+                    Complaint::new("a `reach` is fed by a `discharge` under a free surface")
+                        .at(&at(&["flow", "coupled", "reach"]), "this stream has not both")
+                        .hint("give lid = \"free\" and a `discharge`, or leave `reach` out"),
+                );
+            }
             let along = parts.resolved.get("gravity").and_then(|g| g.get(0)).and_then(toml::Value::as_float);
             if *ends == Lid::Free {
                 free_surface(parts, &water, along, complaints);

@@ -30,7 +30,7 @@ pub(super) static BOND: &[Key] = &[
     Key::new(
         "damping",
         Kind::Quantity(&NUMBER),
-        "Damping of the stretching of a bond, over the critical; bending and twisting lose energy in the same time",
+        "Damping of the stretching of a bond, over the critical; slower vibrations are damped less, in proportion to their frequency",
     )
     .default("0")
     .at_least(0.0)

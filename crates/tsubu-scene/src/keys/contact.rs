@@ -53,5 +53,8 @@ const TWISTING_RESISTANCE: Key =
     Key::new("twisting", Kind::Choice(Twisting::CHOICES), "Resistance against turning about the normal");
 const COHESIVE_FORCE: Key =
     Key::new("cohesion", Kind::Choice(Cohesion::CHOICES), "Attraction between bodies in contact");
-const FILM_BETWEEN: Key =
-    Key::new("film", Kind::Choice(Film::CHOICES), "Liquid between bodies that are near, touching or not");
+const FILM_BETWEEN: Key = Key::new(
+    "film",
+    Kind::Choice(Film::CHOICES),
+    "Liquid between bodies that are near; while they touch only if told (`in-contact`)",
+);

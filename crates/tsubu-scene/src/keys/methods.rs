@@ -113,7 +113,10 @@ static COLLISION: &[Word] = &[
 
 static ARITHMETIC: &[Word] = &[
     Word { name: "fixed", about: "fixed point, 1/1024 of g dt" },
-    Word { name: "integer", about: "whole multiples of g dt, truncated toward zero" },
+    Word {
+        name: "integer",
+        about: "whole multiples of g dt, of half of it with projected gravity, truncated toward zero",
+    },
 ];
 
 pub(super) static CL_CA: &[Key] = &[
@@ -127,7 +130,7 @@ pub(super) static CL_CA: &[Key] = &[
     Key::new(
         "fall-height",
         Kind::Quantity(&LENGTH),
-        "A grain falls this far in the time of free fall, which sets the time step; automatic: the height of the grains at the start",
+        "A grain falls this far in the time of free fall, which sets the time step; automatic: the height of the lattice, that is of `region`, or of walls and grains",
     )
     .above(0.0)
     .word("automatic"),
@@ -137,7 +140,7 @@ pub(super) static CL_CA: &[Key] = &[
     Key::new("memory", Kind::Whole, "Steps of the past whose sideways moves choose the side; 1: the last alone")
         .default("1")
         .at_least(1.0)
-        .at_most(100.0),
+        .at_most(32.0),
     Key::new("turning", Kind::Flag, "Grains that cannot move turn by 60 degrees where that lets them move on")
         .derived("`contact.rotation` where grains have `shape.cells`, else false"),
     Key::new("gravity-switch", Kind::Table(GRAVITY_SWITCH), "Shaking: gravity points up and down in turn").optional(),

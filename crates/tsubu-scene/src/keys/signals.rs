@@ -141,12 +141,12 @@ const SHOCK: Variant = Variant {
 
 /// Random vibration, of whatever has the spectral density.
 macro_rules! random {
-    ($density:expr, $of:expr) => {
+    ($density:expr, $of:expr, $begins:expr, $unit:expr) => {
         Variant {
             name: "random",
-            about: concat!("Random vibration by the power spectral density of ", $of, ": a sum of sines with random frequencies and phases, from 0 at time 0"),
+            about: concat!("Random vibration by the power spectral density of ", $of, ": a sum of sines with random frequencies and phases", $begins),
             keys: &[
-                Key::new("file", Kind::Text, "CSV file with columns frequency and density, beside the scene; header cells may carry units: `psd [g^2/Hz]`")
+                Key::new("file", Kind::Text, concat!("CSV file with columns frequency and density, beside the scene; header cells may carry units: `psd [", $unit, "]`"))
                     .optional()
                     .rivals(&["frequency", "psd"]),
                 Key::new("frequency", Kind::Quantities(&FREQUENCY), "Frequencies of the table, rising")
@@ -172,10 +172,16 @@ macro_rules! random {
 }
 
 /// Displacements against time.
-pub(super) static DISPLACEMENT: [Variant; 8] =
-    signals!(&LENGTH, &SPEED, SHAKEN, SWEPT, SHOCK, random!(&ACCELERATION_DENSITY, "the acceleration"));
+pub(super) static DISPLACEMENT: [Variant; 8] = signals!(
+    &LENGTH,
+    &SPEED,
+    SHAKEN,
+    SWEPT,
+    SHOCK,
+    random!(&ACCELERATION_DENSITY, "the acceleration", ", from 0 at time 0", "g^2/Hz")
+);
 /// Angles against time.
 pub(super) static TURN: [Variant; 6] = signals!(&ANGLE, &SPIN, sine!(&ANGLE), sweep!(&ANGLE));
 /// Forces against time.
 pub(super) static LOAD: [Variant; 7] =
-    signals!(&FORCE, &LOAD_RATE, sine!(&FORCE), sweep!(&FORCE), random!(&FORCE_DENSITY, "the force"));
+    signals!(&FORCE, &LOAD_RATE, sine!(&FORCE), sweep!(&FORCE), random!(&FORCE_DENSITY, "the force", "", "N^2/Hz"));

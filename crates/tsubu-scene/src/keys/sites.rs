@@ -33,7 +33,7 @@ pub(super) static AFTER_SAVAGE: &[Key] = &[
     chance(
         "up",
         "0.2",
-        "The same for the site above: how much flow disturbs the bed; no larger than `down` and `diagonal` together",
+        "The same for the site above: how much flow disturbs the bed; at most `down` and `diagonal` together",
     ),
     STEP,
 ];

@@ -23,7 +23,7 @@ static UNTIL: &[Key] = &[
     Key::new(
         "kinetic-energy",
         Kind::Quantity(&ENERGY),
-        "The kinetic energy of a grain, spin included, is below this in the mean",
+        "The kinetic energy, spin included, over the number of all grains is below this; frozen and driven grains, and each sphere of a clump, are counted",
     )
     .above(0.0)
     .optional(),

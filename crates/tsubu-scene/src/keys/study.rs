@@ -75,7 +75,7 @@ pub(super) static ATLAS: &[Key] = &[
     .default("0.1")
     .at_least(1e-4)
     .at_most(1.0),
-    Key::new("at-most", Kind::Whole, "Points of a case, at most").default("100").at_least(12.0).at_most(1e5),
+    Key::new("at-most", Kind::Whole, "Points of a case, at most").default("100").at_least(15.0).at_most(1e5),
     Key::new(
         "measure-periods",
         Kind::Whole,

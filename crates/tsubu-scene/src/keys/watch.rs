@@ -9,7 +9,7 @@ const TIMES: [Key; 3] = [
     Key::new("until", Kind::Quantity(&TIME), "After this no look is taken").above(0.0).word("end"),
     Key::new("every", Kind::Quantity(&TIME), "Simulated time between looks, or \"step\": at every step")
         .above(0.0)
-        .derived_or_word("`output.history-interval`; of `hops` every step", "step"),
+        .derived_or_word("`output.history-interval`; of `hops` and `spectrum` every step", "step"),
 ];
 
 pub(super) static WATCH: &[Key] = &times_and_kinds();

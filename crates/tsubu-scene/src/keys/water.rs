@@ -12,7 +12,7 @@ pub(super) static WATER: &[Key] = &[
         .above(0.0)
         .may_change(),
     Key::new("surface", Kind::Quantity(&LENGTH), "Height z up to which there is water")
-        .derived("zero-level + depth of a log-law with `depth`; otherwise there is water everywhere"),
+        .derived("zero-level + depth of a log-law with `depth`, `top` of `coupled` and `column`; otherwise there is water everywhere"),
     Key::new(
         "added-mass",
         Kind::Quantity(&NUMBER),
@@ -64,7 +64,7 @@ static DIRECTIONS: &[Word] = &[
     Word { name: "even", about: "the same along, across and up" },
     Word {
         name: "stream",
-        about: "as over a rough bed, 2.30 : 1.63 : 1.27 along, across and up (Nezu and Nakagawa 1993): `strength` times 1.29, 0.92, 0.71",
+        about: "as over a rough bed, 2.30 : 1.63 : 1.27 along, across and up (Nezu and Nakagawa 1993): `strength` times 1.29, 0.91, 0.71",
     },
 ];
 

@@ -26,6 +26,13 @@ pub struct Particles {
     pub motion: GrainMotion,
 }
 
+impl Particles {
+    /// Numbers that its grains take: the spheres of a clump have one each.
+    pub fn numbered(&self) -> usize {
+        self.count * self.shape.spheres()
+    }
+}
+
 /// What a grain is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", rename_all_fields = "kebab-case", deny_unknown_fields)]

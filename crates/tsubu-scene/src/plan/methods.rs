@@ -122,7 +122,7 @@ pub enum Arithmetic {
 pub struct ClCa {
     /// Distance of lattice points [m]; `None`: the smallest grains become hexagons of radius 1.
     pub spacing: Option<f64>,
-    /// A grain falls this far in the time of free fall [m]; `None`: the height of the grains at the start.
+    /// A grain falls this far in the time of free fall [m]; `None`: the height of the lattice.
     pub fall_height: Option<f64>,
     /// The piece of the lattice that grains can reach; `None`: around walls and grains.
     pub region: Option<Region>,

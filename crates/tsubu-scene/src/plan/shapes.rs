@@ -108,6 +108,17 @@ impl GrainShape {
         matches!(self, Self::Polyhedron { .. } | Self::PolyhedronMesh { .. } | Self::Polygon { .. })
     }
 
+    /// Grains that one body is in frames and watches: the spheres of a clump have a number each.
+    pub fn spheres(&self) -> usize {
+        match self {
+            Self::Clump { centre, .. } => centre.len(),
+            Self::ClumpFile { spheres, .. } => spheres.len(),
+            Self::ClumpMesh { packing, .. } => packing.spheres.len(),
+            _ => 1,
+        }
+        .max(1)
+    }
+
     /// Whether it is a body that is no sphere: [`GrainShape::clump`] without the work of its mass.
     pub fn is_clump(&self) -> bool {
         match self {

@@ -23,7 +23,7 @@ pub struct Stage {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Until {
-    /// The mean kinetic energy of a grain, spin included, is below this [J].
+    /// The kinetic energy, spin included, over the number of all grains, frozen and driven ones and each sphere of a clump counted, is below this [J].
     pub kinetic_energy: Option<f64>,
     /// The kinetic energy of all grains over their potential energy from z = 0 is below this [-].
     pub kinetic_over_potential: Option<f64>,

@@ -7,7 +7,7 @@ use crate::check;
 use crate::engine::{Note, Refusal};
 use crate::lattice::grid::WALL;
 use crate::lattice::reach::{self, Ways};
-use crate::lattice::remarks::{Remarks, World};
+use crate::lattice::remarks::{Pull, Remarks, World};
 use crate::lattice::site::ground::Sites;
 use crate::lattice::stage::{self, LARGEST, Stage};
 use crate::memory::refuse_more_than_there_is;
@@ -92,7 +92,7 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
         claim: _,
     } = plan;
     let mut remarks = Remarks::of("cl-ca");
-    let world = World { noun: "grains of lattice points", tilted: false, weightless: true, periodic: [false; 2] };
+    let world = World { noun: "grains of lattice points", gravity: Pull::DownOrNone, periodic: [false; 2] };
     remarks.world(plan, world);
     remarks.refusal().map_or(Ok(()), Err)?;
     let forceless = "no forces: grains move where there is room, whatever their stiffness, restitution and friction";

@@ -10,7 +10,7 @@ pub(super) const EPSD: About = About {
     key: "contact.rolling.epsd",
     formula: "dM = -k_r w dt, |M| <= mu_r R* f_n, k_r = ratio k_n (mu_r R*)^2; dashpot 2 z sqrt(I k_r), I = 7/5 m* R*^2",
     symbols: "w relative spin without its normal part [rad/s], k_n = f/d [N/m], mu_r, z, ratio [-], R* [m], m* [kg]",
-    limits: "k_n is the secant stiffness under Hertz; I is right for a ball on a wall, a quarter of that of two equal balls",
+    limits: "k_n is the secant stiffness under Hertz; I is right for a ball on a wall, a quarter of that of two equal balls; the dashpot is cut at 0.02 m* R*^2/dt, at the default step from z mu_r of about 0.036 on",
     reference: "model C of Ai, Chen, Rotter, Ooi 2011; Iwashita and Oda 1998",
 };
 

@@ -19,7 +19,7 @@ f = k2 (d - d0)       let go and pressed again, d0 = (1 - k1/k2) d_m, d_m the de
 f = -kc d             pulled, where that is more than k2 (d - d0); strongest at d = (k2 - k1) / (k2 + kc) d_m
 k2 = k1 + (K - k1) d_m/D, not above K, with D = K / (K - k1) 2 R* phi; deeper than D the contact is elastic with K.
 Torn along -kc d the dent shrinks: d_m falls with d so that pressing again goes with its k2. It is gone where the bodies part, d = 0.
-Stored f^2 / (2 k2). Lost (1/2) k1 d_m d0 in loading, (1/2) kc k2 d0^2 / (k2 + kc) in tearing off.",
+Friction sees f + kc d. Stored f^2 / (2 k2). Lost (1/2) k1 d_m d0 in loading, (1/2) kc k2 d0^2 / (k2 + kc) in tearing off.",
     symbols: "d overlap [m], k1 `stiffness` [N/m], K = `unloading-ratio` k1, kc = `adhesion-ratio` k1, phi `plasticity-depth` [-], R* effective radius [m]",
     limits: "stiffnesses are choices, not material constants; nothing is seen of a dent at the next touch; a dashpot loses beside it: without one (`damping.none`) an impact without adhesion has the restitution sqrt(k1/k2)",
     reference: "Luding 2008, Granular Matter 10, 235; Walton and Braun 1986; the shrinking of d_m where k2 depends on it is ours",

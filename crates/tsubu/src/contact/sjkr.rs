@@ -10,7 +10,7 @@ pub(super) const ABOUT: About = About {
     formula: "f_n = f_elastic - C A, A = 2 pi R* d; friction sees f_n + C A; stored less C pi R* d^2",
     symbols: "C the materials' cohesion [Pa], R* effective radius [m], d overlap [m]",
     limits: "no theory of adhesion: the same C binds a softer material more strongly, as d is larger; nothing at d = 0",
-    reference: "the cohesion models sjkr, sjkr2 of LIGGGHTS, for overlaps small against the radii",
+    reference: "the cohesion model sjkr of LIGGGHTS, for overlaps small against the radii; its sjkr2 takes twice the area",
 };
 
 pub(super) const fn part() -> Plain {

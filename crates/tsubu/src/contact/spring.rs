@@ -11,7 +11,7 @@ pub(super) const ABOUT: About = About {
     key: "contact.tangential.spring",
     formula: "e_s = -k_t s, |e_s| <= mu f_n + c; f_t = e_s - c_t v_t within the same limit; k_t = ratio k, c_t = damping c_n",
     symbols: "s slip [m], v_t slip velocity [m/s], k, k_t [N/m], c_n, c_t dashpots [N.s/m], mu [-], c cohesion [N]",
-    limits: "contacts that turn about their normal do not turn e_s; with Hertz k_t follows the secant stiffness f/d",
+    limits: "contacts that turn about their normal do not turn e_s; with Luding's spring k is k1",
     reference: "Cundall and Strack 1979; Osada 2004, eqs. (B2) to (B4), the dashpot dropped where it slides",
 };
 

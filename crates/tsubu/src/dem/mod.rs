@@ -40,7 +40,7 @@ pub(crate) const ABOUT: About = About {
     formula: "m dv/dt = sum f + m g,  I dw/dt = sum T; velocity Verlet; f and T by the contact law, see `contact`",
     symbols: "v velocity [m/s], w spin [rad/s], m mass [kg], I moment of inertia [kg.m^2], f force [N], T torque [N.m], g \
 gravity [m/s^2]",
-    limits: "Spheres, clumps of spheres, superellipsoids; in the plane with centres and motion in it. The step must resolve the shortest contact: `tsubu \
+    limits: "Spheres, clumps of spheres, superellipsoids, polyhedra; in the plane discs, polygons and cells as well, with centres and motion in it. The step must resolve the shortest contact: `tsubu \
 check` says how well. Contacts are soft: the overlap is to stay below about 1 % of the diameter.",
     reference: "Cundall and Strack 1979",
 };

@@ -94,8 +94,9 @@ impl DemEngine {
             let other = self.named(contact);
             let (what, way_out) =
                 if contact.wall { ("the wall", "or the wall") } else { ("that grain", "or the other") };
-            let mut text =
-                format!("grain {id} begins {ratio:.3} of its diameter deep in {other}; move the grain {way_out}");
+            let rounded = self.integration.bodies.rounding(contact.first).is_some();
+            let whole = if rounded { "twice its rounding radius" } else { "its diameter" };
+            let mut text = format!("grain {id} begins {ratio:.3} of {whole} deep in {other}; move the grain {way_out}");
             if verdict == Verdict::Refused && *ratio < 1.0 {
                 let _ = write!(text, "; a `dem.largest-overlap` above {ratio:.3} would let it be pushed out of {what}");
             }

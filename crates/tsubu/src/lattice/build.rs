@@ -4,7 +4,7 @@ mod casing;
 
 use super::damper::{Beyond, Damper, Rules};
 use super::fixed::{Restitution, Scale};
-use super::remarks::{Remarks, World};
+use super::remarks::{Pull, Remarks, World};
 use super::shape::Shape;
 use super::start;
 use crate::engine::{Note, Refusal};
@@ -80,7 +80,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         claim: _,
     } = plan;
     let mut remarks = Remarks::of("lattice");
-    remarks.world(plan, World { noun: "the automaton's balls", tilted: false, weightless: true, periodic: [false; 2] });
+    remarks.world(plan, World { noun: "the automaton's balls", gravity: Pull::DownOrNone, periodic: [false; 2] });
     if !removal.is_empty() {
         remarks.refuse("removal", "the automaton keeps its balls; use `method = \"dem\"`");
     }
@@ -171,7 +171,10 @@ fn kind<'a>(plan: &'a Plan, remarks: &mut Remarks) -> Option<BallKind<'a>> {
                 );
             }
         }
-        if restitution(plan, &group.material, &group.material) != restitution(plan, &first.material, &first.material) {
+        let common = restitution(plan, &first.material, &first.material);
+        let differs =
+            |other: &&plan::Particles| (restitution(plan, &group.material, &other.material) - common).abs() > 1e-12;
+        if plan.particles.values().any(|other| differs(&other)) {
             remarks.refuse(
                 format!("particles.{name}.material"),
                 format!("its restitution differs from that of `{first_name}`; all balls of the automaton are equal"),
@@ -198,7 +201,7 @@ fn refuse_group(name: &str, group: &plan::Particles, remarks: &mut Remarks) {
 fn remark_contact(contact: &plan::Contact, pair: Option<(usize, &plan::Contact)>, plan: &Plan, remarks: &mut Remarks) {
     let plan::Contact {
         normal,
-        damping: _,
+        damping,
         attraction: _,
         tangential,
         rolling,
@@ -214,6 +217,17 @@ fn remark_contact(contact: &plan::Contact, pair: Option<(usize, &plan::Contact)>
     if !normal.elastic() && scene.is_none_or(|scene| scene.normal != *normal) {
         let text = "the automaton's balls neither yield nor hold each other: they rebound by their restitution";
         remarks.approximate(key("contact.normal"), text);
+    }
+    let told = matches!(
+        damping,
+        plan::Damping::None {}
+            | plan::Damping::Rate { .. }
+            | plan::Damping::Viscoelastic { .. }
+            | plan::Damping::Dashpot { .. }
+    );
+    if told && scene.is_none_or(|scene| scene.damping != *damping) {
+        let text = "the automaton's balls rebound by the restitution of their materials";
+        remarks.approximate(key("contact.damping"), text);
     }
     if !matches!(cohesion, plan::Cohesion::None {}) && scene.is_none_or(|scene| scene.cohesion != *cohesion) {
         remarks.approximate(key("contact.cohesion"), "the automaton knows no cohesion");

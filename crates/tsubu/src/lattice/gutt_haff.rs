@@ -27,7 +27,7 @@ pub(crate) const ABOUT: About = About {
     formula: "o += v dt + g dt^2/2, v += g dt;  a collision exchanges (1 + e)/2 u along the line of centres;  at |o| > 1/2 along a direction the grain jumps to that node",
     symbols: "o offset from the node [spacings], v velocity [spacings/step], u approach of the pair [spacings/step], e \
 restitution [-]",
-    limits: "One grain a node; no friction, no spin; equal diameters. Free fall is exact.",
+    limits: "One grain a node; no friction, no spin; equal diameters and masses (the mean of the scene's). Free fall is exact.",
     reference: "Gutt and Haff 1990",
 };
 

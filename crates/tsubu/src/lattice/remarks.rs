@@ -9,12 +9,44 @@ use tsubu_scene::plan::{self, Plan, Watch};
 pub struct World {
     /// What its grains are called.
     pub noun: &'static str,
-    /// Whether gravity may point anywhere in the plane, not only along -z.
-    pub tilted: bool,
-    /// Whether there may be none.
-    pub weightless: bool,
+    /// Where gravity may point.
+    pub gravity: Pull,
     /// Whether the world may repeat itself along x and along z.
     pub periodic: [bool; 2],
+}
+
+/// Where gravity may point on a lattice.
+#[derive(Clone, Copy, Debug)]
+pub enum Pull {
+    /// Along -z.
+    Down,
+    /// Along -z, or there is none.
+    DownOrNone,
+    /// Downwards in the plane, though it may lean.
+    Leaning,
+    /// Anywhere in the plane, or there is none.
+    Anywhere,
+}
+
+impl Pull {
+    fn takes(self, [x, y, z]: [f64; 3]) -> bool {
+        let way = match self {
+            Self::Down => x == 0.0 && z < 0.0,
+            Self::DownOrNone => x == 0.0 && z <= 0.0,
+            Self::Leaning => z < 0.0,
+            Self::Anywhere => true,
+        };
+        way && y == 0.0
+    }
+
+    fn told(self) -> &'static str {
+        match self {
+            Self::Down => "along -z; set `gravity` to one number, or turn the scene",
+            Self::DownOrNone => "along -z or none; set `gravity` to one number, or turn the scene",
+            Self::Leaning => "that may lean in the plane but points down; turn the scene",
+            Self::Anywhere => "in the plane of x and z; set its y to 0",
+        }
+    }
 }
 
 /// Collects remarks; a refused entry refuses the run.
@@ -48,7 +80,7 @@ impl Remarks {
 
     /// Refuses what of a scene's world the method has no room for: space, water, gravity, ends that meet.
     pub fn world(&mut self, plan: &Plan, world: World) {
-        let World { noun, tilted, weightless, periodic } = world;
+        let World { noun, gravity, periodic } = world;
         if plan.dimension != 2 {
             let text = format!("{noun} live in the plane; set `dimension = 2`, or use `method = \"dem\"`");
             self.refuse("dimension", text);
@@ -56,11 +88,8 @@ impl Remarks {
         if plan.water.is_some() {
             self.refuse("water", format!("{noun} fall in air; use `method = \"dem\"`"));
         }
-        let [x, y, z] = plan.gravity;
-        if y != 0.0 || (!tilted && (x != 0.0 || z > 0.0)) || (!weightless && plan.gravity == [0.0; 3]) {
-            let or = if weightless { " or none" } else { "" };
-            let text = format!("the lattice has gravity along -z{or}; set `gravity` to one number, or turn the scene");
-            self.refuse("gravity", text);
+        if !gravity.takes(plan.gravity) {
+            self.refuse("gravity", format!("the lattice has gravity {}", gravity.told()));
         }
         let plan::Periodic { x, y, z } = &plan.periodic;
         let refused = |ends: &Option<[f64; 2]>, can: bool| ends.is_some() && !can;

@@ -70,6 +70,7 @@ pub(super) fn place(plan: &Plan, geometry: &Geometry, scale: &Scale, remarks: &m
     }
     let mut taken = Taken::new();
     let mut balls = Vec::with_capacity(count);
+    let mut refused = 0;
     for (name, group) in &plan.particles {
         let key = format!("particles.{name}.start");
         match &group.start {
@@ -87,9 +88,11 @@ pub(super) fn place(plan: &Plan, geometry: &Geometry, scale: &Scale, remarks: &m
                 );
             }
             Start::Random { .. } | Start::Stream { .. } | Start::File { .. } => {
+                refused += group.count;
                 remarks.refuse(key, "the automaton fills its box by `settled`, `rows` or `at`; use `method = \"dem\"`");
             }
             Start::Rows { region: Some(_), .. } => {
+                refused += group.count;
                 remarks.refuse(format!("{key}.rows.region"), "the automaton fills its box from the floor up");
             }
             Start::Rows { spacing: _, jitter: _, speed, region: None } => {
@@ -111,7 +114,7 @@ pub(super) fn place(plan: &Plan, geometry: &Geometry, scale: &Scale, remarks: &m
             }
         }
     }
-    if balls.len() < count {
+    if balls.len() + refused < count {
         refuse(balls.len(), remarks);
     }
     balls

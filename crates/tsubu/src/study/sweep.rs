@@ -209,12 +209,20 @@ fn made(
     run: &dyn Fn(&Scene, &Path, Existing) -> Result<Summary, RunError>,
 ) -> Result<Summary, CasesError> {
     let scene = case.scene(scene).map_err(CasesError::Complaints)?;
-    if let Some(summary) = earlier(&scene, folder).filter(|s| s.status == Status::Finished) {
+    let finished = || earlier(&scene, folder).filter(|s| s.status == Status::Finished);
+    if let Some(summary) = finished() {
         return Ok(summary);
     }
     let cut = is_of(&scene, folder) && tsubu_frame::checkpoint::path(folder).exists();
     let existing = if cut { Existing::Resume } else { Existing::Overwrite };
-    match run(&scene, folder, existing) {
+    let made = run(&scene, folder, existing);
+    // Whoever worked at it may have ended, and taken its checkpoint away, between the look above and the run.
+    if made.is_err()
+        && let Some(summary) = finished()
+    {
+        return Ok(summary);
+    }
+    match made {
         Ok(summary) => Ok(summary),
         // One case that goes wrong leaves the others their results.
         Err(RunError::Fault(fault) | RunError::Open(OpenError::Settling(fault))) => {

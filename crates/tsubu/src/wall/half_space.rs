@@ -11,7 +11,7 @@ pub(crate) const PLANE: About = About {
     formula: "d = r - (x - point) . normal, contact normal: the plane's",
     symbols: "x centre of the grain [m], r its radius [m], d overlap [m], point [m], normal unit vector towards the grains \
 [-]",
-    limits: "Endless. Grains behind it are overlapping: nothing may begin there. A wall is a body of infinite radius; its \
+    limits: "Endless. Grains behind it are overlapping: no free grain may begin there. A wall is a body of infinite radius; its \
 mass is infinite, on a host the one that the host shows.",
     reference: "by definition",
 };

@@ -30,7 +30,7 @@ F_grains = t . F + r . J^T T",
     symbols: "p drawn point of the interface [m], u its displacement [m], R its rotation, t and r translation and rotation a unit of each \
 coordinate, q coordinates of a structure with matrices M, C, K, y(t) displacement of its base [m], g how the base drives each coordinate, \
 F(t) applied force [N], w what the point at which it acts sees of each coordinate, F and T force [N] and torque about the interface [N.m] \
-of the grains, J left Jacobian of the rotation vector. Without `interface`: t = w direction, and no rotation",
+of the grains, J left Jacobian of the rotation vector. Without `interface`: t = w direction, and no rotation; on a pendulum r = axis and t = 0",
     limits: "Displacements are linear in the coordinates; rotations hold at any angle. In an impact the wall shows the mass of the \
 structure at the interface, without its rotation. A host may carry several walls; its energy and what base and force do to it are in the \
 ledger.",

@@ -25,7 +25,7 @@ entrainment           started over A and the time since the last look           
 deposition            stopped over the same                                                        [1/(m^2.s)]
 `transport rate below 1 mm`, ... with `sizes`: q of the grains of that diameter alone                [m^2/s]
 Einstein number       q / sqrt((s - 1) g d^3), s the density of the grains over `fluid-density`     [-]
-Shields number        as the watch `stream` tells it, where the water is a stream               [-]
+Shields number        as the watch `stream` tells it, where the water is a stream and `fluid-density` is told               [-]
 Meyer-Peter and Mueller 1948, Wong and Parker 2006: the Einstein number by their formulas, 8 (Shields number - 0.047)^1.5 and
                       3.97 (Shields number - 0.0495)^1.5                                          [-]
 A grain moves from the look on at which it is faster than `moving-speed`, until it is slower than `resting-speed`: a grain

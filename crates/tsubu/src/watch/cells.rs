@@ -71,6 +71,7 @@ impl Counts {
             here / all * counts.iter().zip(&shares).map(|(n, p)| (n / here - p).powi(2)).sum::<f64>()
         };
         let variance: f64 = self.cells.values().map(of_cell).sum();
-        (apart - variance) / (apart - random)
+        // One grain in every cell: apart and mixed at random are the same.
+        if apart > random { (apart - variance) / (apart - random) } else { f64::NAN }
     }
 }

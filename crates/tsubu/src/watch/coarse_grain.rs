@@ -26,7 +26,7 @@ Love and Weber.",
     symbols: "",
     limits: "Along axes that are not asked for, fields are means over the region, to which a body belongs by its centre \
 and a contact by the middle of its branch. Fields within a kernel of the region's ends see what lies beyond. \
-Spins are left out.",
+Spins are left out. What bonds, the body of a clump and water do to grains is in no field: with these the balance misses it.",
     reference: "Goldhirsch 2010, Granular Matter 12, 239; boundaries: Weinhart et al. 2012, Granular Matter 14, 289",
 };
 

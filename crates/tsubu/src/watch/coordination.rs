@@ -10,7 +10,7 @@ pub(super) const ABOUT: About = About {
     formula: "\
 Coordination number: contacts per grain, both grains of a contact counting it.
 mean              Z = sum z / N over the free grains, frozen and driven ones left out       [-]
-without rattlers  the same over the grains that are no rattlers, contacts among them alone  [-]
+without rattlers  the same over the grains that are no rattlers, contacts with rattlers left out  [-]
 rattlers          share of the grains that are rattlers                                     [-]
 contacts          number of contacts of these grains, each once                             [-]
 A rattler has fewer contacts than `fewest`; without it others may become rattlers, so they are taken out until none is

@@ -22,7 +22,7 @@ With `sizes` also `passed mass below 1 mm`, `passed mass 1 mm to 2 mm`, `passed 
 A grain has passed when its centre has. Where the world repeats itself along the normal, every passage counts. Grains that
 come into the world in front of the plane do not count. One that vanished (see `removal`) between two looks counts if in
 free fall from where and as fast as it was last seen it would have passed by now: look often enough to see grains that pass.
-The mean of the rate is the number that passed over the time from the first to the last look.",
+The mean of the rate is nearly the number that passed over the time from the first to the last look; exactly, where `every` is a whole number of steps.",
     symbols: "",
     limits: "A passage between two looks is seen only by where a grain is at the looks.",
     reference: "by definition",

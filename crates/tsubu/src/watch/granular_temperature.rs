@@ -16,7 +16,7 @@ temperature x, z       <(v - V)^2> of each component; T is their mean           
 velocity x, z          V                                                                 [m/s]",
     symbols: "",
     limits: "What moves as a whole has no temperature, but shear and rotation of the group count as fluctuation: take a region that \
-is small beside them, or the `profile` of a shear flow. Spins are left out.",
+is small beside them, or the `profile` of a shear flow. Spins are left out; the spheres of a clump count one by one, so that its turning counts.",
     reference: "Campbell 1990 (Annu. Rev. Fluid Mech. 22, 57)",
 };
 

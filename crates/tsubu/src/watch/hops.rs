@@ -20,7 +20,7 @@ start           time of take-off                                                
 height          highest centre along `up` above that at take-off                                  [m]
 length          way of the centre along `along`, going on across periodic ends                    [m]
 flight time     from take-off to the next touch                                                   [s]
-impact angle    of the velocity below the plane across `up`, before the contact                   [rad]
+impact angle    of the velocity against the bed, below the plane across `up`, before it                   [rad]
 impact speed    before the contact, against the bed                                               [m/s]
 rebound speed   after it                                                                          [m/s]
 restitution     normal speed after the contact over that before, each along its own normal        [-]
@@ -86,7 +86,7 @@ pub(super) fn open(asked: &watch::Hops, plan: &Plan) -> Hops {
         most: most.unwrap_or(usize::MAX),
         turns: if plan.dimension == 3 { axes(plan) } else { &[1] },
         courses: Vec::new(),
-        grains: plan.grains(),
+        grains: plan.numbered(),
         means: Means::new(5),
         largest: [f64::NAN; 2],
         counted: 0,

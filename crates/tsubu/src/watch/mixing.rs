@@ -22,7 +22,7 @@ where every cell is pure and 1 where every cell is as the whole; of a random mix
 a cell has.",
     symbols: "",
     limits: "Depends on the size of the cells; cells at the border hold fewer. Cells begin at the origin of the scene. \
-Frozen and driven grains are left out.",
+Frozen and driven grains are left out. Where every cell holds one grain Lacey's index is not a number: take larger ones.",
     reference: "M after Lacey 1954 (J. Appl. Chem. 4, 257), summed over groups; E after Camesasca, Kaufman and Manas-Zloczower 2006 \
 (Macromol. Theory Simul. 15, 595)",
 };

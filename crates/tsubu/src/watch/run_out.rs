@@ -119,9 +119,11 @@ impl Watch for RunOut {
         for i in (0..view.len()).filter(|&i| ours(i)) {
             let place = view.unwrapped(i);
             let way = sign * place[axis];
-            furthest = furthest.max(way + g.radius[i]);
+            let [low, high] = view.ends(i, axis);
+            let end = way + if sign > 0.0 { high } else { -low };
+            furthest = furthest.max(end);
             if touches[i] {
-                front = front.max(way + g.radius[i]);
+                front = front.max(end);
             }
             mass += g.mass[i];
             moment += g.mass[i] * place;

@@ -20,7 +20,7 @@ cell. M is 0 where every cell is pure and 1 for random mixtures in the mean: a s
 about sqrt(2 / cells) / (n - 1). More than that above 1 is order: groups in perfect order reach n / (n - 1). M is not cut at 1.",
     symbols: "",
     limits: "Depends on the size of the cells; cells at the border hold fewer. Cells begin at the origin of the scene. \
-Frozen and driven grains are left out.",
+Frozen and driven grains are left out. Where every cell holds one grain Lacey's index is not a number: take larger ones.",
     reference: "Lacey 1954 (J. Appl. Chem. 4, 257)",
 };
 

@@ -24,7 +24,7 @@ the number of segments.",
     symbols: "y: base, z: what is told of the structure, both along the host's direction; S_yz: cross density, S = 2 dt |sum w x exp(-i \
 2 pi f t)|^2 / sum w^2",
     limits: "A resonance is told where T is longer than about four over its half-power bandwidth 2 zeta f. A density of n segments scatters by \
-about sqrt(1.9 / n) around its mean; the transmissibility less, where the coherence is near 1. Without a moving base it is not a number. \
+about 1 / sqrt(n) around its mean, of normal noise; the transmissibility less, where the coherence is near 1. Without a moving base it is not a number. \
 Accelerations are 2 pi f times velocities, so that no differences are taken. Looks at every step unless `every` is given: what is \
 faster than half of their rate is folded over.",
     reference: "Welch 1967",

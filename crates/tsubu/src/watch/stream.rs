@@ -18,7 +18,7 @@ Shields number    bed stress / ((s - 1) rho g d), s density of the grains over r
 Rouse number      w / (0.40 sqrt(bed stress / rho)), w terminal speed of a sphere of d   [-]
 of layers (`coupled`, `water.flow.column`)
 discharge         of water per width of a stream; of a column per plan area              [m^2/s] or [m/s]
-mean velocity     discharge over the depth of water, sum of shares times thickness       [m/s]
+mean velocity     of the water: velocity, weighed by share times thickness of the layers [m/s]
 level             height z where a stream ends: its lid, or its free surface              [m]
 depth above the bed  of a stream, from the top of its bed to its level                   [m]
 and for every layer

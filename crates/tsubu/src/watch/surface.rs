@@ -36,7 +36,7 @@ impl Surface {
             if self.region.holds(p) {
                 let k = (p[self.axis.index()] - self.low) / self.width * self.bins as f64;
                 let height = &mut columns[(k as usize).min(self.bins - 1)].1;
-                *height = height.max(p.z + view.grains.radius[i]);
+                *height = height.max(p.z + view.ends(i, Axis::Z.index())[1]);
             }
         }
         columns

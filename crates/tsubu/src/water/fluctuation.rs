@@ -18,7 +18,7 @@ use tsubu_scene::plan;
 pub(super) const ABOUT: About = About {
     key: "water.fluctuation",
     formula: "U' = min(strength U*, |U|) g, g normal, correlated over the Lagrangian time T, with variances 1 in each direction or, as \
-a `stream` has them, 1.67, 0.84 and 0.51 along, across and up; \
+a `stream` has them, 1.66, 0.83 and 0.51 along, across and up; \
 independent draws every pi^2/8 T, between them a cos(pi s/2) + b sin(pi s/2)",
     symbols: "U* shear velocity, in a coupled stream that of the turbulent stress at the height of the grain [m/s], U mean velocity at the grain [m/s], T [s], s share of the interval that has passed [-]",
     limits: "Neighbours see independent water; no correlation between directions; the same T at all heights; what falls through \

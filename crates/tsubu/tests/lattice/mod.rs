@@ -8,3 +8,4 @@ mod methods;
 mod plans;
 mod refusal;
 mod sites;
+mod told;

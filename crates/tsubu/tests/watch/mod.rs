@@ -1,5 +1,6 @@
 //! Watches against known answers, each gate with something wrong that it refuses.
 
+mod bodies;
 mod coarse_grain;
 mod contacts;
 mod counts;

@@ -172,10 +172,13 @@ fn write(folder: &RunFolder, outcomes: &[Outcome]) -> Result<(), Failure> {
     written.map_err(|error| Failure::of_file(&error, folder.path()))
 }
 
-/// How many of the claims pass, fail and are undecided, the last on a line of their own; regressions are counted apart.
+/// How many of the claims pass, fail and are undecided, the last on a line of their own; controls and regressions are counted apart.
 fn verdicts(claims: &[&Claim]) -> String {
-    let (regressions, claims): (Vec<&Claim>, Vec<&Claim>) =
-        claims.iter().copied().partition(|claim| claim.origin == Origin::Regression);
+    let of = |origin: Origin| claims.iter().filter(move |claim| claim.origin == origin);
+    let apart = [Origin::Control, Origin::Regression];
+    let (controls, regressions) = (of(apart[0]).count(), of(apart[1]).count());
+    let wrong = apart.map(|origin| of(origin).filter(|claim| !claim.pass).count());
+    let claims: Vec<&Claim> = claims.iter().copied().filter(|claim| !apart.contains(&claim.origin)).collect();
     let count = |verdict| claims.iter().filter(|claim| claim.verdict() == verdict).count();
     let mut text = match count(Verdict::Fail) {
         0 if claims.iter().all(|claim| claim.pass) => format!("{} claims, all pass\n", claims.len()),
@@ -187,11 +190,14 @@ fn verdicts(claims: &[&Claim]) -> String {
         let word = Stream::Data.yellow(&format!("{undecided} undecided"));
         let _ = writeln!(text, "{word}: the interval of the ensemble lies neither in the range nor outside");
     }
-    if !regressions.is_empty() {
-        let moved = regressions.iter().filter(|claim| !claim.pass).count();
-        let word = if moved == 0 { "none moved".to_owned() } else { Stream::Data.bold_red(&format!("{moved} FAIL")) };
-        let _ = writeln!(text, "{} regression checks, {word}", regressions.len());
-    }
+    let mut also = |number: usize, what: &str, wrong: usize, well: &str| {
+        if number > 0 {
+            let word = if wrong == 0 { well.to_owned() } else { Stream::Data.bold_red(&format!("{wrong} FAIL")) };
+            let _ = writeln!(text, "{number} {what}, {word}");
+        }
+    };
+    also(controls, "controls", wrong[0], "each is refused");
+    also(regressions, "regression checks", wrong[1], "none moved");
     text
 }
 

@@ -13,11 +13,11 @@ variants! {
             /// Gap at which it grows no more [m].
             roughness: f64 = Key::new("roughness", Kind::Quantity(&LENGTH), "Gap below which the film gets no stiffer")
                 .above(0.0)
-                .derived("a thousandth of the smallest diameter"),
+                .derived("a thousandth of the smallest mean diameter of a group"),
             /// Gap beyond which it is not counted [m].
             reach: f64 = Key::new("reach", Kind::Quantity(&LENGTH), "Gap beyond which the film is not counted")
                 .above(0.0)
-                .derived("a tenth of the smallest diameter"),
+                .derived("a tenth of the smallest mean diameter of a group"),
             /// mu [Pa.s].
             viscosity: f64 = Key::new("viscosity", Kind::Quantity(&VISCOSITY), "Viscosity mu of the liquid")
                 .above(0.0)

@@ -35,7 +35,7 @@ variants! {
             plasticity_depth: f64 = Key::new(
                 "plasticity-depth",
                 Kind::Quantity(&NUMBER),
-                "Depth of the deepest dent over 2 R*, R* the effective radius; beyond it the contact is elastic",
+                "Depth of the deepest dent over 2 R*, R* the effective radius; pressed deeper than makes it, the contact is elastic",
             )
             .above(0.0),
         }

@@ -7,7 +7,7 @@
 //! 1. [`gravity`]: v += -g dt (direction . z); a ball that went up and ran out of speed turns down;
 //! 2. [`resting`], [`wall_collision`], [`ball_collision`]: from the old state, at most one collision a ball;
 //! 3. [`box_motion`]: the box moves by whole cells and ejects what is in the way;
-//! 4. [`movement`]: S += v; at S >= dx the ball moves one cell if what it takes is free, else by lottery.
+//! 4. [`movement`]: S += v; at S >= dx the ball moves one cell if what it takes is free; of several that want it one is drawn.
 //!
 //! The authors name balls of several cells as a remedy for a packing and for directions that the lattice locks. The rules are the same for
 //! them: all that a ball's shape says is which cells a move takes and which it leaves, and so who is ahead, touches it, or stands on it.
@@ -40,7 +40,7 @@ use tsubu_scene::plan::{Collision, ObliqueGravity};
 
 pub(crate) const ABOUT: About = About {
     key: "method.lattice",
-    formula: "v += -g dt (direction . z);  S += v dt;  at S >= one cell the ball moves one cell if it is free, else by lottery",
+    formula: "v += -g dt (direction . z);  S += v dt;  at S >= one cell the ball moves one cell if that is free; of several that want it one is drawn",
     symbols: "v speed along one of six directions [m/s], S stored distance [m], g gravity [m/s^2], dt time step [s]",
     limits: "Equal balls of one cell or a hexagon of cells in boxes that move up and down; no friction, no spin. Whole numbers: the books close without \
 rounding. `lattice.mode` says how near it is to what was published.",

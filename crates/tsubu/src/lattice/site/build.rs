@@ -12,7 +12,7 @@ use crate::lattice::gutt_haff::{Grain, LatticeGrains};
 use crate::lattice::hemmingsson_herrmann::{Pile, Rule, Split};
 use crate::lattice::litwiniszyn::Litwiniszyn;
 use crate::lattice::reach::{self, Ways};
-use crate::lattice::remarks::{Remarks, World};
+use crate::lattice::remarks::{Pull, Remarks, World};
 use crate::lattice::savage::{Chute, Moves};
 use crate::lattice::sheet::{Layout, OUT, ROW_SPACING, WALL};
 use crate::lattice::stage;
@@ -128,7 +128,7 @@ fn scene(plan: &Plan, rule: SiteRule, hosts: &Hosts, remarks: &mut Remarks) -> O
         particles.values().enumerate().flat_map(|(number, group)| vec![of(number, group); group.count]).collect()
     };
     let scene = Scene {
-        mass: each(&|_, group| group.mass),
+        mass: masses(rule, each(&|_, group| group.mass), remarks),
         diameter: each(&|_, group| group.diameter),
         group: each(&|number, _| number as f64).into_iter().map(|number| number as u32).collect(),
         gravity: DVec3::from_array(*gravity),
@@ -140,6 +140,19 @@ fn scene(plan: &Plan, rule: SiteRule, hosts: &Hosts, remarks: &mut Remarks) -> O
         seed: *seed,
     };
     Some((scene, cells))
+}
+
+/// Masses of the grains [kg]: collisions of Gutt and Haff's are those of equals, so that all of them have the mean mass.
+fn masses(rule: SiteRule, each: Vec<f64>, remarks: &mut Remarks) -> Vec<f64> {
+    let mean = each.iter().sum::<f64>() / each.len().max(1) as f64;
+    if rule != SiteRule::GuttHaff || each.iter().all(|mass| (mass - mean).abs() <= 1e-9 * mean) {
+        return each;
+    }
+    remarks.approximate(
+        "particles",
+        format!("collisions are those of equal grains: all have the mean mass, {mean:.3e} kg"),
+    );
+    vec![mean; each.len()]
 }
 
 /// How the sites of a method lie.
@@ -162,18 +175,16 @@ fn step_key(plan: &Plan, rule: SiteRule) -> String {
 
 /// What the lattice of a method has room for.
 fn world(rule: SiteRule) -> World {
-    let (noun, weightless) = ("grains of this lattice", false);
-    match rule {
-        SiteRule::Savage => World { noun, tilted: true, weightless, periodic: [true, false] },
-        SiteRule::Gas(GasRule::Fhp) => World { noun, tilted: true, weightless: true, periodic: [true; 2] },
-        SiteRule::Gas(GasRule::PengHerrmann | GasRule::BaxterBehringer) => {
-            World { noun, tilted: false, weightless: true, periodic: [true; 2] }
-        }
-        SiteRule::Gas(GasRule::KarolyiKertesz) => World { noun, tilted: false, weightless, periodic: [true, false] },
+    let (gravity, periodic) = match rule {
+        SiteRule::Savage => (Pull::Leaning, [true, false]),
+        SiteRule::Gas(GasRule::Fhp) => (Pull::Anywhere, [true; 2]),
+        SiteRule::Gas(GasRule::PengHerrmann | GasRule::BaxterBehringer) => (Pull::DownOrNone, [true; 2]),
+        SiteRule::Gas(GasRule::KarolyiKertesz) => (Pull::Down, [true, false]),
         SiteRule::Litwiniszyn | SiteRule::CaramHong | SiteRule::GuttHaff | SiteRule::HemmingssonHerrmann => {
-            World { noun, tilted: false, weightless, periodic: [false; 2] }
+            (Pull::Down, [false; 2])
         }
-    }
+    };
+    World { noun: "grains of this lattice", gravity, periodic }
 }
 
 /// Says where the ends of a world that repeats itself are moved to a whole number of sites.
@@ -256,12 +267,16 @@ fn refuse_motion(name: &str, wall: &plan::Wall, remarks: &mut Remarks) {
 fn spacing(plan: &Plan, rule: SiteRule, remarks: &mut Remarks) -> Option<f64> {
     let (mut count, mut sum) = (0.0, 0.0);
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
-    for group in plan.particles.values() {
+    for (name, group) in &plan.particles {
         let number = group.count as f64;
         count += number;
         sum += number * group.diameter;
-        least = least.min(group.smallest_diameter());
-        most = most.max(group.largest_diameter());
+        let [small, large] = [group.smallest_diameter(), group.largest_diameter()];
+        (least, most) = (least.min(small), most.max(large));
+        if large > small * (1.0 + 1e-9) {
+            let text = "all grains of this group get its mean diameter and mass; make a group for each size";
+            remarks.approximate(format!("particles.{name}.size"), text);
+        }
     }
     if count == 0.0 {
         remarks.refuse("particles", "there are no grains; their diameter is the width of a site");
@@ -271,7 +286,8 @@ fn spacing(plan: &Plan, rule: SiteRule, remarks: &mut Remarks) -> Option<f64> {
     let mean = typed.unwrap_or(sum / count);
     if matches!(rule, SiteRule::Gas(_)) {
         if most > least * (1.0 + 1e-9) {
-            remarks.approximate("particles", "grains of a gas are alike but for their masses, whatever their sizes");
+            remarks
+                .approximate("particles", "grains of a gas are alike, whatever their sizes; groups may differ in mass");
         }
         return Some(mean);
     }
@@ -300,6 +316,13 @@ fn model(plan: &Plan, rule: SiteRule, scene: &Scene, cells: &[i32], remarks: &mu
         }
         SiteRule::Savage => {
             let plan::Savage { down, diagonal, sideways, up, time_step } = plan.after_savage;
+            if up > down + diagonal {
+                let text = format!(
+                    "{up} is more than `down` and `diagonal` together, {:.3}: grains would rise",
+                    down + diagonal
+                );
+                remarks.refuse("after-savage.up", text);
+            }
             let smallest = scene.diameter.iter().copied().fold(f64::INFINITY, f64::min);
             let sieve = scene.diameter.iter().map(|diameter| smallest / diameter).collect();
             let slope = scene.gravity.x / scene.gravity.length();

@@ -51,7 +51,11 @@ pub(super) fn place(
                     remarks.approximate(format!("{key}.at"), "grains begin at rest and do not spin");
                 }
             }
-            Start::File { grains, .. } => at(&key, &grains.position, &numbers, ground, cells, remarks),
+            Start::File { grains, .. } => {
+                let key = format!("{key}.file");
+                at(&key, &grains.position, &numbers, ground, cells, remarks);
+                rest(&key, !grains.velocity.is_empty() || !grains.spin.is_empty(), gas, remarks);
+            }
             Start::Stream { region, rate, velocity, speed, from } if gas => {
                 let sites = sites(ground, &cells[..ground.len()], Some(region));
                 if sites.is_empty() {
@@ -67,10 +71,19 @@ pub(super) fn place(
                 format!("{key}.stream"),
                 "on this lattice all grains are there from the start; fill by `rows`, `settled` or `random`",
             ),
-            Start::Settled { .. } => settled.extend(numbers),
-            Start::Rows { region, speed, .. } => {
-                fill(&format!("{key}.rows"), &numbers, sites(ground, cells, region.as_ref()), cells, remarks);
-                rest(&format!("{key}.rows.speed"), *speed != 0.0, gas, remarks);
+            Start::Settled { .. } => {
+                let text = "the lowest sites are filled, groups mixed, instead of grains dropped";
+                remarks.approximate(format!("{key}.settled"), text);
+                settled.extend(numbers);
+            }
+            Start::Rows { region, speed, spacing: _, jitter: _ } => {
+                let key = format!("{key}.rows");
+                remarks.approximate(
+                    &key,
+                    "filled site by site from the lowest up: spacing is the lattice's, without jitter",
+                );
+                fill(&key, &numbers, sites(ground, cells, region.as_ref()), cells, remarks);
+                rest(&format!("{key}.speed"), *speed != 0.0, gas, remarks);
             }
             Start::Random { region, velocity, speed } => {
                 let mut free = sites(ground, cells, region.as_ref());
@@ -102,7 +115,9 @@ fn sites(ground: &Ground, cells: &[i32], region: Option<&Region>) -> Vec<usize> 
     let point = |s: usize| ground.point(s % ground.len());
     let inside = |p: DVec3| {
         region.is_none_or(|r| {
-            p.x > r.low[0] - slack && p.x < r.high[0] + slack && p.z > r.low[2] - slack && p.z < r.high[2] + slack
+            let in_box =
+                p.x > r.low[0] - slack && p.x < r.high[0] + slack && p.z > r.low[2] - slack && p.z < r.high[2] + slack;
+            in_box && r.rounds(p.to_array(), -slack)
         })
     };
     let mut free: Vec<usize> = (0..cells.len()).filter(|&s| cells[s] == EMPTY && inside(point(s))).collect();
