@@ -221,7 +221,7 @@ static START: &[Variant] = &[
         keys: &[Key::new(
             "time",
             Kind::Quantity(&TIME),
-            "Longest settling time; a bed that still moves then ends the run. Without settling: `rows`",
+            "Longest settling time, gone through in pieces of 10 ms; a bed that still moves then ends the run. Without settling: `rows`",
         )
         .default("'1 s'")
         .above(0.0)],

@@ -35,8 +35,7 @@ impl DemEngine {
         let mut result = Ok(());
         let (mut left, mut at_rest) = (0.0, false);
         while self.clock.time() < time && self.clock.step < MOST_STEPS && result.is_ok() && !at_rest {
-            let left_over = ((time - self.clock.time()) / self.clock.dt).ceil() as u64;
-            let steps = block.min(left_over).min(MOST_STEPS - self.clock.step);
+            let steps = block.min(MOST_STEPS - self.clock.step);
             result = self.advance(steps, &mut hosts, &mut ledger);
             let energies = self.grain_energies();
             left = energies.kinetic + energies.rotational;
