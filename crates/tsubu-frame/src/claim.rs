@@ -74,6 +74,17 @@ pub enum Verdict {
     Undecided,
 }
 
+impl Verdict {
+    /// What it is called.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail => "FAIL",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
 /// The runs of one scene with different seeds, whose mean is the value of a claim.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ensemble {

@@ -3,7 +3,7 @@
 use crate::plot::{AXIS, FAINT, INK, PALETTE};
 use crate::text::{escape, short};
 use std::fmt::Write as _;
-use tsubu_frame::{Claim, Ensemble, Verdict};
+use tsubu_frame::{Claim, Ensemble};
 
 /// The drawing, from left to right [pixels].
 const WIDTH: f64 = 860.0;
@@ -54,11 +54,7 @@ pub(crate) fn strips(claims: &[&Claim]) -> Option<String> {
 }
 
 fn strip(svg: &mut String, claim: &Claim, ensemble: &Ensemble, [from, to]: [f64; 2]) {
-    let word = match claim.verdict() {
-        Verdict::Pass => "pass",
-        Verdict::Fail => "FAIL",
-        Verdict::Undecided => "undecided",
-    };
+    let word = claim.verdict().word();
     let seen =
         ensemble.members.iter().copied().chain([from, to]).chain(claim.beside).chain(claim.low).chain(claim.high);
     let scale = Scale::of(seen.filter(|x| x.is_finite()));

@@ -7,7 +7,7 @@ use crate::table;
 use clap::Args;
 use std::fmt::Write as _;
 use tsubu::explain::{self, Entry, Kind};
-use tsubu_frame::{Origin, Verdict};
+use tsubu_frame::Origin;
 use tsubu_verify::{CASES, Case, recorded};
 
 /// How far text runs.
@@ -109,13 +109,8 @@ fn single(case: &Case) -> String {
     }
     let mut rows = vec![["claim", "value", "accepted", ""].map(str::to_owned).to_vec()];
     rows.extend(kept.iter().map(|claim| {
-        let verdict = match claim.verdict() {
-            Verdict::Pass => "pass",
-            Verdict::Fail => "FAIL",
-            Verdict::Undecided => "undecided",
-        };
         let range = table::range(claim.low, claim.high);
-        vec![claim.name.clone(), table::number(claim.value), range, verdict.to_owned()]
+        vec![claim.name.clone(), table::number(claim.value), range, claim.verdict().word().to_owned()]
     }));
     let mut sources: Vec<&str> = Vec::new();
     for claim in &kept {
