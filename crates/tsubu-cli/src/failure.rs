@@ -17,6 +17,8 @@ use tsubu_scene::{Complaints, Scene};
 const WRONG: u8 = 2;
 /// The run failed; what was computed so far is kept.
 const FAILED: u8 = 3;
+/// What to do where a folder has results of another scene.
+const ANOTHER: &str = "name another folder with `-o`, or replace the results with `--overwrite`";
 
 /// A command that did not end well.
 #[derive(Debug, Default)]
@@ -210,8 +212,7 @@ impl Failure {
     pub fn of_cases(error: &CasesError, scene: &Scene, folder: &Path) -> Self {
         match error {
             CasesError::Scene(message) => Self::wrong(message.as_str()),
-            CasesError::NotThisScene(message) => Self::wrong(message.as_str())
-                .hint("name another folder with `-o`, or replace the results with `--overwrite`"),
+            CasesError::NotThisScene(message) => Self::wrong(message.as_str()).hint(ANOTHER),
             CasesError::Complaints(complaints) => complaints.into(),
             CasesError::Open(error) => Self::of(WRONG, error),
             CasesError::Run { case, error } => Self::of_scene(error, scene, folder).about("case", case),
@@ -233,6 +234,7 @@ impl Failure {
                     Message::Ready(format!("{}\n\nnone of these methods can run the scene", all.join("\n\n")));
                 Self { code: WRONG, message: Some(message), hints: Vec::new() }
             }
+            CompareError::NotThisScene(message) => Self::wrong(message.as_str()).hint(ANOTHER),
             CompareError::Run { method, error } => {
                 Self::of_scene(error, scene, &folder.join(method)).about("method", method)
             }

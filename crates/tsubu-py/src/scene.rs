@@ -10,8 +10,8 @@ use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use tsubu::study;
-use tsubu::study::apart::{Apart, Gathered};
-use tsubu::study::response::Runs;
+use tsubu::study::apart::Apart;
+use tsubu::study::response;
 use tsubu::study::sweep::Sweep;
 use tsubu::study::variant::Variant;
 use tsubu_cli::{Failure, Logs};
@@ -186,7 +186,7 @@ impl Scene {
         };
         let names = py.detach(|| match study {
             "sweep" => names(&mut Sweep::new(&self.scene, &folder)?),
-            _ => names(&mut Runs::new(&self.scene, &folder)?),
+            _ => names(&mut *response::runs(&self.scene, &folder)?),
         });
         names.map_err(|error| error::of(py, &Failure::of_cases(&error, &self.scene, &folder)))
     }
@@ -197,7 +197,7 @@ impl Scene {
         let why = |name: &str| logs.why(name);
         let gathered = py.detach(|| match study {
             "sweep" => Sweep::new(&self.scene, &folder)?.gather(&why).map(drop),
-            _ => Runs::new(&self.scene, &folder)?.gather(&why).map(drop),
+            _ => response::runs(&self.scene, &folder)?.gather(&why).map(drop),
         });
         gathered.map_err(|error| error::of(py, &Failure::of_cases(&error, &self.scene, &folder)))
     }
@@ -213,18 +213,11 @@ impl Scene {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let variants = Variant::list(methods).map_err(|error| error::of(py, &Failure::of_words(&error)))?;
-        let existing = if overwrite { Existing::Overwrite } else { Existing::Refuse };
         let done = work(py, threads, progress, |watcher| {
-            study::compare::compare(&self.scene, &variants, &folder, existing, watcher)
+            study::compare::compare(&self.scene, &variants, &folder, overwrite, watcher)
         })?;
         done.value.map_err(|error| error::of(py, &Failure::of_compare(&error, &self.scene, &folder)))?;
-        match done.raised {
-            None => Ok(()),
-            Some(raised) => {
-                let told = format!("interrupted; what was computed so far is in {}", folder.display());
-                Err(stopped(py, Some(raised), told))
-            }
-        }
+        not_raised(py, done.raised, &folder)
     }
 
     /// Opens it to be moved step by step: at its begin, or where a checkpoint in a folder left it.

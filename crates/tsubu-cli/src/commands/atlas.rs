@@ -6,6 +6,7 @@ use crate::table;
 use clap::Args;
 use std::collections::BTreeMap;
 use std::path::Path;
+use tsubu::study::atlas;
 use tsubu_frame::Table;
 
 #[derive(Args)]
@@ -13,6 +14,7 @@ use tsubu_frame::Table;
 Examples:
   tsubu atlas damper.toml                               into out/damper-atlas
   tsubu atlas damper.toml --set atlas.seeds=3           three beds: the scatter between them
+  tsubu atlas damper.toml --launcher slurm              round by round, each an array job
   tsubu predict structure.toml out/damper-atlas         the response of a structure with such a cavity
 
 An interrupted atlas goes on where it was when the same command is typed again.")]
@@ -22,7 +24,7 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
-    points::run("atlas", "points", &options.points, tsubu::study::atlas::atlas, cavities)
+    points::run("atlas", "points", &options.points, atlas::atlas, atlas::runs, cavities)
 }
 
 /// A line for each cavity: where it takes most energy.

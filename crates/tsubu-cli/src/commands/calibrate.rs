@@ -2,12 +2,11 @@
 
 use super::points;
 use crate::failure::Failure;
-use crate::launch::LaunchOptions;
 use crate::table;
 use clap::Args;
 use std::fmt::Write as _;
 use std::path::Path;
-use tsubu::study::calibrate::Runs;
+use tsubu::study::calibrate;
 use tsubu_frame::{Table, unit::for_people};
 
 #[derive(Args)]
@@ -30,22 +29,10 @@ An interrupted calibration goes on where it was when the same command is typed a
 pub struct Options {
     #[command(flatten)]
     points: points::PointsOptions,
-    #[command(flatten)]
-    launch: LaunchOptions,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
-    if !options.launch.is_here()? {
-        return apart(options);
-    }
-    points::run("calibrate", "runs", &options.points, tsubu::study::calibrate::calibrate, told)
-}
-
-fn apart(Options { points, launch }: &Options) -> Result<(), Failure> {
-    let session = points.session("calibrate")?;
-    let runs = Runs::new(&session.scene, &session.folder);
-    let mut runs = runs.map_err(|error| Failure::of_cases(&error, &session.scene, &session.folder))?;
-    points::apart("calibrate", points, launch, &session, &mut runs, told)
+    points::run("calibrate", "runs", &options.points, calibrate::calibrate, calibrate::runs, told)
 }
 
 /// What is known of each key, and each measured result beside what fresh runs gave.

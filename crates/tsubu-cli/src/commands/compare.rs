@@ -4,7 +4,7 @@ use super::claims;
 use super::run::{plural, warnings};
 use crate::failure::Failure;
 use crate::options::{FolderOptions, SceneOptions, WorkOptions};
-use crate::session::{Session, judge};
+use crate::session::{Session, judge, resume};
 use crate::table;
 use clap::Args;
 use std::path::Path;
@@ -23,7 +23,9 @@ Examples:
                                                         DEM with and without rotation beside CL-CA
 
 METHOD:KEY=VALUE changes the scene for one column, as --set does for all of them; several changes have colons between.
-NAME= before it names the column and its folder.")]
+NAME= before it names the column and its folder.
+
+An interrupted comparison goes on where it was when the same command is typed again.")]
 pub struct Options {
     #[command(flatten)]
     scene: SceneOptions,
@@ -32,24 +34,27 @@ pub struct Options {
     methods: Vec<String>,
     #[command(flatten)]
     folder: FolderOptions,
+    /// Go on where an interrupted comparison stopped; this happens anyway
+    #[arg(long, conflicts_with = "overwrite")]
+    resume: bool,
     #[command(flatten)]
     work: WorkOptions,
 }
 
-/// What to do after an interruption.
-const AGAIN: &str = "a comparison does not resume: start it again with `--overwrite`";
-
 pub fn run(options: &Options) -> Result<(), Failure> {
     let variants = Variant::list(&options.methods.join(",")).map_err(|error| Failure::of_words(&error))?;
     let session = Session::begin("compare", "-compare", &options.scene, &options.folder, &options.work)?;
+    if options.resume {
+        session.needs_folder()?;
+    }
     let Session { scene, folder, .. } = &session;
-    let existing = options.folder.existing();
-    let work = |watcher: &Watcher| alone(|| compare(scene, &variants, folder, existing, watcher));
-    let (done, _) = session.work(&format!("interrupted; {AGAIN}"), work);
+    let overwrite = options.folder.overwrite;
+    let work = |watcher: &Watcher| alone(|| compare(scene, &variants, folder, overwrite, watcher));
+    let (done, _) = session.work(&format!("interrupted; {}", resume()), work);
     let compared = done.map_err(|error| Failure::of_compare(&error, scene, folder))?;
     if compared.done.iter().any(|(_, summary)| summary.status == Status::Interrupted) {
         let message = format!("interrupted; what was computed so far is in {}", folder.display());
-        return Err(Failure::interrupted(message).hint(AGAIN));
+        return Err(Failure::interrupted(message).hint(resume()));
     }
     let page = session.page()?;
     let mut text = told(folder)?;

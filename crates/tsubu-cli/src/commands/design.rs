@@ -2,12 +2,11 @@
 
 use super::points;
 use crate::failure::Failure;
-use crate::launch::LaunchOptions;
 use crate::table;
 use clap::Args;
 use std::fmt::Write as _;
 use std::path::Path;
-use tsubu::study::design::Runs;
+use tsubu::study::design;
 use tsubu_frame::{ResultValue, Summary, Table};
 
 #[derive(Args)]
@@ -27,22 +26,10 @@ An interrupted design goes on where it was when the same command is typed again.
 pub struct Options {
     #[command(flatten)]
     points: points::PointsOptions,
-    #[command(flatten)]
-    launch: LaunchOptions,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
-    if !options.launch.is_here()? {
-        return apart(options);
-    }
-    points::run("design", "runs", &options.points, tsubu::study::design::design, candidates)
-}
-
-fn apart(Options { points, launch }: &Options) -> Result<(), Failure> {
-    let session = points.session("design")?;
-    let runs = Runs::new(&session.scene, &session.folder);
-    let mut runs = runs.map_err(|error| Failure::of_cases(&error, &session.scene, &session.folder))?;
-    points::apart("design", points, launch, &session, &mut runs, candidates)
+    points::run("design", "runs", &options.points, design::design, design::runs, candidates)
 }
 
 /// Candidates that are shown.

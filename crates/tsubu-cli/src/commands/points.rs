@@ -8,7 +8,7 @@ use crate::session::{Session, judge, resume};
 use clap::Args;
 use std::path::Path;
 use tsubu::interrupt::Watcher;
-use tsubu::study::apart::Gathered;
+use tsubu::study::apart::StudyRuns;
 use tsubu::study::cases::CasesError;
 use tsubu_frame::{ResultValue, Status, Summary};
 use tsubu_scene::Scene;
@@ -24,31 +24,32 @@ pub struct PointsOptions {
     resume: bool,
     #[command(flatten)]
     pub work: WorkOptions,
-}
-
-impl PointsOptions {
-    /// Scene, folder and threads of the study `name`.
-    pub fn session(&self, name: &'static str) -> Result<Session, Failure> {
-        let session = Session::begin(name, &format!("-{name}"), &self.scene, &self.folder, &self.work)?;
-        if self.resume {
-            session.needs_folder()?;
-        }
-        Ok(session)
-    }
+    #[command(flatten)]
+    pub launch: LaunchOptions,
 }
 
 /// A study as the library has it: scene, folder, whether to overwrite.
 pub type Study = fn(&Scene, &Path, bool, &Watcher) -> Result<Summary, CasesError>;
 
-/// Does the study `name`, whose runs are called `points`, and tells what `table` reads from its folder.
+/// The same where each run is done by itself.
+pub type Runs = for<'a> fn(&'a Scene, &Path) -> Result<StudyRuns<'a>, CasesError>;
+
+/// Does the study `name`, whose runs are called `points`, here or `apart`, and tells what `table` reads from its folder.
 pub fn run(
     name: &'static str,
     points: &str,
     options: &PointsOptions,
     study: Study,
+    runs: Runs,
     table: fn(&Path) -> Result<String, Failure>,
 ) -> Result<(), Failure> {
-    let session = options.session(name)?;
+    let session = Session::begin(name, &format!("-{name}"), &options.scene, &options.folder, &options.work)?;
+    if options.resume {
+        session.needs_folder()?;
+    }
+    if !options.launch.is_here()? {
+        return apart(name, options, &session, runs, table);
+    }
     let Session { scene, folder, .. } = &session;
     let overwrite = options.folder.overwrite;
     let work = |watcher: &Watcher| study(scene, folder, overwrite, watcher);
@@ -64,24 +65,27 @@ pub fn run(
 }
 
 /// The same where runs are done apart, or what is there of them is gathered.
-pub fn apart(
+fn apart(
     name: &'static str,
     options: &PointsOptions,
-    launch: &LaunchOptions,
     session: &Session,
-    study: &mut (impl Gathered + Send),
+    runs: Runs,
     table: fn(&Path) -> Result<String, Failure>,
 ) -> Result<(), Failure> {
-    let runs = &mut OfStudy { study: &mut *study, session };
-    let Left::Gather = launch.go(name, runs, options.folder.overwrite, &options.work)? else { return Ok(()) };
-    let logs = Logs::read(&session.folder);
-    let gathered = study.gather(&|run| logs.why(run));
-    let summary = gathered.map_err(|error| Failure::of_cases(&error, &session.scene, &session.folder))?;
+    let Session { scene, folder, .. } = session;
+    let broken = |error| Failure::of_cases(&error, scene, folder);
+    let mut study = runs(scene, folder).map_err(broken)?;
+    let of_study = &mut OfStudy { study: &mut *study, session };
+    let Left::Gather = options.launch.go(name, of_study, options.folder.overwrite, &options.work)? else {
+        return Ok(());
+    };
+    let logs = Logs::read(folder);
+    let summary = study.gather(&|run| logs.why(run)).map_err(broken)?;
     tell(session, &summary, table, "the same command as before does what is missing, and nothing else".to_owned())
 }
 
 /// Tells what came of it, and makes its page; `again` is what to do where some runs have no result.
-pub fn tell(
+fn tell(
     session: &Session,
     summary: &Summary,
     table: fn(&Path) -> Result<String, Failure>,

@@ -3,7 +3,7 @@
 use super::run::warnings;
 use crate::failure::Failure;
 use crate::options::{FolderOptions, SceneOptions, WorkOptions};
-use crate::session::Session;
+use crate::session::{Session, resume};
 use crate::table;
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
@@ -19,7 +19,8 @@ Examples:
   tsubu predict structure.toml out/damper-atlas                 into out/structure-prediction
   tsubu predict structure.toml out/damper-atlas --spot-checks 3 the peak and its flanks are simulated in full, too
 
-The scene's `[response]` says for which frequencies and cases.")]
+The scene's `[response]` says for which frequencies and cases.
+An interrupted prediction goes on where it was when the same command is typed again.")]
 pub struct Options {
     #[command(flatten)]
     scene: SceneOptions,
@@ -31,23 +32,29 @@ pub struct Options {
     spot_checks: u8,
     #[command(flatten)]
     folder: FolderOptions,
+    /// Go on where it stopped; this happens anyway
+    #[arg(long, conflicts_with = "overwrite")]
+    resume: bool,
     #[command(flatten)]
     work: WorkOptions,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
     let session = Session::begin("predict", "-prediction", &options.scene, &options.folder, &options.work)?;
+    if options.resume {
+        session.needs_folder()?;
+    }
     let read = |folder: &PathBuf| atlas::read(folder).map_err(|error| Failure::wrong(error.to_string()));
     let cavities: Vec<Cavity> =
         options.atlas.iter().map(read).collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
     let Session { scene, folder, .. } = &session;
     let (overwrite, number) = (options.folder.overwrite, usize::from(options.spot_checks));
     let work = |watcher: &Watcher| tsubu::study::predict::predict(scene, &cavities, number, folder, overwrite, watcher);
-    let (done, _) = session.work("interrupted", work);
+    let (done, _) = session.work(&format!("interrupted; {}", resume()), work);
     let summary = done.map_err(|error| Failure::of_cases(&error, scene, folder))?;
     if summary.status == Status::Interrupted {
-        let message = format!("interrupted; the prediction without its checks is in {}", folder.display());
-        return Err(Failure::interrupted(message));
+        let message = format!("interrupted; the prediction with the checks that are done is in {}", folder.display());
+        return Err(Failure::interrupted(message).hint(resume()));
     }
     let page = session.page()?;
     session.show(&(cases(folder, &summary)? + &warnings(&summary.warnings)), Some(&page))?;

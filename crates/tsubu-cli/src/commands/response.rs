@@ -2,12 +2,11 @@
 
 use super::points;
 use crate::failure::Failure;
-use crate::launch::LaunchOptions;
 use crate::table;
 use clap::Args;
 use std::path::Path;
 use tsubu::check::human_time;
-use tsubu::study::response::Runs;
+use tsubu::study::response;
 use tsubu_frame::Table;
 
 #[derive(Args)]
@@ -22,22 +21,10 @@ An interrupted response goes on where it was when the same command is typed agai
 pub struct Options {
     #[command(flatten)]
     points: points::PointsOptions,
-    #[command(flatten)]
-    launch: LaunchOptions,
 }
 
 pub fn run(options: &Options) -> Result<(), Failure> {
-    if !options.launch.is_here()? {
-        return apart(options);
-    }
-    points::run("response", "frequencies", &options.points, tsubu::study::response::response, cases)
-}
-
-fn apart(Options { points, launch }: &Options) -> Result<(), Failure> {
-    let session = points.session("response")?;
-    let runs = Runs::new(&session.scene, &session.folder);
-    let mut runs = runs.map_err(|error| Failure::of_cases(&error, &session.scene, &session.folder))?;
-    points::apart("response", points, launch, &session, &mut runs, cases)
+    points::run("response", "frequencies", &options.points, response::response, response::runs, cases)
 }
 
 /// Columns of `cases.csv` that fit on a terminal, with the factor to the unit shown.

@@ -10,21 +10,21 @@ use tsubu::study::cases::CasesError;
 use tsubu_frame::Status;
 
 /// A study, and the command that is at work on it.
-pub struct OfStudy<'a, S> {
+pub struct OfStudy<'a, S: ?Sized> {
     /// The study.
     pub study: &'a mut S,
     /// The command.
     pub session: &'a Session,
 }
 
-impl<S> OfStudy<'_, S> {
+impl<S: ?Sized> OfStudy<'_, S> {
     fn failure(&self) -> impl Fn(CasesError) -> Failure {
         let Session { scene, folder, .. } = self.session;
         move |error| Failure::of_cases(&error, scene, folder)
     }
 }
 
-impl<S: Apart + Send> Runs for OfStudy<'_, S> {
+impl<S: Apart + Send + ?Sized> Runs for OfStudy<'_, S> {
     fn folder(&self) -> &Path {
         &self.session.folder
     }

@@ -78,6 +78,32 @@ fn an_interrupted_verification_goes_on_where_it_was() {
     assert!(!desk.path("kept/verify.json").exists());
 }
 
+/// A comparison began again from nothing, and its folder was refused.
+#[test]
+fn an_interrupted_comparison_goes_on_where_it_was() {
+    let desk = Desk::new();
+    let long = "--set 'duration=0.6 s' --set 'hosts.spring.base.sine.amplitude=0.5 mm' \
+                --set 'output.checkpoint-interval=5 ms' --set 'output.frame-interval=200 ms'";
+    let line = format!("compare balls.toml --methods lattice,dem -q -o cut {long}");
+    let mut child = desk.command(&line).stderr(std::process::Stdio::piped()).spawn().unwrap();
+    wait_for(&desk.path("cut/dem/checkpoint/state.tsubu"));
+    signal(&child, "INT");
+    let mut said = String::new();
+    std::io::Read::read_to_string(&mut child.stderr.take().unwrap(), &mut said).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{said}");
+    assert!(said.contains("hint: go on with `tsubu compare balls.toml --methods lattice,dem"), "{said}");
+    assert_eq!(desk.summary("cut/dem")["status"], "interrupted");
+    let when = || std::fs::metadata(desk.path("cut/lattice/summary.json")).unwrap().modified().unwrap();
+    let before = when();
+    let other = desk.run(&format!("{line} --set seed=7"));
+    assert!(other.code == Some(2) && other.stderr.contains("belong to another scene"), "{}", other.stderr);
+    desk.done(&format!("{line} --resume"));
+    assert_eq!(when(), before, "what was done was run again");
+    desk.done(&format!("run balls.toml -q -o whole {long}"));
+    assert_eq!(desk.hash("cut/dem"), desk.hash("whole"));
+    assert!(desk.path("cut/report.html").exists());
+}
+
 /// Intervals of next to nothing were counted up one by one, and the run never ended.
 #[test]
 fn an_interval_below_a_step_is_a_step() {

@@ -176,6 +176,21 @@ fn the_job_scripts_do_a_response() {
     assert_eq!(desk.read("out/response.csv"), desk.read("here/response.csv"));
 }
 
+/// An atlas looks where its mass bends, round by round, and is that of one process.
+#[test]
+fn the_job_scripts_do_an_atlas() {
+    let asked = "[atlas]\nfrequency = [\"5 Hz\", \"7 Hz\"]\nacceleration = [\"2 m/s^2\", \"40 m/s^2\"]\nat-most = 24\n\
+                 vary = { \"particles.balls.count\" = [10, 20] }\n";
+    let desk = Desk::with(&format!("{SCENE}\n{asked}"));
+    desk.done("atlas balls.toml -q -o here --set method=lattice");
+    assert!(by_rounds(&desk, "atlas", "--set method=lattice") > 1, "it did not look closer");
+    desk.done("atlas balls.toml -q -o out --set method=lattice --gather");
+    assert_eq!(desk.read("out/atlas.csv"), desk.read("here/atlas.csv"));
+    assert_eq!(desk.summary("out")["results"], desk.summary("here")["results"]);
+    let wrong = desk.run("atlas balls.toml -o out --set method=lattice --case nobody");
+    assert!(wrong.code == Some(2) && wrong.stderr.contains("the atlas has no run `nobody`"), "{}", wrong.stderr);
+}
+
 /// A design chooses its runs by those before, and chooses the same whoever has done them.
 #[test]
 fn the_job_scripts_do_a_design() {

@@ -97,6 +97,12 @@ fn an_atlas_tells_the_response_of_a_structure() {
     let summary = desk.summary("out/balls-prediction");
     let error = summary["results"]["error of the peak count = 0"].as_f64().unwrap();
     assert!(error.abs() < 0.1, "{error}");
+    // What was simulated is not simulated again.
+    let simulated = || desk.read("out/balls-prediction/progress.jsonl").lines().filter(|line| !line.is_empty()).count();
+    let once = (simulated(), desk.read("out/balls-prediction/cases.csv"));
+    assert_eq!(once.0, 1 + 3, "a line of its own for each case");
+    desk.done("predict balls.toml atlas1 -q --set method=lattice --resume");
+    assert_eq!((simulated(), desk.read("out/balls-prediction/cases.csv")), once);
     let before = desk.files().len();
     for command in ["predict balls.toml atlas1 -o new", "predict balls.toml balls -o new", "predict balls.toml -o new"]
     {

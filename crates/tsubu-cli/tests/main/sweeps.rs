@@ -21,6 +21,28 @@ fn a_sweep_runs_every_case_and_keeps_what_is_done() {
     assert!(desk.path("out/balls-sweep/cases/restitution=0.6/summary.json").exists());
 }
 
+/// Finished cases of another scene were replaced without a word.
+#[test]
+fn a_sweep_leaves_what_another_scene_has_given() {
+    let desk = Desk::new();
+    desk.done("sweep balls.toml -q -o out");
+    let hash = || desk.hash("out/cases/restitution=0.7");
+    let before = hash();
+    for line in ["sweep balls.toml -o out --set duration=0.06", "sweep balls.toml -o out --set duration=0.06 --resume"]
+    {
+        let ended = desk.run(line);
+        assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+        assert!(ended.stderr.contains("`duration` was 0.05, is 0.06"), "{}", ended.stderr);
+        assert!(!ended.stderr.contains("sweep.vary"), "{}", ended.stderr);
+        assert_eq!(hash(), before);
+    }
+    // What else is varied is nothing to a case.
+    desk.done("sweep balls.toml -q -o out --set 'sweep.vary={\"materials.acrylic.restitution\"=[0.7, 0.9]}'");
+    assert_eq!(hash(), before);
+    desk.done("sweep balls.toml -q -o out --set duration=0.06 --overwrite");
+    assert_ne!(hash(), before);
+}
+
 /// A case that took long enough for a checkpoint on its way kept that one when it was done, and whoever started from the case began in its
 /// middle.
 #[test]

@@ -90,7 +90,8 @@ def compare(
 ) -> pd.DataFrame:
     """Runs one scene by several methods and gives a table of what differs and what each cost.
 
-    `methods` is a list of `METHOD` or `NAME=METHOD:KEY=VALUE`, or `"all"`. The folder is `out/NAME-compare` unless told.
+    `methods` is a list of `METHOD` or `NAME=METHOD:KEY=VALUE`, or `"all"`. The folder is `out/NAME-compare` unless told; an interrupted
+    comparison goes on where it was when the same call is made again.
     """
     scene = _scene(scene)
     path = scene._out(folder, "-compare")

@@ -33,6 +33,9 @@ pub trait Gathered: Apart {
     fn gather(&mut self, why: &dyn Fn(&str) -> String) -> Result<Summary, CasesError>;
 }
 
+/// The runs of some study of a scene, and the folder that they are in.
+pub type StudyRuns<'a> = Box<dyn Gathered + Send + 'a>;
+
 /// What a run needs.
 #[derive(Clone, Copy, Debug)]
 pub struct Need {

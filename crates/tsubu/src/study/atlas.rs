@@ -3,18 +3,21 @@
 //! What grains do to a structure near a resonance follows from the complex mass that they show it there ([`Point`]). Each case is
 //! a cavity; its grid of points is refined where that mass bends. An atlas that was stopped goes on where it was.
 
+mod apart;
 mod cavity;
 mod chart;
 mod refine;
 mod shown;
 mod write;
 
+pub use apart::runs;
 pub use cavity::Point;
 pub use chart::{AtlasError, Cavity, Chart, read};
 pub use shown::Shown;
 
 use super::cases::{Case, CasesError, case_plans, cases};
 use super::journal::{self, Exact, Journal};
+use super::journaled;
 use super::response::tasks;
 use crate::interrupt::{Interrupt, Watcher};
 use crate::run::RunError;
@@ -25,7 +28,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
-use tsubu_frame::{FileError, State, Status, Summary};
+use tsubu_frame::{State, Status, Summary};
 use tsubu_scene::{Plan, Scene, plan};
 
 /// What an atlas writes beside what every study writes.
@@ -95,7 +98,7 @@ pub fn cavities(scene: &Scene) -> Result<Vec<Cavity>, CasesError> {
 }
 
 /// Hears of every finished run.
-type Record<'a> = &'a (dyn Fn(&Key, &Point) -> Result<(), FileError> + Sync);
+type Record<'a> = journaled::Record<'a, Key, Point>;
 
 /// What an atlas has to compute.
 struct Task {
@@ -168,7 +171,8 @@ impl Task {
     ) -> Result<(Done, Vec<Failed>), CasesError> {
         let (mut points, mut failures) = (Done::new(), Vec::new());
         loop {
-            let wanted = self.next(&points, &failures);
+            let tried: Vec<Key> = failures.iter().map(|(key, _)| *key).collect();
+            let wanted = self.next(&points, &tried);
             if wanted.is_empty() {
                 return Ok((points, failures));
             }
@@ -184,16 +188,13 @@ impl Task {
     }
 
     /// What is measured next: it follows from what is known, never from how far an interrupted round had come.
-    fn next(&self, points: &Done, failures: &[Failed]) -> Vec<Key> {
+    fn next(&self, points: &Done, failed: &[Key]) -> Vec<Key> {
         let mut wanted = Vec::new();
         for case in (0..self.plans.len()).filter(|case| self.plans[*case].grain_mass() > 0.0) {
             let found = self.found(points, case);
             // Where every seed has failed nothing is known, and nothing is asked again.
-            let tried: Vec<refine::Place> = failures
-                .iter()
-                .filter(|(key, _)| key.case == case)
-                .map(|(key, _)| (key.frequency, key.acceleration))
-                .collect();
+            let of_case = failed.iter().filter(|key| key.case == case);
+            let tried: Vec<refine::Place> = of_case.map(|key| (key.frequency, key.acceleration)).collect();
             let places = if found.is_empty() && tried.is_empty() {
                 refine::first(self.wanted.frequency, self.wanted.acceleration)
             } else {

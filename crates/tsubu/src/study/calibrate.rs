@@ -12,12 +12,12 @@ mod curve;
 mod posterior;
 mod write;
 
-pub use apart::Runs;
+pub use apart::runs;
 
 use super::cases::{Case, CasesError};
+use super::kept;
 use super::ranges::Range;
 use super::surrogate::Surrogate;
-use super::sweep;
 use crate::interrupt::Watcher;
 use crate::scene_files;
 use posterior::{hypercube, sample};
@@ -126,7 +126,7 @@ impl<'a> Task<'a> {
     fn make(&self, case: &Case, folder: &Path, watcher: &Watcher) -> Result<Summary, CasesError> {
         match &self.wanted.curve {
             Some(_) => curve::one(self.scene, case, folder, watcher),
-            None => sweep::one(self.scene, case, folder, watcher),
+            None => kept::one(self.scene, case, folder, watcher),
         }
     }
 
@@ -245,7 +245,7 @@ impl Work<'_> {
             let (case, place) = Range::case(&task.ranges, place);
             let seeded = task.case(&case, before + index)?;
             let at = self.runs.join(numbered(before + index));
-            let kept = || sweep::kept(task.scene, &seeded, &at);
+            let kept = || kept::of_case(task.scene, &seeded, &at);
             let mut summary = match only.map(|only| Ok::<_, CasesError>((only, kept()?))).transpose()? {
                 Some((_, Some(summary))) if summary.status != Status::Interrupted => summary,
                 Some((only, _)) => {

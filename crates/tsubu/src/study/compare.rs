@@ -1,5 +1,6 @@
 //! One scene by several methods, or by variants of them: what differs, and what each cost.
 
+use super::kept;
 use super::variant::Variant;
 use crate::engine::OpenError;
 use crate::interrupt::Watcher;
@@ -24,6 +25,9 @@ pub enum CompareError {
     /// None of the methods can run the scene.
     #[error("none of these methods can run the scene\n{}", .0.iter().map(ToString::to_string).collect::<String>().trim_end())]
     Nobody(Vec<Refused>),
+    /// What is in the folder is of another scene.
+    #[error("{0}")]
+    NotThisScene(String),
     /// A run went wrong.
     #[error("method `{method}`: {error}")]
     Run {
@@ -62,12 +66,16 @@ impl fmt::Display for Refused {
     }
 }
 
-/// Runs the scene by each variant into a folder of its own below `folder`; writes `compare.csv`, `compare.json`.
+/// What tells who is compared, and that a folder is one of a comparison.
+const FILE: &str = "compare.json";
+
+/// Runs the scene by each variant into a folder of its own below `folder`; writes `compare.csv`, `compare.json`. In a folder where a comparison
+/// was begun finished runs are kept, and one that was cut goes on from its checkpoint.
 pub fn compare(
     scene: &Scene,
     variants: &[Variant],
     folder: &Path,
-    existing: Existing,
+    overwrite: bool,
     watcher: &Watcher,
 ) -> Result<Comparison, CompareError> {
     // A method that cannot run the scene must say so before the others have spent an hour on it.
@@ -75,18 +83,33 @@ pub fn compare(
     if scenes.is_empty() {
         return Err(CompareError::Nobody(refused));
     }
-    let own = ["compare.csv", "compare.json"].into_iter().map(str::to_owned);
+    let existing = match folder.join(FILE).is_file() {
+        _ if overwrite => Existing::Overwrite,
+        true => Existing::Resume,
+        false => Existing::Refuse,
+    };
+    if existing == Existing::Resume
+        && let Some(why) = scenes.iter().find_map(|(one, scene)| kept::of_another(scene, &folder.join(&one.name)))
+    {
+        return Err(CompareError::NotThisScene(why));
+    }
+    let own = ["compare.csv", FILE].into_iter().map(str::to_owned);
     let runs = scenes.iter().map(|(variant, _)| format!("{}/", variant.name));
     let names: Vec<String> = scene_files::names(scene).into_iter().chain(own).chain(runs).collect();
     let folder = RunFolder::create(folder, existing, &names)?;
     folder.claim(&names)?;
+    scene_files::write(&folder, scene)?;
+    let names: Vec<&str> = scenes.iter().map(|(variant, _)| variant.name.as_str()).collect();
+    let told = serde_json::json!({ "methods": names, "refused": refused, "tsubu_version": crate::VERSION });
+    folder.write_json(FILE, &told)?;
+    folder.sync()?;
     let share = 1.0 / scenes.len() as f64;
     let mut done: Vec<(Variant, Summary)> = Vec::new();
     for (index, (variant, scene)) in scenes.into_iter().enumerate() {
         let progress = |done: f64| (watcher.progress)((index as f64 + done) * share);
         let watcher = Watcher { interrupt: watcher.interrupt, progress: &progress };
         let into = folder.path().join(&variant.name);
-        let summary = run::run(&scene, &into, Existing::Overwrite, &watcher)
+        let summary = kept::go_on(&scene, &into, &|existing| run::run(&scene, &into, existing, &watcher))
             .map_err(|error| CompareError::Run { method: variant.name.clone(), error })?;
         let finished = summary.status == Status::Finished;
         done.push((variant, summary));
@@ -94,13 +117,7 @@ pub fn compare(
             return Ok(Comparison { done, refused });
         }
     }
-    scene_files::write(&folder, scene)?;
     folder.write("compare.csv", table(&done).to_csv().as_bytes())?;
-    let names: Vec<&str> = done.iter().map(|(variant, _)| variant.name.as_str()).collect();
-    folder.write_json(
-        "compare.json",
-        &serde_json::json!({ "methods": names, "refused": refused, "tsubu_version": crate::VERSION }),
-    )?;
     folder.sync()?;
     Ok(Comparison { done, refused })
 }

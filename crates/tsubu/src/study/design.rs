@@ -17,10 +17,11 @@ mod work;
 mod write;
 
 pub use answer::Answer;
-pub use apart::Runs;
+pub use apart::runs;
 
 use super::cases::CasesError;
 use super::journal::{self, Exact, Journal};
+use super::journaled;
 use super::response::{Point, tasks};
 use crate::interrupt::{Interrupt, Watcher};
 use crate::methods;
@@ -31,7 +32,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
-use tsubu_frame::{FileError, Status, Summary};
+use tsubu_frame::{Status, Summary};
 use tsubu_scene::plan::{self, Method};
 use tsubu_scene::{Plan, Scene};
 use work::Work;
@@ -146,7 +147,7 @@ pub fn best(scene: &Scene) -> Result<Option<(String, Standing)>, CasesError> {
 }
 
 /// Hears of everything that is measured.
-type Record<'a> = &'a (dyn Fn(&Key, &Measured) -> Result<(), FileError> + Sync);
+type Record<'a> = journaled::Record<'a, Key, Measured>;
 
 /// What is to be designed.
 struct Task<'a> {

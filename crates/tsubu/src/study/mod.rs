@@ -8,6 +8,8 @@ pub mod compare;
 pub mod design;
 pub mod fidelity;
 mod journal;
+mod journaled;
+mod kept;
 pub mod predict;
 mod ranges;
 pub mod response;

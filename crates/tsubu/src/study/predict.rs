@@ -2,20 +2,19 @@
 
 mod balance;
 mod cavity;
+mod checks;
 mod write;
 
 pub use balance::{Balance, Lossy, Motion};
 
 use super::atlas::Cavity;
 use super::cases::{Case, CasesError, case_plans, cases};
-use super::journal;
-use super::response::{Point, measure, peak, refine, tasks};
-use crate::engine::OpenError;
+use super::journal::{self, Journal};
+use super::response::{peak, refine, tasks};
 use crate::interrupt::Watcher;
 use crate::partner::Hosts;
 use crate::run::RunError;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
 use tsubu_frame::{Status, Summary};
@@ -30,7 +29,8 @@ const FREQUENCIES: usize = 601;
 const NEARER: f64 = 16.0;
 
 /// Predicts the response of a scene's host into `folder`, from cavities of atlases, and simulates so many frequencies of each case: the
-/// peak, then its flanks.
+/// peak, then its flanks. In the folder of an earlier prediction of the same scene what it has simulated is kept; the rest is replaced, for
+/// the atlas may be another.
 pub fn predict(
     scene: &Scene,
     cavities: &[Cavity],
@@ -41,18 +41,21 @@ pub fn predict(
 ) -> Result<Summary, CasesError> {
     let begun = Instant::now();
     let task = Task::new(scene, cavities)?;
-    // What an earlier prediction of the same scene has left is replaced: the atlas may be another.
-    let earlier: Option<BTreeMap<usize, usize>> = journal::earlier(folder, scene, overwrite)?;
+    let earlier: Option<checks::Done> = journal::earlier(folder, scene, overwrite)?;
     let curves: Vec<Curve> = (0..task.cases.len()).into_par_iter().map(|case| task.curve(case)).collect();
     let predicted_in = begun.elapsed().as_secs_f64();
-    let checks = task.check(&curves, spot_checks, watcher)?;
+    let wanted = checks::wanted(&curves, spot_checks);
+    // A case that its method refuses must say so before the others have run, and leave nothing behind.
+    task.open(&wanted)?;
+    let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite, &FILES)?;
+    let journal = Journal::append(&folder)?;
+    let checks = task.check(&curves, &wanted, &earlier.unwrap_or_default(), &journal, watcher)?;
     let status = match checks.failures.is_empty() {
         _ if watcher.interrupt.asked() => Status::Interrupted,
         true => Status::Finished,
         false => Status::Failed,
     };
     let _held = watcher.interrupt.hold();
-    let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite, &FILES)?;
     let took = [predicted_in, begun.elapsed().as_secs_f64()];
     Ok(write::write(&folder, scene, &task, &curves, &checks, status, took)?)
 }
@@ -118,22 +121,6 @@ impl Curve {
     fn nearest(&self, ratio: f64) -> Option<&Row> {
         self.rows.iter().min_by(|a, b| (a.ratio - ratio).abs().total_cmp(&(b.ratio - ratio).abs()))
     }
-}
-
-/// A frequency at which a case was simulated in full.
-struct Check {
-    case: usize,
-    /// Over the natural frequency.
-    ratio: f64,
-    predicted: f64,
-    point: Point,
-}
-
-/// What was simulated in full, and what could not be, each in a sentence.
-#[derive(Default)]
-struct Checks {
-    done: Vec<Check>,
-    failures: Vec<String>,
 }
 
 /// What is to be predicted.
@@ -227,53 +214,8 @@ impl<'a> Task<'a> {
         Row { frequency, ratio, motions: first, within: [least, amplitudes.iter().copied().fold(0.0, f64::max)] }
     }
 
-    /// Simulates the predicted peaks of all cases in full, and then their flanks; what fails is told, and the others go on.
-    fn check(&self, curves: &[Curve], number: usize, watcher: &Watcher) -> Result<Checks, CasesError> {
-        let mut wanted = Vec::new();
-        for (case, curve) in curves.iter().enumerate() {
-            let Some((top, height)) = curve.peak() else { continue };
-            let half =
-                |row: &&Row| row.largest().is_some_and(|m| m.amplitude / std::f64::consts::SQRT_2 < height / 1.5);
-            let below = curve.rows.iter().filter(|row| row.ratio < top).rfind(half);
-            let above = curve.rows.iter().filter(|row| row.ratio > top).find(half);
-            let flanks = [below, above].into_iter().flatten().map(|row| row.ratio);
-            wanted.extend(std::iter::once(top).chain(flanks).take(number).map(|ratio| (case, ratio)));
-        }
-        let total = wanted.len() as f64;
-        let done = std::sync::atomic::AtomicUsize::new(0);
-        let run = |(case, ratio): (usize, f64)| {
-            let plan = &self.plans[case];
-            let fail = |error| CasesError::Run { case: self.cases[case].name.clone(), error };
-            let failed = |error: &dyn std::fmt::Display| {
-                let name = &self.cases[case].name;
-                Err(format!("case `{name}`, frequency ratio {ratio:.4}: the simulation failed: {error}"))
-            };
-            let bed = match tasks::bed(plan, 0) {
-                Ok(bed) => bed,
-                Err(error @ OpenError::Settling(_)) => return Ok(failed(&error)),
-                Err(error) => return Err(fail(error.into())),
-            };
-            let frequency = self.reference * ratio;
-            let found = match measure(plan, &self.wanted, 0, &bed, frequency, &[], watcher.interrupt) {
-                Ok(found) => found,
-                Err(error @ RunError::Fault(_)) => return Ok(failed(&error)),
-                Err(error) => return Err(fail(error)),
-            };
-            let done = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
-            (watcher.progress)(done as f64 / total);
-            let predicted = curves[case].nearest(ratio).and_then(Row::largest).map_or(f64::NAN, |m| m.amplitude);
-            let predicted = predicted / std::f64::consts::SQRT_2;
-            Ok(Ok(found.map(|point| Check { case, ratio, predicted, point })))
-        };
-        let all: Result<Vec<_>, CasesError> = wanted.into_par_iter().map(run).collect();
-        let mut checks = Checks::default();
-        for one in all? {
-            match one {
-                Ok(check) => checks.done.extend(check),
-                Err(failure) => checks.failures.push(failure),
-            }
-        }
-        Ok(checks)
+    fn fail(&self, case: usize, error: RunError) -> CasesError {
+        CasesError::Run { case: self.cases[case].name.clone(), error }
     }
 }
 

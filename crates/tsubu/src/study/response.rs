@@ -14,13 +14,14 @@ pub(super) mod tasks;
 pub(super) mod transient;
 mod write;
 
-pub use apart::Runs;
+pub use apart::runs;
 pub use curve::{CaseResult, Hysteresis, Peak, peak};
 pub use point::Point;
 pub use tasks::{bed, measure};
 
 use super::cases::{Case, CasesError, case_plans, cases};
 use super::journal::{self, Exact, Journal};
+use super::journaled;
 use crate::engine::OpenError;
 use crate::interrupt::{Interrupt, Watcher};
 use crate::run::RunError;
@@ -49,7 +50,7 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
     // Only now, so that a scene that a method refuses leaves nothing behind.
     let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite, &FILES)?;
     let journal = Journal::append(&folder)?;
-    let record = |key: &Key, point: &Point| Ok(journal.record(key, point)?);
+    let record = |key: &Key, point: &Point| journal.record(key, point);
     let complete = task.measure(&mut rounds, &mut beds, &mut failures, &record, watcher)?;
     let points = rounds.points;
     let status = match points.len() {
@@ -95,7 +96,7 @@ struct Key {
 type Done = BTreeMap<Key, Point>;
 
 /// Hears of every finished run.
-type Record<'a> = &'a (dyn Fn(&Key, &Point) -> Result<(), CasesError> + Sync);
+type Record<'a> = journaled::Record<'a, Key, Point>;
 
 /// Settled beds by case and seed; nothing where one did not settle.
 type Beds = BTreeMap<(usize, u32), Option<State<'static>>>;
@@ -314,7 +315,7 @@ impl Task {
         } else {
             tasks::walk(plan, &self.wanted, seed, bed, &frequencies, interrupt, &mut take)
         };
-        failed.map(|()| ended)
+        Ok(failed.map(|()| ended)?)
     }
 
     /// About how many runs there will be.

@@ -10,7 +10,7 @@ pub use table::Outcome;
 
 use super::apart::{Apart, unlocked};
 use super::cases::{Case, CasesError, cases};
-use crate::engine::OpenError;
+use super::kept;
 use crate::interrupt::Watcher;
 use crate::methods;
 use crate::partner::Hosts;
@@ -25,7 +25,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use tsubu_frame::summary::read_json;
-use tsubu_frame::{Advise, Existing, RunFolder, Status, Summary};
+use tsubu_frame::{Existing, RunFolder, Status, Summary};
 use tsubu_scene::{Plan, Scene};
 
 /// What a sweep took as a whole, interruptions left out: its cases run side by side, their times add up to more.
@@ -52,7 +52,7 @@ pub fn sweep(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -
             if watcher.interrupt.asked() {
                 return Ok(None);
             }
-            let summary = one(scene, case, &sweep.place(case), watcher)?;
+            let summary = kept::one(scene, case, &sweep.place(case), watcher)?;
             let done = finished.fetch_add(1, Ordering::Relaxed) + 1;
             (watcher.progress)(done as f64 / sweep.cases.len() as f64);
             Ok(Some(Outcome::Told(Box::new(summary))))
@@ -98,6 +98,9 @@ impl<'a> Sweep<'a> {
             let open = methods::open(&plan, &Hosts::new(&plan.hosts)).map_err(RunError::from);
             open.and_then(|engine| run::steps(&plan, &*engine))
                 .map_err(|error| CasesError::Run { case: case.name.clone(), error })?;
+            if let Some(why) = kept::of_another(&scene, &self.place(case)).filter(|_| !overwrite) {
+                return Err(CasesError::NotThisScene(why));
+            }
         }
         let existing = match self.folder.join("cases").is_dir() {
             _ if overwrite => Existing::Overwrite,
@@ -124,7 +127,7 @@ impl<'a> Sweep<'a> {
     pub fn gather(&self, why: &dyn Fn(&str) -> String) -> Result<Vec<Outcome>, CasesError> {
         let folder = self.take(Existing::Resume)?;
         let told = |case: &Case| -> Result<Outcome, CasesError> {
-            Ok(match earlier(&case.scene(self.scene).map_err(CasesError::Complaints)?, &self.place(case)) {
+            Ok(match kept::of_case(self.scene, case, &self.place(case))? {
                 Some(summary) => Outcome::Told(Box::new(summary)),
                 None => Outcome::Missing(why(&case.folder())),
             })
@@ -149,8 +152,8 @@ impl Apart for Sweep<'_> {
     fn missing(&mut self) -> Result<Vec<String>, CasesError> {
         let mut names = Vec::new();
         for case in &self.cases {
-            let scene = case.scene(self.scene).map_err(CasesError::Complaints)?;
-            if earlier(&scene, &self.place(case)).is_none_or(|summary| summary.status != Status::Finished) {
+            let earlier = kept::of_case(self.scene, case, &self.place(case))?;
+            if earlier.is_none_or(|summary| summary.status != Status::Finished) {
                 names.push(case.folder());
             }
         }
@@ -164,7 +167,7 @@ impl Apart for Sweep<'_> {
         let case = &self.cases[index];
         let run = |scene: &Scene, folder: &Path, existing| self.run_together(index, scene, folder, existing, watcher);
         // Whoever holds it may be a worker that its cluster has given up: what it does is not done twice.
-        unlocked(watcher.interrupt, CasesError::is_locked, || made(self.scene, case, &self.place(case), &run))
+        unlocked(watcher.interrupt, CasesError::is_locked, || kept::made(self.scene, case, &self.place(case), &run))
             .map(|summary| summary.status)
     }
 
@@ -172,80 +175,6 @@ impl Apart for Sweep<'_> {
         let plans = super::cases::case_plans(self.scene, &self.cases)?;
         Ok(plans.into_iter().map(|plan| (plan.duration, plan)).map(|(seconds, plan)| (plan, seconds)).collect())
     }
-}
-
-/// What an earlier run of this scene has left in its folder.
-fn earlier(scene: &Scene, folder: &Path) -> Option<Summary> {
-    Summary::read(&folder.join("summary.json")).ok().filter(|_| is_of(scene, folder))
-}
-
-/// What an earlier run of this case has left in its folder.
-pub(super) fn kept(scene: &Scene, case: &Case, folder: &Path) -> Result<Option<Summary>, CasesError> {
-    Ok(earlier(&case.scene(scene).map_err(CasesError::Complaints)?, folder))
-}
-
-/// Whether the folder is of this scene. What else is varied in the sweep is nothing to a case.
-pub(super) fn is_of(scene: &Scene, folder: &Path) -> bool {
-    let alone = |text: &str| {
-        let mut table: toml::Table = toml::from_str(text).ok()?;
-        table.remove("sweep");
-        Some(table)
-    };
-    let (there, here) = (std::fs::read_to_string(folder.join("scene.toml")), scene.resolved_toml());
-    there.is_ok_and(|there| there == here || alone(&there).is_some_and(|there| Some(there) == alone(&here)))
-}
-
-/// Runs a case into a folder of its own; one that is finished is kept, one that was cut goes on.
-pub(super) fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<Summary, CasesError> {
-    let quiet = watcher.quiet();
-    made(scene, case, folder, &|scene, folder, existing| run::one_of_many(scene, folder, existing, None, &quiet))
-}
-
-/// The same by those who make the run.
-fn made(
-    scene: &Scene,
-    case: &Case,
-    folder: &Path,
-    run: &dyn Fn(&Scene, &Path, Existing) -> Result<Summary, RunError>,
-) -> Result<Summary, CasesError> {
-    let scene = case.scene(scene).map_err(CasesError::Complaints)?;
-    let finished = || earlier(&scene, folder).filter(|s| s.status == Status::Finished);
-    if let Some(summary) = finished() {
-        return Ok(summary);
-    }
-    let cut = is_of(&scene, folder) && tsubu_frame::checkpoint::path(folder).exists();
-    let existing = if cut { Existing::Resume } else { Existing::Overwrite };
-    let made = run(&scene, folder, existing);
-    // Whoever worked at it may have ended, and taken its checkpoint away, between the look above and the run.
-    if made.is_err()
-        && let Some(summary) = finished()
-    {
-        return Ok(summary);
-    }
-    match made {
-        Ok(summary) => Ok(summary),
-        // One case that goes wrong leaves the others their results.
-        Err(RunError::Fault(fault) | RunError::Open(OpenError::Settling(fault))) => {
-            Ok(failed(&scene, folder, &fault.told())?)
-        }
-        Err(error) => Err(CasesError::Run { case: case.name.clone(), error }),
-    }
-}
-
-/// What a case that went wrong has left; one whose grains would not settle has left nothing, and is written down here.
-pub(super) fn failed(scene: &Scene, folder: &Path, fault: &str) -> Result<Summary, tsubu_frame::FileError> {
-    let left = Summary::read(&folder.join("summary.json")).ok();
-    let of_this = |s: &Summary| s.status == Status::Failed && s.warnings.last().is_some_and(|last| last == fault);
-    if let Some(summary) = left.filter(of_this) {
-        return Ok(summary);
-    }
-    let summary = Summary { status: Status::Failed, warnings: vec![fault.to_owned()], ..Summary::default() };
-    let names: Vec<String> = scene_files::names(scene).into_iter().chain(["summary.json".to_owned()]).collect();
-    let folder = RunFolder::create(folder, Existing::Overwrite, &names)?;
-    scene_files::write(&folder, scene)?;
-    folder.write_json("summary.json", &summary)?;
-    folder.sync()?;
-    Ok(summary)
 }
 
 #[cfg(test)]

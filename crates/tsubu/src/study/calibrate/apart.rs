@@ -7,26 +7,25 @@ use super::{RUNS, Share, Task, Work, curve, existing, numbered, open, write};
 use crate::interrupt::{Interrupt, Watcher};
 use crate::methods;
 use crate::partner::Hosts;
-use crate::study::apart::{Apart, Gathered, unlocked};
+use crate::study::apart::{Apart, Gathered, StudyRuns, unlocked};
 use crate::study::cases::CasesError;
 use crate::trial::unsettled;
 use std::path::{Path, PathBuf};
 use tsubu_frame::{Existing, FileError, RunFolder, Status, Summary};
 use tsubu_scene::{Plan, Scene};
 
-/// The runs of a scene's `[calibrate]`, and the folder that they are in.
-pub struct Runs<'a> {
+/// The runs of a scene's `[calibrate]` into a folder; nothing is written yet.
+pub fn runs<'a>(scene: &'a Scene, folder: &Path) -> Result<StudyRuns<'a>, CasesError> {
+    Ok(Box::new(Runs { scene, task: Task::new(scene)?, folder: folder.to_owned() }))
+}
+
+struct Runs<'a> {
     scene: &'a Scene,
     task: Task<'a>,
     folder: PathBuf,
 }
 
-impl<'a> Runs<'a> {
-    /// Reads what is not known; nothing is written yet.
-    pub fn new(scene: &'a Scene, folder: &Path) -> Result<Self, CasesError> {
-        Ok(Self { scene, task: Task::new(scene)?, folder: folder.to_owned() })
-    }
-
+impl Runs<'_> {
     fn work<'w>(&'w self, only: Option<usize>, watcher: &'w Watcher<'w>) -> Work<'w> {
         let apart = Some(Share { only, asked: Vec::new() });
         Work { task: &self.task, runs: self.folder.join(RUNS), watcher, ran: Vec::new(), apart }

@@ -4,8 +4,8 @@ use crate::engine::OpenError;
 use crate::interrupt::Watcher;
 use crate::run::RunError;
 use crate::study::cases::{Case, CasesError};
+use crate::study::kept;
 use crate::study::response::{response, tasks::reference_frequency};
-use crate::study::sweep;
 use std::path::Path;
 use toml::Value;
 use tsubu_frame::{Advise, FileError, Status, Summary, Table};
@@ -44,14 +44,14 @@ pub(super) fn at_its_frequencies(case: &mut Case, scene: &Scene, curve: &Curve) 
 
 /// Makes the response of a case in a folder of its own; one that is finished is kept, one that was cut goes on.
 pub(super) fn one(scene: &Scene, case: &Case, folder: &Path, watcher: &Watcher) -> Result<Summary, CasesError> {
-    if let Some(summary) = sweep::kept(scene, case, folder)?.filter(|summary| summary.status == Status::Finished) {
+    if let Some(summary) = kept::of_case(scene, case, folder)?.filter(|summary| summary.status == Status::Finished) {
         return Ok(summary);
     }
     let scene = case.scene(scene).map_err(CasesError::Complaints)?;
-    match response(&scene, folder, !sweep::is_of(&scene, folder), &watcher.quiet()) {
+    match response(&scene, folder, !kept::is_of(&scene, folder), &watcher.quiet()) {
         // One that goes wrong leaves the others their results.
         Err(CasesError::Run { error: RunError::Fault(fault) | RunError::Open(OpenError::Settling(fault)), .. }) => {
-            Ok(sweep::failed(&scene, folder, &fault.told())?)
+            Ok(kept::failed(&scene, folder, &fault.told())?)
         }
         other => other,
     }

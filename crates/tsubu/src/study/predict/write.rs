@@ -1,6 +1,7 @@
 //! The files of a prediction.
 
-use super::{Check, Checks, Curve, Task};
+use super::checks::{Check, Checks};
+use super::{Curve, Task};
 use crate::study::summary::begun;
 use std::f64::consts::SQRT_2;
 use tsubu_frame::{Cell, FileError, RunFolder, Status, Summary, Table};
