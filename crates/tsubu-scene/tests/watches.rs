@@ -202,6 +202,21 @@ fn groups_and_directions_that_are_missing() {
     ));
 }
 
+/// The face of a box that turns has no direction of its own: its load was that of another side once the pendulum had swung.
+#[test]
+fn a_face_is_of_a_box_that_does_not_turn() {
+    let face = "[watch.a]\nwall-load = { wall = \"box\", face = \"floor\" }\n";
+    let (oscillator, pendulum) = (
+        "structure.oscillator = { mass = \"86 g\", stiffness = \"123.4 N/m\", damping = \"0.08 N s/m\" }\n\
+         base.sine = { amplitude = \"0.5 mm\", frequency = \"6 Hz\" }",
+        "structure.pendulum = { mass = 2, centre = 0.5, inertia = 1, arm = 0.5 }",
+    );
+    let still = format!("{}\n{face}", edited(oscillator, oscillator));
+    read(&still, &[]).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let text = complaint(&format!("{}\n{face}", edited(oscillator, pendulum)), &[]);
+    assert!(text.contains("has no `face` of its own"), "{text}");
+}
+
 /// What cannot be mixed, sorted or stayed in is refused, with the place and what to do.
 #[test]
 fn mixing_residence_and_sizes_are_refused_where_they_mean_nothing() {

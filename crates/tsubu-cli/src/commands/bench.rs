@@ -6,10 +6,10 @@ use crate::progress::Progress;
 use crate::{machine, stop, table};
 use clap::{Args, value_parser};
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tsubu::bench::{Bench, BenchError};
 use tsubu::interrupt::Watcher;
-use tsubu_frame::summary::write_json;
+use tsubu_frame::{Existing, RunFolder};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -30,29 +30,45 @@ pub struct Options {
     quiet: bool,
 }
 
+/// Said where it was stopped.
+const INTERRUPTED: &str = "interrupted; nothing was measured to the end";
+
+/// The file in the folder that is asked for.
+const FILE: &str = "bench.json";
+
 pub fn run(options: &Options) -> Result<(), Failure> {
+    // What cannot be written there must say so before a minute is spent on it.
+    let folder = options.output.as_deref().map(opened).transpose()?;
     let progress = Progress::new("bench", options.quiet);
-    let watcher = Watcher {
-        interrupt: stop::interrupt("interrupted; nothing was written"),
-        progress: &|done| progress.set(done),
-    };
+    let watcher = Watcher { interrupt: stop::interrupt(INTERRUPTED), progress: &|done| progress.set(done) };
     let measured = Bench::measure(f64::from(options.seconds), &watcher);
     progress.end();
     let bench = measured.map_err(|error| match error {
-        BenchError::Interrupted => Failure::interrupted("interrupted; nothing was written"),
+        BenchError::Interrupted => Failure::interrupted(INTERRUPTED),
         other => Failure::of_bench(&other),
     })?;
     output::print(&told(&bench))?;
-    if let Some(folder) = &options.output {
-        let file = folder.join("bench.json");
-        write_json(&file, &bench).map_err(|error| Failure::failed(error.to_string()))?;
-        output::tell(&format!("written to {}\n", file.display()));
+    if let Some(folder) = &folder {
+        let written = folder.write_json(FILE, &bench).and_then(|()| folder.sync());
+        written.map_err(|error| Failure::of_file(&error, folder.path()))?;
+        output::tell(&format!("written to {}\n", folder.file(FILE).display()));
     }
     match machine::remember(&bench) {
         Ok(file) => output::tell(&format!("kept in {}; `tsubu check` estimates from it\n", file.display())),
         Err(reason) => output::tell(&format!("not kept for `tsubu check`: {reason}\n")),
     }
     Ok(())
+}
+
+/// The folder with room for the file: a new one, or one that is there.
+fn opened(folder: &Path) -> Result<RunFolder, Failure> {
+    let names = [FILE];
+    let opened = if folder.is_dir() {
+        RunFolder::open(folder, names)
+    } else {
+        RunFolder::create(folder, Existing::Refuse, names)
+    };
+    opened.map_err(|error| Failure::of_file(&error, folder))
 }
 
 fn told(bench: &Bench) -> String {

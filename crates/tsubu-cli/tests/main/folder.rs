@@ -112,6 +112,17 @@ fn a_scene_in_the_output_folder_stays_the_users() {
     assert_eq!(desk.read("out/scene.toml"), changed);
 }
 
+/// A measurement replaced it.
+#[test]
+fn a_bench_file_of_somebody_else_stays_theirs() {
+    let desk = Desk::empty();
+    std::fs::create_dir(desk.path("me")).unwrap();
+    std::fs::write(desk.path("me/bench.json"), "mine").unwrap();
+    let ended = desk.run("bench --seconds 600 -o me");
+    assert!(ended.code == Some(2) && ended.stderr.contains("not written by this tsubu"), "{}", ended.stderr);
+    assert_eq!(desk.read("me/bench.json"), "mine");
+}
+
 /// Extending a finished run was refused where a watch follows the history's interval and that the duration; the message blamed
 /// another scene. A run that stopped at a limit that only guards could not be gone on with either.
 #[test]

@@ -1,8 +1,9 @@
 //! Watches of bodies that are no spheres: by which numbers grains go, and how far they reach.
 
-use super::{Ball, ball, column, once, plan, scalar, view, watch, watch_of};
+use super::{Ball, ball, column, on_wall, once, plan, scalar, view, watch, watch_of};
 use crate::dem::open_text;
-use tsubu::view::{View, Wants};
+use glam::DVec3;
+use tsubu::view::{Contact, View, Wants};
 use tsubu::watch::open;
 use tsubu_frame::State;
 
@@ -73,6 +74,20 @@ fn squares_reach_as_far_as_their_sides() {
     // The control: of balls it is the radius.
     let balls = View { shapes: None, ..seen };
     assert!((top(&balls) - (4e-3 + held)).abs() < 1e-12, "{}", top(&balls));
+    // On a floor, which is what the front goes by.
+    let on_floor: Vec<Ball> = (0..4).map(|k| ball(15e-3 * f64::from(k), 0.0, 4e-3, held)).collect();
+    let contact = |i| Contact { overlap: 1e-6, ..on_wall(&on_floor, i, -4e-3 * DVec3::Z, DVec3::Z) };
+    let seen = View { contacts: (0..4).map(contact).collect(), ..engine.view(Wants::GRAINS) };
+    let ends = |seen: &View| {
+        let text = "run-out = { direction = \"x\", bins = 4, region = { low = [-7.5e-3, 0], high = [52.5e-3, 1] } }";
+        let mut run_out = watch(2, text);
+        let sample = once(&mut *run_out, seen);
+        ["front", "deposit height"].map(|name| scalar(&*run_out, &sample, name))
+    };
+    let off = |[front, height]: [f64; 2], reach: f64| (front - 45e-3 - reach).abs().max((height - 4e-3 - reach).abs());
+    assert!(off(ends(&seen), high) < 1e-12, "{:?}", ends(&seen));
+    let balls = View { shapes: None, ..seen };
+    assert!(off(ends(&balls), held) < 1e-12, "{:?}", ends(&balls));
 }
 
 /// One grain in every cell is as mixed as it is apart: the index was minus infinity.
