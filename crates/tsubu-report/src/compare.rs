@@ -1,6 +1,6 @@
 //! The report of one scene by several methods.
 
-use tsubu_frame::{Cell, Summary, Table, csv::split_unit, read_frame, snapshots, summary::read_json};
+use tsubu_frame::{Cell, Status, Summary, Table, csv::split_unit, read_frame, snapshots, summary::read_json};
 
 use crate::balls::{Balls, ColourBy, Look};
 use crate::figure::{Axis, Bars, Figure, Series, Style};
@@ -181,6 +181,9 @@ fn most(panels: &[Panel]) -> Option<[f64; 4]> {
 }
 
 fn headline(runs: &[(&str, &Summary)]) -> String {
+    if let Some((name, cut)) = runs.iter().find(|(_, summary)| summary.status != Status::Finished) {
+        return format!("{name} did not come to its end ({}): what is told of it is of a part.", cut.status.word());
+    }
     let pace = |s: &Summary| s.wall_seconds / s.simulated_seconds;
     let by_pace = |a: &&(&str, &Summary), b: &&(&str, &Summary)| pace(a.1).total_cmp(&pace(b.1));
     match (runs.iter().min_by(by_pace), runs.iter().max_by(by_pace)) {

@@ -122,7 +122,7 @@ fn a_calibration_goes_on_where_it_was() {
     // What another scene has found is not touched.
     let other = super::calibrate::scene(&["calibrate.runs=21".to_owned()]);
     let watcher = Watcher { interrupt: &Interrupt::new(), progress: &|_| {} };
-    assert!(matches!(calibrate(&other, &desk.path().join("part"), false, &watcher), Err(CasesError::File(_))));
+    assert!(matches!(calibrate(&other, &desk.path().join("part"), false, &watcher), Err(CasesError::NotThisScene(_))));
     let best =
         Scene::read(&desk.path().join("part/best.toml"), &[]).unwrap_or_else(|complaints| panic!("{complaints}"));
     assert!(best.plan().calibrate.is_some());

@@ -154,7 +154,8 @@ impl LaunchOptions {
             }
             runs.begin(overwrite)?;
         }
-        if self.gather && !folder.exists() {
+        let empty = std::fs::read_dir(&folder).map_or(!folder.exists(), |mut entries| entries.next().is_none());
+        if self.gather && empty {
             // So begins who starts the tasks by other means.
             runs.begin(false)?;
         }

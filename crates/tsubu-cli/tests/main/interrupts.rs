@@ -93,10 +93,18 @@ fn an_interrupted_comparison_goes_on_where_it_was() {
     assert_eq!(child.wait().unwrap().code(), Some(130), "{said}");
     assert!(said.contains("hint: go on with `tsubu compare balls.toml --methods lattice,dem"), "{said}");
     assert_eq!(desk.summary("cut/dem")["status"], "interrupted");
+    assert!(desk.read("cut/compare.csv").starts_with("quantity [text],unit [text],lattice,dem\n"));
+    desk.run("report cut");
+    assert!(desk.read("cut/report.html").contains("did not come to its end"));
     let when = || std::fs::metadata(desk.path("cut/lattice/summary.json")).unwrap().modified().unwrap();
     let before = when();
-    let other = desk.run(&format!("{line} --set seed=7"));
-    assert!(other.code == Some(2) && other.stderr.contains("belong to another scene"), "{}", other.stderr);
+    for other in [
+        format!("{line} --set seed=7"),
+        format!("{line} --set seed=7 --methods a=dem").replace("--methods lattice,dem ", ""),
+    ] {
+        let other = desk.run(&other);
+        assert!(other.code == Some(2) && other.stderr.contains("belong to another scene"), "{}", other.stderr);
+    }
     desk.done(&format!("{line} --resume"));
     assert_eq!(when(), before, "what was done was run again");
     desk.done(&format!("run balls.toml -q -o whole {long}"));

@@ -217,6 +217,65 @@ fn the_job_scripts_do_a_calibration() {
     }
 }
 
+const ATLAS: &str =
+    "[atlas]\nfrequency = [\"5 Hz\", \"7 Hz\"]\nacceleration = [\"2 m/s^2\", \"40 m/s^2\"]\nat-most = 15\n";
+
+/// A task of another scene emptied what was done, and one whose name leads elsewhere emptied what lies there.
+#[test]
+fn a_task_of_another_scene_leaves_what_is_there() {
+    let desk = Desk::new();
+    desk.done("sweep balls.toml -q -o swept");
+    let hash = desk.hash("swept/cases/restitution=0.5");
+    begun(&desk, "response");
+    let name = missing(&desk, "response").remove(0);
+    desk.done(&format!("response out -o out -q --case {name}"));
+    let part = format!("out/progress/{name}.jsonl");
+    let (journal, done) = (desk.read("out/progress.jsonl"), desk.read(&part));
+    fs::write(desk.path("precious.jsonl"), "mine").unwrap();
+    for (line, said) in [
+        ("sweep balls.toml -o swept --set gravity=9 --case restitution=0.5".to_owned(), "belong to another scene"),
+        (format!("response balls.toml -o out --set gravity=9 --case {name}"), "belong to another scene"),
+        ("response balls.toml -o out --case ../progress".to_owned(), "has no run `../progress`"),
+        ("response balls.toml -o out --case ../../precious".to_owned(), "has no run"),
+        (format!("response balls.toml -o new --case {name}"), "no response is begun in new"),
+        ("sweep balls.toml -o new --case restitution=0.5".to_owned(), "no sweep is begun in new"),
+        ("verify damped-contact -o new --case damped-contact".to_owned(), "no verification by tasks is begun in new"),
+    ] {
+        let ended = desk.run(&line);
+        assert!(ended.code == Some(2) && ended.stderr.contains(said), "{line}: {}", ended.stderr);
+    }
+    assert_eq!(desk.hash("swept/cases/restitution=0.5"), hash);
+    assert_eq!((desk.read("out/progress.jsonl"), desk.read(&part)), (journal, done));
+    assert_eq!(desk.read("precious.jsonl"), "mine");
+    assert!(!desk.path("new").exists());
+}
+
+/// Results of another command, scene or verification were replaced by what a gathering found of its own: nothing.
+#[test]
+fn what_was_not_begun_is_not_gathered() {
+    let desk = Desk::with(&format!("{SCENE}\n{ATLAS}"));
+    desk.done("run balls.toml -q -o ran");
+    desk.done("sweep balls.toml -q -o swept");
+    desk.done("verify damped-contact -q -o verified");
+    begun(&desk, "response");
+    let files = ["ran/scene.toml", "swept/scene.toml", "swept/sweep.csv", "verified/verify.json", "out/progress.jsonl"];
+    let before = files.map(|file| desk.read(file));
+    for line in [
+        "sweep balls.toml -o ran --gather",
+        "sweep balls.toml -o swept --gather --set gravity=9",
+        "sweep balls.toml -o out --gather",
+        "verify damped-contact -o verified --gather",
+        "atlas balls.toml -o out --gather",
+        "atlas balls.toml -o out",
+        "predict balls.toml out -o out",
+    ] {
+        let ended = desk.run(line);
+        assert_eq!(ended.code, Some(2), "{line}: {}", ended.stderr);
+    }
+    assert!(desk.run("atlas balls.toml -o out").stderr.contains("are of `tsubu response`"));
+    assert_eq!(files.map(|file| desk.read(file)), before);
+}
+
 /// A run that fails is told, does not keep the next round from coming, and is tried again by the same command alone.
 #[test]
 fn a_run_of_a_response_that_fails_is_told() {

@@ -103,6 +103,14 @@ fn an_atlas_tells_the_response_of_a_structure() {
     assert_eq!(once.0, 1 + 3, "a line of its own for each case");
     desk.done("predict balls.toml atlas1 -q --set method=lattice --resume");
     assert_eq!((simulated(), desk.read("out/balls-prediction/cases.csv")), once);
+    // An atlas that was cut was taken for one of empty boxes.
+    let whole = desk.read("atlas7/atlas.csv");
+    for (cut, said) in [(1, "no point of the case"), (9, "points of the case")] {
+        std::fs::write(desk.path("atlas7/atlas.csv"), whole.split_inclusive('\n').take(cut).collect::<String>())
+            .unwrap();
+        let ended = desk.run("predict balls.toml atlas7 -q --set method=lattice -o new");
+        assert!(ended.code == Some(2) && ended.stderr.contains(said), "{}", ended.stderr);
+    }
     let before = desk.files().len();
     for command in ["predict balls.toml atlas1 -o new", "predict balls.toml balls -o new", "predict balls.toml -o new"]
     {

@@ -8,6 +8,7 @@ use crate::interrupt::{Interrupt, Watcher};
 use crate::methods;
 use crate::partner::Hosts;
 use crate::{memory, trial};
+use std::path::Path;
 use std::time::{Duration, Instant};
 use tsubu_frame::{Status, Summary};
 use tsubu_scene::Plan;
@@ -35,6 +36,14 @@ pub trait Gathered: Apart {
 
 /// The runs of some study of a scene, and the folder that they are in.
 pub type StudyRuns<'a> = Box<dyn Gathered + Send + 'a>;
+
+/// Why nothing can be done in a folder.
+pub(super) fn not_begun(study: &str, folder: &Path) -> CasesError {
+    CasesError::Scene(format!(
+        "no {study} is begun in {}: `tsubu {study} SCENE -o DIR --gather` makes a new folder",
+        folder.display()
+    ))
+}
 
 /// What a run needs.
 #[derive(Clone, Copy, Debug)]

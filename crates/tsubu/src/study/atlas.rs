@@ -16,7 +16,7 @@ pub use chart::{AtlasError, Cavity, Chart, read};
 pub use shown::Shown;
 
 use super::cases::{Case, CasesError, case_plans, cases};
-use super::journal::{self, Exact, Journal};
+use super::journal::{Exact, Journal, Place};
 use super::journaled;
 use super::response::tasks;
 use crate::interrupt::{Interrupt, Watcher};
@@ -58,12 +58,13 @@ type Failed = (Key, RunError);
 pub fn atlas(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Summary, CasesError> {
     let begun = Instant::now();
     let task = Task::new(scene)?;
-    let earlier: Option<Done> = journal::earlier(folder, scene, overwrite)?;
+    let place = Place { study: "atlas", scene, folder };
+    let earlier: Option<Done> = place.earlier(overwrite)?;
     let before = earlier.as_ref().and_then(|_| Summary::read(&folder.join("summary.json")).ok());
     let before = before.map_or(0.0, |summary| summary.wall_seconds);
     // Only then, so that a scene that a method refuses leaves nothing behind.
     let beds = task.beds()?;
-    let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite, &FILES)?;
+    let folder = place.open(earlier.is_some(), overwrite, &FILES)?;
     let journal = Journal::append(&folder)?;
     let record = |key: &Key, point: &Point| journal.record(key, point);
     let (points, failures) = task.run(&beds, &earlier.unwrap_or_default(), &record, watcher)?;

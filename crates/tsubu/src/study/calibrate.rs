@@ -57,7 +57,7 @@ pub fn calibrate(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watche
     let task = Task::new(scene)?;
     // A scene that its method refuses leaves nothing behind.
     crate::methods::open(&crate::trial::unsettled(scene.plan()), &crate::partner::Hosts::new(&scene.plan().hosts))?;
-    let existing = existing(scene, folder, overwrite);
+    let existing = existing(scene, folder, overwrite)?;
     let before = Summary::read(&folder.join("summary.json")).ok().filter(|_| existing == Existing::Resume);
     let before = before.map_or(0.0, |summary| summary.wall_seconds);
     let folder = open(scene, folder, existing)?;
@@ -69,14 +69,16 @@ pub fn calibrate(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watche
     Ok(write::write(&folder, &work, found.as_ref(), status, took, Vec::new())?)
 }
 
-/// What is done with what is in the folder.
-fn existing(scene: &Scene, folder: &Path, overwrite: bool) -> Existing {
-    let same = || std::fs::read_to_string(folder.join("scene.toml")).is_ok_and(|text| text == scene.resolved_toml());
-    match folder.join(RUNS).is_dir() && same() {
-        _ if overwrite => Existing::Overwrite,
-        true => Existing::Resume,
-        false => Existing::Refuse,
+/// What is done with what is in the folder; that of another scene is refused.
+fn existing(scene: &Scene, folder: &Path, overwrite: bool) -> Result<Existing, CasesError> {
+    if overwrite {
+        return Ok(Existing::Overwrite);
     }
+    if !folder.join(RUNS).is_dir() {
+        return Ok(Existing::Refuse);
+    }
+    kept::begun_by_another(scene, folder, |_| false)
+        .map_or(Ok(Existing::Resume), |why| Err(CasesError::NotThisScene(why)))
 }
 
 /// The folder with the scene in it.
@@ -302,6 +304,7 @@ impl Work<'_> {
             whole.summary.results_in_order().into_iter().filter(|(_, value)| matches!(value, ResultValue::Number(_)));
         let names: Vec<&str> = numbers.map(|(name, _)| name).collect();
         let told = match nearest(result, names.iter().copied()) {
+            Some(near) if near == result => "in the others it is no number".to_owned(),
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("results of a run are `{}`", names.join("`, `")),
         };

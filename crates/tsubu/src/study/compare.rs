@@ -88,10 +88,12 @@ pub fn compare(
         true => Existing::Resume,
         false => Existing::Refuse,
     };
-    if existing == Existing::Resume
-        && let Some(why) = scenes.iter().find_map(|(one, scene)| kept::of_another(scene, &folder.join(&one.name)))
-    {
-        return Err(CompareError::NotThisScene(why));
+    if existing == Existing::Resume {
+        let of_all = kept::begun_by_another(scene, folder, |_| false);
+        let of_one = || scenes.iter().find_map(|(one, scene)| kept::of_another(scene, &folder.join(&one.name)));
+        if let Some(why) = of_all.or_else(of_one) {
+            return Err(CompareError::NotThisScene(why));
+        }
     }
     let own = ["compare.csv", FILE].into_iter().map(str::to_owned);
     let runs = scenes.iter().map(|(variant, _)| format!("{}/", variant.name));
@@ -113,11 +115,12 @@ pub fn compare(
             .map_err(|error| CompareError::Run { method: variant.name.clone(), error })?;
         let finished = summary.status == Status::Finished;
         done.push((variant, summary));
+        // Whatever comes next, what is there is told.
+        folder.write("compare.csv", table(&done).to_csv().as_bytes())?;
         if !finished {
-            return Ok(Comparison { done, refused });
+            break;
         }
     }
-    folder.write("compare.csv", table(&done).to_csv().as_bytes())?;
     folder.sync()?;
     Ok(Comparison { done, refused })
 }

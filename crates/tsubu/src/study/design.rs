@@ -20,7 +20,7 @@ pub use answer::Answer;
 pub use apart::runs;
 
 use super::cases::CasesError;
-use super::journal::{self, Exact, Journal};
+use super::journal::{Exact, Journal, Place};
 use super::journaled;
 use super::response::{Point, tasks};
 use crate::interrupt::{Interrupt, Watcher};
@@ -117,12 +117,13 @@ type Done = BTreeMap<Key, Measured>;
 pub fn design(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Summary, CasesError> {
     let begun = Instant::now();
     let task = Task::new(scene)?;
-    let earlier: Option<Done> = journal::earlier(folder, scene, overwrite)?;
+    let place = Place { study: "design", scene, folder };
+    let earlier: Option<Done> = place.earlier(overwrite)?;
     let before = earlier.as_ref().and_then(|_| Summary::read(&folder.join("summary.json")).ok());
     let before = before.map_or(0.0, |summary| summary.wall_seconds);
     // A scene that its method refuses leaves nothing behind.
     methods::open(&unsettled(scene.plan()), &Hosts::new(&scene.plan().hosts))?;
-    let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite, &FILES)?;
+    let folder = place.open(earlier.is_some(), overwrite, &FILES)?;
     let journal = Journal::append(&folder)?;
     let record = |key: &Key, measured: &Measured| journal.record(key, measured);
     let mut work = Work::new(&task, earlier.unwrap_or_default(), &record, watcher);

@@ -42,17 +42,12 @@ impl PartialEq for Exact {
 
 impl Eq for Exact {}
 
-/// First line of the journal: which scene it belongs to, and who wrote it.
+/// First line of the journal: which study of which scene it belongs to, and who wrote it.
 #[derive(Serialize, Deserialize)]
 struct Mark {
+    study: String,
     scene: String,
     version: String,
-}
-
-fn mark(resolved: &str) -> String {
-    let mark = Mark { scene: scene_hash(resolved), version: crate::VERSION.to_owned() };
-    // Two texts make JSON in any case.
-    serde_json::to_string(&mark).unwrap_or_default()
 }
 
 /// The folder of what is done apart.
@@ -63,107 +58,139 @@ fn lines<K: DeserializeOwned, P: DeserializeOwned>(text: &str) -> Vec<(K, P)> {
     text.lines().skip(1).filter_map(|line| serde_json::from_str(line).ok()).collect()
 }
 
-/// The files of what was done apart of the scene with this mark, and their texts.
-fn parts(path: &Path, mark: &str) -> Vec<(PathBuf, String)> {
-    let entries = std::fs::read_dir(path.join(PARTS)).into_iter().flatten().flatten();
-    let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
-    files.sort();
-    let texts = files.into_iter().filter_map(|file| std::fs::read_to_string(&file).ok().map(|text| (file, text)));
-    texts.filter(|(_, text)| text.lines().next() == Some(mark)).collect()
-}
-
-/// What runs that were done apart and failed have said.
-pub(super) fn lost<K: Ord + DeserializeOwned>(path: &Path, scene: &Scene) -> BTreeMap<K, String> {
-    let texts = parts(path, &mark(&scene.resolved_toml()));
-    texts.iter().flat_map(|(_, text)| lines::<K, Lost>(text)).map(|(key, lost)| (key, lost.failed)).collect()
-}
-
-/// Puts what was done apart of this scene into the one journal, and forgets what failed: it is to be tried again.
-pub(super) fn collect<K, P>(folder: &RunFolder, scene: &Scene) -> Result<(), FileError>
-where
-    K: Serialize + DeserializeOwned,
-    P: Serialize + DeserializeOwned,
-{
-    let journal = Journal::append(folder)?;
-    for (file, _) in parts(folder.path(), &mark(&scene.resolved_toml())) {
-        let part = OpenOptions::new().read(true).append(true).open(&file).map_err(FileError::write(&file))?;
-        // A worker that its cluster has given up may still be writing: what it leaves is read where it stands.
-        if let Err(TryLockError::WouldBlock) = part.try_lock() {
-            continue;
-        }
-        let text = std::fs::read_to_string(&file).map_err(FileError::read(&file))?;
-        for (key, point) in lines::<K, P>(&text) {
-            journal.record(&key, &point)?;
-        }
-        std::fs::remove_file(&file).map_err(FileError::write(&file))?;
-    }
-    Ok(())
-}
-
 /// Why a run has no point.
 #[derive(Serialize, Deserialize)]
 struct Lost {
     failed: String,
 }
 
-/// What an interrupted study of the same scene has done in the folder; `None` where a new one is to begin.
-pub(super) fn earlier<K: Ord + DeserializeOwned, P: DeserializeOwned>(
-    path: &Path,
-    scene: &Scene,
-    overwrite: bool,
-) -> Result<Option<BTreeMap<K, P>>, CasesError> {
-    if overwrite {
-        return Ok(None);
-    }
-    let text = std::fs::read_to_string(path.join("progress.jsonl")).unwrap_or_default();
-    let mark = mark(&scene.resolved_toml());
-    if text.lines().next() == Some(mark.as_str()) {
-        // The last line may be cut in half; it is computed again.
-        let of_all = [text].into_iter().chain(parts(path, &mark).into_iter().map(|(_, text)| text));
-        return Ok(Some(of_all.flat_map(|text| lines(&text)).collect()));
-    }
-    if let Some(Ok(mark)) = text.lines().next().map(serde_json::from_str::<Mark>) {
-        return Err(of_another(path, scene, &mark));
-    }
-    let occupied = std::fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_some());
-    if occupied { Err(FileError::NotEmpty { path: path.to_owned() }.into()) } else { Ok(None) }
+/// Where a study of a scene keeps its journal.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'a> {
+    /// The command that does it.
+    pub study: &'static str,
+    pub scene: &'a Scene,
+    pub folder: &'a Path,
 }
 
-/// Why a study cannot go on in a folder with the journal of another.
-fn of_another(path: &Path, scene: &Scene, mark: &Mark) -> CasesError {
-    let why = if mark.version == crate::VERSION {
-        let earlier = std::fs::read_to_string(path.join("scene.toml")).unwrap_or_default();
-        format!("belong to another scene{}", what_differs(&scene.all_differences(&earlier)))
-    } else {
-        format!("were written by tsubu {}, this is tsubu {}: go on with the other", mark.version, crate::VERSION)
-    };
-    CasesError::NotThisScene(format!("the results in {} {why}", path.display()))
-}
+impl Place<'_> {
+    fn mark(self) -> String {
+        let scene = scene_hash(&self.scene.resolved_toml());
+        let mark = Mark { study: self.study.to_owned(), scene, version: crate::VERSION.to_owned() };
+        // Three texts make JSON in any case.
+        serde_json::to_string(&mark).unwrap_or_default()
+    }
 
-/// Makes the folder, or takes the one that an earlier study has begun. `tables` are the study's own files; those of its page come later.
-pub(super) fn open_folder(
-    path: &Path,
-    begun: bool,
-    scene: &Scene,
-    overwrite: bool,
-    tables: &[&str],
-) -> Result<RunFolder, FileError> {
-    let names = || -> Vec<String> {
-        let own = tables.iter().chain(&["check.txt", "summary.json", "progress.jsonl"]);
-        scene_files::names(scene).into_iter().chain(own.map(|name| (*name).to_owned())).collect()
-    };
-    if begun {
-        return RunFolder::create(path, Existing::Resume, names());
+    /// The files of what was done apart, and their texts.
+    fn parts(self) -> Vec<(PathBuf, String)> {
+        let mark = self.mark();
+        let entries = std::fs::read_dir(self.folder.join(PARTS)).into_iter().flatten().flatten();
+        let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+        files.sort();
+        let texts = files.into_iter().filter_map(|file| std::fs::read_to_string(&file).ok().map(|text| (file, text)));
+        texts.filter(|(_, text)| text.lines().next() == Some(&mark)).collect()
     }
-    let existing = if overwrite { Existing::Overwrite } else { Existing::Refuse };
-    let folder = RunFolder::create(path, existing, names())?;
-    scene_files::write(&folder, scene)?;
-    folder.claim(names())?;
-    for (file, _) in parts(path, &mark(&scene.resolved_toml())) {
-        std::fs::remove_file(&file).map_err(FileError::write(&file))?;
+
+    /// What an interrupted study has done in the folder; `None` where a new one is to begin.
+    pub fn earlier<K: Ord + DeserializeOwned, P: DeserializeOwned>(
+        self,
+        overwrite: bool,
+    ) -> Result<Option<BTreeMap<K, P>>, CasesError> {
+        if overwrite {
+            return Ok(None);
+        }
+        let bytes = std::fs::read(self.folder.join("progress.jsonl")).unwrap_or_default();
+        // A line that is damaged is computed again.
+        let text = String::from_utf8_lossy(&bytes).into_owned();
+        if text.lines().next() == Some(self.mark().as_str()) {
+            // The last line may be cut in half; it is computed again.
+            let of_all = [text].into_iter().chain(self.parts().into_iter().map(|(_, text)| text));
+            return Ok(Some(of_all.flat_map(|text| lines(&text)).collect()));
+        }
+        if let Some(Ok(mark)) = text.lines().next().map(serde_json::from_str::<Mark>) {
+            return Err(self.of_another(&mark));
+        }
+        let occupied = std::fs::read_dir(self.folder).is_ok_and(|mut entries| entries.next().is_some());
+        if occupied { Err(FileError::NotEmpty { path: self.folder.to_owned() }.into()) } else { Ok(None) }
     }
-    folder.write("progress.jsonl", format!("{}\n", mark(&scene.resolved_toml())).as_bytes())?;
-    Ok(folder)
+
+    /// Why the study cannot go on in a folder with the journal of another.
+    fn of_another(self, mark: &Mark) -> CasesError {
+        let why = if mark.study != self.study {
+            format!("are of `tsubu {}`", mark.study)
+        } else if mark.version == crate::VERSION {
+            let earlier = std::fs::read_to_string(self.folder.join("scene.toml")).unwrap_or_default();
+            format!("belong to another scene{}", what_differs(&self.scene.all_differences(&earlier)))
+        } else {
+            format!("were written by tsubu {}, this is tsubu {}: go on with the other", mark.version, crate::VERSION)
+        };
+        CasesError::NotThisScene(format!("the results in {} {why}", self.folder.display()))
+    }
+
+    /// What runs that were done apart and failed have said.
+    pub fn lost<K: Ord + DeserializeOwned>(self) -> BTreeMap<K, String> {
+        let texts = self.parts();
+        texts.iter().flat_map(|(_, text)| lines::<K, Lost>(text)).map(|(key, lost)| (key, lost.failed)).collect()
+    }
+
+    /// Makes the folder, or takes the one that an earlier study has begun. `tables` are the study's own files; those of its page come later.
+    pub fn open(self, begun: bool, overwrite: bool, tables: &[&str]) -> Result<RunFolder, FileError> {
+        let names = || -> Vec<String> {
+            let own = tables.iter().chain(&["check.txt", "summary.json", "progress.jsonl"]);
+            scene_files::names(self.scene).into_iter().chain(own.map(|name| (*name).to_owned())).collect()
+        };
+        if begun {
+            return RunFolder::create(self.folder, Existing::Resume, names());
+        }
+        let existing = if overwrite { Existing::Overwrite } else { Existing::Refuse };
+        let folder = RunFolder::create(self.folder, existing, names())?;
+        scene_files::write(&folder, self.scene)?;
+        folder.claim(names())?;
+        for (file, _) in self.parts() {
+            std::fs::remove_file(&file).map_err(FileError::write(&file))?;
+        }
+        folder.write("progress.jsonl", format!("{}\n", self.mark()).as_bytes())?;
+        Ok(folder)
+    }
+
+    /// Puts what was done apart into the one journal, and forgets what failed: it is to be tried again.
+    pub fn collect<K, P>(self, folder: &RunFolder) -> Result<(), FileError>
+    where
+        K: Serialize + DeserializeOwned,
+        P: Serialize + DeserializeOwned,
+    {
+        let journal = Journal::append(folder)?;
+        for (file, _) in self.parts() {
+            let part = OpenOptions::new().read(true).append(true).open(&file).map_err(FileError::write(&file))?;
+            // A worker that its cluster has given up may still be writing: what it leaves is read where it stands.
+            if let Err(TryLockError::WouldBlock) = part.try_lock() {
+                continue;
+            }
+            let text = std::fs::read_to_string(&file).map_err(FileError::read(&file))?;
+            for (key, point) in lines::<K, P>(&text) {
+                journal.record(&key, &point)?;
+            }
+            std::fs::remove_file(&file).map_err(FileError::write(&file))?;
+        }
+        Ok(())
+    }
+
+    /// The journal of runs that are done apart, of the process that does the run `name`; nobody else writes it while this lives.
+    pub fn apart(self, name: &str) -> Result<Journal, FileError> {
+        let parts = self.folder.join(PARTS);
+        let path = parts.join(format!("{name}.jsonl"));
+        std::fs::create_dir_all(&parts).map_err(FileError::write(&parts))?;
+        let open = OpenOptions::new().create(true).read(true).append(true).open(&path);
+        let mut file = open.map_err(FileError::write(&path))?;
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Err(FileError::Locked { path });
+        }
+        let mark = self.mark();
+        let known = std::fs::read_to_string(&path).is_ok_and(|text| text.lines().next() == Some(mark.as_str()));
+        let head = if known { Ok(()) } else { file.set_len(0).and_then(|()| write!(file, "{mark}")) };
+        head.and_then(|()| writeln!(file)).map_err(FileError::write(&path))?;
+        Ok(Journal { path, file: Mutex::new(file) })
+    }
 }
 
 /// The journal, to be written on.
@@ -179,23 +206,6 @@ impl Journal {
         let mut file = OpenOptions::new().append(true).open(&path).map_err(FileError::write(&path))?;
         // A line cut short by a kill must not swallow the next one.
         writeln!(file).map_err(FileError::write(&path))?;
-        Ok(Self { path, file: Mutex::new(file) })
-    }
-
-    /// The journal of runs that are done apart, of the process that begins with the run `name`; nobody else writes it while this lives.
-    pub fn apart(folder: &Path, name: &str, scene: &Scene) -> Result<Self, FileError> {
-        let path = folder.join(PARTS).join(format!("{name}.jsonl"));
-        let parts = folder.join(PARTS);
-        std::fs::create_dir_all(&parts).map_err(FileError::write(&parts))?;
-        let open = OpenOptions::new().create(true).read(true).append(true).open(&path);
-        let mut file = open.map_err(FileError::write(&path))?;
-        if let Err(TryLockError::WouldBlock) = file.try_lock() {
-            return Err(FileError::Locked { path });
-        }
-        let mark = mark(&scene.resolved_toml());
-        let known = std::fs::read_to_string(&path).is_ok_and(|text| text.lines().next() == Some(mark.as_str()));
-        let head = if known { Ok(()) } else { file.set_len(0).and_then(|()| write!(file, "{mark}")) };
-        head.and_then(|()| writeln!(file)).map_err(FileError::write(&path))?;
         Ok(Self { path, file: Mutex::new(file) })
     }
 

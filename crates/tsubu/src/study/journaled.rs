@@ -2,9 +2,9 @@
 //!
 //! What the next round asks for follows from what is known, so whoever reads the folder comes to the same round.
 
-use super::apart::{Apart, Gathered, unlocked};
+use super::apart::{Apart, Gathered, not_begun, unlocked};
 use super::cases::CasesError;
-use super::journal::{self, Journal};
+use super::journal::Place;
 use crate::interrupt::Watcher;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -20,6 +20,12 @@ pub(super) struct Known<K, P> {
     pub done: BTreeMap<K, P>,
     /// What failed, and what was said of it.
     pub lost: BTreeMap<K, String>,
+}
+
+impl<K, P> Default for Known<K, P> {
+    fn default() -> Self {
+        Self { done: BTreeMap::new(), lost: BTreeMap::new() }
+    }
 }
 
 impl<K: Copy + Ord, P> Known<K, P> {
@@ -75,6 +81,8 @@ pub(super) trait Journaled: Send {
     ) -> Result<Summary, CasesError>;
 }
 
+type KnownOf<S> = Known<<S as Journaled>::Key, <S as Journaled>::Point>;
+
 /// The runs of a study, and the folder that they are in.
 pub(super) struct Runs<'a, S> {
     scene: &'a Scene,
@@ -88,34 +96,46 @@ impl<'a, S: Journaled> Runs<'a, S> {
         Self { scene, folder: folder.to_owned(), study }
     }
 
-    fn known(&self) -> Result<Known<S::Key, S::Point>, CasesError> {
-        let done: Option<BTreeMap<S::Key, S::Point>> = journal::earlier(&self.folder, self.scene, false)?;
-        let done = done.unwrap_or_default();
-        let mut lost: BTreeMap<S::Key, String> = journal::lost(&self.folder, self.scene);
+    fn place(&self) -> Place<'_> {
+        Place { study: S::NAME, scene: self.scene, folder: &self.folder }
+    }
+
+    /// What is known; nothing where the study is not begun.
+    fn known(&self) -> Result<Option<KnownOf<S>>, CasesError> {
+        let Some(done) = self.place().earlier(false)? else { return Ok(None) };
+        let mut lost: BTreeMap<S::Key, String> = self.place().lost();
         lost.retain(|key, _| !done.contains_key(key));
-        Ok(Known { done, lost })
+        Ok(Some(Known { done, lost }))
     }
 
     /// A key of each run that is missing, with its name.
-    fn missing_runs(&self, known: &Known<S::Key, S::Point>) -> Result<Vec<(S::Key, String)>, CasesError> {
+    fn missing_runs(&self, known: &KnownOf<S>) -> Result<Vec<(S::Key, String)>, CasesError> {
         let mut names = BTreeSet::new();
         let asked = self.study.asked(known)?.into_iter().map(|key| (key, self.study.name(&key)));
         Ok(asked.filter(|(_, name)| names.insert(name.clone())).collect())
     }
 
-    /// Does a run, and writes it down.
-    fn one(&mut self, name: &str, watcher: &Watcher) -> Result<Status, CasesError> {
-        // What another process has done while this one waited for the journal is read after it.
-        let journal = Journal::apart(&self.folder, name, self.scene)?;
-        let known = self.known()?;
+    /// What a run is still to measure, and what is known; an error where there is no such run.
+    fn left(&self, name: &str) -> Result<(Vec<S::Key>, KnownOf<S>), CasesError> {
+        let study = S::NAME;
+        let known = self.known()?.ok_or_else(|| not_begun(study, &self.folder))?;
         let is_of = |key: &S::Key| self.study.name(key) == name;
-        let mut left: Vec<S::Key> = self.study.asked(&known)?.into_iter().filter(is_of).collect();
+        let left: Vec<S::Key> = self.study.asked(&known)?.into_iter().filter(is_of).collect();
         if left.is_empty() && !known.done.keys().chain(known.lost.keys()).any(is_of) {
-            let study = S::NAME;
             return Err(CasesError::Scene(format!(
                 "the {study} has no run `{name}`: `tsubu {study} SCENE --dry-run` names those that are missing"
             )));
         }
+        Ok((left, known))
+    }
+
+    /// Does a run, and writes it down.
+    fn one(&mut self, name: &str, watcher: &Watcher) -> Result<Status, CasesError> {
+        // A name that is none must not become a file.
+        self.left(name)?;
+        let journal = self.place().apart(name)?;
+        // What another process has done while this one waited for the journal is known only now.
+        let (mut left, known) = self.left(name)?;
         if left.is_empty() {
             return Ok(Status::Finished);
         }
@@ -140,16 +160,16 @@ impl<'a, S: Journaled> Runs<'a, S> {
 
 impl<S: Journaled> Apart for Runs<'_, S> {
     fn begin(&mut self, overwrite: bool) -> Result<(), CasesError> {
-        let earlier: Option<BTreeMap<S::Key, S::Point>> = journal::earlier(&self.folder, self.scene, overwrite)?;
+        let earlier: Option<BTreeMap<S::Key, S::Point>> = self.place().earlier(overwrite)?;
         // A scene that its method refuses leaves nothing behind.
         self.study.open()?;
-        let folder = journal::open_folder(&self.folder, earlier.is_some(), self.scene, overwrite, S::FILES)?;
-        journal::collect::<S::Key, S::Point>(&folder, self.scene)?;
+        let folder = self.place().open(earlier.is_some(), overwrite, S::FILES)?;
+        self.place().collect::<S::Key, S::Point>(&folder)?;
         Ok(folder.sync()?)
     }
 
     fn missing(&mut self) -> Result<Vec<String>, CasesError> {
-        let missing = self.missing_runs(&self.known()?)?;
+        let missing = self.missing_runs(&self.known()?.unwrap_or_default())?;
         Ok(missing.into_iter().map(|(_, name)| name).collect())
     }
 
@@ -164,10 +184,10 @@ impl<S: Journaled> Apart for Runs<'_, S> {
 
 impl<S: Journaled> Gathered for Runs<'_, S> {
     fn gather(&mut self, why: &dyn Fn(&str) -> String) -> Result<Summary, CasesError> {
-        let known = self.known()?;
+        let known = self.known()?.ok_or_else(|| not_begun(S::NAME, &self.folder))?;
         let told = |(key, name): (S::Key, String)| (key, format!("{name} is missing: {}", why(&name)));
         let missing = self.missing_runs(&known)?.into_iter().map(told).collect();
-        let folder = journal::open_folder(&self.folder, true, self.scene, false, S::FILES)?;
+        let folder = self.place().open(true, false, S::FILES)?;
         self.study.write(known, missing, &folder, self.scene)
     }
 }

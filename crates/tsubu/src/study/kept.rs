@@ -26,32 +26,53 @@ pub(super) fn is_of(scene: &Scene, folder: &Path) -> bool {
     there.is_ok_and(|there| there == here || alone(&there).is_some_and(|there| Some(there) == alone(&here)))
 }
 
-/// Why this scene cannot be run into a folder: another has results there, or the checkpoint that it was cut at.
-pub(super) fn of_another(scene: &Scene, folder: &Path) -> Option<String> {
-    let begun = folder.join("summary.json").exists() || checkpoint::path(folder).exists();
-    if !begun || is_of(scene, folder) {
+/// Why a study of this scene cannot go on in a folder: what was begun there is of another. Keys that are `free` may differ.
+pub(super) fn begun_by_another(scene: &Scene, folder: &Path, free: impl Fn(&str) -> bool) -> Option<String> {
+    if is_of(scene, folder) {
         return None;
     }
     let there = std::fs::read_to_string(folder.join("scene.toml")).unwrap_or_default();
     let mut differences = scene.all_differences(&there);
-    differences.retain(|difference| !difference.key.starts_with("sweep."));
-    Some(format!("the results in {} belong to another scene{}", folder.display(), what_differs(&differences)))
+    let any = !differences.is_empty();
+    differences.retain(|difference| !difference.key.starts_with("sweep.") && !free(&difference.key));
+    let told = || format!("the results in {} belong to another scene{}", folder.display(), what_differs(&differences));
+    // Where nothing can be told of it, it is not ours.
+    (!any || !differences.is_empty()).then(told)
 }
 
-/// Makes the run of a scene in its folder; one that is finished is kept, one that was cut goes on from its checkpoint.
+/// Why this scene cannot be run into a folder: another has results there, or the checkpoint that it was cut at, or another version has.
+pub(super) fn of_another(scene: &Scene, folder: &Path) -> Option<String> {
+    let summary = Summary::read(&folder.join("summary.json")).ok();
+    if !folder.join("summary.json").exists() && !checkpoint::path(folder).exists() {
+        return None;
+    }
+    begun_by_another(scene, folder, |_| false).or_else(|| {
+        let version = summary.map(|summary| summary.tsubu_version).filter(|version| version != crate::VERSION)?;
+        let path = folder.display();
+        Some(format!(
+            "the results in {path} were written by tsubu {version}, this is tsubu {}: go on with the other",
+            crate::VERSION
+        ))
+    })
+}
+
+/// Makes the run of a scene in its folder; one that is finished is kept, one that was cut goes on from its checkpoint. The folder of another
+/// scene is not touched.
 pub(super) fn go_on(
     scene: &Scene,
     folder: &Path,
     run: &dyn Fn(Existing) -> Result<Summary, RunError>,
 ) -> Result<Summary, RunError> {
+    if let Some(why) = of_another(scene, folder) {
+        return Err(RunError::NotThisScene(why));
+    }
     let finished = || summary(scene, folder).filter(|summary| summary.status == Status::Finished);
     if let Some(summary) = finished() {
         return Ok(summary);
     }
-    let cut = is_of(scene, folder) && checkpoint::path(folder).exists();
-    let made = run(if cut { Existing::Resume } else { Existing::Overwrite });
+    let existing = if checkpoint::path(folder).exists() { Existing::Resume } else { Existing::Overwrite };
     // Whoever worked at it may have ended, and taken its checkpoint away, between the look above and the run.
-    made.or_else(|error| finished().ok_or(error))
+    run(existing).or_else(|error| finished().ok_or(error))
 }
 
 /// What an earlier run of this case has left in its folder.
@@ -90,7 +111,8 @@ pub(super) fn failed(scene: &Scene, folder: &Path, fault: &str) -> Result<Summar
     if let Some(summary) = left.filter(of_this) {
         return Ok(summary);
     }
-    let summary = Summary { status: Status::Failed, warnings: vec![fault.to_owned()], ..Summary::default() };
+    let (status, warnings) = (Status::Failed, vec![fault.to_owned()]);
+    let summary = Summary { tsubu_version: crate::VERSION.to_owned(), status, warnings, ..Summary::default() };
     let names: Vec<String> = scene_files::names(scene).into_iter().chain(["summary.json".to_owned()]).collect();
     let folder = RunFolder::create(folder, Existing::Overwrite, &names)?;
     scene_files::write(&folder, scene)?;

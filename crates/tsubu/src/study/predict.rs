@@ -9,7 +9,7 @@ pub use balance::{Balance, Lossy, Motion};
 
 use super::atlas::Cavity;
 use super::cases::{Case, CasesError, case_plans, cases};
-use super::journal::{self, Journal};
+use super::journal::{Journal, Place};
 use super::response::{peak, refine, tasks};
 use crate::interrupt::Watcher;
 use crate::partner::Hosts;
@@ -41,13 +41,14 @@ pub fn predict(
 ) -> Result<Summary, CasesError> {
     let begun = Instant::now();
     let task = Task::new(scene, cavities)?;
-    let earlier: Option<checks::Done> = journal::earlier(folder, scene, overwrite)?;
+    let place = Place { study: "predict", scene, folder };
+    let earlier: Option<checks::Done> = place.earlier(overwrite)?;
     let curves: Vec<Curve> = (0..task.cases.len()).into_par_iter().map(|case| task.curve(case)).collect();
     let predicted_in = begun.elapsed().as_secs_f64();
     let wanted = checks::wanted(&curves, spot_checks);
     // A case that its method refuses must say so before the others have run, and leave nothing behind.
     task.open(&wanted)?;
-    let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite, &FILES)?;
+    let folder = place.open(earlier.is_some(), overwrite, &FILES)?;
     let journal = Journal::append(&folder)?;
     let checks = task.check(&curves, &wanted, &earlier.unwrap_or_default(), &journal, watcher)?;
     let status = match checks.failures.is_empty() {

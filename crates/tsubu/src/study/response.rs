@@ -20,7 +20,7 @@ pub use point::Point;
 pub use tasks::{bed, measure};
 
 use super::cases::{Case, CasesError, case_plans, cases};
-use super::journal::{self, Exact, Journal};
+use super::journal::{Exact, Journal, Place};
 use super::journaled;
 use crate::engine::OpenError;
 use crate::interrupt::{Interrupt, Watcher};
@@ -40,7 +40,8 @@ use tsubu_scene::{Plan, Scene, plan};
 pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher) -> Result<Summary, CasesError> {
     let begun = Instant::now();
     let task = Task::new(scene)?;
-    let earlier: Option<Done> = journal::earlier(folder, scene, overwrite)?;
+    let place = Place { study: "response", scene, folder };
+    let earlier: Option<Done> = place.earlier(overwrite)?;
     // An interrupted response has told how long it took until then.
     let before = earlier.as_ref().and_then(|_| Summary::read(&folder.join("summary.json")).ok());
     let before = before.map_or(0.0, |summary| summary.wall_seconds);
@@ -48,7 +49,7 @@ pub fn response(scene: &Scene, folder: &Path, overwrite: bool, watcher: &Watcher
     let (mut beds, mut failures) = (Beds::new(), Vec::new());
     task.settle(&rounds.missing, &mut beds, &mut failures)?;
     // Only now, so that a scene that a method refuses leaves nothing behind.
-    let folder = journal::open_folder(folder, earlier.is_some(), scene, overwrite, &FILES)?;
+    let folder = place.open(earlier.is_some(), overwrite, &FILES)?;
     let journal = Journal::append(&folder)?;
     let record = |key: &Key, point: &Point| journal.record(key, point);
     let complete = task.measure(&mut rounds, &mut beds, &mut failures, &record, watcher)?;

@@ -8,7 +8,7 @@ mod together;
 
 pub use table::Outcome;
 
-use super::apart::{Apart, unlocked};
+use super::apart::{Apart, not_begun, unlocked};
 use super::cases::{Case, CasesError, cases};
 use super::kept;
 use crate::interrupt::Watcher;
@@ -102,12 +102,38 @@ impl<'a> Sweep<'a> {
                 return Err(CasesError::NotThisScene(why));
             }
         }
-        let existing = match self.folder.join("cases").is_dir() {
+        let existing = match self.is_begun() {
             _ if overwrite => Existing::Overwrite,
             true => Existing::Resume,
             false => Existing::Refuse,
         };
+        if existing == Existing::Resume {
+            self.is_ours()?;
+        }
         self.take(existing)
+    }
+
+    fn is_begun(&self) -> bool {
+        self.folder.join(CASES).is_dir()
+    }
+
+    /// Refuses the folder of another scene's sweep: all but what either varies is to be the same.
+    fn is_ours(&self) -> Result<(), CasesError> {
+        let there = std::fs::read_to_string(self.folder.join("scene.toml")).unwrap_or_default();
+        let varied = |text: &str| -> Vec<String> {
+            let table: toml::Table = toml::from_str(text).unwrap_or_default();
+            let vary = table.get("sweep").and_then(|sweep| sweep.get("vary")).and_then(toml::Value::as_table);
+            vary.into_iter().flat_map(toml::Table::keys).cloned().collect()
+        };
+        let free = [varied(&there), varied(&self.scene.resolved_toml())].concat();
+        let is_free = |key: &str| free.iter().any(|one| one == key);
+        kept::begun_by_another(self.scene, &self.folder, is_free)
+            .map_or(Ok(()), |why| Err(CasesError::NotThisScene(why)))
+    }
+
+    /// Refuses a folder in which this sweep was not begun.
+    fn goes_on(&self) -> Result<(), CasesError> {
+        if self.is_begun() { self.is_ours() } else { Err(not_begun("sweep", &self.folder)) }
     }
 
     fn take(&self, existing: Existing) -> Result<RunFolder, CasesError> {
@@ -125,6 +151,7 @@ impl<'a> Sweep<'a> {
 
     /// Makes `sweep.csv` of what is there, and runs nothing. `why` tells of a case, by its name, why it has no result.
     pub fn gather(&self, why: &dyn Fn(&str) -> String) -> Result<Vec<Outcome>, CasesError> {
+        self.goes_on()?;
         let folder = self.take(Existing::Resume)?;
         let told = |case: &Case| -> Result<Outcome, CasesError> {
             Ok(match kept::of_case(self.scene, case, &self.place(case))? {
@@ -164,6 +191,7 @@ impl Apart for Sweep<'_> {
         let index = self.cases.iter().position(|case| case.folder() == name).ok_or_else(|| {
             CasesError::Scene(format!("the sweep has no case `{name}`: `tsubu sweep SCENE --dry-run` names all"))
         })?;
+        self.goes_on()?;
         let case = &self.cases[index];
         let run = |scene: &Scene, folder: &Path, existing| self.run_together(index, scene, folder, existing, watcher);
         // Whoever holds it may be a worker that its cluster has given up: what it does is not done twice.

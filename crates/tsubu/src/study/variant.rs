@@ -20,6 +20,9 @@ pub struct Variant {
 const FORM: &str = "write METHOD, METHOD:KEY=VALUE or NAME=METHOD:KEY=VALUE with commas between, for example \
                     dem,locked=dem:contact.rotation=false; `all` is every method that can";
 
+/// What a comparison writes beside the folders of its variants.
+const OWN: [&str; 5] = ["compare.csv", "compare.json", "scene.toml", "report.html", "figures"];
+
 /// A list that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
@@ -87,6 +90,12 @@ impl Variant {
                 return Err(VariantError::new(
                     format!("`{name}` cannot be the name of a column and a folder"),
                     "use letters, digits, `-`, `_` and `.`, not a dot first",
+                ));
+            }
+            Some(name) if OWN.contains(&name) => {
+                return Err(VariantError::new(
+                    format!("`{name}` is the name of a file of the comparison itself"),
+                    "choose another name",
                 ));
             }
             Some(name) if Method::ALL.iter().any(|known| known.name() == name && *known != method) || name == "all" => {

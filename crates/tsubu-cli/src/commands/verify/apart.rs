@@ -62,6 +62,15 @@ impl<'a> Cases<'a> {
         folder.map_err(|error| Failure::of_file(&error, self.folder))
     }
 
+    /// Refuses a folder in which no verification by tasks was begun.
+    pub fn goes_on(&self) -> Result<(), Failure> {
+        if self.folder.join(TASKS).is_dir() {
+            return Ok(());
+        }
+        Err(Failure::wrong(format!("no verification by tasks is begun in {}", self.folder.display()))
+            .hint("`--gather` makes a new folder"))
+    }
+
     /// What is there of the cases, and of each that is not, why.
     pub fn gather(&self) -> (Vec<(&'static Case, Outcome)>, Vec<String>) {
         let logs = Logs::read(self.folder);
@@ -110,6 +119,7 @@ impl Runs for Cases<'_> {
             return Err(Failure::wrong(format!("there is no case `{name}` in this verification"))
                 .hint("`tsubu verify --list` has the names"));
         };
+        self.goes_on()?;
         let folder = self.task(case);
         let existing = if folder.is_dir() { Existing::Resume } else { Existing::Refuse };
         let archive = || RunFolder::create(&folder, existing, [RESULTS]).and_then(Archive::new);

@@ -108,6 +108,7 @@ fn apart(options: &Options, chosen: Vec<&'static Case>) -> Result<(), Failure> {
     let Left::Gather = options.launch.go("verify", &mut cases, options.overwrite, &options.work)? else {
         return Ok(());
     };
+    cases.goes_on()?;
     let (done, missing) = cases.gather();
     let (chosen, outcomes): (Vec<&'static Case>, Vec<Outcome>) = done.into_iter().unzip();
     for (case, outcome) in chosen.iter().zip(&outcomes) {

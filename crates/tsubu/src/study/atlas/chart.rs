@@ -5,9 +5,9 @@ use super::shown::{Column, Shown, at, between};
 use crate::study::cases::{Case, CasesError, case_plans, cases};
 use crate::study::journal::Exact;
 use nalgebra::Complex;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use tsubu_frame::{Cell, FileError, Status, Summary, Table};
+use tsubu_frame::{Cell, FileError, ResultValue, Status, Summary, Table};
 use tsubu_scene::{Plan, Scene, plan};
 
 /// Its name in the folder.
@@ -94,6 +94,8 @@ pub struct Cavity {
     pub acceleration: [f64; 2],
     /// What was measured: a chart for each seed.
     pub charts: Vec<Chart>,
+    /// What is missing in the atlas, where some of its runs failed.
+    pub lost: Option<String>,
 }
 
 impl Cavity {
@@ -110,7 +112,7 @@ impl Cavity {
         }
         let charts = seeds.into_values().map(Chart::new).collect();
         let (host, frequency, acceleration) = (wanted.host.clone(), wanted.frequency, wanted.acceleration);
-        Self { name, plan, host, frequency, acceleration, charts }
+        Self { name, plan, host, frequency, acceleration, charts, lost: None }
     }
 }
 
@@ -170,7 +172,8 @@ pub fn read(folder: &Path) -> Result<Vec<Cavity>, AtlasError> {
     if !file.is_file() {
         return Err(unusable("not an atlas: there is no atlas.csv in it; `tsubu atlas SCENE` makes one"));
     }
-    if Summary::read(&folder.join("summary.json"))?.status == Status::Interrupted {
+    let summary = Summary::read(&folder.join("summary.json"))?;
+    if summary.status == Status::Interrupted {
         return Err(unusable("the atlas is not finished: the same `tsubu atlas` again goes on with it"));
     }
     let scene = Scene::read(&folder.join("scene.toml"), &[]).map_err(|error| unusable(&error.to_string()))?;
@@ -184,8 +187,14 @@ pub fn read(folder: &Path) -> Result<Vec<Cavity>, AtlasError> {
         ["frequency", "acceleration", "seed", "effective mass", "lossy mass", "error", "higher harmonics"].map(column);
     let (frequency, acceleration, seed, error) = (frequency?, acceleration?, seed?, error?);
     let (mass, lossy, harmonics) = (mass?, lossy?, harmonics?);
+    let failed = summary.warnings.first().filter(|_| summary.status == Status::Failed);
+    let lost = failed.map(|first| format!("the atlas in {} is not whole: {first}", folder.display()));
+    let known = names(&cases);
+    if let Some(other) = of_rows.iter().find(|name| !known.contains(name)) {
+        return Err(unusable(&format!("atlas.csv has a case `{other}`, which its scene has not")));
+    }
     let mut cavities = Vec::new();
-    for (plan, name) in plans.into_iter().zip(names(&cases)) {
+    for ((plan, case), name) in plans.into_iter().zip(&cases).zip(known) {
         let mut rows = Vec::new();
         for row in (0..of_rows.len()).filter(|row| of_rows[*row] == name) {
             let numbers = [frequency[row], acceleration[row], mass[row], lossy[row], harmonics[row]];
@@ -197,7 +206,22 @@ pub fn read(folder: &Path) -> Result<Vec<Cavity>, AtlasError> {
             let shown = Shown { mass: Complex::new(mass[row], -lossy[row]), error, harmonics: harmonics[row] };
             rows.push((seed[row] as u32, [frequency[row], acceleration[row]], shown));
         }
-        cavities.push(Cavity::new(name, plan, &wanted, rows));
+        if plan.grain_mass() > 0.0 && rows.is_empty() {
+            return Err(unusable(&format!(
+                "it has no point of the case `{name}`: its runs failed, or atlas.csv was cut; `tsubu atlas` tries again"
+            )));
+        }
+        let places: BTreeSet<[Exact; 2]> = rows.iter().map(|(_, place, _)| place.map(Exact)).collect();
+        let suffix = if case.name.is_empty() { String::new() } else { format!(" {name}") };
+        let told = summary.results.get(&format!("points{suffix}"));
+        if let Some(ResultValue::Number(told)) = told
+            && *told != places.len() as f64
+        {
+            let number = places.len();
+            return Err(unusable(&format!("atlas.csv has {number} points of the case `{name}`, its summary {told}")));
+        }
+        let cavity = Cavity::new(name, plan, &wanted, rows);
+        cavities.push(Cavity { lost: lost.clone(), ..cavity });
     }
     Ok(cavities)
 }

@@ -7,7 +7,7 @@ use super::{RUNS, Share, Task, Work, curve, existing, numbered, open, write};
 use crate::interrupt::{Interrupt, Watcher};
 use crate::methods;
 use crate::partner::Hosts;
-use crate::study::apart::{Apart, Gathered, StudyRuns, unlocked};
+use crate::study::apart::{Apart, Gathered, StudyRuns, not_begun, unlocked};
 use crate::study::cases::CasesError;
 use crate::trial::unsettled;
 use std::path::{Path, PathBuf};
@@ -39,7 +39,16 @@ impl Runs<'_> {
         Ok(work.apart.take().map(|share| share.asked).unwrap_or_default())
     }
 
+    /// Refuses a folder in which this calibration was not begun.
+    fn goes_on(&self) -> Result<(), CasesError> {
+        match existing(self.scene, &self.folder, false)? {
+            Existing::Resume => Ok(()),
+            _ => Err(not_begun("calibrate", &self.folder)),
+        }
+    }
+
     fn one(&self, name: &str, watcher: &Watcher) -> Result<Status, CasesError> {
+        self.goes_on()?;
         let only = name.parse().map_err(|_| CasesError::Scene(format!("a run has a number, not `{name}`")))?;
         self.work(Some(only), watcher).calibrate()?;
         let left = Summary::read(&self.folder.join(RUNS).join(numbered(only)).join("summary.json"))?;
@@ -51,7 +60,7 @@ impl Apart for Runs<'_> {
     fn begin(&mut self, overwrite: bool) -> Result<(), CasesError> {
         // A scene that its method refuses leaves nothing behind.
         methods::open(&unsettled(self.scene.plan()), &Hosts::new(&self.scene.plan().hosts))?;
-        let folder: RunFolder = open(self.scene, &self.folder, existing(self.scene, &self.folder, overwrite))?;
+        let folder: RunFolder = open(self.scene, &self.folder, existing(self.scene, &self.folder, overwrite)?)?;
         let runs = folder.file(RUNS);
         std::fs::create_dir_all(&runs).map_err(FileError::write(&runs))?;
         Ok(folder.sync()?)
@@ -74,6 +83,7 @@ impl Apart for Runs<'_> {
 
 impl Gathered for Runs<'_> {
     fn gather(&mut self, why: &dyn Fn(&str) -> String) -> Result<Summary, CasesError> {
+        self.goes_on()?;
         let folder = open(self.scene, &self.folder, Existing::Resume)?;
         let watcher = Watcher { interrupt: &Interrupt::new(), progress: &|_| {} };
         let mut work = self.work(None, &watcher);

@@ -3,6 +3,7 @@
 use super::checks::{Check, Checks};
 use super::{Curve, Task};
 use crate::study::summary::begun;
+use std::collections::BTreeSet;
 use std::f64::consts::SQRT_2;
 use tsubu_frame::{Cell, FileError, RunFolder, Status, Summary, Table};
 use tsubu_scene::Scene;
@@ -47,7 +48,8 @@ pub(super) fn write(
     let plan = scene.plan();
     let mut summary = begun(plan, status, took[1]);
     summary.particles = task.plans.iter().map(|plan| plan.grains() as u64).max().unwrap_or_default();
-    summary.warnings.clone_from(&checks.failures);
+    let lost: BTreeSet<&String> = task.cavities.iter().flatten().filter_map(|cavity| cavity.lost.as_ref()).collect();
+    summary.warnings = lost.into_iter().chain(&checks.failures).cloned().collect();
     summary.give("seconds of the prediction alone".to_owned(), "s", took[0]);
     let (mut rows, mut cases) = (Table::new(CURVES), Table::new(CASES));
     for (case, curve) in curves.iter().enumerate() {
