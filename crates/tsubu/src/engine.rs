@@ -244,6 +244,9 @@ pub trait Engine: Send {
         Err(Refusal::stages(plan.method.name()).into())
     }
 
+    /// Hosts were given the state of this moment after the engine was: what hangs on them is where they are.
+    fn follow_hosts(&mut self, _hosts: &Hosts) {}
+
     /// Number of grains.
     fn grains(&self) -> usize;
 

@@ -1,6 +1,7 @@
 //! Runs of several stages.
 
 mod frames;
+mod walls;
 mod water;
 
 use std::path::Path;

@@ -248,6 +248,10 @@ impl Engine for DemEngine {
         self.change_plan(plans, hosts)
     }
 
+    fn follow_hosts(&mut self, hosts: &Hosts) {
+        self.walls_follow(hosts);
+    }
+
     fn restart_clock(&mut self, plan: &Plan, hosts: &Hosts) -> Result<(), OpenError> {
         self.turn_clock_back(plan, hosts)
     }

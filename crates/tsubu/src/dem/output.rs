@@ -236,7 +236,6 @@ impl DemEngine {
             self.clock.begin = (step as u64, time);
         }
         self.contacts.sums.contacts = contacts as usize;
-        self.place_gates();
         self.integration.orientation.load(state)?;
         self.sources.set_counts(state.integer("dem.streams")?);
         if let Ok(begun) = state.real("dem.streams-begun") {
@@ -256,6 +255,8 @@ impl DemEngine {
             // The lists are made with the walls where they stood then; the next step puts them where they belong.
             wall.pose.set_place(*place);
         }
+        // A stage may have said anew when they go.
+        self.place_gates();
         self.neighbours.wall_reference = self.walls.iter().map(|w| w.pose).collect();
         self.contacts.bonds.load(state, &self.grains)?;
         self.neighbours.joined.bond(self.contacts.bonds.pairs());

@@ -67,8 +67,17 @@ impl DemEngine {
         Ok(())
     }
 
+    /// Walls on hosts take their place and motion of this moment: within a step they have those from before the forces on the hosts.
+    pub(super) fn walls_follow(&mut self, hosts: &Hosts) {
+        let time = self.clock.time();
+        for wall in self.walls.iter_mut().filter(|wall| wall.host().is_some()) {
+            wall.follow(time, hosts);
+        }
+    }
+
     /// Goes over from one stage to the next at this moment.
     pub(super) fn change_plan(&mut self, [earlier, now]: [&Plan; 2], hosts: &Hosts) -> Result<(), OpenError> {
+        self.walls_follow(hosts);
         let time = self.clock.time();
         let table = Table::new(now);
         let dt = check::time_step(now, &table, hosts);

@@ -45,6 +45,7 @@ impl Start {
         }
         engine.load(state)?;
         hosts.load(state)?;
+        engine.follow_hosts(&hosts);
         Ok((Self { engine, hosts, ledger: Ledger::load(state)? }, at))
     }
 

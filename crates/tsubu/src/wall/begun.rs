@@ -56,6 +56,7 @@ impl Wall {
         let moves = |wall: &plan::Wall| (wall.motion.clone(), wall.servo.clone(), wall.host.clone());
         let (moved, turned) = (moves(earlier) != moves(now), earlier.rotation != now.rotation);
         let until = if earlier.until == now.until { self.until } else { now.until.map(|until| time + until) };
+        self.until_of_stage |= earlier.until != now.until;
         if !moved && !turned {
             self.until = until;
             return Ok(());
@@ -78,7 +79,7 @@ impl Wall {
             begun = Begun::default();
         }
         (next.material, next.inverse_mass, next.vanished) = (self.material, self.inverse_mass, self.vanished);
-        (next.begun, next.until) = (Some(begun), until);
+        (next.begun, next.until, next.until_of_stage) = (Some(begun), until, self.until_of_stage);
         *self = next;
         self.follow(time, hosts);
         Ok(())
@@ -102,14 +103,20 @@ impl Wall {
 
     /// What a later stage has changed.
     pub(super) fn save_begun(&self, state: &mut State) {
-        let Some(begun) = &self.begun else { return };
         let until = self.until.unwrap_or(f64::INFINITY);
-        state.put_real(&self.section(), [begun.numbers().as_slice(), &[until]].concat());
+        match &self.begun {
+            Some(begun) => state.put_real(&self.section("begun"), [begun.numbers().as_slice(), &[until]].concat()),
+            None if self.until_of_stage => state.put_real(&self.section("until"), vec![until]),
+            None => {}
+        }
     }
 
     /// Takes it back.
     pub(super) fn load_begun(&mut self, state: &State) -> Result<(), MissingSection> {
-        let section = self.section();
+        if let Ok(&[until]) = state.real(&self.section("until")) {
+            self.until = until.is_finite().then_some(until);
+        }
+        let section = self.section("begun");
         let Ok(values) = state.real(&section) else { return Ok(()) };
         let Ok([numbers @ .., until]) = <[f64; 10]>::try_from(values) else {
             return Err(MissingSection { name: section, kind: "real" });
@@ -119,7 +126,7 @@ impl Wall {
         Ok(())
     }
 
-    fn section(&self) -> String {
-        format!("wall.{}.begun", self.name)
+    fn section(&self, what: &str) -> String {
+        format!("wall.{}.{what}", self.name)
     }
 }

@@ -84,6 +84,8 @@ pub struct Wall {
     pub turning: Option<Turning>,
     /// When it vanishes [s].
     pub until: Option<f64>,
+    /// Whether a later stage has said so: its time counts from the begin of that stage.
+    until_of_stage: bool,
     /// Since when it moves as it does, and from where; nothing where it does so from the first.
     begun: Option<Begun>,
     /// Whether it has vanished: nothing touches it then, and nobody sees it.
@@ -117,6 +119,7 @@ impl Wall {
             mover,
             turning,
             until: plan.until,
+            until_of_stage: false,
             begun: None,
             vanished: false,
             outline,
