@@ -237,8 +237,8 @@ fn a_task_of_another_scene_leaves_what_is_there() {
         (format!("response balls.toml -o out --set gravity=9 --case {name}"), "belong to another scene"),
         ("response balls.toml -o out --case ../progress".to_owned(), "has no run `../progress`"),
         ("response balls.toml -o out --case ../../precious".to_owned(), "has no run"),
-        (format!("response balls.toml -o new --case {name}"), "no response is begun in new"),
-        ("sweep balls.toml -o new --case restitution=0.5".to_owned(), "no sweep is begun in new"),
+        (format!("response balls.toml -o new --case {name}"), "nothing of `tsubu response` is begun in new"),
+        ("sweep balls.toml -o new --case restitution=0.5".to_owned(), "nothing of `tsubu sweep` is begun in new"),
         ("verify damped-contact -o new --case damped-contact".to_owned(), "no verification by tasks is begun in new"),
     ] {
         let ended = desk.run(&line);

@@ -40,7 +40,7 @@ pub type StudyRuns<'a> = Box<dyn Gathered + Send + 'a>;
 /// Why nothing can be done in a folder.
 pub(super) fn not_begun(study: &str, folder: &Path) -> CasesError {
     CasesError::Scene(format!(
-        "no {study} is begun in {}: `tsubu {study} SCENE -o DIR --gather` makes a new folder",
+        "nothing of `tsubu {study}` is begun in {}: `tsubu {study} SCENE -o DIR --gather` makes a new folder",
         folder.display()
     ))
 }
