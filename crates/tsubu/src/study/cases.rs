@@ -1,7 +1,10 @@
 //! Every combination of the values that a study varies.
 
 use crate::engine::OpenError;
+use crate::methods;
+use crate::partner::Hosts;
 use crate::run::{RunError, scene_hash};
+use crate::trial::unsettled;
 use std::collections::BTreeMap;
 use toml::Value;
 use tsubu_frame::FileError;
@@ -98,6 +101,15 @@ pub fn cases(vary: &BTreeMap<String, Vec<Value>>) -> Vec<Case> {
 /// What the scene means in each case.
 pub(super) fn case_plans(scene: &Scene, list: &[Case]) -> Result<Vec<Plan>, CasesError> {
     list.iter().map(|case| Ok(case.scene(scene).map_err(CasesError::Complaints)?.plan().clone())).collect()
+}
+
+/// Says what a method has against one of these cases, so that it is said before the others have run, and nothing is left behind.
+pub(super) fn open<'a>(all: impl IntoIterator<Item = (&'a Case, &'a Plan)>) -> Result<(), CasesError> {
+    for (case, plan) in all {
+        let open = methods::open(&unsettled(plan), &Hosts::new(&plan.hosts));
+        open.map_err(|error| CasesError::Run { case: case.name.clone(), error: error.into() })?;
+    }
+    Ok(())
 }
 
 /// A value as a user typed it, texts without quotes.

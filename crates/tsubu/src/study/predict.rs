@@ -8,7 +8,7 @@ mod write;
 pub use balance::{Balance, Lossy, Motion};
 
 use super::atlas::Cavity;
-use super::cases::{Case, CasesError, case_plans, cases};
+use super::cases::{self, Case, CasesError, case_plans};
 use super::journal::{Journal, Place};
 use super::response::{peak, refine, tasks};
 use crate::interrupt::Watcher;
@@ -46,8 +46,7 @@ pub fn predict(
     let curves: Vec<Curve> = (0..task.cases.len()).into_par_iter().map(|case| task.curve(case)).collect();
     let predicted_in = begun.elapsed().as_secs_f64();
     let wanted = checks::wanted(&curves, spot_checks);
-    // A case that its method refuses must say so before the others have run, and leave nothing behind.
-    task.open(&wanted)?;
+    cases::open(wanted.iter().map(|(case, _)| (&task.cases[*case], &task.plans[*case])))?;
     let folder = place.open(earlier.is_some(), overwrite, &FILES)?;
     let journal = Journal::append(&folder)?;
     let checks = task.check(&curves, &wanted, &earlier.unwrap_or_default(), &journal, watcher)?;
@@ -145,7 +144,7 @@ impl<'a> Task<'a> {
         if scene.plans().len() > 1 {
             return Err(CasesError::Scene("a prediction is of a scene of one stage: leave `[[stage]]` out".to_owned()));
         }
-        let cases = cases(&wanted.vary);
+        let cases = cases::cases(&wanted.vary);
         let plans = case_plans(scene, &cases)?;
         let reference = tasks::reference_frequency(scene.plan(), &wanted.host).map_err(CasesError::Scene)?;
         let (mut cavities, mut interfaces) = (Vec::new(), Vec::new());

@@ -3,14 +3,11 @@
 use super::{Done, FILES, Key, Point, Task, cavity, write};
 use crate::engine::OpenError;
 use crate::interrupt::Watcher;
-use crate::methods;
-use crate::partner::Hosts;
 use crate::run::RunError;
 use crate::study::apart::StudyRuns;
-use crate::study::cases::CasesError;
+use crate::study::cases::{self, CasesError};
 use crate::study::journaled::{self, Journaled, Record, Runs};
 use crate::study::response::tasks;
-use crate::trial::unsettled;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::path::Path;
@@ -60,11 +57,7 @@ impl Journaled for Atlas {
     const FILES: &'static [&'static str] = &FILES;
 
     fn open(&self) -> Result<(), CasesError> {
-        for (index, plan) in self.task.plans.iter().enumerate() {
-            let open = methods::open(&unsettled(plan), &Hosts::new(&plan.hosts));
-            open.map_err(|error| self.task.fail(index, error.into()))?;
-        }
-        Ok(())
+        cases::open(self.task.cases.iter().zip(&self.task.plans))
     }
 
     fn asked(&self, known: &Known) -> Result<Vec<Key>, CasesError> {

@@ -3,13 +3,10 @@
 use super::{Curve, Row, Task};
 use crate::engine::OpenError;
 use crate::interrupt::Watcher;
-use crate::methods;
-use crate::partner::Hosts;
 use crate::run::RunError;
 use crate::study::cases::CasesError;
 use crate::study::journal::{Exact, Journal};
 use crate::study::response::{Point, measure, tasks};
-use crate::trial::unsettled;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::SQRT_2;
@@ -56,16 +53,6 @@ pub(super) fn wanted(curves: &[Curve], number: usize) -> Vec<Key> {
 }
 
 impl Task<'_> {
-    /// Says what a method has against a case that is to be simulated.
-    pub(super) fn open(&self, wanted: &[Key]) -> Result<(), CasesError> {
-        for (case, _) in wanted {
-            let plan = &self.plans[*case];
-            methods::open(&unsettled(plan), &Hosts::new(&plan.hosts))
-                .map_err(|error| self.fail(*case, error.into()))?;
-        }
-        Ok(())
-    }
-
     /// Simulates these in full, side by side, but for what is known; what fails is told, and the others go on.
     pub(super) fn check(
         &self,

@@ -5,12 +5,9 @@
 use super::rounds::Rounds;
 use super::{Beds, Done, FILES, Key, Point, Task, Way, write};
 use crate::interrupt::Watcher;
-use crate::methods;
-use crate::partner::Hosts;
 use crate::study::apart::StudyRuns;
-use crate::study::cases::CasesError;
+use crate::study::cases::{self, CasesError};
 use crate::study::journaled::{self, Journaled, Record, Runs};
-use crate::trial::unsettled;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use tsubu_frame::{RunFolder, Status, Summary};
@@ -46,11 +43,7 @@ impl Journaled for Response {
     const FILES: &'static [&'static str] = &FILES;
 
     fn open(&self) -> Result<(), CasesError> {
-        for (index, plan) in self.task.plans.iter().enumerate() {
-            let open = methods::open(&unsettled(plan), &Hosts::new(&plan.hosts));
-            open.map_err(|error| self.task.fail(index, error.into()))?;
-        }
-        Ok(())
+        cases::open(self.task.cases.iter().zip(&self.task.plans))
     }
 
     fn asked(&self, known: &Known) -> Result<Vec<Key>, CasesError> {
