@@ -8,7 +8,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Component, Path, PathBuf};
 
 use crate::FileError;
@@ -29,7 +29,7 @@ impl Marker {
     pub fn find(folder: &Path) -> Result<Option<Self>, FileError> {
         let path = folder.join(NAME);
         match path.symlink_metadata() {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
             Ok(about) if about.is_symlink() => return Err(FileError::Link { path }),
             Ok(_) => {}
             Err(error) => return Err(FileError::read(&path)(error)),
@@ -41,8 +41,12 @@ impl Marker {
     /// Makes the marker of a folder that has none.
     pub fn make(folder: &Path) -> Result<Self, FileError> {
         let path = folder.join(NAME);
-        let open = OpenOptions::new().read(true).append(true).create_new(true).open(&path);
-        let mut marker = Self::locked(path, open.map_err(FileError::write(&folder.join(NAME)))?)?;
+        let file = match OpenOptions::new().read(true).append(true).create_new(true).open(&path) {
+            // Somebody has made it since the folder was looked at.
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => return Err(FileError::Locked { path }),
+            file => file.map_err(FileError::write(&path))?,
+        };
+        let mut marker = Self::locked(path, file)?;
         marker.head()?;
         Ok(marker)
     }

@@ -110,6 +110,23 @@ fn a_task_given_twice_does_nothing() {
     assert_eq!(missing(&desk, "sweep"), ["0.4", "0.6", "0.7", "0.8"].map(|value| format!("restitution={value}")));
 }
 
+/// A case hangs on no other: whoever comes first makes the folder, here three at once.
+#[test]
+fn the_first_case_begins_its_sweep() {
+    let desk = Desk::new();
+    desk.done("sweep balls.toml -q -o here");
+    let names = ["restitution=0.5", "restitution=0.6", "restitution=0.7"];
+    let tasks = names.map(|name| desk.start(&format!("sweep balls.toml -o out -q --case {name}")));
+    for mut task in tasks {
+        assert_eq!(task.wait().unwrap().code(), Some(0));
+    }
+    assert_eq!(missing(&desk, "sweep"), ["restitution=0.8"]);
+    let hashes = |of: &str| names.map(|name| desk.hash(&format!("{of}/cases/{name}")));
+    assert_eq!(hashes("out"), hashes("here"));
+    desk.done("sweep out -o out -q");
+    assert_eq!(table(&desk, "out/sweep.csv"), table(&desk, "here/sweep.csv"));
+}
+
 /// A worker that its cluster has given up may still be at work: its case is waited for, and not run beside it.
 #[test]
 fn a_case_that_somebody_works_at_is_waited_for() {
@@ -238,7 +255,8 @@ fn a_task_of_another_scene_leaves_what_is_there() {
         ("response balls.toml -o out --case ../progress".to_owned(), "has no run `../progress`"),
         ("response balls.toml -o out --case ../../precious".to_owned(), "has no run"),
         (format!("response balls.toml -o new --case {name}"), "nothing of `tsubu response` is begun in new"),
-        ("sweep balls.toml -o new --case restitution=0.5".to_owned(), "nothing of `tsubu sweep` is begun in new"),
+        ("sweep balls.toml -o new --case restitution=0.55".to_owned(), "has no case `restitution=0.55`"),
+        ("sweep balls.toml -o out --case restitution=0.5".to_owned(), "out is not empty"),
         ("verify damped-contact -o new --case damped-contact".to_owned(), "no verification by tasks is begun in new"),
     ] {
         let ended = desk.run(&line);

@@ -136,6 +136,18 @@ impl<'a> Sweep<'a> {
         if self.is_begun() { self.is_ours() } else { Err(not_begun("sweep", &self.folder)) }
     }
 
+    /// A case hangs on no other, so the first that is asked for begins the sweep where nobody has.
+    fn goes_on_or_begins(&mut self) -> Result<(), CasesError> {
+        if !self.is_begun()
+            && let Err(error) = self.begin(false)
+            // Another case may have begun it in the meantime.
+            && !self.is_begun()
+        {
+            return Err(error);
+        }
+        self.is_ours()
+    }
+
     fn take(&self, existing: Existing) -> Result<RunFolder, CasesError> {
         let own = ["sweep.csv", "sweep.json", CASES].map(str::to_owned);
         let names: Vec<String> = scene_files::names(self.scene).into_iter().chain(own).collect();
@@ -191,7 +203,7 @@ impl Apart for Sweep<'_> {
         let index = self.cases.iter().position(|case| case.folder() == name).ok_or_else(|| {
             CasesError::Scene(format!("the sweep has no case `{name}`: `tsubu sweep SCENE --dry-run` names all"))
         })?;
-        self.goes_on()?;
+        unlocked(watcher.interrupt, CasesError::is_locked, || self.goes_on_or_begins())?;
         let case = &self.cases[index];
         let run = |scene: &Scene, folder: &Path, existing| self.run_together(index, scene, folder, existing, watcher);
         // Whoever holds it may be a worker that its cluster has given up: what it does is not done twice.
