@@ -24,7 +24,7 @@ const FREE: &[&str] = &[
 ];
 
 /// What another run may have otherwise that this one goes on from, beside what stages may change.
-const OF_THE_RUN: &[&str] = &["stage", "start-from", "start-at-zero", "dem.steps-per-contact"];
+const OF_THE_RUN: &[&str] = &["stage", "start-from", "start-fingerprint", "start-at-zero", "dem.steps-per-contact"];
 
 /// Intervals that follow the duration where nobody tells them.
 const INTERVALS: [&str; 2] = ["history-interval", "checkpoint-interval"];

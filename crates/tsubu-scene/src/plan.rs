@@ -153,6 +153,9 @@ pub struct Plan {
     pub output: Output,
     /// The folder of the run that this one goes on from, as an absolute path.
     pub start_from: Option<String>,
+    /// The CRC-32 of the checkpoint there, in hex.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start_fingerprint: Option<String>,
     /// Whether its clock begins at 0 then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start_at_zero: Option<bool>,

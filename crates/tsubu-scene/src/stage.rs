@@ -11,6 +11,9 @@ use crate::node::{Entry, Node, Table, Value};
 use crate::plan::{Host, Plan};
 use crate::suggest;
 use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+use std::path::Path;
 
 /// Where a run keeps what others may go on from.
 const CHECKPOINT: &str = "checkpoint/state.tsubu";
@@ -263,21 +266,39 @@ pub(crate) fn leave_open(resolved: &mut toml::Table, typed: &Node) {
 /// Finds the run that a scene goes on from; complains where there is none.
 pub(crate) fn find_start(resolved: &mut toml::Table, root: &Node, files: &Files) -> Option<Complaint> {
     let Some(toml::Value::String(folder)) = resolved.get_mut("start-from") else {
-        let zero = root.find(&["start-at-zero"]).filter(|_| root.find(&["start-from"]).is_none());
-        return zero.map(|zero| {
-            Complaint::new("`start-at-zero` is of use with `start-from` only")
-                .at(&zero.place, "nothing to start from")
+        let mut beside = ["start-at-zero", "start-fingerprint"].into_iter();
+        let alone = |key| root.find(&[key]).filter(|_| root.find(&["start-from"]).is_none()).map(|node| (key, node));
+        return beside.find_map(alone).map(|(key, node)| {
+            Complaint::new(format!("`{key}` is of use with `start-from` only"))
+                .at(&node.place, "nothing to start from")
                 .hint("leave it out: every other run begins at 0")
         });
     };
     let path = files.absolute(folder);
-    let there = path.join(CHECKPOINT).is_file();
-    let complaint = || {
-        Complaint::new(format!("there is no run to start from in `{folder}`"))
-            .at(&root.locate(&["start-from"]), format!("no {CHECKPOINT} there"))
-            .hint("name the folder of a run that came to its end or was interrupted")
+    let named = std::mem::replace(folder, path.to_string_lossy().into_owned());
+    let Some(found) = last_written(&path.join(CHECKPOINT)) else {
+        return Some(
+            Complaint::new(format!("there is no run to start from in `{named}`"))
+                .at(&root.locate(&["start-from"]), format!("no {CHECKPOINT} there"))
+                .hint("name the folder of a run that came to its end or was interrupted"),
+        );
     };
-    let found = (!there).then(complaint);
-    *folder = path.to_string_lossy().into_owned();
-    found
+    resolved.insert("start-fingerprint".into(), toml::Value::String(found.clone()));
+    let from = root.find(&["start-from"])?;
+    // One that was told before a change named another run is of the run before.
+    let told = root.find(&["start-fingerprint"]).filter(|told| told.place.source >= from.place.source)?;
+    let same = told.plain().is_some_and(|told| told.as_str().is_some_and(|told| told.eq_ignore_ascii_case(&found)));
+    (!same).then(|| {
+        Complaint::new(format!("the run in `{named}` has gone on, or was made anew, since this scene was resolved"))
+            .at(&told.place, format!("its checkpoint's is {found}"))
+            .hint("leave `start-fingerprint` out to start from where it is now")
+    })
+}
+
+/// What tells a checkpoint from another: the CRC-32 that it ends with, in hex.
+fn last_written(checkpoint: &Path) -> Option<String> {
+    let mut file = File::open(checkpoint).ok()?;
+    let mut crc = [0; 4];
+    file.seek(SeekFrom::End(-4)).and_then(|_| file.read_exact(&mut crc)).ok()?;
+    Some(format!("{:08x}", u32::from_le_bytes(crc)))
 }

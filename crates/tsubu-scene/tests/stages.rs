@@ -48,6 +48,8 @@ fn what_is_wrong_is_said_with_its_place() {
     assert!(told.contains("there is no run to start from in `nowhere`"), "{told}");
     let told = read(&format!("start-at-zero = true\n{GOOD}"), &[]).expect_err("refused").to_string();
     assert!(told.contains("`start-at-zero` is of use with `start-from` only"), "{told}");
+    let told = read(&format!("start-fingerprint = \"0\"\n{GOOD}"), &[]).expect_err("refused").to_string();
+    assert!(told.contains("`start-fingerprint` is of use with `start-from` only"), "{told}");
     let steady = "[[stage]]\nname = \"a\"\nuntil.host-steady = 0.01\nat-most = 1\n";
     let still =
         edited("duration = \"1 s\"", "").replace("base.sine = { amplitude = \"0.5 mm\", frequency = \"6 Hz\" }", "");

@@ -147,38 +147,40 @@ pub struct Refusal {
 }
 
 impl Refusal {
+    /// One entry that this method refuses.
+    pub fn of(method: &'static str, key: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { method, notes: vec![Note { key: key.into(), verdict: Verdict::Refused, text: text.into() }] }
+    }
+
     /// A method that nobody acts on from outside.
     fn outside(key: String) -> Self {
-        let text = "nothing acts on it from outside but what the scene says; `dem` lets itself be acted on".to_owned();
-        Self { method: "of this scene", notes: vec![Note { key, verdict: Verdict::Refused, text }] }
+        let text = "nothing acts on it from outside but what the scene says; `dem` lets itself be acted on";
+        Self::of("of this scene", key, text)
     }
 
     /// A method that knows no grains of several spheres, or of cells.
     pub fn clumps(method: &'static str, group: &str, cells: bool) -> Self {
         let text = if cells {
-            "its grains are not made of cells; `cl-ca` and `dem` compute them".to_owned()
+            "its grains are not made of cells; `cl-ca` and `dem` compute them"
         } else {
-            "its grains are no clumps; `dem` computes them".to_owned()
+            "its grains are no clumps; `dem` computes them"
         };
-        Self { method, notes: vec![Note { key: format!("particles.{group}.shape"), verdict: Verdict::Refused, text }] }
+        Self::of(method, format!("particles.{group}.shape"), text)
     }
 
     /// A method whose grains nothing holds together.
     pub fn bonds(method: &'static str) -> Self {
-        let text = "nothing holds its grains together; `dem` computes bonds".to_owned();
-        Self { method, notes: vec![Note { key: "bond".to_owned(), verdict: Verdict::Refused, text }] }
+        Self::of(method, "bond", "nothing holds its grains together; `dem` computes bonds")
     }
 
     /// A method that knows one rank.
     pub fn ranks(method: &'static str) -> Self {
-        let text = "it runs on one rank; `dem` runs on several".to_owned();
-        Self { method, notes: vec![Note { key: "method".to_owned(), verdict: Verdict::Refused, text }] }
+        Self::of(method, "method", "it runs on one rank; `dem` runs on several")
     }
 
     /// A method that knows no stages.
     pub fn stages(method: &'static str) -> Self {
-        let text = "it runs scenes of one stage; `dem` runs more".to_owned();
-        Self { method, notes: vec![Note { key: "stage".to_owned(), verdict: Verdict::Refused, text }] }
+        Self::of(method, "stage", "it runs scenes of one stage; `dem` runs more")
     }
 }
 

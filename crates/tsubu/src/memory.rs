@@ -1,6 +1,6 @@
 //! How much memory a scene takes, and whether there is as much.
 
-use crate::engine::{Note, Refusal, Verdict};
+use crate::engine::Refusal;
 use std::fs;
 use tsubu_scene::plan::{Method, Plan, Shape};
 
@@ -61,8 +61,7 @@ pub(crate) fn refuse_more_than_there_is(plan: &Plan, places: usize) -> Result<()
         human_memory(needed),
         human_memory(free)
     );
-    let notes = vec![Note { key: "particles".to_owned(), verdict: Verdict::Refused, text }];
-    Err(Refusal { method: plan.method.name(), notes })
+    Err(Refusal::of(plan.method.name(), "particles", text))
 }
 
 /// How many bytes this process can still take, and what bounds them; `None` where the system does not tell.

@@ -43,6 +43,33 @@ fn a_sweep_leaves_what_another_scene_has_given() {
     assert_ne!(hash(), before);
 }
 
+/// Cases that were done stayed when the run that they began from had gone on, beside others of another begin.
+#[test]
+fn a_sweep_keeps_no_case_of_another_begin() {
+    let desk = Desk::new();
+    desk.done("run balls.toml -q -o bed");
+    let longer = ["--set start-from=bed", "--set duration=0.1"].join(" ");
+    let line = format!("sweep balls.toml -o out {longer}");
+    desk.done(&line);
+    let hash = || desk.hash("out/cases/restitution=0.7");
+    let before = hash();
+    desk.done(&line);
+    // The folder alone tells what began there, as a task of a cluster reads it; other beginnings may be varied.
+    desk.done("sweep out -o out -q --case restitution=0.7");
+    desk.done("run balls.toml -q -o other --set duration=0.06");
+    desk.done("sweep out -o ways --set 'sweep.vary={start-from=[\"../bed\", \"../other\"]}'");
+    assert_eq!(hash(), before);
+    desk.done("run balls.toml -q -o bed --resume --set duration=0.07");
+    let resumed = desk.run(&line);
+    assert_eq!(resumed.code, Some(2), "{}", resumed.stderr);
+    assert!(resumed.stderr.contains("`start-fingerprint` was"), "{}", resumed.stderr);
+    let task = desk.run("sweep out -o out --case restitution=0.7");
+    assert!(task.code == Some(2) && task.stderr.contains("has gone on, or was made anew"), "{}", task.stderr);
+    assert_eq!(hash(), before);
+    desk.done(&format!("{line} --overwrite"));
+    assert_ne!(hash(), before);
+}
+
 /// A case that took long enough for a checkpoint on its way kept that one when it was done, and whoever started from the case began in its
 /// middle.
 #[test]

@@ -131,6 +131,12 @@ pub static SCENE: &[Key] = &[
     )
     .optional(),
     Key::new(
+        "start-fingerprint",
+        Kind::Text,
+        "CRC-32 of the checkpoint of `start-from` in hex, to tell that the run there has not gone on since",
+    )
+    .optional(),
+    Key::new(
         "start-at-zero",
         Kind::Flag,
         "With `start-from`: the clock begins at 0 and the books are opened anew; motions of walls, drives of hosts and streams begin then, \

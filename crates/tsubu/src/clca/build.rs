@@ -87,6 +87,7 @@ pub(super) fn build(plan: &Plan, hosts: &Hosts) -> Result<Built, Refusal> {
         watch,
         output: _,
         start_from: _,
+        start_fingerprint: _,
         start_at_zero: _,
         stage: _,
         claim: _,

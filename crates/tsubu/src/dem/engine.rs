@@ -14,7 +14,7 @@ use super::room;
 use super::sources::Sources;
 use crate::check;
 use crate::contact::Table;
-use crate::engine::{Engine, Fault, Note, OpenError, Refusal, Verdict};
+use crate::engine::{Engine, Fault, Note, OpenError, Refusal};
 use crate::ledger::{Energies, Ledger};
 use crate::mutation::{Mutation, left_out, mutated};
 use crate::neighbours::joined::Joined;
@@ -130,14 +130,12 @@ impl DemEngine {
             watch: _,
             output: _,
             start_from: _, // Of the run, as its stages.
+            start_fingerprint: _,
             start_at_zero: _,
             stage: _,
             claim: _,
         } = plan;
-        let refuse = |(key, text): (String, String)| {
-            let notes = vec![Note { key, verdict: Verdict::Refused, text }];
-            Refusal { method: "dem", notes }
-        };
+        let refuse = |(key, text): (String, String)| Refusal::of("dem", key, text);
         bodies::refused(plan)?;
         bonds::refused(plan)?;
         let table = Table::new(plan);

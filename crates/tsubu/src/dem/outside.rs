@@ -3,7 +3,7 @@
 use super::books::Powers;
 use super::contact_forces::{BlockContacts, ContactForces};
 use super::engine::DemEngine;
-use crate::engine::{Note, Refusal, Verdict};
+use crate::engine::Refusal;
 use crate::neighbours::block::BLOCK;
 use crate::outside::{Action, Heed, Moment, Push};
 use crate::state::Grains;
@@ -172,11 +172,7 @@ impl DemEngine {
             Some(wall) => wall.steer(time, velocity),
             None => Err("there is no such wall".to_owned()),
         };
-        let refuse = |text| {
-            let notes = vec![Note { key: format!("walls.{name}.motion"), verdict: Verdict::Refused, text }];
-            Refusal { method: "dem", notes }
-        };
-        steered.map_err(refuse)?;
+        steered.map_err(|text| Refusal::of("dem", format!("walls.{name}.motion"), text))?;
         // The step that begins now begins with the new velocity: its work is that of the mean of both its ends.
         let lost = self.books.last.lost;
         self.books.last = Powers { lost, ..self.powers() };

@@ -5,7 +5,7 @@ use super::engine::DemEngine;
 use super::immersion::Immersion;
 use crate::check;
 use crate::contact::{Law, Table};
-use crate::engine::{Note, OpenError, Refusal, Verdict};
+use crate::engine::{OpenError, Refusal};
 use crate::partner::Hosts;
 use crate::wall::{Faces, Mover};
 use glam::DVec3;
@@ -13,8 +13,7 @@ use tsubu_scene::Plan;
 use tsubu_scene::plan::{Flow, GrainMotion, Particles, Water};
 
 fn refuse(key: &str, text: String) -> OpenError {
-    let notes = vec![Note { key: key.to_owned(), verdict: Verdict::Refused, text }];
-    Refusal { method: "dem", notes }.into()
+    Refusal::of("dem", key, text).into()
 }
 
 /// What of the water, or of the gravity that grains have in it, is part of their state and yet told anew: the key, and why it stays.

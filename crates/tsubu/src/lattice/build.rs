@@ -75,6 +75,7 @@ pub(super) fn build(plan: &Plan) -> Result<Built, Refusal> {
         watch,
         output: _,
         start_from: _, // Of the run, as its stages.
+        start_fingerprint: _,
         start_at_zero: _,
         stage: _,
         claim: _,

@@ -20,8 +20,7 @@ pub(in crate::dem) fn refused(plan: &Plan) -> Result<(), Refusal> {
     let nobody =
         |bond: &Bond| !plan.particles.iter().any(|(name, group): (_, &Particles)| group.count > 0 && bond.joins(name));
     let Some(index) = plan.bond.iter().position(nobody) else { return Ok(()) };
-    let text = "there are no grains that it could hold together".to_owned();
-    Err(Refusal { method: "dem", notes: vec![Note { key: format!("bond.{index}"), verdict: Verdict::Refused, text }] })
+    Err(Refusal::of("dem", format!("bond.{index}"), "there are no grains that it could hold together"))
 }
 
 impl Bonds {

@@ -82,6 +82,7 @@ fn scene(plan: &Plan, rule: SiteRule, hosts: &Hosts, remarks: &mut Remarks) -> O
         watch: _, // Once the model is there.
         output: _,
         start_from: _, // Of the run, as its stages.
+        start_fingerprint: _,
         start_at_zero: _,
         stage: _,
         claim: _,
