@@ -103,7 +103,7 @@ pub(super) fn haff(perturbation: f64) -> Judged {
     cooled(0.9, perturbation)
 }
 
-/// The same where a collision takes more: the gas cools 3 to 5 % more slowly than by molecular chaos, at a fifth of the step and a
+/// The same where a collision takes more: the gas cools 3 to 4 % more slowly than by molecular chaos, at a fifth of the step and a
 /// hundred times the stiffness too. Neighbours come to move alike, and the box is near the size at which vortices grow.
 pub(super) fn haff_inelastic(perturbation: f64) -> Judged {
     cooled(0.8, perturbation)
