@@ -12,7 +12,7 @@ pub mod history;
 pub mod lammps;
 mod marker;
 pub mod named;
-mod not_a_number;
+pub mod not_a_number;
 pub mod series;
 pub mod state;
 pub mod summary;

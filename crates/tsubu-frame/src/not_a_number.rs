@@ -3,12 +3,12 @@
 use serde::{Deserialize, Deserializer};
 
 /// A number, or `null`.
-pub(crate) fn real<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+pub fn real<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Option::<f64>::deserialize(deserializer).map(|x| x.unwrap_or(f64::NAN))
 }
 
 /// A list of such.
-pub(crate) fn reals<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
+pub fn reals<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
     let list = Vec::<Option<f64>>::deserialize(deserializer)?;
     Ok(list.into_iter().map(|x| x.unwrap_or(f64::NAN)).collect())
 }

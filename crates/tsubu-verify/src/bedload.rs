@@ -160,7 +160,7 @@ pub(super) fn rates(perturbation: f64) -> Judged {
         }
     }
     let early = gates("not steady yet", [0.025, 8.0], Kind::Turbulent, EARLY, perturbation)?;
-    claims.push(refused("a stream that is not steady yet", &early, 2));
+    claims.push(refused("a stream that is not steady yet", &early[..1], 1));
     let wrong = gates("not slowed", [0.06, 8.0], Kind::Unslowed, STEADY, perturbation)?;
     claims.push(refused("a stream that grains do not slow, down to the bottom of the bed", &wrong, 2));
     Ok(claims)

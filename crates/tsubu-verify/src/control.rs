@@ -3,7 +3,7 @@
 //! A control is a wrong model, run through the same code and held against a copy of a claim's gate. A copy measures the same
 //! thing: what a name says after its last colon, whatever the numbers in it.
 
-use tsubu_frame::{Claim, Origin, Source};
+use tsubu_frame::{Claim, Origin, Source, Verdict};
 
 /// How the name of a control begins.
 const WRONG: &str = "wrong on purpose: ";
@@ -11,15 +11,20 @@ const WRONG: &str = "wrong on purpose: ";
 /// What is wrong in the second run of a case: its perturbation.
 pub(crate) const SPOILT: f64 = 0.95;
 
+/// A gate that refuses: one whose interval reaches into the range has decided nothing.
+fn refuses(gate: &Claim) -> bool {
+    gate.verdict() == Verdict::Fail
+}
+
 /// A claim that a wrong model is refused by at least so many of the same gates.
 pub(super) fn refused(what: &str, gates: &[Claim], least: u32) -> Claim {
-    let refuses = gates.iter().filter(|gate| !gate.pass).map(|gate| gate.name.clone()).collect();
+    let refuses = gates.iter().filter(|gate| refuses(gate)).map(|gate| gate.name.clone()).collect();
     Claim { refuses, ..refused_number(what, gates, least) }
 }
 
 /// The same for a number or a formula that was never run: it shows that a gate can fail, and controls no claim.
 pub(super) fn refused_number(what: &str, gates: &[Claim], least: u32) -> Claim {
-    let count = gates.iter().filter(|gate| !gate.pass).count();
+    let count = gates.iter().filter(|gate| refuses(gate)).count();
     let name = format!("{WRONG}{what}: gates that refuse it, of {}", gates.len());
     let source = Source::new(Origin::Control, "a gate can fail (studies/README.md)");
     Claim::judge(name, count as f64, Some(f64::from(least)), None, source)
@@ -42,7 +47,7 @@ pub(super) fn attach(claims: &mut [Claim]) {
 
 /// Tells every claim that holds whether it holds no more where the constants of its case are 5 % too small.
 pub(super) fn attach_spoilt(claims: &mut [Claim], spoilt: &[Claim]) {
-    let refused: Vec<&Claim> = spoilt.iter().filter(|claim| !claim.pass).collect();
+    let refused: Vec<&Claim> = spoilt.iter().filter(|claim| refuses(claim)).collect();
     for claim in claims.iter_mut().filter(|claim| claim.pass && claim.origin != Origin::Control) {
         if refused.iter().any(|other| copies(&other.name, &claim.name)) {
             claim.controls.push("the case's constants 5 % too small".to_owned());
@@ -74,7 +79,8 @@ fn copies(gate: &str, claim: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// A control knows of the claims that it copies, and of no others; a number that was not run is no control.
+    /// A control knows of the claims that it copies, and of no others; a number that was not run is no control, and what is left undecided of
+    /// a wrong model is not refused.
     #[test]
     fn a_control_refuses_the_claims_whose_gate_it_copies() {
         let gate = |name: &str, value: f64| Claim::judge(name, value, None, Some(1.0), Source::new(Origin::Own, ""));
@@ -85,6 +91,12 @@ mod tests {
         attach(&mut claims);
         assert_eq!(claims[0].controls, ["a bed of water"]);
         assert!(is_missing(&claims[1]) && !is_missing(&claims[3]));
+        let between = crate::ensemble::of(&[1, 2, 3], vec![0.9, 1.0, 1.3]);
+        let open = [gate("a: height", 1.0).drawn(between), gate("a: width", f64::NAN)];
+        assert_eq!(
+            (refused("few draws", &open, 1).value, &*refused("few draws", &open, 1).refuses),
+            (1.0, &["a: width".to_owned()][..])
+        );
         attach_spoilt(&mut claims, &[gate("a, 5 rows: height", 0.5), gate("a, 5 rows: width", 1.5)]);
         assert_eq!(claims[1].controls.len(), 1);
         assert_eq!(claims[0].controls.len(), 1);

@@ -3,7 +3,7 @@
 use super::bench::{self, Rig, near};
 use super::control::refused;
 use crate::case::Judged;
-use crate::origin::{closed_form, digitised};
+use crate::origin::closed_form;
 use tsubu::engine::{self, Engine};
 use tsubu::ledger::Ledger;
 use tsubu::methods;
@@ -89,7 +89,7 @@ pub(super) fn lattice(perturbation: f64) -> Judged {
         let (height, time) = bounces(k, 0.75);
         let (h, t) = found.get(k as usize - 1).copied().unwrap_or((f64::NAN, f64::NAN));
         let cells = (height / 6e-3).floor();
-        let source = digitised("Komatsuzaki 2003, figure 8");
+        let source = closed_form("closed form h e^(2k), in whole cells; Komatsuzaki 2003, figure 8");
         let reached = (h / 6e-3 + 1e-9).floor();
         claims.push(Claim::judge(
             format!("drop, automaton: apex {k} cells"),

@@ -133,7 +133,8 @@ pub(super) fn exponents(perturbation: f64) -> Judged {
         for wanted in WANTED {
             let (found, claim) = gate(&beads, wanted, perturbation)?;
             points.push((found.ln(), beads.carries(wanted).ln()));
-            claims.push(claim);
+            // Of fine beads `balance` claims it.
+            claims.extend((beads.diameter > FINE.diameter).then_some(claim));
         }
         let reynolds = beads.carries(1.0) * beads.diameter / VISCOSITY;
         let name = format!("bed of {} mm beads: exponent of the expansion", beads.diameter * 1e3);

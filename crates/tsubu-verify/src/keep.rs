@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Instant;
-use tsubu_frame::{FileError, RunFolder, summary::read_json};
+use tsubu_frame::{FileError, RunFolder, not_a_number::reals, summary::read_json};
 
 /// A folder in which done work is kept.
 #[derive(Debug)]
@@ -86,6 +86,7 @@ struct Member {
     version: String,
     fingerprint: String,
     seconds: f64,
+    #[serde(deserialize_with = "reals")]
     values: Vec<f64>,
 }
 
@@ -165,6 +166,11 @@ impl AtHand {
         }
         let begun = Instant::now();
         let values = run(seed)?;
+        // JSON has one word for all that are no numbers.
+        if values.iter().any(|value| value.is_infinite()) {
+            self.count(0.0);
+            return Ok(values);
+        }
         let member = Member {
             case: self.case.to_owned(),
             of: of.to_owned(),

@@ -166,7 +166,7 @@ fn gates(columns: &[Seen], perturbation: f64) -> Vec<Claim> {
     let measured = sum(|l| l.pressure) / sum(|l| l.vertical);
     let source = own("Janssen's assumption: one K, of the pressure and of the exponential").after();
     claims.push(near("Janssen: K measured at the walls over K fitted", measured / fitted, 1.0, 0.1, source));
-    let source = closed_form("the exponential knows K and friction by their product alone");
+    let source = closed_form("the exponential knows K and friction by their product alone").after();
     let name = "Janssen: friction over its limit, times K measured over K fitted";
     claims.push(near(name, limit * measured / fitted, 1.0, 0.05, source));
     claims

@@ -8,11 +8,8 @@ use crate::case::Judged;
 use crate::origin::own;
 use tsubu::partner::Hosts;
 use tsubu::study::response::bed;
-use tsubu_frame::{Claim, Ensemble};
+use tsubu_frame::Claim;
 use tsubu_scene::plan::Plan;
-
-/// Frequencies over the natural frequency: at the top, where grains count, and beside it.
-const RATIOS: [f64; 3] = [0.99, 1.0, 1.01];
 
 /// A machine with a box of steel balls, 36 x 60 mm across and this deep [mm], between planes; its ends are walls, or it is periodic.
 fn scene(depth: f64, balls: usize, closed: bool, copies: f64) -> String {
@@ -59,41 +56,24 @@ measure-periods = 60
     )
 }
 
-/// Root mean square displacements at each ratio [m].
-fn heard(plan: &Plan, seed: u64) -> Result<[f64; 3], String> {
+/// Root mean square displacement at the natural frequency [m]. Beside it grains count for less than the 5 % that are asked for.
+fn heard(plan: &Plan, seed: u64) -> Result<f64, String> {
     let plan = Plan { seed, ..plan.clone() };
     let wanted = plan.response.clone().ok_or("the scene has no response")?;
     let bed = bed(&plan, 0).map_err(|e| e.to_string())?;
     let natural = Hosts::new(&plan.hosts).list[0].natural_frequencies()[0];
-    let mut rms = [0.0; 3];
-    for (rms, ratio) in rms.iter_mut().zip(RATIOS) {
-        *rms = measured(&plan, &wanted, &bed, ratio * natural)?.rms;
-    }
-    Ok(rms)
+    Ok(measured(&plan, &wanted, &bed, natural)?.rms)
 }
 
 /// 400 balls in a box 16 diameters deep, and 100 of them in a periodic slice of four diameters.
 pub(super) fn window(_spoiler: f64) -> Judged {
     let whole = bench::plan(&scene(96.0, 400, true, 1.0))?;
-    let over = |what: &str, copies: f64, seeds: u64| -> Result<[Ensemble; 3], String> {
+    let gate = |what: &str, copies: f64, seeds: u64| -> Result<Claim, String> {
         let slice = bench::plan(&scene(24.0, 100, false, copies))?;
-        ensemble::members(what, 1..=seeds, |seed| {
-            let (slice, whole) = (heard(&slice, seed)?, heard(&whole, seed)?);
-            Ok(std::array::from_fn(|i| slice[i] / whole[i]))
-        })
+        let [over] = ensemble::members(what, 1..=seeds, |seed| Ok([heard(&slice, seed)? / heard(&whole, seed)?]))?;
+        let name = "displacement over that with the whole cavity, at the natural frequency";
+        let source = own("asked for before it was computed: within 5 %");
+        Ok(Claim::judge_ensemble(name, over, Some(0.95), Some(1.05), source))
     };
-    let source = own("asked for before it was computed: within 5 %");
-    let judge = |(ratio, found): (f64, Ensemble)| {
-        Claim::judge_ensemble(
-            format!("displacement over that with the whole cavity, at {ratio} of the natural frequency"),
-            found,
-            Some(0.95),
-            Some(1.05),
-            source,
-        )
-    };
-    let mut claims: Vec<Claim> = RATIOS.into_iter().zip(over("window", 4.0, 12)?).map(judge).collect();
-    let wrong: Vec<Claim> = RATIOS.into_iter().zip(over("half of the copies", 2.0, 3)?).map(judge).collect();
-    claims.push(refused("half of the copies", &wrong, 3));
-    Ok(claims)
+    Ok(vec![gate("window", 4.0, 12)?, refused("one copy for four", &[gate("one copy for four", 1.0, 3)?], 1)])
 }

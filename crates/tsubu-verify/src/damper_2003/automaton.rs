@@ -80,16 +80,18 @@ impl Curves {
     }
 }
 
-/// That the peak does not move down, as the paper's does not. The grid of frequencies is 0.01 wide: a shift below half of it is none.
+/// That the peak does not move down, as the paper's does not: the top of the mean curve of all seeds, with those of single seeds beside it.
 fn not_down(mode: &str, amplitude: f64, perturbation: f64) -> Judged {
     let curves = Curves::of(mode, amplitude, perturbation)?;
-    let source =
-        printed("figure 11: more balls, peak at a higher frequency (a defect of the model, says the paper)").after();
+    let source = printed(
+        "figure 11: more balls, peak at a higher frequency (a defect of the model, says the paper); of the mean curve",
+    )
+    .after();
     let claim = |pair: [usize; 2]| {
         let (value, shift) = curves.shift(pair);
         let [from, to] = pair.map(|i| COUNTS[i]);
         let name = format!("automaton, {mode}, base {amplitude} mm: shift of the peak from {from} to {to} balls");
-        Claim { value, ..Claim::judge_ensemble(name, shift, Some(-0.005), None, source) }
+        Claim { value, ..Claim::judge_ensemble(name, shift, Some(0.0), None, source) }
     };
     Ok([[0, 1], [1, 2], [2, 3]].map(claim).to_vec())
 }

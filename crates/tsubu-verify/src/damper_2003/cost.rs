@@ -72,7 +72,7 @@ pub(crate) fn figure_12(_spoiler: f64) -> Judged {
     };
     let flat = |method: &str, exponent: Ensemble| gate(method, exponent, -0.3, 0.5);
     let (dem, dem_seconds) = exponents(FIGURE_3, &[])?;
-    let mut claims = vec![gate("DEM at 20 us", dem.clone(), 0.6, 1.8)];
+    let mut claims = vec![gate("DEM at 20 us", dem.clone(), 0.6, 1.6)];
     let automaton = |mode: &str, step: &str| {
         exponents(FIGURE_11, &[&format!("lattice.mode={mode}"), &format!("lattice.time-step={step} us")])
     };

@@ -4,7 +4,7 @@ use super::super::control::refused;
 use super::super::ensemble::members;
 use super::{FRICTION, Flow, published};
 use crate::case::Judged;
-use crate::origin::{closed_form, own, remembered};
+use crate::origin::{closed_form, remembered};
 use std::ops::RangeInclusive;
 use tsubu_frame::{Claim, Ensemble};
 
@@ -21,8 +21,8 @@ const SPAN: [f64; 2] = [250.0, 450.0];
 const EARLY: [f64; 2] = [20.0, 30.0];
 
 /// Of draws: friction of the walls over the weight that they carry; shear rate in the middle third over that of the sixths at the walls;
-/// inertial number between 2 and 5 diameters from the walls over that of the law; share of the area in the middle less that there.
-fn chutes(of: &str, friction: f64, span: [f64; 2], perturbation: f64) -> Result<[Ensemble; 4], String> {
+/// inertial number between 2 and 5 diameters from the walls over that of the law.
+fn chutes(of: &str, friction: f64, span: [f64; 2], perturbation: f64) -> Result<[Ensemble; 3], String> {
     members(of, SEEDS, |seed| {
         let gravity = 2.0 * AT_WALLS / LAYERS;
         let flow = Flow { length: LENGTH, layers: LAYERS, friction, speed: 0.0, gravity, seed };
@@ -30,14 +30,12 @@ fn chutes(of: &str, friction: f64, span: [f64; 2], perturbation: f64) -> Result<
         let weight = seen.mass * gravity;
         let middle = 0.5 * seen.height;
         let (mut core, mut rim, mut law, mut found) = ((0.0, 0.0), (0.0, 0.0), 0.0, 0.0);
-        let (mut dense, mut loose) = ((0.0, 0.0), (0.0, 0.0));
         for pair in seen.slabs.windows(2) {
             let [from, to] = [pair[0], pair[1]];
             let (place, rate) = (0.5 * (from[0] + to[0]) - middle, ((to[1] - from[1]) / (to[0] - from[0])).abs());
             let from_wall = middle - place.abs();
             if place.abs() < middle / 3.0 {
                 core = (core.0 + rate, core.1 + 1.0);
-                dense = (dense.0 + 0.5 * (from[2] + to[2]), dense.1 + 1.0);
             } else if place.abs() > 2.0 / 3.0 * middle {
                 rim = (rim.0 + rate, rim.1 + 1.0);
             }
@@ -46,16 +44,15 @@ fn chutes(of: &str, friction: f64, span: [f64; 2], perturbation: f64) -> Result<
                 let friction = weight * place.abs() / seen.height / seen.pressure;
                 law += ((friction - published(0.0)[0]) / 1.1).max(0.0);
                 found += rate / seen.pressure.sqrt();
-                loose = (loose.0 + 0.5 * (from[2] + to[2]), loose.1 + 1.0);
             }
         }
         let mean = |(sum, count): (f64, f64)| sum / count;
-        Ok([(seen.drag[0] + seen.drag[1]) / weight, mean(core) / mean(rim), found / law, mean(dense) - mean(loose)])
+        Ok([(seen.drag[0] + seen.drag[1]) / weight, mean(core) / mean(rim), found / law])
     })
 }
 
 /// The gates, for chutes that are right and for wrong ones.
-fn gates([carried, plug, shear, packed]: &[Ensemble; 4]) -> Vec<Claim> {
+fn gates([carried, plug, shear]: &[Ensemble; 3]) -> Vec<Claim> {
     let judge = |what: &str, found: &Ensemble, low: f64, high: f64, source| {
         Claim::judge_ensemble(format!("vertical chute: {what}"), found.clone(), Some(low), Some(high), source)
     };
@@ -66,7 +63,6 @@ fn gates([carried, plug, shear, packed]: &[Ensemble; 4]) -> Vec<Claim> {
         judge("friction of the walls over the weight", carried, 0.97, 1.03, closed_form("balance of forces: steady")),
         judge("shear rate in the middle third over that at the walls", plug, 0.0, 0.1, midi),
         judge("inertial number 2 to 5 diameters from the walls over that of the law", shear, 0.5, 2.0, local),
-        judge("share of the area in the middle less that beside the walls", packed, 0.0, 0.1, own("shear loosens")),
     ]
 }
 

@@ -134,8 +134,8 @@ const DENSITY: f64 = 0.5;
 const ODDS: f64 = 46.0 / 65_536.0;
 
 impl Channel {
-    fn new(rough: bool) -> Self {
-        let mut gas = Gas::new(Rules::Three, WIDTH + 2, ROWS, [true, true], 3);
+    fn new(rough: bool, seed: u64) -> Self {
+        let mut gas = Gas::new(Rules::Three, WIDTH + 2, ROWS, [true, true], seed);
         for row in 0..ROWS {
             gas.wall(0, row, (!rough).then_some(0));
             gas.wall(WIDTH + 1, row, (!rough).then_some(0));
@@ -181,9 +181,14 @@ fn profile_of(push: f64) -> Vec<f64> {
 
 /// A channel whose walls send back flows as the closed form says, and comes to rest half a column inside the walls; with
 /// mirrors for walls the gas falls freely.
-#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
 pub(crate) fn channel(perturbation: f64) -> Judged {
-    let mut channel = Channel::new(true);
+    ensemble::drawn("channels", 1..=5, |seed| channel_of(seed, perturbation))
+}
+
+/// The same of one draw.
+#[expect(clippy::unnecessary_wraps, reason = "the type of all cases")]
+fn channel_of(seed: u64, perturbation: f64) -> Judged {
+    let mut channel = Channel::new(true, seed);
     channel.profile(1000);
     let speeds = channel.profile(1600);
     let form = profile_of(perturbation);
@@ -211,7 +216,7 @@ pub(crate) fn channel(perturbation: f64) -> Judged {
         ]
     };
     let mut claims = gates(&speeds);
-    let mut free = Channel::new(false);
+    let mut free = Channel::new(false, seed);
     free.profile(1000);
     let slipping = free.profile(100);
     claims.push(refused("a channel with mirrors for walls", &gates(&slipping), 3));

@@ -233,7 +233,8 @@ pub(in super::super) fn overlap(perturbation: f64) -> Judged {
         let name = format!("overlap over diameter, {} cm, 1 to 3e5 N/cm: largest relative deviation", 100.0 * d);
         claims.push(Claim::judge(name, deviation(&points), None, Some(1e-3), law).showing(points));
     }
-    let edges = printed("table of band edges, 25 to 500 N/cm for 0.05 to 1 cm (Osada 2004, figure 11)");
+    let edges =
+        closed_form("overlap / d = v sqrt(m/k) / d, v = 0.600 m/s of the band of Osada 2004, figures 11 and 12");
     let (mut ratios, mut softer) = (Vec::new(), Vec::new());
     for (d, k) in DIAMETERS.map(|d| 0.01 * d).into_iter().zip([25.0, 50.0, 100.0, 250.0, 500.0]) {
         let (soft, hard) = (impact(d, k * N_PER_CM)?, impact(d, 100.0 * k * N_PER_CM)?);

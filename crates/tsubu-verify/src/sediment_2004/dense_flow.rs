@@ -5,11 +5,11 @@ use super::super::control::{refused, refused_number};
 use super::super::ensemble;
 use super::rig;
 use crate::case::Judged;
-use crate::origin::{closed_form, own, printed};
+use crate::origin::{closed_form, own, printed, regression};
 use glam::DVec3;
 use tsubu::state::sphere;
 use tsubu::view::Wants;
-use tsubu_frame::Claim;
+use tsubu_frame::{Claim, Source};
 
 const SCENE: &str = include_str!("../../../../studies/sediment-2004/dense-flow.toml");
 /// Diameter [m], and length of the world in diameters.
@@ -114,8 +114,8 @@ fn takahashi(slope: f64, friction: f64) -> f64 {
 /// B-F17: the paper's stream, which grains do not slow, and one that digs into its bed and is slowed.
 pub(in super::super) fn dense_flow(perturbation: f64) -> Judged {
     ensemble::drawn("flows", 1..=5, |seed| {
-        let upper = |value: f64, what: &str| {
-            let source = printed("concentration near the surface about 0.3 (Osada 2004, figure 17)").after();
+        let fraction = printed("concentration near the surface about 0.3 (Osada 2004, figure 17)").after();
+        let upper = |value: f64, what: &str, source: Source<'_>| {
             within(format!("dense flow, {what}: solid fraction in the upper third"), value, 0.3, 0.1, source)
         };
         let strong = |value: f64, what: &str| {
@@ -143,13 +143,13 @@ pub(in super::super) fn dense_flow(perturbation: f64) -> Judged {
             Claim::judge(name, driven.speed / coupled.speed, Some(1.0), None, source)
         };
         let mut claims = vec![
-            upper(driven.upper, "log law"),
+            upper(driven.upper, "log law", regression("as many grains as make 0.3 in the paper's depth are put in")),
             strong(driven.zigzag, "log law"),
-            upper(coupled.upper, "coupled"),
+            upper(coupled.upper, "coupled", fraction),
             strong(coupled.zigzag, "coupled"),
             deep(coupled.depth, "coupled"),
             equal(coupled.fraction, "coupled", 38.0),
-            upper(turbulent.upper, "coupled and turbulent"),
+            upper(turbulent.upper, "coupled and turbulent", fraction),
             strong(turbulent.zigzag, "coupled and turbulent"),
             deep(turbulent.depth, "coupled and turbulent"),
             equal(turbulent.fraction, "coupled and turbulent", 38.0),
@@ -157,7 +157,7 @@ pub(in super::super) fn dense_flow(perturbation: f64) -> Judged {
         ];
         claims.push(refused("the log law of a slope of 2 degrees", &[faster(&driven_gently)], 1));
         let wrong = [
-            upper(gentle.upper, ""),
+            upper(gentle.upper, "", fraction),
             strong(gentle.zigzag, ""),
             deep(gentle.depth, ""),
             equal(gentle.fraction, "", 38.0),
