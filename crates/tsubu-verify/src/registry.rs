@@ -112,7 +112,7 @@ pub static CASES: &[Case] = &[
     case("fhp-collisions", "lattice-review", 1, "what collisions make of a stress", lattice_review::collisions),
     case("fhp-viscosity", "lattice-review", 10, "viscosity of the lattice gases FHP", lattice_review::viscosity),
     case("fhp-sound", "lattice-review", 6, "speed of sound of the lattice gases", lattice_review::sound),
-    case("fhp-channel", "lattice-review", 40, "flow in a channel, conservation", lattice_review::channel),
+    case("fhp-channel", "lattice-review", 90, "flow in a channel, conservation", lattice_review::channel),
     case(
         "cl-ca-rules",
         "cl-ca-2001",

@@ -12,8 +12,8 @@ use tsubu_verify::{CASES, Case, Moved, moved, recorded};
 /// second time, with a law that is wrong, unless they try something wrong of their own; the others do so when they are asked to.
 const PROMPT: u32 = 5;
 
-/// So do these: whole numbers that are checked for overflow make them several times as slow as in a release.
-const SLOWER_IN_TESTS: &[&str] = &["fhp-channel", "pull-off", "rise"];
+/// So does this one, several times as slow as in a release.
+const SLOWER_IN_TESTS: &[&str] = &["pull-off"];
 
 /// Cases against closed forms: a wrong law must show in a third of their claims at least. What is left holds for any constants:
 /// energy, rest, symmetry, and rates on which these constants have no say.
